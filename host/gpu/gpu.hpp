@@ -1,0 +1,176 @@
+// The device layer's interface: choice of a device, buffers that know their length, programs, checked launches, profiling.
+// The only folder that names cl:: is this one; nothing of OpenCL's C++ bindings appears in this header's users.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace wavetracer::gpu {
+
+struct DeviceInfo {
+  size_t index = 0;                     // position in list_devices()
+  std::string platform, name, driver, opencl_c, platform_version;
+  bool gpu = false, cpu = false;
+  uint32_t compute_units = 0;
+  uint64_t global_memory = 0, max_buffer = 0, local_memory = 0;
+  size_t max_work_group = 0;
+  bool fp64 = false, int64_atomics = false, correctly_rounded_divide = false;
+  uint32_t vector_width_float = 1;
+};
+
+// All devices of all platforms, in the ICD's order. An absent ICD gives an empty list.
+std::vector<DeviceInfo> list_devices();
+// text: empty takes the first GPU, else the first CPU; a number is an index; anything else must match one device's
+// platform or name (case-insensitive part). Throws DeviceError with the list of what there is and what to install.
+size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text);
+
+// Work-items a dimension and the fixed work-group size; global is padded up to a multiple of local
+// (PoCL has no non-uniform work-groups), so kernels check their range.
+struct Range {
+  size_t global, local;
+};
+
+// Preprocessor definitions of a program: name -> value. Part of the cache key.
+using Definitions = std::map<std::string, std::string>;
+
+class Context;
+
+// Untyped device memory. Copies are shared handles.
+class Memory {
+ public:
+  Memory() = default;
+  size_t bytes() const { return bytes_; }
+  explicit operator bool() const { return handle_ != nullptr; }
+
+ protected:
+  friend class Context;
+  friend class Kernel;
+  std::shared_ptr<void> handle_;  // cl_mem
+  Context* context_ = nullptr;
+  size_t bytes_ = 0;
+  void read_bytes(void* to, size_t offset, size_t bytes, const char* stage) const;
+  void write_bytes(const void* from, size_t offset, size_t bytes, const char* stage);
+};
+
+// A typed buffer of size() elements. All transfers block and are bounds checked (std::out_of_range).
+template <class T>
+class Buffer : public Memory {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  Buffer() = default;
+  size_t size() const { return bytes_ / sizeof(T); }
+  void write(std::span<const T> data, size_t first = 0, const char* stage = "transfer") {
+    write_bytes(data.data(), first * sizeof(T), data.size_bytes(), stage);
+  }
+  std::vector<T> read(size_t first, size_t count, const char* stage = "transfer") const {
+    std::vector<T> out(count);
+    read_bytes(out.data(), first * sizeof(T), count * sizeof(T), stage);
+    return out;
+  }
+  std::vector<T> read() const { return read(0, size()); }
+  T read_one(size_t i, const char* stage = "transfer") const {
+    T out;
+    read_bytes(&out, i * sizeof(T), sizeof(T), stage);
+    return out;
+  }
+
+ private:
+  friend class Context;
+  explicit Buffer(Memory m) : Memory(std::move(m)) {}
+};
+
+// A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it.
+// stage names the profiling sum that its time goes to. Memory arguments are Buffers, the rest plain values.
+class Kernel {
+ public:
+  Kernel() = default;
+  template <class... Args>
+  void operator()(Range range, const char* stage, const Args&... args) {
+    check_count(sizeof...(Args));
+    unsigned i = 0;
+    (set(i++, args), ...);
+    enqueue(range, stage);
+  }
+  const std::string& name() const;
+
+ private:
+  friend class Context;
+  struct State;
+  std::shared_ptr<State> state_;
+  void check_count(size_t count) const;
+  void set_value(unsigned index, const void* value, size_t bytes);
+  void set_memory(unsigned index, const Memory& memory);
+  void enqueue(Range range, const char* stage);
+  template <class T>
+  void set(unsigned index, const T& value) {
+    if constexpr (std::is_base_of_v<Memory, T>) {
+      set_memory(index, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+      set_value(index, &value, sizeof(T));
+    }
+  }
+};
+
+// One device with its context, one in-order profiling queue, its program cache and its profile. Not thread-safe.
+class Context {
+ public:
+  explicit Context(std::string_view device_text = "");
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  const DeviceInfo& info() const;
+
+  // Throws DeviceError that names the buffer, its size, the device's limit and what to lower.
+  template <class T>
+  Buffer<T> buffer(size_t count, const char* name) {
+    return Buffer<T>(allocate(count * sizeof(T), name));
+  }
+  template <class T>
+  Buffer<T> buffer(const std::vector<T>& data, const char* name) {
+    auto b = buffer<T>(data.empty() ? 1 : data.size(), name);
+    if (!data.empty()) b.write(data);
+    return b;
+  }
+  // Fills with a repeated 1, 2, 4 or 8 byte pattern.
+  void fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes, const char* stage);
+  template <class T>
+  void fill(Buffer<T>& buffer, const std::type_identity_t<T>& value, const char* stage = "transfer") {
+    fill(buffer, &value, sizeof(T), 0, buffer.bytes(), stage);
+  }
+  void copy(const Memory& from, Memory& to, size_t bytes, const char* stage = "transfer");
+
+  // Kernel `kernel` of kernels/`program`.cl built with these definitions; compiled once a process, cached on disk.
+  Kernel kernel(const std::string& program, const std::string& kernel, const Definitions& definitions = {});
+
+  void finish();
+
+  // Sums of the profiling events since the last reset, seconds a stage; finishes the queue first.
+  std::map<std::string, double> profile();
+  void reset_profile();
+  // Seconds spent building programs (from source or from the disk cache) so far, and how many were built from source.
+  double build_seconds() const;
+  size_t builds_from_source() const;
+
+ private:
+  friend class Memory;
+  friend class Kernel;
+  struct State;
+  std::unique_ptr<State> state_;
+  Memory allocate(size_t bytes, const char* name);
+};
+
+// The source of a program after expansion of its #include lines, with #line kept; for tests and for `bench`.
+std::string program_source(const std::string& program);
+
+}  // namespace wavetracer::gpu

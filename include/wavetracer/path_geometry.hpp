@@ -1,0 +1,19 @@
+// Solved, visible paths before fields: what the exact solve hands to the radio side. Coordinates are recentred.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace wavetracer {
+
+// Row i: path i from transmitter tx[i] to receiver rx[i]; its interactions are entries first[i] .. first[i + 1].
+struct PathGeometry {
+  std::vector<uint32_t> tx, rx;
+  std::vector<uint64_t> first{0};
+  std::vector<uint32_t> surface;      // one an interaction
+  std::vector<uint8_t> interaction;   // one an interaction, see Interaction
+  std::vector<glm::dvec3> vertex;     // one an interaction, recentred metres
+  size_t size() const { return tx.size(); }
+};
+
+}  // namespace wavetracer

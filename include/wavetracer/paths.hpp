@@ -1,0 +1,35 @@
+// Propagation paths of one or more frames: one row a path, vertices in a compressed row layout.
+#pragma once
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace wavetracer {
+
+enum Interaction : uint8_t { reflection = 1, diffuse = 2, transmission = 4, diffraction = 8 };
+
+constexpr uint32_t no_instance = 0xFFFFFFFFu;
+
+// Row i of every array in Paths is one path; rows are sorted by frame, tx, rx, delay, then by sequence.
+// a[i] is row major (rx port, tx port); single-port antennas use element 0 only.
+// a is the passband coefficient between the antenna ports without the carrier phase of the delay:
+// h(f) = sum a exp(-j 2 pi f tau). Angles are those of the global frame: theta from +z, phi from +x towards +y.
+struct Paths {
+  uint32_t rx_ports = 1, tx_ports = 1;  // 2 where any antenna of that side has two ports
+  std::vector<uint32_t> frame, tx, rx, depth;
+  std::vector<double> delay_s, gain_db;
+  std::vector<std::array<std::complex<double>, 4>> a;
+  std::vector<double> aod_theta_rad, aod_phi_rad, aoa_theta_rad, aoa_phi_rad, doppler_hz;
+  std::vector<uint64_t> vertex_offset{0};  // size() + 1 entries
+  // One entry an interaction, ends excluded, in order from the transmitter.
+  std::vector<glm::dvec3> vertex_position_m;  // file coordinates
+  std::vector<uint8_t> vertex_interaction;
+  std::vector<uint32_t> vertex_surface;
+  std::vector<uint32_t> vertex_instance;
+
+  size_t size() const { return delay_s.size(); }
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,62 @@
+// The public entry of libwavetracer: a scene on a device, solved frame by frame.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+#include "wavetracer/config.hpp"
+#include "wavetracer/paths.hpp"
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer {
+
+// Counts of one frame. Every approximation and every loss is visible here.
+struct FrameCounts {
+  uint64_t rays = 0;        // launched
+  uint64_t segments = 0;    // rays traced, all depths
+  uint64_t hits = 0;
+  uint64_t sequences = 0;   // distinct prefixes, the empty one excluded
+  uint64_t candidates = 0;  // sequence and receiver pairs that pass the conservative rejection
+  uint64_t solved = 0;      // candidates whose points lie in their surfaces
+  uint64_t paths = 0;       // visible, distinct
+};
+
+// Seconds a stage: device stages from profiling events, host stages from a steady clock.
+using StageSeconds = std::map<std::string, double>;
+
+struct FrameResult {
+  Paths paths;
+  FrameCounts counts;
+  StageSeconds seconds;
+  std::vector<uint64_t> segments_per_depth;
+  std::vector<std::string> warnings;
+};
+
+struct DeviceSummary {
+  std::string platform, name, driver, opencl_c;
+  bool gpu = false;
+};
+
+class Simulation {
+ public:
+  // Loads the scene, builds surfaces and acceleration structures, compiles the kernels.
+  // device: text that matches a platform or device name, an index, or empty for the default choice.
+  // Throws ConfigError, InputError or DeviceError.
+  Simulation(const Config& config, const std::string& device = "");
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  FrameResult run_frame(uint32_t frame);
+  const Scene& scene() const;
+  const DeviceSummary& device() const;
+  // Stages outside the frame: load, surfaces, build, compile, ...
+  const StageSeconds& setup_seconds() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wavetracer
