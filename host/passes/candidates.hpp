@@ -1,0 +1,23 @@
+// candidates: sequences and receivers that a path may join, after a conservative rejection in float32.
+// The list grows until it holds all of them.
+#pragma once
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+
+namespace wavetracer {
+
+class Candidates {
+ public:
+  explicit Candidates(gpu::Context& context);
+  // nodes: roots first, then trie nodes. Returns the number of candidates, in list().
+  uint32_t operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
+                      const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, gpu::Buffer<wt_counters>& counters);
+  const gpu::Buffer<wt_candidate>& list() const { return list_; }
+
+ private:
+  gpu::Context& context_;
+  gpu::Kernel kernel_;
+  gpu::Buffer<wt_candidate> list_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,75 @@
+// Upload of the static scene: trees by host/accel, surfaces as the records of wavetracer/device/records.h.
+// Stack sizes follow from the trees, in steps, so that scenes of like size share compiled kernels.
+#include "passes/device_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "accel/layout.hpp"
+
+namespace wavetracer {
+
+namespace {
+
+std::string stack_size(uint32_t entries, uint32_t step) { return std::to_string((entries + step) / step * step); }
+
+void upload_surfaces(gpu::Context& context, const Scene& scene, DeviceScene& out) {
+  std::vector<wt_surface> surfaces;
+  std::vector<wt_exact_surface> exact;
+  for (const Surface& s : scene.surfaces) {
+    wt_surface record{};
+    wt_exact_surface exact_record{};
+    for (int axis = 0; axis < 3; ++axis) {
+      record.normal[axis] = static_cast<float>(s.normal[axis]);
+      record.lower[axis] = static_cast<float>(s.lower[axis]);
+      record.upper[axis] = static_cast<float>(s.upper[axis]);
+      exact_record.normal[axis] = s.normal[axis];
+    }
+    record.offset = static_cast<float>(s.offset_m);
+    exact_record.offset = s.offset_m;
+    exact_record.first_triangle = s.first_triangle;
+    exact_record.triangle_count = s.triangle_count;
+    surfaces.push_back(record);
+    exact.push_back(exact_record);
+  }
+  std::vector<double> corners;
+  corners.reserve(9 * scene.surface_triangles.size());
+  for (const uint32_t triangle : scene.surface_triangles)
+    for (const uint32_t vertex : scene.triangles[triangle])
+      for (int axis = 0; axis < 3; ++axis) corners.push_back(scene.vertices[vertex][axis]);
+  out.surfaces = context.buffer(surfaces, "surfaces");
+  out.exact_surfaces = context.buffer(exact, "exact surfaces");
+  out.exact_triangles = context.buffer(corners, "surface triangles");
+}
+
+}  // namespace
+
+DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits) {
+  DeviceScene out;
+  out.cpu = context.info().cpu;
+  const std::vector<AccelTriangle> triangles = accel_triangles(scene);
+
+  BuildOptions options = BuildOptions::for_bvh2();
+  options.spatial_splits = spatial_splits;
+  const Bvh2 two = make_bvh2(build_binary(triangles, options), triangles);
+  out.triangle_slots = two.triangle_slots;
+  out.nodes2 = context.buffer(two.nodes, "BVH2 nodes");
+  out.triangles2 = context.buffer(two.triangles, "BVH2 triangles");
+  out.definitions["WT_BVH2_STACK"] = out.definitions["WT_PACKET_STACK"] = stack_size(two.max_depth, 32);
+  if (out.cpu) {
+    options = BuildOptions::for_bvh8();
+    options.spatial_splits = spatial_splits;
+    const Bvh8 eight = make_bvh8(build_binary(triangles, options), triangles);
+    out.nodes8 = context.buffer(eight.nodes, "BVH8 nodes");
+    out.blocks8 = context.buffer(eight.blocks, "BVH8 blocks");
+    out.definitions["WT_BVH8_STACK"] = stack_size(7 * eight.max_depth + 1, 64);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    out.extent_m = std::max(out.extent_m, static_cast<float>(std::max(std::abs(scene.lower[axis]), std::abs(scene.upper[axis]))));
+  upload_surfaces(context, scene, out);
+  return out;
+}
+
+}  // namespace wavetracer

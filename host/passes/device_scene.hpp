@@ -1,0 +1,30 @@
+// The static scene on the device: acceleration structures in the shape this device traces best, and surfaces in float and double.
+// The choice of shape is a property of the device, made here and nowhere else.
+#pragma once
+#include <cstdint>
+
+#include "gpu/gpu.hpp"
+#include "wavetracer/device/records.h"
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer {
+
+// How rays traverse: GPUs one ray a work-item through a BVH2; CPUs through a BVH8, or in packets of 16 through the BVH2.
+enum class TraceShape { bvh2, bvh8, packet16 };
+
+struct DeviceScene {
+  gpu::Buffer<float> nodes2, triangles2;  // BVH2 (GPUs; packets on CPUs)
+  gpu::Buffer<float> nodes8, blocks8;     // BVH8 (CPUs only)
+  uint32_t triangle_slots = 0;
+  float extent_m = 0;                     // largest absolute coordinate, recentred
+  bool cpu = false;
+  gpu::Buffer<wt_surface> surfaces;
+  gpu::Buffer<wt_exact_surface> exact_surfaces;
+  gpu::Buffer<double> exact_triangles;    // nine doubles a triangle, grouped by surface
+  gpu::Definitions definitions;           // stack sizes that the trees need
+};
+
+// Builds the trees and uploads everything. spatial_splits: see accel/build.hpp.
+DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits);
+
+}  // namespace wavetracer

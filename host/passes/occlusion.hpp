@@ -1,0 +1,19 @@
+// occlusion: marks solved paths of which a leg is obstructed.
+// A surface blocks a leg whose ends lie on opposite sides of it, both farther than 0.1 mm from its plane.
+#pragma once
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+
+namespace wavetracer {
+
+class Occlusion {
+ public:
+  Occlusion(gpu::Context& context, const DeviceScene& scene);
+  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
+
+ private:
+  gpu::Kernel kernel_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,59 @@
+// Host side of kernels/sequences.cl.
+// The table starts small: a million rays in a city leave a few thousand sequences.
+#include "passes/sequences.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+
+Sequences::Sequences(gpu::Context& context, uint64_t slots)
+    : context_(context),
+      collect_(context.kernel("sequences", "collect")),
+      regrow_(context.kernel("sequences", "regrow")),
+      table_(context.buffer<uint64_t>(slots, "sequences")),
+      nodes_(context.buffer<uint32_t>(4096, "sequence list")),
+      counters_(context.buffer<wt_counters>(1, "counters")) {
+  clear();
+}
+
+void Sequences::clear() {
+  context_.fill(table_, WT_EMPTY, "sequences");
+  counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
+}
+
+void Sequences::regrow(uint32_t max_depth) {
+  if (table_.size() >= uint64_t{1} << 30)
+    throw RuntimeError("the set of distinct sequences has outgrown 2^30 slots; lower trace.rays or trace.max_depth");
+  const gpu::Buffer<uint64_t> old = table_;
+  gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old.size(), "moved sequences");
+  for (;;) {
+    table_ = context_.buffer<uint64_t>(table_.size() * 4, "sequences");
+    clear();
+    for (uint32_t depth = 1; depth <= max_depth; ++depth)
+      regrow_({old.size(), 64}, "sequences", old, static_cast<uint32_t>(old.size()), depth, moved, table_,
+              static_cast<uint32_t>(table_.size() - 1), counters_);
+    if (!overflowed()) return;
+  }
+}
+
+uint32_t Sequences::collect(uint32_t transmitter_count) {
+  std::vector<uint32_t> roots(transmitter_count);
+  std::iota(roots.begin(), roots.end(), WT_ROOT);
+  for (;;) {
+    if (nodes_.size() < transmitter_count) nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
+    wt_counters counters = counters_.read_one(0, "sequences");
+    counters.nodes = transmitter_count;
+    counters_.write(std::vector{counters}, 0, "sequences");
+    nodes_.write(roots, 0, "sequences");
+    collect_({table_.size(), 64}, "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
+             static_cast<uint32_t>(nodes_.size()), counters_);
+    const uint32_t count = counters_.read_one(0, "sequences").nodes;
+    if (count <= nodes_.size()) return count;
+    nodes_ = context_.buffer<uint32_t>(size_t{count} + count / 4, "sequence list");
+  }
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,32 @@
+// sequences: the set of distinct sequences of all transmitters, as a trie on the device; it grows when it is full.
+// A node's id is its slot, so ids change when the table grows: nothing may hold one across regrow().
+#pragma once
+#include "gpu/gpu.hpp"
+#include "wavetracer/device/records.h"
+
+namespace wavetracer {
+
+class Sequences {
+ public:
+  Sequences(gpu::Context& context, uint64_t slots);
+  // Empties the set and the counters.
+  void clear();
+  gpu::Buffer<uint64_t>& table() { return table_; }
+  gpu::Buffer<wt_counters>& counters() { return counters_; }
+  // Did an insertion fail since the last clear() or regrow()?
+  bool overflowed() const { return counters_.read_one(0, "sequences").trie_overflow != 0; }
+  // Moves every node of at most max_depth surfaces to a table four times as large.
+  void regrow(uint32_t max_depth);
+  // The roots of the transmitters, then every node. Returns the length of nodes().
+  uint32_t collect(uint32_t transmitter_count);
+  const gpu::Buffer<uint32_t>& nodes() const { return nodes_; }
+
+ private:
+  gpu::Context& context_;
+  gpu::Kernel collect_, regrow_;
+  gpu::Buffer<uint64_t> table_;
+  gpu::Buffer<uint32_t> nodes_;
+  gpu::Buffer<wt_counters> counters_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,23 @@
+// solve: exact reflection points of candidates by the image method, in double on the device.
+// The list grows until it holds every solved candidate.
+#pragma once
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+
+namespace wavetracer {
+
+class Solve {
+ public:
+  Solve(gpu::Context& context, uint32_t max_depth);
+  SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
+                         const gpu::Buffer<wt_candidate>& candidates, uint32_t candidate_count, gpu::Buffer<wt_counters>& counters);
+
+ private:
+  gpu::Context& context_;
+  gpu::Kernel kernel_;
+  SolvedList solved_;
+  void reserve(size_t count);
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,34 @@
+// Host side of kernels/trace.cl.
+// On CPUs a work-item is a block of 16 rays, on GPUs a ray.
+#include "passes/trace.hpp"
+
+#include <string>
+
+namespace wavetracer {
+
+Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape) : shape_(shape), block_(block_size(context.info())) {
+  gpu::Definitions definitions = scene.definitions;
+  definitions["WT_BLOCK"] = std::to_string(block_);
+  definitions[shape == TraceShape::bvh2 ? "WT_SHAPE_BVH2" : shape == TraceShape::bvh8 ? "WT_SHAPE_BVH8" : "WT_SHAPE_PACKET16"] = "1";
+  kernel_ = context.kernel("trace", "trace", definitions);
+}
+
+void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits) {
+  const uint32_t blocks = (rays.count + block_ - 1) / block_;
+  switch (shape_) {
+    case TraceShape::bvh2:
+      kernel_({rays.count, block_}, "trace", scene.nodes2, scene.triangles2, scene.triangle_slots, scene.extent_m, rays.planes,
+              rays.capacity, rays.count, hits.planes, hits.block_hits);
+      break;
+    case TraceShape::bvh8:
+      kernel_({blocks, 16}, "trace", scene.nodes8, scene.blocks8, scene.extent_m, rays.planes, rays.capacity, rays.count,
+              hits.planes, hits.block_hits);
+      break;
+    case TraceShape::packet16:
+      kernel_({blocks, 16}, "trace", scene.nodes2, scene.triangles2, scene.triangle_slots, scene.nodes8, scene.blocks8,
+              scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
+      break;
+  }
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,111 @@
+// Simulation: a scene on a device, solved frame by frame. run_frame is the main loop of the program.
+// Rays discover, geometry decides: see docs/architecture.md.
+#include "wavetracer/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "passes/candidates.hpp"
+#include "passes/occlusion.hpp"
+#include "passes/solve.hpp"
+#include "radio/fields.hpp"
+#include "scene/load.hpp"
+#include "simulation/discovery.hpp"
+#include "simulation/stopwatch.hpp"
+#include "simulation/visible_paths.hpp"
+
+namespace wavetracer {
+
+namespace {
+
+std::vector<glm::dvec3> recentred(const std::vector<RadioEnd>& ends, const Scene& scene) {
+  std::vector<glm::dvec3> out;
+  for (const RadioEnd& end : ends)
+    out.push_back(glm::dvec3(end.position_m[0], end.position_m[1], end.position_m[2]) - scene.origin_m);
+  return out;
+}
+
+}  // namespace
+
+struct Simulation::State {
+  Config config;
+  StageSeconds setup;
+  std::optional<gpu::Context> context;
+  Scene scene;
+  DeviceScene device_scene;
+  std::vector<glm::dvec3> transmitters;
+  RadioEnds ends;
+  std::optional<Discovery> discovery;
+  std::optional<Candidates> candidates;
+  std::optional<Solve> solve;
+  std::optional<Occlusion> occlusion;
+  std::optional<FieldModel> fields;
+  DeviceSummary device;
+};
+
+Simulation::Simulation(const Config& config, const std::string& device) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.config = config;
+  Stopwatch watch;
+  s.context.emplace(device);
+  const gpu::DeviceInfo& info = s.context->info();
+  s.device = {info.platform, info.name, info.driver, info.opencl_c, info.gpu};
+  s.setup["device"] = watch.lap();
+  s.scene = load_scene(config);
+  s.setup["load"] = watch.lap();
+  s.device_scene = make_device_scene(*s.context, s.scene, false);
+  s.setup["build"] = watch.lap();
+  s.transmitters = recentred(config.transmitters, s.scene);
+  s.ends = make_radio_ends(*s.context, s.transmitters, recentred(config.receivers, s.scene));
+  s.discovery.emplace(*s.context, s.device_scene, config.trace);
+  s.candidates.emplace(*s.context);
+  s.solve.emplace(*s.context, config.trace.max_depth);
+  s.occlusion.emplace(*s.context, s.device_scene);
+  s.fields.emplace(s.scene, s.config);
+  s.setup["compile"] = watch.lap();
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+const Scene& Simulation::scene() const { return state_->scene; }
+const DeviceSummary& Simulation::device() const { return state_->device; }
+const StageSeconds& Simulation::setup_seconds() const { return state_->setup; }
+
+FrameResult Simulation::run_frame(uint32_t frame) {
+  State& s = *state_;
+  FrameResult out;
+  s.context->reset_profile();
+  Stopwatch watch;
+
+  const DiscoveryCounts found = (*s.discovery)(s.device_scene, s.transmitters);
+  Sequences& sequences = s.discovery->sequences();
+  const uint32_t node_count = sequences.collect(s.ends.transmitter_count);
+  const uint32_t candidate_count =
+      (*s.candidates)(s.device_scene, s.ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
+  SolvedList& solved =
+      (*s.solve)(s.device_scene, s.ends, sequences.table(), s.candidates->list(), candidate_count, sequences.counters());
+  (*s.occlusion)(s.device_scene, s.ends, solved);
+  const PathGeometry geometry = visible_paths(solved);
+
+  Stopwatch fields_watch;
+  out.paths = s.fields->compute(frame, geometry);
+  const double fields_seconds = fields_watch.lap(), frame_seconds = watch.lap();
+
+  out.seconds = s.context->profile();
+  out.seconds["fields"] = fields_seconds;
+  out.seconds["frame"] = frame_seconds;
+  out.segments_per_depth = found.segments_per_depth;
+  out.counts.rays = found.rays;
+  for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
+  out.counts.hits = found.hits;
+  out.counts.sequences = node_count - s.ends.transmitter_count;
+  out.counts.candidates = candidate_count;
+  out.counts.solved = solved.count;
+  out.counts.paths = out.paths.size();
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,151 @@
+// Launch index to direction as a pure function, bit for bit the same on the host, on CPUs and on GPUs: + - * / sqrt and fma only.
+// Compiled by C++ (one ray) and OpenCL C (one ray, or 16 at once with WT_DIRECTION_WIDTH 16). Assumes no contraction.
+#ifndef WAVETRACER_DEVICE_DIRECTIONS_H
+#define WAVETRACER_DEVICE_DIRECTIONS_H
+
+#ifdef __OPENCL_VERSION__
+#pragma OPENCL FP_CONTRACT OFF
+#if defined(WT_DIRECTION_WIDTH) && WT_DIRECTION_WIDTH == 16
+#define WT_U32 uint16
+#define WT_U64 ulong16
+#define WT_F32 float16
+#define WT_TO_F32(x) convert_float16(x)
+#define WT_TO_U32(x) convert_uint16(x)
+#else
+#define WT_U32 uint
+#define WT_U64 ulong
+#define WT_F32 float
+#define WT_TO_F32(x) ((float)(x))
+#define WT_TO_U32(x) ((uint)(x))
+#endif
+#define WT_DIRECTION_FUNCTION inline
+#else
+#include <cmath>
+#include <cstdint>
+#define WT_U32 uint32_t
+#define WT_U64 uint64_t
+#define WT_F32 float
+#define WT_TO_F32(x) static_cast<float>(x)
+#define WT_TO_U32(x) static_cast<uint32_t>(x)
+#define WT_DIRECTION_FUNCTION inline
+namespace wavetracer::device {
+using std::fabs;
+using std::fma;
+using std::sqrt;
+#endif
+
+typedef struct {
+  WT_F32 x, y, z;
+} wt_direction;
+
+// Even bits of a 32-bit word, packed.
+WT_DIRECTION_FUNCTION WT_U32 wt_even_bits(WT_U32 x) {
+  x &= 0x55555555u;
+  x = (x | (x >> 1)) & 0x33333333u;
+  x = (x | (x >> 2)) & 0x0F0F0F0Fu;
+  x = (x | (x >> 4)) & 0x00FF00FFu;
+  return (x | (x >> 8)) & 0x0000FFFFu;
+}
+
+// Parity of all higher bits and the bit itself, 16 bits.
+WT_DIRECTION_FUNCTION WT_U32 wt_parity_prefix(WT_U32 x) {
+  x ^= x >> 8;
+  x ^= x >> 4;
+  x ^= x >> 2;
+  return x ^ (x >> 1);
+}
+
+// Index along the 2D Hilbert curve of 2^16 x 2^16 cells to its cell. The orientation of a level is the parity of the swaps and
+// flips of the levels above it, so all levels are decoded at once by two parity prefixes (the log-depth form of the automaton of
+// C. Hamilton and A. Rau-Chaplin, "Compact Hilbert indices", IPL 105(5), 2008).
+WT_DIRECTION_FUNCTION void wt_hilbert_cell(WT_U32 index, WT_U32* x, WT_U32* y) {
+  const WT_U32 low = wt_even_bits(index), high = wt_even_bits(index >> 1);
+  const WT_U32 swaps = wt_parity_prefix((low | high) ^ 0xFFFFu) ;
+  const WT_U32 flips = wt_parity_prefix(low & high);
+  const WT_U32 a = ((low ^ 0xFFFFu) & flips) | (low & swaps);
+  *x = (a ^ high) & 0xFFFFu;
+  *y = (a ^ low ^ high) & 0xFFFFu;
+}
+
+// sine and cosine of angle + pi/4 for |angle| <= pi/4; Taylor polynomials, error below 1e-7.
+WT_DIRECTION_FUNCTION void wt_sincos_eighth(WT_F32 angle, WT_F32* sine, WT_F32* cosine) {
+  const WT_F32 q = angle * angle;
+  WT_F32 s = fma(q, (WT_F32)(2.7557319e-6f), (WT_F32)(-1.9841270e-4f));
+  s = fma(q, s, (WT_F32)(8.3333333e-3f));
+  s = fma(q, s, (WT_F32)(-1.6666667e-1f));
+  s = fma(q * angle, s, angle);
+  WT_F32 c = fma(q, (WT_F32)(2.4801587e-5f), (WT_F32)(-1.3888889e-3f));
+  c = fma(q, c, (WT_F32)(4.1666667e-2f));
+  c = fma(q, c, (WT_F32)(-0.5f));
+  c = fma(q, c, (WT_F32)(1.0f));
+  *sine = (c + s) * 0.70710678f;
+  *cosine = (c - s) * 0.70710678f;
+}
+
+// Equal-area map of the square [-1, 1]^2 to the sphere: P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD",
+// Journal of Graphics Tools 13(3), 2008.
+WT_DIRECTION_FUNCTION wt_direction wt_square_to_sphere(WT_F32 u, WT_F32 v) {
+  const WT_F32 au = fabs(u), av = fabs(v);
+  const WT_F32 d = 1.0f - (au + av);
+  const WT_F32 r = 1.0f - fabs(d);
+  const WT_F32 angle = r == 0.0f ? (WT_F32)(0.0f) : (av - au) / r * 0.78539816f;
+  WT_F32 sine, cosine;
+  wt_sincos_eighth(angle, &sine, &cosine);
+  const WT_F32 f = r * sqrt(2.0f - r * r);
+  const WT_F32 z = 1.0f - r * r;
+  wt_direction out;
+  out.x = u < 0.0f ? -(f * cosine) : f * cosine;
+  out.y = v < 0.0f ? -(f * sine) : f * sine;
+  out.z = d < 0.0f ? -z : z;
+  return out;
+}
+
+// Cylindrical equal-area map: z from the height fraction, azimuth as a fraction of a turn, both in units of 2^-32.
+WT_DIRECTION_FUNCTION wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 turn) {
+  const WT_F32 z = 1.0f - (WT_TO_F32(height) + 0.5f) * 4.6566129e-10f;
+  WT_F32 sine, cosine;
+  wt_sincos_eighth(fma(WT_TO_F32(turn & 0x3FFFFFFFu), (WT_F32)(1.4629180e-9f), (WT_F32)(-0.78539816f)), &sine, &cosine);
+  const WT_F32 radius = sqrt(fabs(1.0f - z * z));
+  const WT_U32 quadrant = turn >> 30;
+  const WT_F32 x = (quadrant & 1u) == 0u ? cosine : -sine;
+  const WT_F32 y = (quadrant & 1u) == 0u ? sine : cosine;
+  wt_direction out;
+  out.x = radius * ((quadrant & 2u) == 0u ? x : -x);
+  out.y = radius * ((quadrant & 2u) == 0u ? y : -y);
+  out.z = z;
+  return out;
+}
+
+// The mixing function of splitmix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+WT_DIRECTION_FUNCTION WT_U64 wt_mix64(WT_U64 x) {
+  x ^= x >> 30;
+  x *= (WT_U64)(0xBF58476D1CE4E5B9ul);
+  x ^= x >> 27;
+  x *= (WT_U64)(0x94D049BB133111EBul);
+  return x ^ (x >> 31);
+}
+
+// Born in order: ray i of n sits in the middle of the i-th of n equal stretches of a Hilbert curve over the equal-area square,
+// so index ranges are compact solid angles and each ray has the same share of the sphere. step = floor((2^64 - 1) / n).
+WT_DIRECTION_FUNCTION wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step) {
+  WT_U32 x, y;
+  wt_hilbert_cell(WT_TO_U32((i * step + (step >> 1)) >> 32), &x, &y);
+  return wt_square_to_sphere(fma(WT_TO_F32(x), (WT_F32)(3.0517578e-5f), (WT_F32)(-0.99998474f)),
+                             fma(WT_TO_F32(y), (WT_F32)(3.0517578e-5f), (WT_F32)(-0.99998474f)));
+}
+
+// Fibonacci lattice: equal steps in z, golden-ratio turns. 2^64 / golden ratio = 0x9E3779B97F4A7C15.
+WT_DIRECTION_FUNCTION wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step) {
+  return wt_cylinder_to_sphere(WT_TO_U32((i * step + (step >> 1)) >> 32), WT_TO_U32((i * (WT_U64)(0x9E3779B97F4A7C15ul)) >> 32));
+}
+
+// Independent uniform directions: a counter-based generator, so ray i of a seed is always the same.
+WT_DIRECTION_FUNCTION wt_direction wt_direction_random(WT_U64 i, WT_U64 seed) {
+  const WT_U64 bits = wt_mix64(wt_mix64(i + (WT_U64)(0x9E3779B97F4A7C15ul)) ^ seed);
+  return wt_cylinder_to_sphere(WT_TO_U32(bits >> 32), WT_TO_U32(bits & 0xFFFFFFFFu));
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,76 @@
+// Records and constants compiled by both C++ (host/passes) and OpenCL C (kernels): nothing else is shared.
+// No float3, bool, size_t or pointers; padding is explicit; tests/gpu compares sizes and offsets on the device.
+#ifndef WAVETRACER_DEVICE_RECORDS_H
+#define WAVETRACER_DEVICE_RECORDS_H
+
+#ifdef __OPENCL_VERSION__
+typedef uint wt_uint;
+typedef ulong wt_ulong;
+#else
+#include <cstdint>
+typedef uint32_t wt_uint;
+typedef uint64_t wt_ulong;
+#endif
+
+// The longest chain of interactions; private arrays of the exact solve have this size.
+#define WT_MAX_DEPTH 32u
+
+// Structure of arrays: a ray queue of capacity n is WT_RAY_PLANES * n words; plane p of ray i is word p * n + i.
+#define WT_RAY_ORIGIN 0     // three planes, float
+#define WT_RAY_DIRECTION 3  // three planes, float, unit length
+#define WT_RAY_NODE 6       // trie node of the prefix that the ray has lived through, or a root
+#define WT_RAY_SURFACE 7    // surface that the ray left, WT_NONE at a transmitter
+#define WT_RAY_PLANES 8
+
+// A hit list of capacity n is WT_HIT_PLANES * n words.
+#define WT_HIT_T 0          // float, distance; undefined on a miss
+#define WT_HIT_PRIMITIVE 1  // WT_NONE on a miss
+#define WT_HIT_SURFACE 2    // WT_NONE on a miss
+#define WT_HIT_PLANES 3
+
+#define WT_NONE 0xFFFFFFFFu
+#define WT_EMPTY 0xFFFFFFFFFFFFFFFFul
+
+// A trie node is its slot; its key is (parent << 32) | surface. The parent of a first surface is the root of a transmitter.
+#define WT_ROOT 0x80000000u
+
+// What discovery needs of a surface (float32, recentred).
+typedef struct {
+  float normal[3];
+  float offset;
+  float lower[4];  // bounding box; [3] is padding
+  float upper[4];
+} wt_surface;
+
+// What the exact solve needs of a surface (double, recentred).
+typedef struct {
+  double normal[3];
+  double offset;
+  wt_uint first_triangle;  // into the list of surface triangles (nine doubles each)
+  wt_uint triangle_count;
+  wt_uint padding[2];
+} wt_exact_surface;
+
+// A candidate: a sequence (trie node or root) with a receiver.
+typedef struct {
+  wt_uint node;
+  wt_uint receiver;
+} wt_candidate;
+
+// A solved candidate. Vertex j is three doubles at (index * max_depth + j) * 3, its surface at index * max_depth + j.
+typedef struct {
+  wt_uint transmitter;
+  wt_uint receiver;
+  wt_uint depth;
+  wt_uint blocked;  // 0 until a leg is found obstructed
+} wt_solved;
+
+// Counters that the passes share; one small buffer, cleared a frame.
+typedef struct {
+  wt_uint nodes;          // used slots of the trie
+  wt_uint trie_overflow;  // an insertion found no slot: grow and trace the batch again
+  wt_uint candidates;     // may exceed the capacity: grow and run again
+  wt_uint solved;         // likewise
+} wt_counters;
+
+#endif

@@ -1,0 +1,61 @@
+// interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in order.
+// Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: only the trie is wanted.
+#include "lib/mirror.clh"
+#include "lib/trie.clh"
+#pragma OPENCL FP_CONTRACT OFF
+
+inline void go_on(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity, uint i,
+                  uint surface, uint node, global float* next, uint j) {
+  float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+  wt_mirror(surfaces + surface, hits[i], &o, &d);
+  wt_store_float3(next, capacity, WT_RAY_ORIGIN, j, o);
+  wt_store_float3(next, capacity, WT_RAY_DIRECTION, j, d);
+  wt_store_word(next, capacity, WT_RAY_NODE, j, node);
+  wt_store_word(next, capacity, WT_RAY_SURFACE, j, surface);
+}
+
+#ifdef WT_CPU
+// WT_BLOCKS_PER_ITEM blocks a work-item, their rays in turn. Neighbours mostly share their prefix: the last insertion is kept.
+kernel void interact(const global float* rays, const global float* hits, uint capacity, uint ray_count,
+                     const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table, uint mask,
+                     global wt_counters* counters, global float* next, uint last) {
+  const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
+  const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, ray_count);
+  if (first >= ray_count) return;
+  uint j = block_offsets[first_block];
+  uint last_parent = WT_NONE, last_surface = WT_NONE, last_node = WT_NONE;
+  for (uint i = first; i < end; ++i) {
+    const uint surface = wt_load_word(hits, capacity, WT_HIT_SURFACE, i);
+    if (surface == WT_NONE) continue;
+    const uint parent = wt_load_word(rays, capacity, WT_RAY_NODE, i);
+    if (parent != last_parent || surface != last_surface) {
+      last_node = wt_trie_insert(table, mask, parent, surface);
+      last_parent = parent;
+      last_surface = surface;
+      if (last_node == WT_NONE) counters->trie_overflow = 1;
+    }
+    if (!last) go_on(surfaces, rays, hits, capacity, i, surface, last_node, next, j);
+    ++j;
+  }
+}
+#else
+// One ray a work-item, one block a work-group; the rank of a ray inside its block comes from a bit mask in local memory.
+__attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
+    const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
+    const global wt_surface* surfaces, global ulong* table, uint mask, global wt_counters* counters, global float* next, uint last) {
+  local uint alive[WT_BLOCK / 32];
+  const uint i = get_global_id(0), lane = get_local_id(0);
+  if (lane < WT_BLOCK / 32) alive[lane] = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint surface = i < ray_count ? wt_load_word(hits, capacity, WT_HIT_SURFACE, i) : WT_NONE;
+  if (surface != WT_NONE) atomic_or(&alive[lane / 32], 1u << (lane % 32));
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (surface == WT_NONE) return;
+  const uint node = wt_trie_insert(table, mask, wt_load_word(rays, capacity, WT_RAY_NODE, i), surface);
+  if (node == WT_NONE) counters->trie_overflow = 1;
+  if (last) return;
+  uint j = block_offsets[get_group_id(0)] + popcount(alive[lane / 32] & ((1u << (lane % 32)) - 1u));
+  for (uint w = 0; w < lane / 32; ++w) j += popcount(alive[w]);
+  go_on(surfaces, rays, hits, capacity, i, surface, node, next, j);
+}
+#endif

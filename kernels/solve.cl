@@ -1,0 +1,81 @@
+// solve: the image method in double for every candidate; keeps those whose points lie inside their surfaces, on the lit sides.
+// Legs are not tested here (occlusion does that).
+#include "lib/images.clh"
+#pragma OPENCL FP_CONTRACT OFF
+
+// Twice the signed area of (a, b, p), compared with -tolerance times the length of ab: is p left of ab, or at most 1e-9 of the
+// coordinates' size right of it? Inclusive, so that a point on the border of two surfaces is never lost; equal paths merge later.
+inline int left_of(double ax, double ay, double bx, double by, double px, double py, double tolerance) {
+  const double ex = bx - ax, ey = by - ay;
+  return ex * (py - ay) - ey * (px - ax) >= -tolerance * (fabs(ex) + fabs(ey));
+}
+
+// Is p, a point of the plane, inside one of the surface's triangles? Decided in the projection along the normal's largest axis.
+inline int inside(const global wt_exact_surface* s, const global double* triangles, double3 p) {
+  const double ax = fabs(s->normal[0]), ay = fabs(s->normal[1]), az = fabs(s->normal[2]);
+  const int drop = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+  const int x = drop == 0 ? 1 : 0, y = drop == 2 ? 1 : 2;
+  const double px = drop == 0 ? p.y : p.x, py = drop == 2 ? p.y : p.z;
+  const double tolerance = 1e-9 * (1.0 + fabs(p.x) + fabs(p.y) + fabs(p.z));
+  for (uint k = 0; k < s->triangle_count; ++k) {
+    const global double* t = triangles + 9 * (size_t)(s->first_triangle + k);
+    const double x0 = t[x], y0 = t[y], x1 = t[3 + x], y1 = t[3 + y], x2 = t[6 + x], y2 = t[6 + y];
+    const double area = (x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0);
+    const int positive = area > 0.0;
+    const double bx = positive ? x1 : x2, by = positive ? y1 : y2, cx = positive ? x2 : x1, cy = positive ? y2 : y1;
+    if (left_of(x0, y0, bx, by, px, py, tolerance) && left_of(bx, by, cx, cy, px, py, tolerance) &&
+        left_of(cx, cy, x0, y0, px, py, tolerance))
+      return 1;
+  }
+  return 0;
+}
+
+kernel void solve(const global ulong* table, const global double4* transmitters, const global double4* receivers,
+                  const global wt_exact_surface* surfaces, const global double* triangles, const global wt_candidate* candidates,
+                  uint candidate_count, uint max_depth, global wt_solved* solved, global double* vertices, global uint* sequences,
+                  uint capacity, global wt_counters* counters) {
+  const uint i = get_global_id(0);
+  if (i >= candidate_count) return;
+  uint chain[WT_MAX_DEPTH], transmitter;
+  const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
+  double3 images[WT_MAX_DEPTH + 1], points[WT_MAX_DEPTH + 1];
+  images[0] = transmitters[transmitter].xyz;
+  for (uint k = 0; k < depth; ++k) images[k + 1] = wt_reflected(surfaces + chain[k], images[k]);
+
+  // Backwards from the receiver: the leg to a point is aimed at the image behind the point's surface.
+  double3 target = receivers[candidates[i].receiver].xyz;
+  for (uint k = depth; k-- > 0;) {
+    const global wt_exact_surface* s = surfaces + chain[k];
+    const double a = wt_above(s, images[k + 1]), b = wt_above(s, target);
+    if (!((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0))) return;
+    const double u = a / (a - b);
+    const double3 from = images[k + 1];
+    const double3 p = (double3)(from.x + u * (target.x - from.x), from.y + u * (target.y - from.y), from.z + u * (target.z - from.z));
+    if (!inside(s, triangles, p)) return;
+    points[k] = p;
+    target = p;
+  }
+  // The leg that arrives at a surface must come from the side that it leaves to.
+  double3 before = images[0];
+  for (uint k = 0; k < depth; ++k) {
+    const double3 after = k + 1 < depth ? points[k + 1] : receivers[candidates[i].receiver].xyz;
+    const double a = wt_above(surfaces + chain[k], before), b = wt_above(surfaces + chain[k], after);
+    if (!((a < 0.0 && b < 0.0) || (a > 0.0 && b > 0.0))) return;
+    before = points[k];
+  }
+  // A receiver at a transmitter has no line of sight.
+  if (depth == 0 && target.x == images[0].x && target.y == images[0].y && target.z == images[0].z) return;
+  const uint slot = atomic_inc(&counters->solved);
+  if (slot >= capacity) return;
+  solved[slot].transmitter = transmitter;
+  solved[slot].receiver = candidates[i].receiver;
+  solved[slot].depth = depth;
+  solved[slot].blocked = 0;
+  for (uint k = 0; k < depth; ++k) {
+    const size_t at = (size_t)slot * max_depth + k;
+    vertices[3 * at] = points[k].x;
+    vertices[3 * at + 1] = points[k].y;
+    vertices[3 * at + 2] = points[k].z;
+    sequences[at] = chain[k];
+  }
+}

@@ -1,0 +1,144 @@
+// trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for compaction).
+// One of three shapes by build option: WT_SHAPE_BVH2 (GPU), WT_SHAPE_BVH8 (CPU) and WT_SHAPE_PACKET16 (CPU, ordered rays).
+#include "lib/bvh2.clh"
+#include "lib/bvh8.clh"
+#include "lib/packet16.clh"
+#pragma OPENCL FP_CONTRACT OFF
+
+inline void store_hit(global float* hits, uint capacity, uint i, float t, uint primitive, uint surface) {
+  hits[i] = t;
+  wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, primitive);
+  wt_store_word(hits, capacity, WT_HIT_SURFACE, i, surface);
+}
+
+#ifdef WT_SHAPE_BVH2
+// One ray a work-item, one block a work-group.
+__attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
+    const global float4* nodes, const global float4* triangles, uint triangle_slots, float extent_m, const global float* rays,
+    uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
+  const uint i = get_global_id(0);
+  local uint count;
+  if (get_local_id(0) == 0) count = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (i < ray_count) {
+    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+    const wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, extent_m, o, d, 0.0f, WT_NONE, INFINITY,
+                                       wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
+    store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
+    if (hit.surface != WT_NONE) atomic_inc(&count);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) == 0) block_hits[get_group_id(0)] = count;
+}
+#endif
+
+#ifdef WT_SHAPE_BVH8
+// One block a work-item, its rays in turn.
+kernel void trace(const global float* nodes, const global float* blocks, float extent_m, const global float* rays, uint capacity,
+                  uint ray_count, global float* hits, global uint* block_hits) {
+  const uint block = get_global_id(0);
+  const uint first = block * WT_BLOCK, end = min(first + WT_BLOCK, ray_count);
+  if (first >= ray_count) return;
+  uint count = 0;
+  for (uint i = first; i < end; ++i) {
+    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+    const wt_hit hit = wt_nearest_bvh8(nodes, blocks, extent_m, o, d, 0.0f, WT_NONE, INFINITY,
+                                       wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
+    store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
+    count += hit.surface != WT_NONE;
+  }
+  block_hits[block] = count;
+}
+#endif
+
+#ifdef WT_SHAPE_PACKET16
+// Fewer lanes than this that agree in signs and dominant axis are traced one by one.
+#ifndef WT_PACKET_MIN_LANES
+#define WT_PACKET_MIN_LANES 4
+#endif
+
+// One block of 16 rays a work-item: lanes that agree in the signs and the dominant axis of their directions go as a packet.
+// Queues are padded so that reading 16 rays never leaves a plane.
+kernel void trace(const global float* nodes, const global float4* triangles, uint triangle_slots, const global float* nodes8,
+                  const global float* blocks, float extent_m, const global float* rays, uint capacity, uint ray_count,
+                  global float* hits, global uint* block_hits) {
+  const uint block = get_global_id(0);
+  const uint first = block * 16;
+  if (first >= ray_count) return;
+  const uint end = min(first + 16, ray_count);
+  const uint16 lane = (uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const int16 in_range = lane < end - first;
+  const global float* r = rays + first;
+  const float16 ox = vload16(0, r), oy = vload16(0, r + capacity), oz = vload16(0, r + 2 * (size_t)capacity);
+  const float16 dx = vload16(0, r + 3 * (size_t)capacity), dy = vload16(0, r + 4 * (size_t)capacity);
+  const float16 dz = vload16(0, r + 5 * (size_t)capacity);
+  const uint16 source = as_uint16(vload16(0, r + 7 * (size_t)capacity));
+
+  const float16 ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
+  // wt_dominant_axis, lane by lane.
+  const int16 axis = select(select((int16)2, (int16)1, ay > az), select((int16)2, (int16)0, ax > az), ax > ay);
+  wt_packet p;
+  p.ix = select(copysign((float16)1e18f, dx), 1.0f / dx, ax > 1e-18f);
+  p.iy = select(copysign((float16)1e18f, dy), 1.0f / dy, ay > 1e-18f);
+  p.iz = select(copysign((float16)1e18f, dz), 1.0f / dz, az > 1e-18f);
+  // The class of a lane: the signs and the dominant axis of its direction.
+  const int16 class = select((int16)-1, axis * 8 + ((p.ix < 0.0f) & 1) + ((p.iy < 0.0f) & 2) + ((p.iz < 0.0f) & 4), in_range);
+  int classes[16];
+  vstore16(class, 0, classes);
+  const float16 delta = 2.5e-7f * (extent_m + wt_max16(fabs(ox), wt_max16(fabs(oy), fabs(oz))));
+  p.nx = -ox * p.ix - delta * fabs(p.ix);
+  p.ny = -oy * p.iy - delta * fabs(p.iy);
+  p.nz = -oz * p.iz - delta * fabs(p.iz);
+  p.fx = -ox * p.ix + delta * fabs(p.ix);
+  p.fy = -oy * p.iy + delta * fabs(p.iy);
+  p.fz = -oz * p.iz + delta * fabs(p.iz);
+  p.source = source;
+
+  float16 t = INFINITY;
+  uint16 primitive = WT_NONE, surface = WT_NONE;
+  uint remaining = (1u << (end - first)) - 1;
+  while (remaining) {
+    const int first_lane = popcount((remaining & (~remaining + 1)) - 1u);
+    const int c = classes[first_lane];
+    const int16 active = class == c;
+    uint mask = 0;
+    for (int i = 0; i < 16; ++i) mask |= (uint)(classes[i] == c) << i;
+    remaining &= ~mask;
+    if (popcount(mask) < WT_PACKET_MIN_LANES) {
+      for (uint m = mask; m; m &= m - 1) {
+        const uint i = first + popcount((m & (~m + 1)) - 1u);
+        const wt_hit hit = wt_nearest_bvh8(nodes8, blocks, extent_m, wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
+                                           wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i), 0.0f, WT_NONE, INFINITY,
+                                           wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
+        const int16 here = lane == i - first;
+        t = select(t, (float16)hit.t, here);
+        primitive = select(primitive, (uint16)hit.primitive, here);
+        surface = select(surface, (uint16)hit.surface, here);
+      }
+      continue;
+    }
+    const int axis_last = c >> 3;
+    p.ox = axis_last == 0 ? oy : axis_last == 1 ? oz : ox;
+    p.oy = axis_last == 0 ? oz : axis_last == 1 ? ox : oy;
+    p.oz = axis_last == 0 ? ox : axis_last == 1 ? oy : oz;
+    p.sz = 1.0f / (axis_last == 0 ? dx : axis_last == 1 ? dy : dz);
+    p.sx = (axis_last == 0 ? dy : axis_last == 1 ? dz : dx) * p.sz;
+    p.sy = (axis_last == 0 ? dz : axis_last == 1 ? dx : dy) * p.sz;
+    p.t = select((float16)-1.0f, (float16)INFINITY, active);
+    p.primitive = WT_NONE;
+    p.surface = WT_NONE;
+    wt_nearest_packet16(nodes, triangles, triangle_slots, c & 1, (c >> 1) & 1, (c >> 2) & 1, axis_last, &p);
+    t = select(t, p.t, active);
+    primitive = select(primitive, p.primitive, active);
+    surface = select(surface, p.surface, active);
+  }
+  vstore16(t, 0, hits + first);
+  vstore16(as_float16(primitive), 0, hits + capacity + first);
+  vstore16(as_float16(surface), 0, hits + 2 * (size_t)capacity + first);
+  int missed[16];
+  vstore16(surface == WT_NONE, 0, missed);
+  uint count = 0;
+  for (uint i = 0; i < end - first; ++i) count += missed[i] == 0;
+  block_hits[block] = count;
+}
+#endif
