@@ -29,16 +29,19 @@ kernel void insert_words(global const ulong* words, uint count, global ulong* sl
   wt_fetch_add_u32(lost, 1u);
 }
 
-// The pair that this work-item shares with one of the neighbouring work-group: of different groups, so that they can meet
-// on devices that run the items of a group in turn.
-inline uint pair_of_item() { return (uint)(get_group_id(0) >> 1) * (uint)get_local_size(0) + (uint)get_local_id(0); }
+// The pair that this work-item shares with one of the work-group `distance` (a power of two) away. Which distance makes two
+// items meet depends on how a device spreads its groups over cores, and on whether it runs a group's items in turn.
+inline uint pair_of_item(uint distance) {
+  const uint group = (uint)get_group_id(0);
+  return (group / (2 * distance) * distance + group % distance) * (uint)get_local_size(0) + (uint)get_local_id(0);
+}
 
-// Even work-groups publish a payload of two words by a release store of a flag, odd ones look for it by an acquire load.
+// One group of two publishes payloads of two words by a release store of a flag, the other looks by an acquire load.
 // seen[pair]: 0 not published yet, 1 published and whole, 2 torn. Who comes first is left open: nobody waits.
-kernel void publish(global uint* payload, global uint* flags, global uint* seen, uint pairs) {
-  const uint pair = pair_of_item();
+kernel void publish(global uint* payload, global uint* flags, global uint* seen, uint pairs, uint distance) {
+  const uint pair = pair_of_item(distance);
   if (pair >= pairs) return;
-  if ((get_group_id(0) & 1) == 0) {
+  if ((get_group_id(0) & distance) == 0) {
     wt_store_relaxed_u32(payload + 2 * pair, 2 * pair + 1);
     wt_store_relaxed_u32(payload + 2 * pair + 1, ~(2 * pair + 1));
     wt_store_release_u32(flags + pair, 1u);
@@ -51,8 +54,8 @@ kernel void publish(global uint* payload, global uint* flags, global uint* seen,
 
 // The same with one wide word, a claim by 32-bit compare-and-swap, and the fence alone: one winner a pair. A loser that
 // sees the flag but not the owner's word clears the word, which the host finds.
-kernel void claim(global uint* owners, global ulong* words, global uint* flags, global uint* wins, uint pairs) {
-  const uint pair = pair_of_item();
+kernel void claim(global uint* owners, global ulong* words, global uint* flags, global uint* wins, uint pairs, uint distance) {
+  const uint pair = pair_of_item(distance);
   if (pair >= pairs) return;
   const uint owner = (uint)get_global_id(0) + 1;
   if (wt_compare_swap_u32(owners + pair, 0u, owner) == 0) {

@@ -18,6 +18,7 @@ class GenerateRays {
  private:
   gpu::Kernel kernel_;
   uint64_t parameter_;
+  uint32_t level_ = 0, faces_ = 3;
   uint32_t rays_per_item_;
 };
 

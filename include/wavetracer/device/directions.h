@@ -11,12 +11,14 @@
 #define WT_F32 float16
 #define WT_TO_F32(x) convert_float16(x)
 #define WT_TO_U32(x) convert_uint16(x)
+#define WT_TO_U64(x) convert_ulong16(x)
 #else
 #define WT_U32 uint
 #define WT_U64 ulong
 #define WT_F32 float
 #define WT_TO_F32(x) ((float)(x))
 #define WT_TO_U32(x) ((uint)(x))
+#define WT_TO_U64(x) ((ulong)(x))
 #endif
 #define WT_DIRECTION_FUNCTION inline
 #else
@@ -27,6 +29,7 @@
 #define WT_F32 float
 #define WT_TO_F32(x) static_cast<float>(x)
 #define WT_TO_U32(x) static_cast<uint32_t>(x)
+#define WT_TO_U64(x) static_cast<uint64_t>(x)
 #define WT_DIRECTION_FUNCTION inline
 namespace wavetracer::device {
 using std::fabs;
@@ -82,24 +85,6 @@ WT_DIRECTION_FUNCTION void wt_sincos_eighth(WT_F32 angle, WT_F32* sine, WT_F32* 
   *cosine = (c - s) * 0.70710678f;
 }
 
-// Equal-area map of the square [-1, 1]^2 to the sphere: P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD",
-// Journal of Graphics Tools 13(3), 2008.
-WT_DIRECTION_FUNCTION wt_direction wt_square_to_sphere(WT_F32 u, WT_F32 v) {
-  const WT_F32 au = fabs(u), av = fabs(v);
-  const WT_F32 d = 1.0f - (au + av);
-  const WT_F32 r = 1.0f - fabs(d);
-  const WT_F32 angle = r == 0.0f ? (WT_F32)(0.0f) : (av - au) / r * 0.78539816f;
-  WT_F32 sine, cosine;
-  wt_sincos_eighth(angle, &sine, &cosine);
-  const WT_F32 f = r * sqrt(2.0f - r * r);
-  const WT_F32 z = 1.0f - r * r;
-  wt_direction out;
-  out.x = u < 0.0f ? -(f * cosine) : f * cosine;
-  out.y = v < 0.0f ? -(f * sine) : f * sine;
-  out.z = d < 0.0f ? -z : z;
-  return out;
-}
-
 // Cylindrical equal-area map: z from the height fraction, azimuth as a fraction of a turn, both in units of 2^-32.
 WT_DIRECTION_FUNCTION wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 turn) {
   const WT_F32 z = 1.0f - (WT_TO_F32(height) + 0.5f) * 4.6566129e-10f;
@@ -125,22 +110,43 @@ WT_DIRECTION_FUNCTION WT_U64 wt_mix64(WT_U64 x) {
   return x ^ (x >> 31);
 }
 
-// Born in order: ray i of n sits in the middle of the i-th of n equal stretches of a Hilbert curve over the equal-area square,
-// so index ranges are compact solid angles and each ray has the same share of the sphere. step = floor((2^64 - 1) / n).
-WT_DIRECTION_FUNCTION wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step) {
+// The 16 bits of a word in reverse order.
+WT_DIRECTION_FUNCTION WT_U32 wt_reverse16(WT_U32 x) {
+  x = ((x & 0x5555u) << 1) | ((x >> 1) & 0x5555u);
+  x = ((x & 0x3333u) << 2) | ((x >> 2) & 0x3333u);
+  x = ((x & 0x0F0Fu) << 4) | ((x >> 4) & 0x0F0Fu);
+  return ((x & 0x00FFu) << 8) | (x >> 8);
+}
+
+// Born in order. The equal-area cylinder (azimuth, z) is cut into `faces` rectangles side by side, each into 4^level cells along
+// a Hilbert curve; ray i of n takes cell floor((i + 1/2) cells / n), so index ranges are compact solid angles of equal share.
+// Inside cell (x, y) of its face a ray sits at (reverse(y), reverse(x)): the points of a face are a Hammersley net (J. Hammersley,
+// 1960), so azimuths and heights are each evenly spread. Walls are narrow in azimuth and tall: cell centres, all in one row,
+// would miss many of them. step = floor((2^64 - 1) / n); faces 4^level >= n, see wt_hilbert_faces.
+WT_DIRECTION_FUNCTION wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces) {
+  const WT_U64 cell = ((i * step + (step >> 1)) >> 32) * (WT_U64)((unsigned long)faces << (2u * level)) >> 32;
+  const WT_U32 face = WT_TO_U32(cell >> (2u * level));
+  const unsigned below = 16u - level;
   WT_U32 x, y;
-  wt_hilbert_cell(WT_TO_U32((i * step + (step >> 1)) >> 32), &x, &y);
-  return wt_square_to_sphere(fma(WT_TO_F32(x), (WT_F32)(3.0517578e-5f), (WT_F32)(-0.99998474f)),
-                             fma(WT_TO_F32(y), (WT_F32)(3.0517578e-5f), (WT_F32)(-0.99998474f)));
+  wt_hilbert_cell(WT_TO_U32(cell) << (2u * below - (level == 0u)) << (level == 0u), &x, &y);
+  x = x >> below;
+  y = y >> below;
+  const WT_U32 half_cell = (WT_U32)(1u << (2u * below - 1u));
+  const WT_U32 column = (((x << level) | (wt_reverse16(y) >> below)) << (2u * below)) + half_cell;
+  const WT_U32 row = (((y << level) | (wt_reverse16(x) >> below)) << (2u * below)) + half_cell;
+  const unsigned width = (unsigned)(4294967295u / faces);
+  return wt_cylinder_to_sphere(row, face * width + WT_TO_U32(WT_TO_U64(column) * width >> 32));
 }
 
 // Fibonacci lattice: equal steps in z, golden-ratio turns. 2^64 / golden ratio = 0x9E3779B97F4A7C15.
-WT_DIRECTION_FUNCTION wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step) {
+WT_DIRECTION_FUNCTION wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces) {
+  (void)level, (void)faces;
   return wt_cylinder_to_sphere(WT_TO_U32((i * step + (step >> 1)) >> 32), WT_TO_U32((i * (WT_U64)(0x9E3779B97F4A7C15ul)) >> 32));
 }
 
 // Independent uniform directions: a counter-based generator, so ray i of a seed is always the same.
-WT_DIRECTION_FUNCTION wt_direction wt_direction_random(WT_U64 i, WT_U64 seed) {
+WT_DIRECTION_FUNCTION wt_direction wt_direction_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned faces) {
+  (void)level, (void)faces;
   const WT_U64 bits = wt_mix64(wt_mix64(i + (WT_U64)(0x9E3779B97F4A7C15ul)) ^ seed);
   return wt_cylinder_to_sphere(WT_TO_U32(bits >> 32), WT_TO_U32(bits & 0xFFFFFFFFu));
 }
