@@ -18,7 +18,7 @@ kernel void insert_words(global const ulong* words, uint count, global ulong* sl
   uint slot = (uint)((word * 0x9e3779b97f4a7c15ul) >> 40) & slot_mask;
   for (uint probe = 0; probe <= slot_mask; ++probe, slot = (slot + 1) & slot_mask) {
     ulong found = wt_load_relaxed_u64(slots + slot);
-    if (found == 0) found = wt_compare_swap_u64(slots + slot, 0ul, word);
+    if (found == 0) found = wt_compare_swap_relaxed_u64(slots + slot, 0ul, word);
     if (found == 0) {
       wt_fetch_add_u32(inserted, 1u);
       wt_fetch_add_u32(winners + slot, 1u);
@@ -59,10 +59,10 @@ kernel void claim(global uint* owners, global ulong* words, global uint* flags, 
   if (pair >= pairs) return;
   const uint owner = (uint)get_global_id(0) + 1;
   if (wt_compare_swap_u32(owners + pair, 0u, owner) == 0) {
-    wt_store_relaxed_u64(words + pair, owner);
+    const ulong before = wt_compare_swap_u64(words + pair, 0ul, owner);
     wt_fence();
     wt_store_relaxed_u32(flags + pair, 1u);
-    wt_fetch_add_u32(wins + pair, 1u);
+    wt_fetch_add_u32(wins + pair, before == 0 ? 1u : 2u);
   } else if (wt_load_relaxed_u32(flags + pair) != 0) {
     wt_fence();
     if (wt_load_acquire_u64(words + pair) != wt_load_relaxed_u32(owners + pair)) wt_store_release_u64(words + pair, 0ul);

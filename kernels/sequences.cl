@@ -1,4 +1,4 @@
-// sequences: the trie as a list (collect), and a larger trie filled from a smaller one (regrow).
+// sequences: the trie as a list (collect), its neighbours (commute), and a larger trie filled from a smaller one (regrow).
 // A node is its slot, so a parent must be in the new table before its children: regrow runs once a depth.
 #include "lib/trie.clh"
 
@@ -8,6 +8,35 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
   if (slot >= slots || table[slot] == WT_EMPTY) return;
   const uint i = atomic_inc(&counters->nodes);
   if (i < capacity) nodes[i] = slot;
+}
+
+// Surfaces count as perpendicular below this cosine: what is tried in vain only costs a candidate.
+#define WT_PERPENDICULAR 0.02f
+
+// Mirrors in perpendicular planes commute: where a ray met a wall and then the ground, the same image also serves the ground and
+// then the wall, and the receiver's position decides which of the two is a path. Rays find one of them and may miss the other
+// (nearly all missed paths of street scenes are such), so both are entered: for every listed node, every exchange of two
+// neighbouring perpendicular surfaces. Geometry decides later, as always.
+kernel void commute(global ulong* table, uint mask, const global uint* nodes, uint node_count, const global wt_surface* surfaces,
+                    global wt_counters* counters) {
+  const uint i = get_global_id(0);
+  if (i >= node_count || (nodes[i] & WT_ROOT)) return;
+  uint chain[WT_MAX_DEPTH], parents[WT_MAX_DEPTH];  // from the last surface back, with the node that each was added to
+  uint depth = 0;
+  for (uint n = nodes[i]; !(n & WT_ROOT) && depth < WT_MAX_DEPTH; n = parents[depth - 1]) {
+    const ulong key = table[n];
+    chain[depth] = wt_trie_surface(key);
+    parents[depth++] = wt_trie_parent(key);
+  }
+  for (uint k = 0; k + 1 < depth; ++k) {
+    const global float* a = surfaces[chain[k]].normal;
+    const global float* b = surfaces[chain[k + 1]].normal;
+    if (fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) > WT_PERPENDICULAR) continue;
+    uint node = wt_trie_insert(table, mask, parents[k + 1], chain[k]);
+    if (node != WT_NONE) node = wt_trie_insert(table, mask, node, chain[k + 1]);
+    for (uint j = k; j-- > 0 && node != WT_NONE;) node = wt_trie_insert(table, mask, node, chain[j]);
+    if (node == WT_NONE) counters->trie_overflow = 1;
+  }
 }
 
 // Inserts the nodes of one depth of the old table into the new one and notes where they went.

@@ -12,6 +12,7 @@ namespace wavetracer {
 Sequences::Sequences(gpu::Context& context, uint64_t slots)
     : context_(context),
       collect_(context.kernel("sequences", "collect")),
+      commute_(context.kernel("sequences", "commute")),
       regrow_(context.kernel("sequences", "regrow")),
       table_(context.buffer<uint64_t>(slots, "sequences")),
       nodes_(context.buffer<uint32_t>(4096, "sequence list")),
@@ -36,6 +37,16 @@ void Sequences::regrow(uint32_t max_depth) {
       regrow_({old.size(), 64}, "sequences", old, static_cast<uint32_t>(old.size()), depth, moved, table_,
               static_cast<uint32_t>(table_.size() - 1), counters_);
     if (!overflowed()) return;
+  }
+}
+
+void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t transmitter_count,
+                        uint32_t max_depth) {
+  for (;;) {
+    commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count, surfaces, counters_);
+    if (!overflowed()) return;
+    regrow(max_depth);
+    node_count = collect(transmitter_count);
   }
 }
 

@@ -17,13 +17,16 @@ class Sequences {
   bool overflowed() const { return counters_.read_one(0, "sequences").trie_overflow != 0; }
   // Moves every node of at most max_depth surfaces to a table four times as large.
   void regrow(uint32_t max_depth);
+  // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged; grows when it must.
+  // Call collect() before and after.
+  void commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t transmitter_count, uint32_t max_depth);
   // The roots of the transmitters, then every node. Returns the length of nodes().
   uint32_t collect(uint32_t transmitter_count);
   const gpu::Buffer<uint32_t>& nodes() const { return nodes_; }
 
  private:
   gpu::Context& context_;
-  gpu::Kernel collect_, regrow_;
+  gpu::Kernel collect_, commute_, regrow_;
   gpu::Buffer<uint64_t> table_;
   gpu::Buffer<uint32_t> nodes_;
   gpu::Buffer<wt_counters> counters_;

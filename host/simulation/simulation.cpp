@@ -82,7 +82,9 @@ FrameResult Simulation::run_frame(uint32_t frame) {
 
   const DiscoveryCounts found = (*s.discovery)(s.device_scene, s.transmitters);
   Sequences& sequences = s.discovery->sequences();
-  const uint32_t node_count = sequences.collect(s.ends.transmitter_count);
+  uint32_t node_count = sequences.collect(s.ends.transmitter_count);
+  sequences.commute(s.device_scene.surfaces, node_count, s.ends.transmitter_count, s.config.trace.max_depth);
+  node_count = sequences.collect(s.ends.transmitter_count);
   const uint32_t candidate_count =
       (*s.candidates)(s.device_scene, s.ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
   SolvedList& solved =
