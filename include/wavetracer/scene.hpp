@@ -35,7 +35,7 @@ struct Surface {
 struct Edge {
   std::array<uint32_t, 2> vertices;
   uint32_t first_face = 0, face_count = 0;
-  // No two of its faces lie in different planes: the edge is inside one surface and cannot diffract.
+  // Faces on both sides of it, all in one plane: nothing there diffracts. A free edge is never flat.
   bool flat = false;
 };
 

@@ -1,0 +1,72 @@
+// The antenna of a radio end: pattern, slant, orientation.
+// Assumes unit directions; the pattern is always evaluated in the antenna's own frame.
+#include "radio/antenna.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr double radians_per_degree = std::numbers::pi / 180;
+
+Pattern pattern_of(const RadioEnd& end) {
+  if (end.antenna == "isotropic") return isotropic_pattern;
+  if (end.antenna == "short-dipole") return short_dipole_pattern;
+  if (end.antenna == "dipole") return half_wave_dipole_pattern;
+  if (end.antenna == "tr38901") return tr38901_pattern;
+  if (std::filesystem::is_regular_file(end.antenna)) return load_pattern(end.antenna);
+  throw ConfigError(
+      fmt::format("\"{}\": antenna = \"{}\" is neither isotropic, short-dipole, dipole or tr38901 nor a "
+                  "pattern file that exists",
+                  end.name, end.antenna));
+}
+
+std::vector<double> slants_of(const RadioEnd& end) {
+  constexpr double quarter = std::numbers::pi / 2, eighth = std::numbers::pi / 4;
+  if (end.polarization == "V") return {0};
+  if (end.polarization == "H") return {quarter};
+  if (end.polarization == "VH") return {0, quarter};
+  if (end.polarization == "cross") return {eighth, -eighth};
+  throw ConfigError(
+      fmt::format("\"{}\": polarization = \"{}\" is none of V, H, VH, cross", end.name, end.polarization));
+}
+
+}  // namespace
+
+glm::dmat3 rotation_of(const std::array<double, 3>& orientation_deg) {
+  const double yaw = orientation_deg[0] * radians_per_degree, pitch = orientation_deg[1] * radians_per_degree,
+               roll = orientation_deg[2] * radians_per_degree;
+  const glm::dmat3 about_z{std::cos(yaw), std::sin(yaw), 0, -std::sin(yaw), std::cos(yaw), 0, 0, 0, 1};  // by columns
+  const glm::dmat3 about_y{std::cos(pitch), 0, -std::sin(pitch), 0, 1, 0, std::sin(pitch), 0, std::cos(pitch)};
+  const glm::dmat3 about_x{1, 0, 0, 0, std::cos(roll), std::sin(roll), 0, -std::sin(roll), std::cos(roll)};
+  return about_z * about_y * about_x;
+}
+
+Antenna::Antenna(Pattern pattern, const std::vector<double>& slants_rad, const glm::dmat3& rotation)
+    : pattern_(std::move(pattern)), slants_rad_(slants_rad), to_global_(rotation) {}
+
+FieldPair Antenna::field(uint32_t port, const glm::dvec3& direction) const {
+  const glm::dvec3 local = glm::transpose(to_global_) * direction;
+  const FieldPair own = pattern_(angles_of(local));
+  const double cosine = std::cos(slants_rad_[port]), sine = std::sin(slants_rad_[port]);
+  const std::complex<double> along_theta = cosine * own.theta - sine * own.phi;
+  const std::complex<double> along_phi = sine * own.theta + cosine * own.phi;
+
+  const SphericalBasis from = basis_of(local), to = basis_of(direction);
+  const glm::dvec3 theta = to_global_ * from.theta, phi = to_global_ * from.phi;
+  return {along_theta * glm::dot(theta, to.theta) + along_phi * glm::dot(phi, to.theta),
+          along_theta * glm::dot(theta, to.phi) + along_phi * glm::dot(phi, to.phi)};
+}
+
+Antenna make_antenna(const RadioEnd& end) {
+  return Antenna(pattern_of(end), slants_of(end), rotation_of(end.orientation_deg));
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,14 @@
+// The complex relative permittivity of a radio material at a frequency (ITU-R P.2040-3, equations 14 and 28 to 29).
+// Time convention exp(+j 2 pi f t): a lossy material has a negative imaginary part.
+#pragma once
+#include <complex>
+
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer {
+
+// eta = a f^b - j c f^d / (2 pi f eps0), f in GHz inside the powers; frequency_hz > 0.
+// Throws ConfigError if the frequency lies outside the range that the material was measured in.
+std::complex<double> complex_permittivity(const Material& material, double frequency_hz);
+
+}  // namespace wavetracer

@@ -1,0 +1,201 @@
+// Building a Scene in steps: gather, recentre, weld, clean, connect.
+// Every step is deterministic and sequential; a million triangles take a few seconds.
+#include "scene/build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "scene/topology.hpp"
+#include "scene/weld.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+using glm::dvec3;
+constexpr uint32_t none = 0xFFFFFFFFu;
+constexpr double largest_extent_m = 1e6;  // beyond any scene of rays on a flat Earth: a unit or a stray vertex is wrong
+
+// Vertices and triangles of all meshes in one index space; vertices that no triangle uses are left out.
+struct Soup {
+  std::vector<dvec3> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<uint32_t> object;  // per triangle: index of its mesh
+};
+
+Soup gather(const RawScene& raw) {
+  uint64_t corners = 0;
+  for (const RawMesh& mesh : raw.meshes) corners += mesh.triangles.size() * 3;
+  if (corners == 0) throw InputError(fmt::format("{}: the scene has no triangles", raw.file));
+  if (corners >= none)
+    throw InputError(fmt::format("{}: {} triangles are more than 32-bit indices hold", raw.file, corners / 3));
+  Soup soup;
+  soup.triangles.reserve(corners / 3);
+  soup.object.reserve(corners / 3);
+  std::vector<uint32_t> moved;  // mesh vertex -> soup vertex
+  for (size_t m = 0; m < raw.meshes.size(); ++m) {
+    const RawMesh& mesh = raw.meshes[m];
+    moved.assign(mesh.vertices.size(), none);
+    for (Triangle t : mesh.triangles) {
+      for (uint32_t& v : t) {
+        if (moved[v] == none) {
+          moved[v] = static_cast<uint32_t>(soup.vertices.size());
+          soup.vertices.push_back(mesh.vertices[v]);
+        }
+        v = moved[v];
+      }
+      soup.triangles.push_back(t);
+      soup.object.push_back(static_cast<uint32_t>(m));
+    }
+  }
+  return soup;
+}
+
+// Moves the soup so that its bounding box is centred on a point of whole metres, which it returns. The subtraction is
+// exact for coordinates far from zero (a whole number is a multiple of their last bit), as UTM ones are.
+dvec3 recentre(Soup& soup, const std::string& file) {
+  dvec3 lower(std::numeric_limits<double>::max()), upper(-lower);
+  for (const dvec3& v : soup.vertices) {
+    lower = glm::min(lower, v);
+    upper = glm::max(upper, v);
+  }
+  const dvec3 size = upper - lower;
+  if (!(std::max({size.x, size.y, size.z}) <= largest_extent_m)) {
+    throw InputError(
+        fmt::format("{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, more than {:.0f} km: is scene.scale "
+                    "right, is a vertex astray?",
+                    file, size.x, size.y, size.z, largest_extent_m / 1000));
+  }
+  const dvec3 origin = glm::round(lower + size * 0.5) + dvec3(0);  // + 0: no negative zeros
+  for (dvec3& v : soup.vertices) v -= origin;
+  return origin;
+}
+
+// Indices of triangles that repeat an earlier one's vertices, in any order; the second counts those of another
+// material.
+struct Duplicates {
+  std::vector<bool> is_duplicate;
+  uint64_t count = 0, other_material = 0;
+};
+
+Duplicates find_duplicates(const std::vector<Triangle>& triangles, const std::vector<uint32_t>& material) {
+  struct Key {
+    Triangle corners;
+    uint32_t triangle;
+  };
+  std::vector<Key> keys;
+  keys.reserve(triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    Triangle sorted = triangles[t];
+    std::sort(sorted.begin(), sorted.end());
+    keys.push_back({sorted, t});
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.corners != b.corners ? a.corners < b.corners : a.triangle < b.triangle;
+  });
+  Duplicates out;
+  out.is_duplicate.resize(triangles.size());
+  for (size_t i = 1, kept = 0; i < keys.size(); ++i) {
+    if (keys[i].corners != keys[kept].corners) {
+      kept = i;
+      continue;
+    }
+    out.is_duplicate[keys[i].triangle] = true;
+    ++out.count;
+    out.other_material += material[keys[i].triangle] != material[keys[kept].triangle];
+  }
+  return out;
+}
+
+// Welds the soup into the scene and drops what is degenerate or double.
+void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>& mesh_material,
+                    std::vector<uint32_t>& triangle_material) {
+  Weld weld = weld_vertices(soup.vertices, weld_tolerance_m);
+  scene.report.welded_vertices = soup.vertices.size() - weld.positions.size();
+  if (weld.widest_m > 10 * weld_tolerance_m) {
+    scene.report.warnings.push_back(
+        fmt::format("vertices closer than {} mm form chains that were welded over {:.3g} m: is scene.scale right?",
+                    weld_tolerance_m * 1000, weld.widest_m));
+  }
+  scene.vertices = std::move(weld.positions);
+  for (size_t i = 0; i < soup.triangles.size(); ++i) {
+    const Triangle& t = soup.triangles[i];
+    scene.triangles.push_back({weld.vertex[t[0]], weld.vertex[t[1]], weld.vertex[t[2]]});
+    if (shape_of(scene, static_cast<uint32_t>(scene.triangles.size() - 1)).height_m < degenerate_height_m) {
+      scene.triangles.pop_back();
+      ++scene.report.degenerate_triangles;
+      continue;
+    }
+    scene.triangle_object.push_back(soup.object[i]);
+    triangle_material.push_back(mesh_material[soup.object[i]]);
+  }
+  const Duplicates duplicates = find_duplicates(scene.triangles, triangle_material);
+  scene.report.duplicate_triangles = duplicates.count;
+  if (duplicates.other_material > 0) {
+    scene.report.warnings.push_back(
+        fmt::format("{} triangles repeat another one in a different material; the first of each was kept",
+                    duplicates.other_material));
+  }
+  size_t kept = 0;
+  for (size_t t = 0; t < scene.triangles.size(); ++t) {
+    if (duplicates.is_duplicate[t]) continue;
+    scene.triangles[kept] = scene.triangles[t];
+    scene.triangle_object[kept] = scene.triangle_object[t];
+    triangle_material[kept++] = triangle_material[t];
+  }
+  scene.triangles.resize(kept);
+  scene.triangle_object.resize(kept);
+  triangle_material.resize(kept);
+}
+
+// Removes vertices that only dropped triangles used, keeping the order of the others.
+void compact_vertices(Scene& scene) {
+  std::vector<uint32_t> moved(scene.vertices.size(), none);
+  for (const Triangle& t : scene.triangles) {
+    for (uint32_t v : t) moved[v] = 0;
+  }
+  uint32_t kept = 0;
+  for (size_t v = 0; v < moved.size(); ++v) {
+    if (moved[v] == none) continue;
+    scene.vertices[kept] = scene.vertices[v];
+    moved[v] = kept++;
+  }
+  scene.vertices.resize(kept);
+  for (Triangle& t : scene.triangles) {
+    for (uint32_t& v : t) v = moved[v];
+  }
+}
+
+}  // namespace
+
+Scene build_scene(const RawScene& raw, ResolvedMaterials resolved) {
+  Scene scene;
+  scene.file = raw.file;
+  scene.report.warnings = raw.warnings;
+  std::move(resolved.warnings.begin(), resolved.warnings.end(), std::back_inserter(scene.report.warnings));
+  scene.materials = std::move(resolved.materials);
+  for (const RawMesh& mesh : raw.meshes) scene.objects.push_back(mesh.name);
+
+  Soup soup = gather(raw);
+  scene.origin_m = recentre(soup, raw.file);
+  std::vector<uint32_t> triangle_material;
+  weld_and_clean(scene, soup, resolved.mesh_material, triangle_material);
+  if (scene.triangles.empty()) throw InputError(fmt::format("{}: all triangles of the scene are degenerate", raw.file));
+  compact_vertices(scene);
+
+  const auto triangle_edges = find_edges(scene);
+  find_surfaces(scene, triangle_material, triangle_edges);
+  find_flat_edges(scene);
+  scene.lower = scene.upper = scene.vertices[0];
+  for (const dvec3& v : scene.vertices) {
+    scene.lower = glm::min(scene.lower, v);
+    scene.upper = glm::max(scene.upper, v);
+  }
+  return scene;
+}
+
+}  // namespace wavetracer

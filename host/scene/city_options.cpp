@@ -1,0 +1,85 @@
+// The options of `wavetracer scene city`, and of the key scene.generate.
+// Assumes blanks between words; values hold no blanks.
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "scene/city.hpp"
+#include "scene/materials.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr std::string_view usage =
+    "options: --seed N, --blocks NXxNY, --block-m N, --street-m N, --floors MIN:MAX, --ground ITU_MATERIAL";
+
+[[noreturn]] void fail(const std::string& what) { throw ConfigError(fmt::format("city: {}; {}", what, usage)); }
+
+template <class T>
+T whole(std::string_view key, std::string_view text, T least, T most) {
+  T value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) {
+    fail(fmt::format("{} '{}' must be a whole number from {} to {}", key, text, least, most));
+  }
+  return value;
+}
+
+// "6x4" or "3:9"; one number stands for both where that makes sense.
+std::pair<uint32_t, uint32_t> two(std::string_view key, std::string_view text, char separator, uint32_t most) {
+  const size_t at = text.find(separator);
+  const std::string_view second = at == std::string_view::npos ? text : text.substr(at + 1);
+  return {whole<uint32_t>(key, text.substr(0, at), 1, most), whole<uint32_t>(key, second, 1, most)};
+}
+
+void set(CityOptions& options, std::string_view key, std::string_view value) {
+  if (key == "--seed") {
+    options.seed = whole<uint64_t>(key, value, 0, std::numeric_limits<uint64_t>::max());
+  } else if (key == "--blocks") {
+    std::tie(options.blocks_x, options.blocks_y) = two(key, value, 'x', 100);
+  } else if (key == "--block-m") {
+    options.block_m = whole<uint32_t>(key, value, 60, 200);  // below 60 m the lots would have no room
+  } else if (key == "--street-m") {
+    options.street_m = whole<uint32_t>(key, value, 4, 100);
+  } else if (key == "--floors") {
+    std::tie(options.min_floors, options.max_floors) = two(key, value, ':', 100);
+    if (options.min_floors > options.max_floors)
+      fail(fmt::format("--floors '{}': the minimum is above the maximum", value));
+  } else if (key == "--ground") {
+    options.ground = value;
+    for (const Material& m : itu_materials()) {
+      if (m.name == value) return;
+    }
+    fail(fmt::format("--ground '{}' is no ITU material", value));
+  } else {
+    fail(fmt::format("unknown option '{}'", key));
+  }
+}
+
+}  // namespace
+
+CityOptions parse_city_options(std::string_view text) {
+  std::vector<std::string_view> words;
+  constexpr std::string_view blanks = " \t\r\n";
+  for (size_t begin = text.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    const size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(blanks, end);
+  }
+  CityOptions options;
+  for (size_t i = 0; i < words.size(); ++i) {
+    const size_t equals = words[i].find('=');
+    if (equals != std::string_view::npos) {
+      set(options, words[i].substr(0, equals), words[i].substr(equals + 1));
+    } else if (i + 1 < words.size()) {
+      set(options, words[i], words[i + 1]);
+      ++i;
+    } else {
+      set(options, words[i], "");
+    }
+  }
+  return options;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,76 @@
+// The report of `wavetracer scene info`.
+// Positions are in file coordinates, as users know them; counts are those after cleaning.
+#include "scene/info.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wavetracer {
+namespace {
+
+struct MaterialUse {
+  uint64_t triangles = 0, surfaces = 0;
+  double area_m2 = 0;
+};
+
+std::vector<MaterialUse> material_use(const Scene& scene) {
+  std::vector<MaterialUse> use(scene.materials.size());
+  for (const Surface& surface : scene.surfaces) {
+    use[surface.material].triangles += surface.triangle_count;
+    ++use[surface.material].surfaces;
+  }
+  for (size_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto& [a, b, c] = scene.triangles[t];
+    const glm::dvec3 u = scene.vertices[b] - scene.vertices[a], v = scene.vertices[c] - scene.vertices[a];
+    const double x = u.y * v.z - u.z * v.y, y = u.z * v.x - u.x * v.z, z = u.x * v.y - u.y * v.x;
+    use[scene.surfaces[scene.triangle_surface[t]].material].area_m2 += std::sqrt(x * x + y * y + z * z) / 2;
+  }
+  return use;
+}
+
+std::string electrical(const Material& m) {
+  if (m.b == 0 && m.d == 0) return fmt::format("permittivity {}, conductivity {} S/m", m.a, m.c);
+  return fmt::format("permittivity {} f^{}, conductivity {} f^{} S/m (f in GHz)", m.a, m.b, m.c, m.d);
+}
+
+std::string range(const Material& m) {
+  return std::isinf(m.max_ghz) ? std::string("any frequency") : fmt::format("{} to {} GHz", m.min_ghz, m.max_ghz);
+}
+
+}  // namespace
+
+std::string describe_scene(const Scene& scene) {
+  std::string out = fmt::format("scene      {}\n", scene.file);
+  const glm::dvec3 low = scene.lower + scene.origin_m, high = scene.upper + scene.origin_m, size = high - low;
+  out += fmt::format(
+      "extent     x {:.3f} to {:.3f}, y {:.3f} to {:.3f}, z {:.3f} to {:.3f} m ({:.1f} x {:.1f} x {:.1f})\n", low.x,
+      high.x, low.y, high.y, low.z, high.z, size.x, size.y, size.z);
+  out += fmt::format("origin     {:.0f}, {:.0f}, {:.0f} (coordinates are held relative to it)\n", scene.origin_m.x,
+                     scene.origin_m.y, scene.origin_m.z);
+  out += fmt::format("objects    {}\n", scene.objects.size());
+  out += fmt::format("triangles  {} with {} vertices\n", scene.triangles.size(), scene.vertices.size());
+  uint32_t largest = 0;
+  for (const Surface& s : scene.surfaces) largest = std::max(largest, s.triangle_count);
+  out += fmt::format("surfaces   {}, the largest of {} triangles\n", scene.surfaces.size(), largest);
+  const LoadReport& report = scene.report;
+  const auto flat = std::count_if(scene.edges.begin(), scene.edges.end(), [](const Edge& e) { return e.flat; });
+  out += fmt::format("edges      {}: {} with two faces, {} free, {} with more than two; {} flat, {} can diffract\n",
+                     scene.edges.size(), scene.edges.size() - report.free_edges - report.nonmanifold_edges,
+                     report.free_edges, report.nonmanifold_edges, flat, scene.edges.size() - static_cast<size_t>(flat));
+  out += fmt::format("materials  {}\n", scene.materials.size());
+  const std::vector<MaterialUse> use = material_use(scene);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& m = scene.materials[i];
+    const std::string thickness = std::isinf(m.thickness_m) ? "half space" : fmt::format("{} m thick", m.thickness_m);
+    out += fmt::format("  {:<20} {}, {}, {}; {} triangles, {} surfaces, {:.0f} m2\n", m.name, thickness, electrical(m),
+                       range(m), use[i].triangles, use[i].surfaces, use[i].area_m2);
+  }
+  out += fmt::format("dropped    {} degenerate and {} duplicate triangles; {} vertices welded into others\n",
+                     report.degenerate_triangles, report.duplicate_triangles, report.welded_vertices);
+  for (const std::string& warning : report.warnings) out += fmt::format("warning    {}\n", warning);
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,120 @@
+// Which reader a file needs, and the units and axes of the configuration.
+// Content decides before the suffix, so a renamed file loads and a wrong one is named for what it is.
+#include "scene/load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+
+#include "scene/build.hpp"
+#include "scene/city.hpp"
+#include "scene/mitsuba.hpp"
+#include "scene/model.hpp"
+#include "scene/ply.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+RawScene read_single_ply(const std::filesystem::path& path) {
+  PlyMesh ply = read_ply(path);
+  RawScene raw;
+  raw.file = path.string();
+  if (ply.small_faces > 0) {
+    raw.warnings.push_back(
+        fmt::format("{}: {} faces of fewer than three vertices were left out", raw.file, ply.small_faces));
+  }
+  raw.meshes.push_back(
+      {path.stem().string(), raw.file, std::move(ply.vertices), std::move(ply.triangles), no_material});
+  return raw;
+}
+
+std::string first_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw InputError(fmt::format("{}: no such file; scene.file is relative to the configuration file", path.string()));
+  }
+  if (std::filesystem::is_directory(path, error)) {
+    throw InputError(fmt::format("{}: is a folder; name the scene file inside it", path.string()));
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(fmt::format("{}: cannot be opened; check its permissions", path.string()));
+  std::string head(256, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(in.gcount()));
+  if (head.empty()) throw InputError(fmt::format("{}: the file is empty", path.string()));
+  return head;
+}
+
+RawScene read_raw(const std::filesystem::path& path) {
+  const std::string head = first_bytes(path);
+  if (head.starts_with("version https://git-lfs")) {
+    throw InputError(
+        fmt::format("{}: is a Git LFS pointer, not the file itself; fetch it with 'git lfs pull'", path.string()));
+  }
+  std::string_view text = head;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  std::string suffix = path.extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (text.starts_with('<') || suffix == ".xml") return read_mitsuba(path);
+  if (text.starts_with("ply\n") || text.starts_with("ply\r") || suffix == ".ply") return read_single_ply(path);
+  if (text.starts_with("glTF") || suffix == ".glb" || suffix == ".gltf" || suffix == ".obj") {
+    RawScene raw = read_model(path);
+    raw.y_up = suffix != ".obj";  // glTF 2.0, section 3.4
+    return raw;
+  }
+  throw InputError(
+      fmt::format("{}: the format is not known; known: Mitsuba XML, PLY, OBJ, glTF (.gltf, .glb)", path.string()));
+}
+
+// File units and axes to metres with z up.
+void apply_units(RawScene& raw, const SceneConfig& config) {
+  if (!(config.scale > 0) || !std::isfinite(config.scale)) {
+    throw ConfigError(fmt::format("scene.scale = {}: must be a positive number of metres a file unit", config.scale));
+  }
+  if (config.up != "auto" && config.up != "y" && config.up != "z") {
+    throw ConfigError(fmt::format("scene.up = \"{}\": known are \"auto\", \"y\" and \"z\"", config.up));
+  }
+  const bool y_up = config.up == "y" || (config.up == "auto" && raw.y_up);
+  for (RawMesh& mesh : raw.meshes) {
+    for (glm::dvec3& v : mesh.vertices) {
+      if (y_up) v = {v.x, -v.z, v.y};
+      v *= config.scale;
+    }
+  }
+}
+
+Scene finish(RawScene raw, const SceneConfig& scene, const std::vector<MaterialConfig>& materials,
+             double frequency_hz) {
+  apply_units(raw, scene);
+  ResolvedMaterials resolved = resolve_materials(raw, scene, materials, frequency_hz);
+  return build_scene(raw, std::move(resolved));
+}
+
+}  // namespace
+
+Scene load_scene(const Config& config) {
+  const SceneConfig& scene = config.scene;
+  if (scene.file.empty() == scene.generate.empty()) {
+    throw ConfigError(scene.file.empty()
+                          ? "no scene: set scene.file to a file, or scene.generate to options of 'scene city'"
+                          : "both scene.file and scene.generate are set: keep one");
+  }
+  if (!scene.generate.empty()) {
+    RawScene raw = generate_city(parse_city_options(scene.generate));
+    return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz);
+  }
+  return load_scene_file(scene.file, scene, config.materials, config.radio.frequency_hz);
+}
+
+Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
+                      const std::vector<MaterialConfig>& materials, double frequency_hz) {
+  return finish(read_raw(path), scene, materials, frequency_hz);
+}
+
+}  // namespace wavetracer

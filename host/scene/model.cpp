@@ -1,0 +1,105 @@
+// OBJ and glTF through assimp. Node transforms are applied here, in double.
+// Vertices are left as assimp reads them, one a corner: welding is one step for all formats (weld.hpp), and knows its
+// tolerance.
+#include "scene/model.hpp"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <glm/mat4x4.hpp>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+glm::dmat4 to_double(const aiMatrix4x4& m) {  // assimp is row major, glm column major
+  return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+}
+
+class ModelReader {
+ public:
+  ModelReader(const aiScene& scene, std::string file) : scene_(scene) {
+    raw_.file = std::move(file);
+    for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+      raw_.materials.push_back({scene.mMaterials[i]->GetName().C_Str(), raw_.file, {}, {}, {}, {}});
+    }
+  }
+
+  RawScene read() {
+    node(*scene_.mRootNode, glm::dmat4(1));
+    const double float_spacing = largest_ * 0x1p-23;
+    if (float_spacing > 1e-3) {
+      raw_.warnings.push_back(
+          fmt::format("{}: coordinates reach {:.0f}, where float32 keeps only {:.3g}: move the model to its origin, or "
+                      "use PLY with "
+                      "double coordinates",
+                      raw_.file, largest_, float_spacing));
+    }
+    return std::move(raw_);
+  }
+
+ private:
+  void node(const aiNode& n, const glm::dmat4& parent) {
+    const glm::dmat4 to_root = parent * to_double(n.mTransformation);
+    for (unsigned i = 0; i < n.mNumMeshes; ++i) mesh(*scene_.mMeshes[n.mMeshes[i]], n, to_root);
+    for (unsigned i = 0; i < n.mNumChildren; ++i) node(*n.mChildren[i], to_root);
+  }
+
+  void mesh(const aiMesh& in, const aiNode& n, const glm::dmat4& to_root) {
+    if ((in.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return;  // points and lines
+    RawMesh out;
+    out.name = n.mName.length > 0 ? n.mName.C_Str() : in.mName.C_Str();
+    out.where = raw_.file;
+    const std::string_view material = raw_.materials.at(in.mMaterialIndex).name;
+    if (material != AI_DEFAULT_MATERIAL_NAME && !material.empty()) out.material = in.mMaterialIndex;
+    out.vertices.reserve(in.mNumVertices);
+    for (unsigned i = 0; i < in.mNumVertices; ++i) {
+      const aiVector3D& v = in.mVertices[i];
+      const glm::dvec3 p(to_root * glm::dvec4(v.x, v.y, v.z, 1));
+      const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      if (!std::isfinite(p.x + p.y + p.z)) {
+        throw InputError(fmt::format("{}: mesh '{}': vertex {} is not finite", raw_.file, out.name, i));
+      }
+      largest_ = std::max(largest_, reach);
+      out.vertices.push_back(p);
+    }
+    out.triangles.reserve(in.mNumFaces);
+    for (unsigned i = 0; i < in.mNumFaces; ++i) {
+      const aiFace& f = in.mFaces[i];
+      if (f.mNumIndices != 3) continue;
+      Triangle t;
+      for (unsigned k = 0; k < 3; ++k) {
+        t[k] = f.mIndices[k];
+        if (t[k] >= in.mNumVertices) {
+          throw InputError(
+              fmt::format("{}: mesh '{}': face {}: vertex index {} is out of range, the mesh has {} vertices",
+                          raw_.file, out.name, i, t[k], in.mNumVertices));
+        }
+      }
+      out.triangles.push_back(t);
+    }
+    raw_.meshes.push_back(std::move(out));
+  }
+
+  const aiScene& scene_;
+  RawScene raw_;
+  double largest_ = 0;
+};
+
+}  // namespace
+
+RawScene read_model(const std::filesystem::path& path) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+  if (!scene || !scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {
+    throw InputError(fmt::format("{}: cannot be read: {}", path.string(), importer.GetErrorString()));
+  }
+  return ModelReader(*scene, path.string()).read();
+}
+
+}  // namespace wavetracer

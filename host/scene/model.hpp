@@ -1,0 +1,14 @@
+// OBJ and glTF models through assimp: meshes in the frame of the file's root, materials by name only.
+// Assumes models near their origin: assimp keeps coordinates as float32, and a warning says so where that costs over 1
+// mm.
+#pragma once
+#include <filesystem>
+
+#include "scene/raw_scene.hpp"
+
+namespace wavetracer {
+
+// Throws InputError that names the file and the mesh.
+RawScene read_model(const std::filesystem::path& path);
+
+}  // namespace wavetracer

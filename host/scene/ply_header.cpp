@@ -1,0 +1,143 @@
+// The header of a PLY file, after G. Turk, "The PLY polygon file format" (1994), with the type names that later tools
+// added (int8, float32, ...). Assumes lines that end in \n or \r\n.
+#include "scene/ply_header.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::ply {
+
+size_t size_of(Type type) {
+  constexpr size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return sizes[static_cast<size_t>(type)];
+}
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
+
+namespace {
+
+std::optional<Type> type_named(std::string_view name) {
+  struct Named {
+    std::string_view turk, sized;
+    Type type;
+  };
+  constexpr Named names[] = {{"char", "int8", Type::i8},      {"uchar", "uint8", Type::u8},
+                             {"short", "int16", Type::i16},   {"ushort", "uint16", Type::u16},
+                             {"int", "int32", Type::i32},     {"uint", "uint32", Type::u32},
+                             {"float", "float32", Type::f32}, {"double", "float64", Type::f64}};
+  for (const Named& n : names) {
+    if (name == n.turk || name == n.sized) return n.type;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> words(std::string_view line) {
+  std::vector<std::string_view> out;
+  for (size_t i = 0; i < line.size();) {
+    while (i < line.size() && is_space(line[i])) ++i;
+    const size_t begin = i;
+    while (i < line.size() && !is_space(line[i])) ++i;
+    if (i > begin) out.push_back(line.substr(begin, i - begin));
+  }
+  return out;
+}
+
+class HeaderParser {
+ public:
+  HeaderParser(std::string_view content, const std::string& file) : content_(content), file_(file) {}
+
+  Header parse() {
+    if (next_line() != "ply") fail("not a PLY file: its first line must be 'ply'");
+    while (true) {
+      const std::string_view line = next_line();
+      const auto word = words(line);
+      if (word.empty() || word[0] == "comment" || word[0] == "obj_info") continue;
+      if (word[0] == "end_header") break;
+      if (word[0] == "format") {
+        set_format(word);
+      } else if (word[0] == "element") {
+        add_element(word);
+      } else if (word[0] == "property") {
+        add_property(word);
+      } else {
+        fail(fmt::format("unknown header word '{}'", word[0]));
+      }
+    }
+    if (!has_format_) fail("the header has no 'format' line");
+    header_.size = position_;
+    return std::move(header_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", file_, line_, what));
+  }
+
+  std::string_view next_line() {
+    const size_t end = content_.find('\n', position_);
+    ++line_;
+    if (end == std::string_view::npos) fail("the PLY header has no 'end_header': the file is cut, or not a PLY file");
+    std::string_view line = content_.substr(position_, end - position_);
+    position_ = end + 1;
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    return line;
+  }
+
+  void set_format(const std::vector<std::string_view>& word) {
+    const std::string_view name = word.size() > 1 ? word[1] : std::string_view();
+    if (name == "ascii") {
+      header_.format = Format::ascii;
+    } else if (name == "binary_little_endian") {
+      header_.format = Format::little;
+    } else if (name == "binary_big_endian") {
+      header_.format = Format::big;
+    } else {
+      fail(fmt::format("unknown PLY format '{}'; known: ascii, binary_little_endian, binary_big_endian", name));
+    }
+    has_format_ = true;
+  }
+
+  void add_element(const std::vector<std::string_view>& word) {
+    Element element;
+    if (word.size() != 3) fail("an element line is 'element NAME COUNT'");
+    element.name = word[1];
+    const auto [end, error] = std::from_chars(word[2].data(), word[2].data() + word[2].size(), element.count);
+    if (error != std::errc() || end != word[2].data() + word[2].size()) {
+      fail(fmt::format("element '{}' has the count '{}', not a whole number", word[1], word[2]));
+    }
+    header_.elements.push_back(std::move(element));
+  }
+
+  void add_property(const std::vector<std::string_view>& word) {
+    if (header_.elements.empty()) fail("a property comes before the first element");
+    const bool list = word.size() == 5 && word[1] == "list";
+    if (!list && word.size() != 3) fail("a property line is 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+    Property property;
+    property.name = word.back();
+    property.type = type(word[list ? 3 : 1]);
+    if (list) property.count = type(word[2]);
+    if (property.count && *property.count >= Type::f32) fail("the length of a list must have an integer type");
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  Type type(std::string_view name) const {
+    const auto found = type_named(name);
+    if (!found) fail(fmt::format("unknown property type '{}'", name));
+    return *found;
+  }
+
+  std::string_view content_;
+  const std::string& file_;
+  Header header_;
+  bool has_format_ = false;
+  size_t position_ = 0, line_ = 0;
+};
+
+}  // namespace
+
+Header parse_header(std::string_view content, const std::string& file) { return HeaderParser(content, file).parse(); }
+
+}  // namespace wavetracer::ply

@@ -1,0 +1,16 @@
+// Polygons into triangles: a fan where the polygon is convex, ears where it is not.
+// Assumes simple polygons (no self-intersection), planar up to noise; there are no holes.
+#pragma once
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/raw_scene.hpp"
+
+namespace wavetracer {
+
+// Appends polygon.size() - 2 triangles (indices into vertices, winding kept) to out.
+void triangulate_polygon(std::span<const glm::dvec3> vertices, std::span<const uint32_t> polygon,
+                         std::vector<Triangle>& out);
+
+}  // namespace wavetracer

@@ -1,0 +1,41 @@
+// What a reader hands over: meshes and material definitions as the file has them, nothing welded, nothing resolved.
+// Coordinates are double, in file units and file axes; indices are valid and coordinates finite once a reader returns.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wavetracer {
+
+using Triangle = std::array<uint32_t, 3>;
+
+// A material as the file defines it. Without an ITU type and a permittivity only its name says what it is.
+struct RawMaterial {
+  std::string name;   // as in the file, prefixes kept
+  std::string where;  // "file:line", for messages
+  std::optional<std::string> itu_type;
+  std::optional<double> permittivity, conductivity_s_m, thickness_m;
+};
+
+constexpr uint32_t no_material = 0xFFFFFFFFu;
+
+struct RawMesh {
+  std::string name;
+  std::string where;  // the file that holds it, with the line where one is known
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;  // into vertices
+  uint32_t material = no_material;  // into RawScene::materials
+};
+
+struct RawScene {
+  std::string file;
+  std::vector<RawMesh> meshes;
+  std::vector<RawMaterial> materials;
+  std::vector<std::string> warnings;
+  bool y_up = false;  // what the format prescribes; scene.up overrides it
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,39 @@
+// Edges of the welded mesh, and the planar surfaces its triangles form.
+// Assumes Scene::vertices and Scene::triangles final: welded, no degenerate or duplicate triangles.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer {
+
+// Corners may stray this far from the plane of their surface: twice what welding moves a vertex.
+constexpr double plane_tolerance_m = 2e-3;
+// Normals of one surface may differ by 0.45 mrad (1 - cos): 2 mm over 4.5 m, so flat curves are not merged.
+constexpr double normal_tolerance = 1e-7;
+// A triangle lower than this is judged by its corners only: its normal is rounding noise (0.1 mm of a float32 file are
+// 5 mrad of 20 mm), and a strip below half a wavelength mirrors nothing by itself.
+constexpr double sliver_height_m = 0.02;
+
+// The unit normal of triangle t by its winding, and its height over the longest side (metres).
+struct TriangleShape {
+  glm::dvec3 normal;
+  double area_m2, height_m;
+};
+TriangleShape shape_of(const Scene& scene, uint32_t t);
+
+// Fills edges and edge_faces, sorted by vertex pair, and the counts of free and non-manifold edges.
+// Returns the three edges of every triangle, edge k between corners k and k + 1.
+std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene);
+
+// Fills surfaces, surface_triangles and triangle_surface. Surfaces are numbered by their lowest triangle.
+void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
+                   std::span<const std::array<uint32_t, 3>> triangle_edges);
+
+// Fills Edge::flat.
+void find_flat_edges(Scene& scene);
+
+}  // namespace wavetracer

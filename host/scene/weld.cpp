@@ -1,0 +1,115 @@
+// Welding by a hash grid of cells four tolerances wide: each vertex looks into the cells within one tolerance of it,
+// 3.4 on average, so that no pair is split by a border. Groups are kept in a union-find forest whose roots are lowest.
+#include "scene/weld.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace wavetracer {
+namespace {
+
+constexpr uint32_t none = 0xFFFFFFFFu;
+
+class Forest {
+ public:
+  explicit Forest(size_t count) : parent_(count) {
+    for (size_t i = 0; i < count; ++i) parent_[i] = static_cast<uint32_t>(i);
+  }
+  uint32_t root(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<uint32_t> parent_;
+};
+
+uint64_t mix(uint64_t x) {  // the finalizer of splitmix64 (Steele, Lea and Flood 2014)
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  return x ^ (x >> 31);
+}
+
+// Chains of distinct positions, one a hash bucket. Different cells may share a bucket: distances decide, not keys.
+class Grid {
+ public:
+  Grid(std::span<const glm::dvec3> vertices, double tolerance_m)
+      : vertices_(vertices),
+        tolerance_m_(tolerance_m),
+        cell_m_(4 * tolerance_m),
+        head_(std::bit_ceil(vertices.size() * 2 + 1), none),
+        next_(vertices.size(), none) {}
+
+  // Joins vertex i with all earlier ones within the tolerance, then adds it unless its very position is there.
+  void add(uint32_t i, Forest& forest) {
+    const glm::dvec3 p = vertices_[i];
+    std::array<int64_t, 3> low, high;
+    const double reach = tolerance_m_ * (1 + 1e-6) + 1e-12 * glm::length(p);  // covers the rounding of p - reach
+    for (int k = 0; k < 3; ++k) {
+      low[static_cast<size_t>(k)] = cell(p[k] - reach);
+      high[static_cast<size_t>(k)] = cell(p[k] + reach);
+    }
+    bool known = false;
+    for (int64_t x = low[0]; x <= high[0]; ++x) {
+      for (int64_t y = low[1]; y <= high[1]; ++y) {
+        for (int64_t z = low[2]; z <= high[2]; ++z) known |= join_chain(head_[bucket(x, y, z)], i, forest);
+      }
+    }
+    if (known) return;
+    uint32_t& head = head_[bucket(cell(p.x), cell(p.y), cell(p.z))];
+    next_[i] = head;
+    head = i;
+  }
+
+ private:
+  int64_t cell(double x) const { return static_cast<int64_t>(std::floor(x / cell_m_)); }
+  size_t bucket(int64_t x, int64_t y, int64_t z) const {
+    const uint64_t h = mix(static_cast<uint64_t>(x) + mix(static_cast<uint64_t>(y) + mix(static_cast<uint64_t>(z))));
+    return static_cast<size_t>(h & (head_.size() - 1));
+  }
+  // True when the chain holds the exact position of i.
+  bool join_chain(uint32_t j, uint32_t i, Forest& forest) const {
+    for (; j != none; j = next_[j]) {
+      const glm::dvec3 d = vertices_[j] - vertices_[i];
+      if (glm::dot(d, d) > tolerance_m_ * tolerance_m_) continue;
+      forest.join(i, j);
+      if (d == glm::dvec3(0)) return true;
+    }
+    return false;
+  }
+
+  std::span<const glm::dvec3> vertices_;
+  double tolerance_m_, cell_m_;
+  std::vector<uint32_t> head_, next_;
+};
+
+}  // namespace
+
+Weld weld_vertices(std::span<const glm::dvec3> vertices, double tolerance_m) {
+  Forest forest(vertices.size());
+  Grid grid(vertices, tolerance_m);
+  for (uint32_t i = 0; i < vertices.size(); ++i) grid.add(i, forest);
+  Weld weld;
+  weld.vertex.resize(vertices.size());
+  for (uint32_t i = 0; i < vertices.size(); ++i) {
+    const uint32_t root = forest.root(i);
+    if (root == i) {
+      weld.vertex[i] = static_cast<uint32_t>(weld.positions.size());
+      weld.positions.push_back(vertices[i]);
+    } else {
+      weld.vertex[i] = weld.vertex[root];  // the root is lower, so it is known
+      weld.widest_m = std::max(weld.widest_m, glm::distance(vertices[i], vertices[root]));
+    }
+  }
+  return weld;
+}
+
+}  // namespace wavetracer

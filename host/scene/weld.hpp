@@ -1,0 +1,25 @@
+// Welding: vertices that are the same point of the world become one, across all meshes.
+// Assumes finite coordinates below about 10^9 tolerances times 10^6 (whole cells must fit into 63 bits).
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace wavetracer {
+
+// 1 mm: above the rounding of float32 files (0.06 mm at 1 km, 0.5 mm at 8 km) and of modelling tools that snap to
+// millimetres, below any detail that matters to waves of centimetres (5.9 GHz: 51 mm).
+constexpr double weld_tolerance_m = 1e-3;
+
+struct Weld {
+  std::vector<uint32_t> vertex;       // input vertex -> entry of positions
+  std::vector<glm::dvec3> positions;  // of each group's first vertex, in order of first vertices
+  double widest_m = 0;                // the largest distance of a vertex from the position that it got
+};
+
+// Vertices closer than the tolerance share a group, and so do vertices linked by a chain of such pairs: the groups do
+// not depend on the order of the vertices. Each group takes the exact position of its lowest vertex.
+Weld weld_vertices(std::span<const glm::dvec3> vertices, double tolerance_m);
+
+}  // namespace wavetracer

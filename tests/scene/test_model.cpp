@@ -1,0 +1,147 @@
+// OBJ and GLB through assimp, units, axes, and the choice of the reader.
+// The GLB file is put together here from its parts, after section 4.4 of the glTF 2.0 specification.
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "scene/info.hpp"
+#include "scene_files.hpp"
+#include "wavetracer/error.hpp"
+
+using namespace wavetracer;
+using doctest::Contains;
+
+namespace {
+
+void put32(std::string& out, uint32_t bits) {
+  for (unsigned shift = 0; shift < 32; shift += 8) out.push_back(static_cast<char>(bits >> shift & 0xFFu));
+}
+
+// One triangle (0 0 0) (2 0 0) (0 3 0) under two nodes: moved by (10, 20, 30), then doubled, glTF axes.
+std::string triangle_glb() {
+  std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+      R"("nodes":[{"scale":[2,2,2],"children":[1]},{"name":"sail","mesh":0,"translation":[10,20,30]}],)"
+      R"("materials":[{"name":"cloth"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],)"
+      R"("buffers":[{"byteLength":44}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[2,3,0]},)"
+      R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
+  while (json.size() % 4 != 0) json += ' ';
+  std::string data;
+  for (float x : {0.f, 0.f, 0.f, 2.f, 0.f, 0.f, 0.f, 3.f, 0.f}) put32(data, std::bit_cast<uint32_t>(x));
+  put32(data, 1u << 16);  // indices 0, 1
+  put32(data, 2);         // index 2 and padding
+  std::string out = "glTF";
+  put32(out, 2);
+  put32(out, static_cast<uint32_t>(12 + 8 + json.size() + 8 + data.size()));
+  put32(out, static_cast<uint32_t>(json.size()));
+  out += "JSON" + json;
+  put32(out, static_cast<uint32_t>(data.size()));
+  return out + std::string("BIN\0", 4) + data;
+}
+
+const std::string obj =
+    "o front\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nusemtl itu_glass\nf 1//1 2//1 3//1 4//1\n"
+    "o side\nv 1 0 -1\nv 1 1 -1\nusemtl brickwork\nf 2 5 6 3\n";
+
+}  // namespace
+
+TEST_CASE("GLB: node transforms, y up, material names through the alias table") {
+  const test::TemporaryFolder folder;
+  SceneConfig config;
+  config.material_alias["cloth"] = "wood";
+  const auto file = folder.write("sail.glb", triangle_glb());
+  Scene scene = load_scene_file(file, config);
+  REQUIRE(scene.triangles.size() == 1);
+  CHECK(scene.objects[0] == "sail");
+  CHECK(scene.materials[0].name == "wood");
+  // y up: (x, y, z) -> (x, -z, y), after 2 * (p + (10, 20, 30)).
+  CHECK(scene.lower + scene.origin_m == glm::dvec3(20, -60, 40));
+  CHECK(scene.upper + scene.origin_m == glm::dvec3(24, -60, 46));
+  config.up = "z";
+  config.scale = 0.5;
+  scene = load_scene_file(file, config);
+  CHECK(scene.lower + scene.origin_m == glm::dvec3(10, 20, 30));
+  CHECK(scene.upper + scene.origin_m == glm::dvec3(12, 23, 30));
+  CHECK_THROWS_WITH_AS(load_scene_file(file, {}), Contains("sail.glb: mesh 'sail': the material 'cloth' is not known"),
+                       InputError);
+}
+
+TEST_CASE("OBJ: objects, materials without a library, quadrilaterals, scale") {
+  const test::TemporaryFolder folder;
+  SceneConfig config;
+  config.material_alias["brickwork"] = "itu_brick";
+  config.scale = 10;
+  const Scene scene = load_scene_file(folder.write("corner.obj", obj), config);
+  CHECK(scene.triangles.size() == 4);
+  CHECK(scene.vertices.size() == 6);
+  CHECK(scene.surfaces.size() == 2);
+  CHECK(scene.report.free_edges == 6);
+  CHECK(scene.edges.size() == 9);
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.materials[0].name == "glass");
+  CHECK(scene.materials[1].name == "brick");
+  CHECK(scene.upper - scene.lower == glm::dvec3(10, 10, 10));
+}
+
+TEST_CASE("models: errors and warnings") {
+  const test::TemporaryFolder folder;
+  const SceneConfig config = test::of_concrete();
+  const auto load = [&](const char* name, const std::string& content) {
+    load_scene_file(folder.write(name, content), config);
+  };
+  CHECK_THROWS_WITH_AS(load("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), Contains("a.obj"), InputError);
+  CHECK_THROWS_WITH_AS(load("b.obj", "v 0 0 0\n"), Contains("b.obj"), InputError);
+  CHECK_THROWS_WITH_AS(load("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), Contains("nan.obj"), InputError);
+  CHECK_THROWS_WITH_AS(load("c.glb", triangle_glb().substr(0, 200)), Contains("c.glb"), InputError);
+  CHECK_THROWS_WITH_AS(load("d.stl", "solid d\n"), Contains("the format is not known; known: Mitsuba XML"), InputError);
+  CHECK_THROWS_WITH_AS(load("e.obj", ""), Contains("the file is empty"), InputError);
+  CHECK_THROWS_WITH_AS(load("f.ply", "version https://git-lfs.github.com/spec/v1\n"), Contains("git lfs pull"),
+                       InputError);
+  CHECK_THROWS_WITH_AS(load_scene_file(folder.path(), config), Contains("is a folder"), InputError);
+  CHECK_THROWS_WITH_AS(load_scene_file(folder.path() / "gone.xml", config), Contains("no such file"), InputError);
+  const Scene far =
+      load_scene_file(folder.write("utm.obj", "v 691000 0 0\nv 691100 0 0\nv 691000 100 0\nf 1 2 3\n"), config);
+  REQUIRE(far.report.warnings.size() == 1);
+  CHECK(far.report.warnings[0].find("float32 keeps only") != std::string::npos);
+}
+
+TEST_CASE("scene keys of the configuration") {
+  const test::TemporaryFolder folder;
+  Config config;
+  CHECK_THROWS_WITH_AS(load_scene(config), Contains("no scene: set scene.file"), ConfigError);
+  config.scene.file = folder.write("square", test::square_ply("4 0 1 2 3\n", 1)).string();  // known by its content
+  config.scene.generate = "--seed 1";
+  CHECK_THROWS_WITH_AS(load_scene(config), Contains("both scene.file and scene.generate"), ConfigError);
+  config.scene.generate.clear();
+  config.scene.default_material = "brick";
+  CHECK(load_scene(config).surfaces.size() == 1);
+  config.scene.scale = 0;
+  CHECK_THROWS_WITH_AS(load_scene(config), Contains("scene.scale = 0"), ConfigError);
+  config.scene.scale = 1;
+  config.scene.up = "x";
+  CHECK_THROWS_WITH_AS(load_scene(config), Contains("scene.up = \"x\""), ConfigError);
+  config.scene.up = "y";
+  const Scene upright = load_scene(config);
+  CHECK(upright.surfaces[0].normal == glm::dvec3(0, 1, 0));
+  CHECK(upright.upper.z - upright.lower.z == 1);
+}
+
+TEST_CASE("the scenes that come with the program") {
+  const std::filesystem::path folder = std::filesystem::path(WAVETRACER_SOURCE) / "configs/scenes";
+  const Scene room = load_scene_file(folder / "room/room.xml", {});
+  CHECK(room.triangles.size() == 12);
+  CHECK(room.surfaces.size() == 6);
+  CHECK(room.report.free_edges == 0);
+  CHECK(room.materials[0].thickness_m == 0.2);
+  const Scene corner = load_scene_file(folder / "corner/corner.obj", {});
+  CHECK(corner.surfaces.size() == 3);
+  CHECK(corner.materials.size() == 2);
+  SceneConfig metal;
+  metal.default_material = "metal";
+  const Scene car = load_scene_file(folder / "car.ply", metal);
+  CHECK(car.surfaces.size() == 10);
+  CHECK(car.report.free_edges == 0);
+  CHECK(describe_scene(car).find("surfaces   10, ") != std::string::npos);
+}

@@ -1,0 +1,79 @@
+// The scenes of Sionna RT, where the folder with them is there: counts, and the time that munich takes.
+// Expected counts of munich come from a separate count of its PLY files (exact positions rounded to the weld
+// tolerance).
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "scene/load.hpp"
+#include "wavetracer/error.hpp"
+
+using namespace wavetracer;
+
+namespace {
+
+const std::filesystem::path scenes = std::filesystem::path(WAVETRACER_SHARED) / "scenes";
+
+bool absent() {
+  if (std::filesystem::exists(scenes)) return false;
+  MESSAGE("skipped: no folder ", scenes.string(), " (CMake option WAVETRACER_SHARED)");
+  return true;
+}
+
+Scene load(const std::string& name) { return load_scene_file(scenes / name / (name + ".xml"), {}); }
+
+}  // namespace
+
+TEST_CASE("small shared scenes") {
+  if (absent()) return;
+  struct Expected {
+    const char* name;
+    size_t triangles, surfaces, free_edges;
+  };
+  constexpr Expected expected[] = {{"box", 12, 6, 0},
+                                   {"box_one_screen", 14, 7, 4},
+                                   {"box_two_screens", 16, 8, 8},
+                                   {"floor_wall", 4, 2, 8},
+                                   {"simple_reflector", 2, 1, 4},
+                                   {"double_reflector", 4, 2, 8},
+                                   {"triple_reflector", 6, 3, 12},
+                                   {"simple_wedge", 4, 2, 6},
+                                   {"simple_street_canyon", 74, 37, 4},
+                                   {"simple_street_canyon_with_cars", 234, 101, 4}};
+  for (const Expected& e : expected) {
+    CAPTURE(e.name);
+    const Scene scene = load(e.name);
+    CHECK(scene.triangles.size() == e.triangles);
+    CHECK(scene.surfaces.size() == e.surfaces);
+    CHECK(scene.report.free_edges == e.free_edges);
+    CHECK(scene.report.nonmanifold_edges == 0);
+    CHECK(scene.report.warnings.empty());
+  }
+  CHECK(load("box").materials[0].thickness_m == 1);
+}
+
+TEST_CASE("munich") {
+  if (absent()) return;
+  const Scene scene = load("munich");
+  CHECK(scene.objects.size() == 2367);
+  CHECK(scene.triangles.size() == 38938);
+  CHECK(scene.edges.size() == 62002);
+  CHECK(scene.report.free_edges == 7217);
+  CHECK(scene.report.nonmanifold_edges == 14);
+  CHECK(scene.surfaces.size() > 17000);
+  CHECK(scene.surfaces.size() < 17432);  // what merging without the rule for slivers gives
+  CHECK(scene.materials.size() == 5);
+  CHECK(scene.report.warnings.empty());
+}
+
+TEST_CASE("a vehicle body without a material") {
+  if (absent()) return;
+  SceneConfig config;
+  CHECK_THROWS_AS(load_scene_file(scenes / "low_poly_car.ply", config), InputError);
+  config.default_material = "metal";
+  const Scene car = load_scene_file(scenes / "low_poly_car.ply", config);
+  CHECK(car.triangles.size() == 20);
+  CHECK(car.report.free_edges == 0);
+}
