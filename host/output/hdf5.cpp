@@ -1,0 +1,131 @@
+// The few HDF5 operations that the outputs need, each checked, each closing what it opened.
+// Strings are stored as variable-length UTF-8, so that a config text may exceed the 64 KiB of a fixed attribute.
+#include "output/hdf5.hpp"
+#include <fmt/format.h>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::hdf5 {
+namespace {
+
+herr_t innermost(unsigned depth, const H5E_error2_t* entry, void* reason) {
+  if (depth == 0 && entry->desc) *static_cast<std::string*>(reason) = entry->desc;
+  return 0;
+}
+
+Id string_type() {
+  Id type(H5Tcopy(H5T_C_S1), H5Tclose, "make a string type");
+  checked(H5Tset_size(type, H5T_VARIABLE), "make a string type");
+  checked(H5Tset_cset(type, H5T_CSET_UTF8), "make a string type");
+  return type;
+}
+
+Id simple_space(const std::vector<hsize_t>& shape) {
+  return Id(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "make a data space");
+}
+
+Id make_dataset(hid_t file, const std::string& path, const Meaning& meaning, hid_t type, hid_t space) {
+  Id dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+             "create dataset " + path);
+  write_attribute(dataset, "units", meaning.units);
+  write_attribute(dataset, "description", meaning.description);
+  return dataset;
+}
+
+void write_attribute(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type, hid_t space,
+                     const void* value) {
+  const Id attribute(H5Acreate2(object, name.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                     "create attribute " + name);
+  checked(H5Awrite(attribute, memory_type, value), "write attribute " + name);
+}
+
+Id memory_access() {
+  constexpr size_t growth_bytes = size_t{1} << 20;
+  Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up a file in memory");
+  checked(H5Pset_fapl_core(access, growth_bytes, /*backing_store=*/0), "set up a file in memory");
+  return access;
+}
+
+}  // namespace
+
+hid_t checked(hid_t result, const std::string& doing) {
+  if (result >= 0) return result;
+  std::string reason = "no reason given";
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, innermost, &reason);
+  throw RuntimeError(fmt::format("HDF5 cannot {}: {}; is there memory left?", doing, reason));
+}
+
+Silence::Silence() {
+  H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Silence::~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const Id type = string_type();
+  const Id space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+  const char* value = text.c_str();
+  write_attribute(object, name, type, type, space, &value);
+}
+
+void write_attribute(hid_t object, const std::string& name, std::span<const double> values) {
+  write_attribute(object, name, Type<double>::file(), Type<double>::memory(), simple_space({values.size()}),
+                  values.data());
+}
+
+void write_attribute(hid_t object, const std::string& name, uint32_t value) {
+  const Id space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+  write_attribute(object, name, Type<uint32_t>::file(), Type<uint32_t>::memory(), space, &value);
+}
+
+File::File()
+    : access_(memory_access()),
+      id_(H5Fcreate("wavetracer-in-memory.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access_), H5Fclose,
+          "create a file in memory") {}
+
+std::span<const std::byte> File::image() {
+  checked(H5Fflush(id_, H5F_SCOPE_LOCAL), "finish a file in memory");
+  const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
+  checked(size, "measure a file in memory");
+  // The handle of the core driver is the address of its pointer to the bytes: no copy of the whole file is needed.
+  void* handle = nullptr;
+  checked(H5Fget_vfd_handle(id_, access_, &handle), "read a file in memory");
+  return {*static_cast<const std::byte* const*>(handle), static_cast<size_t>(size)};
+}
+
+Id File::make_group(const std::string& path, const std::string& description) {
+  Id group(H5Gcreate2(id_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group " + path);
+  write_attribute(group, "description", description);
+  return group;
+}
+
+void File::write_strings(const std::string& path, const Meaning& meaning, const std::vector<std::string>& values) {
+  const Id type = string_type();
+  const Id dataset = make_dataset(id_, path, meaning, type, simple_space({values.size()}));
+  std::vector<const char*> pointers;
+  for (const std::string& value : values) pointers.push_back(value.c_str());
+  if (!pointers.empty())
+    checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write dataset " + path);
+}
+
+Table::Table(const File& file, const std::string& path, const Meaning& meaning, hid_t file_type,
+             std::vector<hsize_t> shape)
+    : path_(path),
+      shape_(std::move(shape)),
+      space_(simple_space(shape_)),
+      dataset_(make_dataset(file.id(), path, meaning, file_type, space_)) {
+  for (size_t i = 1; i < shape_.size(); ++i) row_values_ *= shape_[i];
+}
+
+void Table::append(hid_t memory_type, const void* values, size_t count) {
+  if (count == 0) return;
+  std::vector<hsize_t> start(shape_.size(), 0), block = shape_;
+  start[0] = next_row_;
+  block[0] = count / row_values_;
+  checked(H5Sselect_hyperslab(space_, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
+          "select rows of " + path_);
+  checked(H5Dwrite(dataset_, memory_type, simple_space(block), space_, H5P_DEFAULT, values), "write dataset " + path_);
+  next_row_ += block[0];
+}
+
+}  // namespace wavetracer::hdf5

@@ -1,0 +1,124 @@
+// The HDF5 C library with C++ lifetimes and exceptions; the only header that includes hdf5.h.
+// Files are built in memory: HDF5 1.10 may crash when a file that it writes itself meets a full disk.
+#pragma once
+#include <hdf5.h>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wavetracer::hdf5 {
+
+// Returns the result, or throws RuntimeError with the library's own reason if it is negative.
+hid_t checked(hid_t result, const std::string& doing);
+
+// An identifier of the library, closed with the call that belongs to its kind.
+class Id {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Id(hid_t id, Close close, const std::string& doing) : id_(checked(id, doing)), close_(close) {}
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Id& operator=(Id&&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+// While it lives, the library prints no error stacks to stderr: failures are exceptions.
+class Silence {
+ public:
+  Silence();
+  ~Silence();
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* print_data_ = nullptr;
+};
+
+template <typename T>
+struct Type;
+template <>
+struct Type<uint8_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT8; }
+  static hid_t file() { return H5T_STD_U8LE; }
+};
+template <>
+struct Type<uint32_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT32; }
+  static hid_t file() { return H5T_STD_U32LE; }
+};
+template <>
+struct Type<uint64_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT64; }
+  static hid_t file() { return H5T_STD_U64LE; }
+};
+template <>
+struct Type<double> {
+  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
+  static hid_t file() { return H5T_IEEE_F64LE; }
+};
+
+// What a reader must know about a dataset: attributes "units" (SI, "1" for pure numbers) and "description".
+struct Meaning {
+  std::string units;
+  std::string description;
+};
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, std::span<const double> values);
+void write_attribute(hid_t object, const std::string& name, uint32_t value);
+
+// A file in memory. Its image is what the file on disk must hold.
+class File {
+ public:
+  File();
+  hid_t id() const { return id_; }
+  // The bytes of the file, valid until the file changes or goes.
+  std::span<const std::byte> image();
+  Id make_group(const std::string& path, const std::string& description);
+  void write_strings(const std::string& path, const Meaning& meaning, const std::vector<std::string>& values);
+
+ private:
+  Silence silence_;
+  Id access_;
+  Id id_;
+};
+
+// A dataset of rows, of the shape (rows, inner...), filled from its first row on, a block at a time.
+// Contiguous and not compressed: tools can map it, and path data hardly compresses.
+class Table {
+ public:
+  Table(const File& file, const std::string& path, const Meaning& meaning, hid_t file_type, std::vector<hsize_t> shape);
+  void append(hid_t memory_type, const void* values, size_t count);
+
+ private:
+  std::string path_;
+  std::vector<hsize_t> shape_;
+  hsize_t row_values_ = 1;  // values in one row
+  hsize_t next_row_ = 0;
+  Id space_;
+  Id dataset_;
+};
+
+template <typename T>
+class Rows {
+ public:
+  Rows(const File& file, const std::string& path, const Meaning& meaning, std::vector<hsize_t> shape)
+      : table_(file, path, meaning, Type<T>::file(), std::move(shape)) {}
+  // Whole rows.
+  void append(std::span<const T> values) { table_.append(Type<T>::memory(), values.data(), values.size()); }
+
+ private:
+  Table table_;
+};
+
+}  // namespace wavetracer::hdf5

@@ -1,0 +1,148 @@
+// Whole files or none: temporary name, fsync, rename, fsync of the folder.
+// Assumes that the folder is on a file system whose rename() is atomic.
+#include "output/pending_file.hpp"
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string advice(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "free some space there, raise the limit, or choose another folder with -o";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "check the permissions of its folder or choose another one with -o";
+    default:
+      return "choose another folder with -o";
+  }
+}
+
+[[noreturn]] void fail(const fs::path& path, const char* doing, int error) {
+  throw RuntimeError(fmt::format("cannot {} {}: {}; {}", doing, path.string(), std::strerror(error), advice(error)));
+}
+
+// A file descriptor that is closed on every way out.
+class Descriptor {
+ public:
+  explicit Descriptor(int id) : id_(id) {}
+  ~Descriptor() {
+    if (id_ >= 0) ::close(id_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int id() const { return id_; }
+  // close() is where network file systems report what they could not write.
+  int close() { return ::close(std::exchange(id_, -1)); }
+
+ private:
+  int id_;
+};
+
+// 0, or the errno of the call that failed.
+int write_and_sync(const fs::path& path, std::span<const std::byte> bytes) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.id() < 0) return errno;
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file.id(), bytes.data(), std::min<size_t>(bytes.size(), size_t{1} << 30));
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    bytes = bytes.subspan(static_cast<size_t>(written));
+  }
+  if (::fsync(file.id()) != 0) return errno;
+  return file.close() == 0 ? 0 : errno;
+}
+
+int sync_folder(const fs::path& folder) {
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.id() < 0) return errno;
+  // EINVAL: this file system does not sync folders, so there is nothing to wait for.
+  return ::fsync(descriptor.id()) == 0 || errno == EINVAL ? 0 : errno;
+}
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+}  // namespace
+
+PendingDirectory::PendingDirectory(fs::path path) : path_(path.empty() ? fs::path(".") : std::move(path)) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path p = path_; !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
+    if (error) fail(path_, "create the folder", error.value());
+    if (p.has_filename()) missing.push_back(p);  // not "a/", whose parent is "a"
+  }
+  std::reverse(missing.begin(), missing.end());
+  for (const fs::path& p : missing) {
+    if (fs::create_directory(p, error)) {
+      created_.push_back(p);
+    } else if (error) {
+      remove_created();  // no destructor runs after a throw from here
+      fail(path_, "create the folder", error.value());
+    }
+  }
+  if (!fs::is_directory(path_, error)) {
+    remove_created();
+    throw RuntimeError(fmt::format(
+        "cannot write into {}: it is not a folder; move it away or choose another one with -o", path_.string()));
+  }
+}
+
+PendingDirectory::~PendingDirectory() { remove_created(); }
+
+void PendingDirectory::remove_created() noexcept {
+  std::error_code ignored;  // a folder that someone else filled meanwhile stays
+  for (auto p = created_.rbegin(); p != created_.rend(); ++p) fs::remove(*p, ignored);
+}
+
+PendingFile::PendingFile(fs::path path, std::span<const std::byte> bytes) : path_(std::move(path)) {
+  std::error_code ignored;
+  if (fs::is_directory(path_, ignored)) fail(path_, "write", EISDIR);
+  temporary_ = path_;
+  temporary_ += fmt::format(".{}.tmp", ::getpid());
+  if (const int error = write_and_sync(temporary_, bytes)) {
+    fs::remove(temporary_, ignored);
+    fail(path_, "write", error);
+  }
+}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, fs::path())) {}
+
+PendingFile::~PendingFile() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void PendingFile::commit() {
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "write", errno);
+  temporary_.clear();
+  if (const int error = sync_folder(folder_of(path_))) fail(folder_of(path_), "sync the folder", error);
+}
+
+void commit_together(std::vector<PendingFile>& files) {
+  size_t committed = 0;
+  try {
+    for (; committed < files.size(); ++committed) files[committed].commit();
+  } catch (...) {
+    std::error_code ignored;
+    for (size_t i = 0; i < committed; ++i) fs::remove(files[i].path(), ignored);
+    throw;
+  }
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,51 @@
+// Files that appear whole or not at all: written beside their place, synced, then renamed.
+// POSIX only: rename() replaces atomically within one folder.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace wavetracer {
+
+// Creates a folder with its parents; removes again what it created unless keep() is called.
+class PendingDirectory {
+ public:
+  // Throws RuntimeError when the folder cannot be made or the path names something else.
+  explicit PendingDirectory(std::filesystem::path path);
+  ~PendingDirectory();
+  PendingDirectory(const PendingDirectory&) = delete;
+  PendingDirectory& operator=(const PendingDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void keep() { created_.clear(); }
+
+ private:
+  void remove_created() noexcept;
+
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> created_;  // outermost first
+};
+
+// One file on its way to its place. Every failure is a RuntimeError that names the file.
+class PendingFile {
+ public:
+  // Writes the bytes to a temporary file in the same folder and syncs it; leaves nothing if that fails.
+  PendingFile(std::filesystem::path path, std::span<const std::byte> bytes);
+  ~PendingFile();
+  PendingFile(PendingFile&& other) noexcept;
+  PendingFile& operator=(PendingFile&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  // Renames the temporary file to its name and syncs the folder.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;  // empty once committed or moved from
+};
+
+// Commits all or none: if one fails, those already in place are removed and the error goes on.
+void commit_together(std::vector<PendingFile>& files);
+
+}  // namespace wavetracer

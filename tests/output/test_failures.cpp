@@ -1,0 +1,166 @@
+// Where outputs cannot be written, the error names the file and nothing partial is left behind.
+// The full disk is played by the file size limit of the process, which fails writes in the same places.
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include "output/output.hpp"
+#include "output/pending_file.hpp"
+#include "output/sample_run.hpp"
+#include "wavetracer/error.hpp"
+
+namespace fs = std::filesystem;
+using namespace wavetracer;
+
+namespace {
+
+// An empty folder of the test's own, removed with everything in it.
+struct Scratch {
+  fs::path path = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "output" / "failures";
+  Scratch() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~Scratch() { fs::remove_all(path); }
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const auto& entry : fs::recursive_directory_iterator(path)) result.push_back(entry.path().filename());
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+};
+
+// Files beyond this many bytes cannot be written while it lives.
+struct SizeLimit {
+  rlimit before{};
+  void (*handler)(int);
+  explicit SizeLimit(rlim_t bytes) : handler(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit limit{bytes, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+  }
+};
+
+// The message of the RuntimeError that writing throws; empty if it throws none.
+std::string error_of(const fs::path& directory, const RunData& run) {
+  try {
+    write_outputs(directory, run);
+  } catch (const RuntimeError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a disk that fills up leaves neither files nor the folder, wherever it happens") {
+  const Scratch scratch;
+  const SampleRun sample;
+  const auto written = write_outputs(scratch.path / "whole", sample.data());
+  const uintmax_t largest = fs::file_size(written[0]);
+  REQUIRE(largest > fs::file_size(written[1]));
+  fs::remove_all(scratch.path / "whole");
+  int failures = 0;
+  for (uintmax_t limit = 0; limit < largest; limit += 1 + largest / 50) {
+    CAPTURE(limit);
+    std::string message;
+    {
+      const SizeLimit full(limit);
+      message = error_of(scratch.path / "a" / "b", sample.data());
+    }
+    CHECK(contains(message, "cannot write " + (scratch.path / "a" / "b").string()));
+    CHECK(contains(message, "File too large"));
+    CHECK(contains(message, "-o"));
+    CHECK(scratch.names().empty());
+    ++failures;
+  }
+  CHECK(failures > 40);
+  CHECK(error_of(scratch.path / "a" / "b", sample.data()) == "");  // the library survived all of it
+  CHECK(scratch.names() == std::vector<std::string>{"a", "b", "links.csv", "paths.h5", "summary.json"});
+}
+
+TEST_CASE("a failure keeps the results of an earlier run") {
+  const Scratch scratch;
+  const SampleRun sample;
+  const auto written = write_outputs(scratch.path, sample.data());
+  const auto size = fs::file_size(written[0]);
+  {
+    const SizeLimit full(size / 2);
+    CHECK(error_of(scratch.path, sample.data()) != "");
+  }
+  CHECK(fs::file_size(written[0]) == size);
+  CHECK(scratch.names() == std::vector<std::string>{"links.csv", "paths.h5", "summary.json"});
+}
+
+TEST_CASE("a folder in place of a file is an error before anything appears") {
+  const Scratch scratch;
+  const SampleRun sample;
+  for (const char* name : {"paths.h5", "links.csv", "summary.json"}) {
+    fs::create_directories(scratch.path / name);
+    const std::string message = error_of(scratch.path, sample.data());
+    CHECK(contains(message, (scratch.path / name).string()));
+    CHECK(contains(message, "Is a directory"));
+    CHECK(scratch.names() == std::vector<std::string>{name});
+    fs::remove(scratch.path / name);
+  }
+}
+
+TEST_CASE("a file in place of the folder, or of one above it") {
+  const Scratch scratch;
+  const SampleRun sample;
+  std::ofstream(scratch.path / "file") << "keep me";
+  CHECK(contains(error_of(scratch.path / "file", sample.data()), "it is not a folder"));
+  CHECK(contains(error_of(scratch.path / "file" / "below", sample.data()), "Not a directory"));
+  CHECK(scratch.names() == std::vector<std::string>{"file"});
+  CHECK(fs::file_size(scratch.path / "file") == 7);
+}
+
+TEST_CASE("a rename that fails takes back the files that were already renamed") {
+  const Scratch scratch;
+  const std::string text = "whole";
+  std::vector<PendingFile> files;
+  files.emplace_back(scratch.path / "first", std::as_bytes(std::span(text)));
+  files.emplace_back(scratch.path / "second", std::as_bytes(std::span(text)));
+  fs::create_directory(scratch.path / "second");  // in the way since the file was written beside it
+  CHECK_THROWS_WITH_AS(commit_together(files), doctest::Contains("Is a directory"), RuntimeError);
+  files.clear();
+  CHECK(scratch.names() == std::vector<std::string>{"second"});
+}
+
+TEST_CASE("a trailing slash and dots in the folder's name, as mkdir -p takes them") {
+  const Scratch scratch;
+  const SampleRun sample;
+  CHECK(error_of(scratch.path / "x" / ".." / "y" / "", sample.data()) == "");
+  CHECK(scratch.names() == std::vector<std::string>{"links.csv", "paths.h5", "summary.json", "x", "y"});
+}
+
+TEST_CASE("a folder that may not be made") {
+  const SampleRun sample;
+  const std::string message = error_of("/proc/wavetracer/out", sample.data());  // /proc refuses even root
+  CHECK(contains(message, "cannot create the folder /proc/wavetracer/out"));
+  CHECK(contains(message, "-o"));
+}
+
+TEST_CASE("inconsistent results are refused, not written") {
+  const Scratch scratch;
+  const SampleRun sample;
+  RunData run = sample.data();
+  run.frames[1].paths.gain_db.pop_back();
+  CHECK(contains(error_of(scratch.path / "new", run), "paths of frame 8"));
+  RunData ends = sample.data();
+  ends.frames[0].paths.rx[1] = 2;
+  CHECK(contains(error_of(scratch.path / "new", ends), "paths of frame 7"));
+  RunData times = sample.data();
+  times.frame_time_s.pop_back();
+  CHECK(contains(error_of(scratch.path / "new", times), "2 frames but 1 frame times"));
+  CHECK(scratch.names().empty());
+}

@@ -1,0 +1,191 @@
+// What write_outputs() writes is what a reader finds: paths.h5 through the C library, links.csv and summary.json.
+// Leaves its sample under tests/output/sample of the build folder, for the tests that read it from Python.
+#include <doctest/doctest.h>
+#include <hdf5.h>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include "output/output.hpp"
+#include "output/sample_run.hpp"
+
+namespace fs = std::filesystem;
+using namespace wavetracer;
+
+namespace {
+
+const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "output" / "sample";
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// Reads with plain calls of the C library, so that a fault of the project's own wrapper cannot hide itself.
+struct Reader {
+  hid_t file;
+  explicit Reader(const fs::path& path) : file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
+  ~Reader() { H5Fclose(file); }
+
+  std::vector<hsize_t> shape(const char* name) const {
+    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
+    std::vector<hsize_t> result(static_cast<size_t>(H5Sget_simple_extent_ndims(space)));
+    H5Sget_simple_extent_dims(space, result.data(), nullptr);
+    H5Sclose(space);
+    H5Dclose(dataset);
+    return result;
+  }
+  std::vector<double> numbers(const char* name) const {  // the library converts integers exactly up to 2^53
+    size_t count = 1;
+    for (const hsize_t n : shape(name)) count *= n;
+    std::vector<double> result(count);
+    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    CHECK(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data()) >= 0);
+    H5Dclose(dataset);
+    return result;
+  }
+  std::string attribute(const char* object, const char* name) const {
+    const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT),
+                type = H5Aget_type(attribute);
+    char* text = nullptr;
+    CHECK(H5Aread(attribute, type, &text) >= 0);
+    const std::string result = text ? text : "";
+    H5free_memory(text);
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return result;
+  }
+};
+
+using Values = std::vector<double>;
+using Shape = std::vector<hsize_t>;
+
+}  // namespace
+
+TEST_CASE("paths.h5 holds every column of every frame, in order") {
+  fs::remove_all(folder);
+  const SampleRun sample;
+  const auto written = write_outputs(folder, sample.data());
+  REQUIRE(written == std::vector<fs::path>{folder / "paths.h5", folder / "links.csv", folder / "summary.json"});
+  const Reader h5(written[0]);
+
+  CHECK(h5.numbers("/paths/frame") == Values{7, 7, 7, 8, 8});
+  CHECK(h5.numbers("/paths/tx") == Values{0, 0, 1, 0, 1});
+  CHECK(h5.numbers("/paths/rx") == Values{0, 1, 0, 0, 1});
+  CHECK(h5.numbers("/paths/depth") == Values{0, 1, 2, 3, 4});
+  CHECK(h5.numbers("/paths/gain_db") == Values{-80, -81, -82, -83, -84});
+  CHECK(h5.numbers("/paths/delay_s") == Values{1e-7, 2e-7, 1e-7 * 3, 1e-7 * 4, 1e-7 * 5});
+  CHECK(h5.numbers("/paths/doppler_hz") == Values{0, 10, 20, 30, 40});
+  CHECK(h5.numbers("/paths/aoa_phi_rad")[4] == -0.4 * 4);
+  CHECK(h5.numbers("/paths/aod_theta_rad")[4] == 0.1 * 4);
+  CHECK(h5.numbers("/paths/aod_phi_rad")[4] == 0.2 * 4);
+  CHECK(h5.numbers("/paths/aoa_theta_rad")[3] == 0.3 * 3);
+  CHECK(h5.shape("/paths/a_re") == Shape{5, 2, 1});
+  const Values re = h5.numbers("/paths/a_re"), im = h5.numbers("/paths/a_im");
+  for (size_t i = 0; i < 5; ++i) {
+    CHECK(re[2 * i] == 1e-4 * static_cast<double>(i));
+    CHECK(re[2 * i + 1] == 2e-4 * static_cast<double>(i));
+    CHECK(im[2 * i] == 1);
+    CHECK(im[2 * i + 1] == -1);
+  }
+
+  // Offsets run on across frames: depths 0, 1, 2 | 3, 4.
+  CHECK(h5.numbers("/paths/vertex_offset") == Values{0, 0, 1, 3, 6, 10});
+  CHECK(h5.shape("/vertices/position_m") == Shape{10, 3});
+  const Values position = h5.numbers("/vertices/position_m");
+  CHECK(position[3 * 9] == 1e6 + 4);
+  CHECK(position[3 * 9 + 1] == 1.0);
+  CHECK(position[3 * 5 + 1] == 2 / 3.0);
+  CHECK(h5.numbers("/vertices/interaction") == Values{1, 1, 4, 1, 4, 1, 1, 4, 1, 4});
+  CHECK(h5.numbers("/vertices/surface") == Values{100, 200, 201, 300, 301, 302, 400, 401, 402, 403});
+  CHECK(h5.numbers("/vertices/instance")[0] == 4294967295.0);
+  CHECK(h5.numbers("/frames/frame") == Values{7, 8});
+  CHECK(h5.numbers("/frames/time_s") == Values{0, 0.1});
+  CHECK(h5.numbers("/frames/path_offset") == Values{0, 3, 5});
+  CHECK(h5.numbers("/transmitters/position_m") == Values{1, 2, 3, 4, 5, 6});
+  CHECK(h5.numbers("/transmitters/orientation_deg") == Values{0, 0, 0, 90, 10, 0});
+  CHECK(h5.shape("/receivers/name") == Shape{2});
+
+  CHECK(h5.attribute("/", "config") == sample.config.text);
+  CHECK(h5.attribute("/", "version") == WAVETRACER_VERSION);
+  CHECK(h5.attribute("/", "device") == "a processor");
+  CHECK(h5.attribute("/paths/delay_s", "units") == "s");
+  CHECK(h5.attribute("/vertices/position_m", "units") == "m");
+}
+
+TEST_CASE("links.csv has a row a link, quoted names, and -inf where no path is") {
+  const SampleRun sample;
+  std::istringstream csv(slurp(write_outputs(folder, sample.data())[1]));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(csv, line);) lines.push_back(line);
+  REQUIRE(lines.size() == 1 + 2 * 4);
+  CHECK(lines[0] == "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los");
+  CHECK(lines[1].starts_with("0,\"rsu, north\",car,1,"));
+  CHECK(lines[1].ends_with(",1"));
+  CHECK(lines[2].starts_with("0,\"rsu, north\",1,1,"));
+  CHECK(lines[2].ends_with(",0"));
+  CHECK(lines[4].starts_with("0,rsu,1,0,-inf,"));
+  CHECK(lines[5].starts_with("0.1,\"rsu, north\",car,1,"));
+}
+
+TEST_CASE("summary.json sums counts, takes medians of seconds and lists each warning once") {
+  const SampleRun sample;
+  const auto json = nlohmann::json::parse(slurp(write_outputs(folder, sample.data())[2]));
+  CHECK(json["version"] == WAVETRACER_VERSION);
+  CHECK(json["device"] == "a processor");
+  CHECK(json["driver"] == "3.1");
+  CHECK(json["config_file"] == "/configs/sample.toml");
+  CHECK(json["repeat_count"] == 3);
+  CHECK(json["counts"] == nlohmann::json{{"rays", 2000},
+                                         {"segments", 5000},
+                                         {"hits", 3000},
+                                         {"sequences", 80},
+                                         {"candidates", 24},
+                                         {"solved", 16},
+                                         {"paths", 5}});
+  CHECK(json["segments_per_depth"] == std::vector<int>{2000, 1800, 1200});
+  CHECK(json["seconds"]["frame"] == 1.0);
+  CHECK(json["seconds"]["solve"] == 0.25);
+  CHECK(json["seconds"]["load"] == 0.5);
+  CHECK(json["seconds"]["trace"] == 0.5);
+  CHECK(json["seconds"]["setup_trace"] == 9.0);
+  CHECK(json["seconds"]["write"].get<double>() > 0);
+  CHECK(json["rays_per_second"] == 5000.0);
+  CHECK(json["order"]["method"] == "none");
+  CHECK(json["cache"]["kind"] == "none");
+  CHECK(json["warnings"] == std::vector<std::string>{"a run warning", "a warning", "a scene warning"});
+}
+
+TEST_CASE("a run without paths writes zero-length datasets") {
+  const fs::path empty_folder = folder.parent_path() / "empty";
+  const SampleRun sample;
+  const auto written = write_outputs(empty_folder, sample.empty());
+  const Reader h5(written[0]);
+  CHECK(h5.shape("/paths/delay_s") == Shape{0});
+  CHECK(h5.shape("/paths/a_re") == Shape{0, 1, 1});
+  CHECK(h5.shape("/vertices/position_m") == Shape{0, 3});
+  CHECK(h5.numbers("/paths/vertex_offset") == Values{0});
+  CHECK(h5.numbers("/frames/path_offset") == Values{0, 0});
+  CHECK(h5.numbers("/frames/time_s") == Values{0});
+  const auto json = nlohmann::json::parse(slurp(written[2]));
+  CHECK(json["counts"]["paths"] == 0);
+  CHECK(json["rays_per_second"].is_null());
+  CHECK(json["seconds"]["frame"] == 0.0);
+  CHECK(slurp(written[1]).find("0,rsu,car,0,-inf,") != std::string::npos);
+}
+
+TEST_CASE("a config text beyond 64 KiB, an attribute's usual limit, arrives whole") {
+  SampleRun sample;
+  sample.config.text = std::string(200000, '#');
+  const Reader h5(write_outputs(folder.parent_path() / "long", sample.data())[0]);
+  CHECK(h5.attribute("/", "config") == sample.config.text);
+}
+
+TEST_CASE("a name that is not UTF-8 does not keep summary.json from being valid JSON") {
+  SampleRun sample;
+  sample.config.file = "bad\xFFname.toml";
+  const auto written = write_outputs(folder.parent_path() / "latin", sample.data());
+  CHECK(nlohmann::json::parse(slurp(written[2]))["config_file"] == "bad\xEF\xBF\xBDname.toml");
+}

@@ -1,0 +1,21 @@
+// Scenes made of parallelograms, one surface each, for tests whose answers are closed forms.
+// No loader, no welding: what is written down is what the scene holds.
+#pragma once
+#include <glm/vec3.hpp>
+#include <vector>
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer::reference {
+
+// Corners corner, corner + u, corner + u + v, corner + v; the normal is that of u x v.
+struct Quad {
+  glm::dvec3 corner, u, v;
+};
+
+// Surface i is quad i. There is one material, "metal", and the origin is 0.
+Scene scene_of_quads(const std::vector<Quad>& quads);
+
+// The six walls of a box, in the order x lower, x upper, y lower, y upper, z lower, z upper.
+std::vector<Quad> box_walls(const glm::dvec3& lower, const glm::dvec3& upper);
+
+}  // namespace wavetracer::reference
