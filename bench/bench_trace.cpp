@@ -1,0 +1,248 @@
+// bench_trace: nearest hits of seven segments of specular bounces, ours in every shape the device has, and Embree
+// beside it. Assumes a quiet machine. Ours and Embree get the same arrays of rays; "error" counts rays whose hit
+// distance differs from that of Embree's robust mode (of our first shape, where Embree is missing) by more than a
+// millimetre and 1e-4 of it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include "accel/triangles.hpp"
+#include "gpu/gpu.hpp"
+#include "json_line.hpp"
+#include "passes/device_scene.hpp"
+#include "passes/generate_rays.hpp"
+#include "passes/ray_queue.hpp"
+#include "scene/city.hpp"
+#include "scene/load.hpp"
+#include "segments.hpp"
+#include "tracers.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::bench {
+namespace {
+
+constexpr size_t kSegments = 7;
+
+struct NamedTracer {
+  std::string name;
+  std::unique_ptr<Tracer> tracer;
+};
+
+struct Sample {
+  std::array<double, kSegments> seconds{};
+  size_t differing = 0;
+};
+
+using Segments = std::vector<std::vector<Ray>>;
+using Truth = std::vector<std::vector<Hit>>;
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+// The program's own launch rays: "random", or "hilbert", its default, in which neighbours go the same way.
+std::vector<Ray> launch(gpu::Context& context, const std::string& directions, std::array<float, 3> origin,
+                        size_t count) {
+  RayQueue queue = make_ray_queue(context, count, "launch rays");
+  GenerateRays(context, directions, count, 1)(queue, 0, {origin[0], origin[1], origin[2]}, 0,
+                                              static_cast<uint32_t>(count));
+  std::vector<Ray> rays(count, {origin, 0, {}, std::numeric_limits<float>::max()});
+  for (size_t axis = 0; axis < 3; axis++) {
+    const std::vector<float> plane = queue.planes.read((WT_RAY_DIRECTION + axis) * queue.capacity, count);
+    for (size_t i = 0; i < count; i++) rays[i].direction[axis] = plane[i];
+  }
+  return rays;
+}
+
+struct Place {
+  Scene scene;
+  std::string name;
+  std::array<double, 3> transmitter_m;
+};
+
+Place load_place(std::string file) {
+  const std::string munich = WAVETRACER_SHARED "/scenes/munich/munich.xml";
+  if (file.empty() && std::filesystem::exists(munich)) file = munich;
+  if (!file.empty()) {
+    return {load_scene_file(file, {}), std::filesystem::path(file).stem().string(), {45, 90, 1.5}};
+  }
+  fmt::print(stderr, "bench_trace: {} is not there, so the generated city is traced instead\n", munich);
+  Config config;
+  config.scene.generate = "--seed 1";
+  return {load_scene(config), "city", example_positions(parse_city_options(config.scene.generate)).front().position_m};
+}
+
+std::vector<Hit> trace_once(Tracer& tracer, std::span<const Ray> rays) {
+  std::vector<Hit> hits(rays.size());
+  if (rays.empty()) return hits;
+  tracer.load(rays);
+  tracer.run();
+  tracer.fetch(hits);
+  return hits;
+}
+
+// All segments from the launched rays on, and the hits they should give, by following `truth`.
+std::pair<Segments, Truth> make_segments(std::vector<Ray> launched, Tracer& truth,
+                                         std::span<const AccelTriangle> triangles) {
+  Segments segments{std::move(launched)};
+  Truth hits;
+  for (size_t s = 0; s < kSegments; s++) {
+    hits.push_back(trace_once(truth, segments[s]));
+    if (s + 1 < kSegments) segments.push_back(next_segment(segments[s], hits[s], triangles));
+  }
+  return {std::move(segments), std::move(hits)};
+}
+
+Sample measure(Tracer& tracer, const Segments& segments, const Truth& truth, size_t runs) {
+  Sample sample;
+  for (size_t s = 0; s < kSegments; s++) {
+    const std::vector<Hit> hits = trace_once(tracer, segments[s]);  // warm-up
+    if (hits.empty()) continue;
+    std::vector<double> seconds(runs);
+    for (double& one : seconds) one = tracer.run();
+    sample.seconds[s] = median(seconds);
+    for (size_t i = 0; i < hits.size(); i++) {
+      const float expected = truth[s][i].t;
+      sample.differing += !(std::abs(hits[i].t - expected) <= 1e-3f + 1e-4f * std::abs(expected));
+    }
+  }
+  return sample;
+}
+
+double sum(const std::array<double, kSegments>& seconds) {
+  return std::accumulate(seconds.begin(), seconds.end(), 0.0);
+}
+
+std::string rates(const Segments& segments, const std::array<double, kSegments>& seconds) {
+  std::string text = "b0..b6:";
+  for (size_t s = 0; s < kSegments; s++)
+    text += seconds[s] > 0 ? fmt::format(" {:.1f}", static_cast<double>(segments[s].size()) / seconds[s] * 1e-6) : " -";
+  return text;
+}
+
+struct Options {
+  size_t rays = 1000000, runs = 7;
+  std::string device, scene;
+};
+
+void run(const Options& options, const std::string& command) {
+  const Place place = load_place(options.scene);
+  const std::vector<AccelTriangle> triangles = accel_triangles(place.scene);
+  std::array<float, 3> origin;
+  for (size_t axis = 0; axis < 3; axis++)
+    origin[axis] = static_cast<float>(place.transmitter_m[axis] - place.scene.origin_m[static_cast<int>(axis)]);
+
+  gpu::Context context(options.device);
+  const gpu::DeviceInfo& info = context.info();
+  std::vector<NamedTracer> ours, peers;
+  std::vector<std::unique_ptr<DeviceScene>> device_scenes;
+  for (const bool splits : {false, true}) {
+    device_scenes.push_back(std::make_unique<DeviceScene>(make_device_scene(context, place.scene, splits)));
+    const auto add = [&](const char* name, TraceShape shape) {
+      ours.push_back({std::string(name) + (splits ? "-splits" : ""),
+                      std::make_unique<OurTracer>(context, *device_scenes.back(), shape, options.rays)});
+    };
+    if (info.cpu) {
+      add("bvh8", TraceShape::bvh8);
+      add("packet16", TraceShape::packet16);
+    } else {
+      add("bvh2", TraceShape::bvh2);
+    }
+  }
+  Tracer* truth = ours.front().tracer.get();
+#ifdef WAVETRACER_EMBREE
+  for (const EmbreeConfig& config : embree_configs()) {
+    peers.push_back({config.name, std::make_unique<EmbreeTracer>(triangles, config)});
+    if (config.robust && config.width == 1) truth = peers.back().tracer.get();
+  }
+#else
+  fmt::print(stderr,
+             "bench_trace: built without Embree 3 (Debian: libembree-dev), so there is no peer to compare with\n");
+#endif
+  const std::string host_device = info.cpu ? info.name : "host CPU";
+
+  for (const std::string directions : {"random", "hilbert"}) {
+    const std::string label = fmt::format("{}, {} rays, {}", place.name, options.rays, directions);
+    const auto [segments, expected] =
+        make_segments(launch(context, directions, origin, options.rays), *truth, triangles);
+    double ray_count = 0;
+    for (const auto& segment : segments) ray_count += static_cast<double>(segment.size());
+    const auto rate = [&](double seconds) { return ray_count / seconds * 1e-6; };
+
+    double best_single = 0;
+    std::string best_name;
+    std::array<double, kSegments> best_each;
+    best_each.fill(std::numeric_limits<double>::infinity());
+    for (const NamedTracer& peer : peers) {
+      const Sample sample = measure(*peer.tracer, segments, expected, options.runs);
+      for (size_t s = 0; s < kSegments; s++) best_each[s] = std::min(best_each[s], sample.seconds[s]);
+      if (rate(sum(sample.seconds)) > best_single) {
+        best_single = rate(sum(sample.seconds));
+        best_name = peer.name;
+      }
+      print({"trace",
+             label + ": " + peer.name,
+             host_device,
+             rate(sum(sample.seconds)),
+             "Mrays/s",
+             Better::higher,
+             "",
+             {},
+             static_cast<double>(sample.differing),
+             rates(segments, sample.seconds)},
+            command);
+    }
+    for (const NamedTracer& tracer : ours) {
+      const Sample sample = measure(*tracer.tracer, segments, expected, options.runs);
+      Result result{"trace",
+                    label + ": " + tracer.name,
+                    info.name,
+                    rate(sum(sample.seconds)),
+                    "Mrays/s",
+                    Better::higher,
+                    "",
+                    {},
+                    static_cast<double>(sample.differing),
+                    rates(segments, sample.seconds)};
+      if (!peers.empty()) {
+        result.baseline = "Embree's best setting, " + best_name;
+        result.baseline_value = best_single;
+      }
+      print(result, command);
+      if (!peers.empty()) {
+        result.name += ", against the best of each segment";
+        result.baseline = "Embree's best setting for each segment";
+        result.baseline_value = rate(sum(best_each));
+        print(result, command);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wavetracer::bench
+
+int main(int argc, char** argv) {
+  using namespace wavetracer;
+  CLI::App app("Nearest hits of seven segments of specular bounces, beside Embree");
+  bench::Options options;
+  app.add_option("--rays", options.rays, "launched rays")->check(CLI::Range(1, 1 << 30));
+  app.add_option("--runs", options.runs, "timed runs of which the median counts")->check(CLI::Range(5, 1000));
+  app.add_option("--device", options.device, "as for wavetracer run");
+  app.add_option("--scene", options.scene,
+                 "a scene file with (45, 90, 1.5) m in the open; default: munich, or a generated city");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bench::run(options, bench::command_line(argc, argv));
+  } catch (const Error& error) {
+    fmt::print(stderr, "bench_trace: {}\n", error.what());
+    return static_cast<int>(error.code());
+  }
+  return 0;
+}

@@ -1,0 +1,63 @@
+// What a benchmark prints: one JSON object a line on standard output, with the same keys from every benchmark.
+// Assumes that everything else goes to standard error.
+#pragma once
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace wavetracer::bench {
+
+enum class Better { higher, lower };
+
+struct Result {
+  std::string bench;   // the program's name without bench_
+  std::string name;    // the case
+  std::string device;  // what it ran on
+  double value = 0;
+  std::string unit;
+  Better better = Better::higher;
+  std::string baseline;                  // what it is compared with; empty: nothing
+  std::optional<double> baseline_value;  // in the same unit
+  double error = 0;    // what the speed costs, in the words of the benchmark's documentation; 0 where exact
+  std::string detail;  // a short remark for the table; may be empty
+};
+
+// The command as a user would repeat it: the program without its folder, and its arguments.
+inline std::string command_line(int argc, const char* const* argv) {
+  std::string command = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; i++) command += std::string(" ") + argv[i];
+  return command;
+}
+
+// ratio says how many times better the value is than the baseline's, whichever way the unit points.
+inline void print(const Result& result, const std::string& command) {
+  nlohmann::ordered_json line;
+  line["bench"] = result.bench;
+  line["case"] = result.name;
+  line["device"] = result.device;
+  line["value"] = result.value;
+  line["unit"] = result.unit;
+  line["baseline"] =
+      result.baseline.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(result.baseline);
+  line["baseline_value"] = nullptr;
+  line["ratio"] = nullptr;
+  if (result.baseline_value && *result.baseline_value > 0 && result.value > 0) {
+    const double ratio = result.value / *result.baseline_value;
+    line["baseline_value"] = *result.baseline_value;
+    line["ratio"] = result.better == Better::higher ? ratio : 1 / ratio;
+  }
+  line["error"] = result.error;
+  line["detail"] = result.detail;
+  line["command"] = command;
+  const std::time_t now = std::time(nullptr);
+  char date[32];
+  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  line["date"] = date;
+  std::puts(line.dump().c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace wavetracer::bench

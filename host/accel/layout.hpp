@@ -1,0 +1,42 @@
+// The layouts that kernels traverse, made from a binary tree: BVH2 for GPUs and packets, BVH8 for CPUs.
+// Their memory is defined in wavetracer/device/bvh.h; node 0 is always an inner node, also of an empty scene.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/build.hpp"
+
+namespace wavetracer {
+
+struct Bvh2 {
+  std::vector<float> nodes;      // WT_BVH2_NODE_FLOATS each
+  std::vector<float> triangles;  // three rotated copies of triangle_slots triangles, 12 floats a triangle
+  uint32_t triangle_slots = 0;
+  // Inner nodes on the longest way down, root included: a stack of this many entries suffices.
+  uint32_t max_depth = 0;
+};
+
+// A child that is not used (of a tree with fewer than two leaves) has an inverted box and is a leaf of no triangles:
+// kernels that order a box's planes themselves may enter it and find nothing. Throws RuntimeError for a leaf of more
+// triangles than a reference can count; build with max_leaf <= 15.
+Bvh2 make_bvh2(const BinaryTree& tree, std::span<const AccelTriangle> triangles);
+
+struct Bvh8 {
+  std::vector<float> nodes;   // WT_BVH8_NODE_FLOATS each
+  std::vector<float> blocks;  // WT_BLOCK_FLOATS each, four triangles
+  // Inner nodes on the longest way down, root included: a stack of 7 * max_depth + 1 entries suffices.
+  uint32_t max_depth = 0;
+};
+
+// Collapses the binary tree into the eight-wide tree of least SAH cost, leaves included (Ylitie, Karras, Laine:
+// Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, HPG 2017, section 3.1).
+struct CollapseOptions {
+  // Cost of testing eight boxes, where a block of four triangles costs 1; as in BuildOptions.
+  float node_cost = 0.5f;
+  // Triangles a leaf may hold; 4 is one block. More blocks a leaf mean fewer nodes, but triangles tested in vain.
+  uint32_t max_leaf = 4;
+};
+Bvh8 make_bvh8(const BinaryTree& tree, std::span<const AccelTriangle> triangles, const CollapseOptions& options = {});
+
+}  // namespace wavetracer

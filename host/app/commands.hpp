@@ -1,0 +1,22 @@
+// The subcommands of the program: each add_ function declares one with its options and what it does.
+// A subcommand throws an Error to fail; the exit code of a success that is not plain stands in Invocation.
+#pragma once
+#include <CLI/App.hpp>
+#include <string>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::app {
+
+struct Invocation {
+  std::string command_line;  // as typed, quoted where a shell would need it
+  ExitCode code = ExitCode::ok;
+};
+
+void add_run(CLI::App& program, Invocation& invocation);
+void add_devices(CLI::App& program);
+void add_validate(CLI::App& program);
+void add_init(CLI::App& program);
+void add_scene(CLI::App& program);
+void add_bench(CLI::App& program);
+
+}  // namespace wavetracer::app

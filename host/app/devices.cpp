@@ -1,0 +1,48 @@
+// `wavetracer devices`: what OpenCL offers, and which device a run would take.
+// The list is in the order of the ICD; its index is what --device accepts.
+#include <fmt/format.h>
+#include <algorithm>
+#include <iostream>
+#include "app/commands.hpp"
+#include "gpu/gpu.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+std::string gibibytes(uint64_t bytes) { return fmt::format("{:.1f} GiB", static_cast<double>(bytes) / (1 << 30)); }
+
+// Columns as wide as their widest cell.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string out;
+  for (const auto& row : rows) {
+    std::string line;
+    for (size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
+    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_devices(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("devices", "List the OpenCL devices; * marks the one a run would take");
+  command->callback([] {
+    const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
+    const size_t chosen = gpu::choose_device(devices, "");
+    std::vector<std::vector<std::string>> rows = {
+        {"", "index", "platform", "name", "type", "memory", "largest buffer", "units", "work-group", "fp64", "driver"}};
+    for (const gpu::DeviceInfo& d : devices)
+      rows.push_back({d.index == chosen ? "*" : "", fmt::format("{}", d.index), d.platform, d.name,
+                      d.gpu   ? "GPU"
+                      : d.cpu ? "CPU"
+                              : "other",
+                      gibibytes(d.global_memory), gibibytes(d.max_buffer), fmt::format("{}", d.compute_units),
+                      fmt::format("{}", d.max_work_group), d.fp64 ? "yes" : "no", d.driver});
+    std::cout << table(rows);
+  });
+}
+
+}  // namespace wavetracer::app

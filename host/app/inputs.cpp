@@ -1,0 +1,60 @@
+// Existence and permissions of the files and folders that a config names.
+// What is checked here may change before it is used; the code that opens a file reports that again.
+#include "app/inputs.hpp"
+#include <fmt/format.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include "config/fields.hpp"
+#include "scene/city.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_file(const std::string& file, const std::string& key, const std::string& config_file) {
+  const std::string where = config_file.empty() ? "" : config_file + ": ";
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw InputError(fmt::format("{}{} is \"{}\", a folder: name the file in it", where, key, file));
+  if (access(file.c_str(), R_OK) != 0)
+    throw InputError(
+        fmt::format("{}{} is \"{}\", which cannot be read: {}; relative paths start at the config file's "
+                    "folder",
+                    where, key, file, std::strerror(errno)));
+}
+
+}  // namespace
+
+void check_inputs(const Config& config) {
+  Config values = config;  // slots point to what may be written to
+  for (const config::Table& table : config::tables()) {
+    const size_t count = table.count ? table.count(values) : 1;
+    for (const config::Field& field : table.fields) {
+      if (field.form != config::Form::input_file && field.form != config::Form::choice_or_file) continue;
+      for (size_t i = 0; i < count; ++i) {
+        const std::string& value = *std::get<std::string*>(field.slot(values, i));
+        const bool named = std::find(field.choices.begin(), field.choices.end(), value) != field.choices.end();
+        if (!value.empty() && !named) check_file(value, table.name + "." + field.name, config.file);
+      }
+    }
+  }
+  if (!config.scene.generate.empty()) parse_city_options(config.scene.generate);
+}
+
+void check_output_folder(const fs::path& folder) {
+  fs::path there = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
+  std::string problem;
+  if (!fs::is_directory(there))
+    problem = "not a folder";
+  else if (access(there.c_str(), W_OK | X_OK) != 0)
+    problem = std::strerror(errno);
+  if (!problem.empty())
+    throw RuntimeError(fmt::format("{}: cannot write there ({}: {}); choose another folder with -o", folder.string(),
+                                   there.string(), problem));
+}
+
+}  // namespace wavetracer::app

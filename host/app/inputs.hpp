@@ -1,0 +1,16 @@
+// Checks of a config against the file system, shared by `run` and `validate`.
+// They need no device and load nothing, so that a mistake in a name costs no time.
+#pragma once
+#include <filesystem>
+#include "wavetracer/config.hpp"
+
+namespace wavetracer::app {
+
+// Every file that the config names is there and readable, and scene.generate is understood.
+// Throws InputError or ConfigError.
+void check_inputs(const Config& config);
+
+// The folder, or the nearest that exists above it, can be written to. Throws RuntimeError.
+void check_output_folder(const std::filesystem::path& folder);
+
+}  // namespace wavetracer::app

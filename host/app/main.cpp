@@ -1,0 +1,71 @@
+// The command line: subcommands, and the one place where an error becomes a message and an exit code.
+// Results go to stdout, messages and progress to stderr.
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+#include "app/commands.hpp"
+#include "config/config_file.hpp"
+#include "wavetracer/version.hpp"
+
+namespace {
+
+using wavetracer::ExitCode;
+
+std::string command_line(int argc, char** argv) {
+  std::string out;
+  for (int i = 0; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[]{}()<>|&;#~!") == std::string::npos;
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    out += (i == 0 ? "" : " ") + (plain ? word : "'" + quoted + "'");
+  }
+  return out;
+}
+
+int fail(ExitCode code, const std::string& message) {
+  std::cerr << "wavetracer: " << message << "\n";
+  return static_cast<int>(code);
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program{"Radio channels between moving vehicles by ray tracing on OpenCL"};
+  program.name("wavetracer");
+  program.set_version_flag("--version", "wavetracer " WAVETRACER_VERSION);
+  program.require_subcommand(0, 1);  // none is reported below, after a misspelt one
+  program.footer([] { return wavetracer::field_help(); });
+  wavetracer::app::Invocation invocation{command_line(argc, argv)};
+  wavetracer::app::add_run(program, invocation);
+  wavetracer::app::add_devices(program);
+  wavetracer::app::add_validate(program);
+  wavetracer::app::add_init(program);
+  wavetracer::app::add_scene(program);
+  wavetracer::app::add_bench(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    // CLI11 numbers its errors from 100 on; to us all of them are one: usage.
+    return program.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+  if (program.get_subcommands().empty()) {
+    std::cerr << program.help();
+    return static_cast<int>(ExitCode::usage);
+  }
+  return static_cast<int>(invocation.code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const wavetracer::Error& e) {
+    return fail(e.code(), e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::runtime, "out of memory: lower trace.batch_rays or trace.rays, or use a smaller scene");
+  } catch (const std::exception& e) {
+    return fail(ExitCode::runtime, e.what());
+  }
+}

@@ -1,0 +1,300 @@
+// Parsing: the TOML tree is flattened into assignments to fields, those of --set replace earlier ones, and only
+// then is each checked and stored, so that a value overridden on the command line cannot fail.
+#include "config/config_file.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <deque>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <tuple>
+#include "config/fields.hpp"
+#include "config/spelling.hpp"
+#include "config/values.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+using namespace config;
+namespace fs = std::filesystem;
+
+// Where something was said: a position in the file, or a --set.
+struct Place {
+  toml::source_position position{};  // in the file
+  size_t set = 0;                    // 1 + the index of the --set, 0 for the file
+  bool operator<(const Place& o) const {
+    return std::tie(set, position.line, position.column) < std::tie(o.set, o.position.line, o.position.column);
+  }
+};
+
+struct Assignment {
+  const Field* field;
+  std::string key;  // as messages name it: trace.rays, transmitter.name
+  size_t element;   // of an array of tables
+  const toml::node* value;
+  Place place;
+};
+
+const Table* find_table(std::string_view name) {
+  for (const Table& table : tables())
+    if (table.name == name) return &table;
+  return nullptr;
+}
+
+const Field* find_field(const Table& table, std::string_view name) {
+  for (const Field& field : table.fields)
+    if (field.name == name) return &field;
+  return nullptr;
+}
+
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys;
+  for (const Table& table : tables()) {
+    keys.push_back(table.name);
+    for (const Field& field : table.fields) keys.push_back(table.name + "." + field.name);
+  }
+  return keys;
+}
+
+bool is_aliases(const Field& field) {
+  Config sample = prototype();
+  return std::holds_alternative<Aliases*>(field.slot(sample, 0));
+}
+
+class Parser {
+ public:
+  Parser(std::string file, const std::vector<std::string>& sets)
+      : file_(std::move(file)), folder_(fs::path(file_).parent_path()), sets_(sets) {}
+
+  Config parse(std::string_view text) {
+    try {
+      document_ = toml::parse(text, file_);
+    } catch (const toml::parse_error& e) {
+      fail(place(e.source()), std::string(e.description()));
+      finish();
+    }
+    read_document();
+    for (size_t i = 0; i < sets_.size(); ++i) read_set(i);
+    config_.output.directory = resolved_path(folder_, config_.output.directory);  // the default is relative, too
+    for (const auto& [path, assignment] : assignments_) store(assignment);
+    finish();
+    check_whole();
+    finish();
+    config_.file = file_;
+    config_.text = resolved_config(config_);
+    return std::move(config_);
+  }
+
+ private:
+  std::string file_;
+  fs::path folder_;  // where relative paths of the file start
+  const std::vector<std::string>& sets_;
+  toml::table document_;
+  std::deque<toml::table> set_documents_;
+  Config config_;
+  std::map<std::string, Assignment> assignments_;                       // by unique path: transmitter.0.name
+  std::map<std::string, std::vector<toml::source_position>> elements_;  // places of [[transmitter]] and the like
+  std::vector<std::pair<Place, std::string>> problems_;
+
+  static Place place(const toml::source_region& region) { return {region.begin, 0}; }
+  void fail(const Place& where, std::string what) { problems_.emplace_back(where, std::move(what)); }
+
+  std::string said(const Place& p) const {
+    if (p.set > 0) return "--set " + sets_[p.set - 1];
+    return fmt::format("{}:{}:{}", file_.empty() ? "config" : file_, std::max(p.position.line, 1u),
+                       std::max(p.position.column, 1u));
+  }
+
+  // Throws when there are problems, in the order of the file.
+  void finish() {
+    if (problems_.empty()) return;
+    std::stable_sort(problems_.begin(), problems_.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::string message;
+    for (const auto& [where, what] : problems_) message += (message.empty() ? "" : "\n") + said(where) + ": " + what;
+    throw ConfigError(message);
+  }
+
+  void unknown(const Place& where, const std::string& key) {
+    fail(where, fmt::format("unknown key \"{}\"{}", key, hint(key, known_keys())));
+  }
+
+  void read_document() {
+    for (const auto& [name, node] : document_) {
+      const Table* table = find_table(name.str());
+      if (!table) {
+        unknown(place(name.source()), std::string(name.str()));
+      } else if (table->append) {
+        read_array(*table, node);
+      } else if (const toml::table* body = node.as_table()) {
+        read_table(*table, *body, table->name, 0);
+      } else {
+        fail(place(node.source()), fmt::format("{0} must be a table: write [{0}]", table->name));
+      }
+    }
+  }
+
+  void read_array(const Table& table, const toml::node& node) {
+    const toml::array* array = node.as_array();
+    const bool of_tables = array && std::all_of(array->begin(), array->end(), [](auto& n) { return n.is_table(); });
+    if (!of_tables) return fail(place(node.source()), fmt::format("write [[{}]], one table each", table.name));
+    for (const toml::node& element : *array) {
+      const size_t i = table.append(config_);
+      elements_[table.name].push_back(element.source().begin);
+      read_table(table, *element.as_table(), fmt::format("{}.{}", table.name, i), i);
+    }
+  }
+
+  void read_table(const Table& table, const toml::table& body, const std::string& path, size_t element) {
+    for (const auto& [name, node] : body) {
+      const std::string key = table.name + "." + std::string(name.str());
+      const Field* field = find_field(table, name.str());
+      if (!field) {
+        unknown(place(name.source()), key);
+      } else if (!is_aliases(*field)) {
+        assign_later(path + "." + field->name, {field, key, element, &node, place(node.source())});
+      } else if (const toml::table* entries = node.as_table()) {
+        for (const auto& [from, to] : *entries) {
+          const std::string entry = key + "." + std::string(from.str());
+          assign_later(entry, {field, entry, element, &to, place(to.source())});
+        }
+      } else {
+        fail(place(node.source()), fmt::format("{0} must be a table: write [{0}]", key));
+      }
+    }
+  }
+
+  void assign_later(const std::string& path, Assignment assignment) {
+    assignments_.insert_or_assign(path, std::move(assignment));
+  }
+
+  // --set key=value. Keys of [[transmitter]] and the like carry an index: transmitter.0.position_m.
+  void read_set(size_t index) {
+    const std::string& text = sets_[index];
+    const Place where{{}, index + 1};
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) return fail(where, "write it as key=value, such as trace.rays=1e5");
+    const std::string key = text.substr(0, equals);
+    const size_t dot = key.find('.');
+    const Table* table = find_table(key.substr(0, dot));
+    if (!table || dot == std::string::npos) return unknown(where, key);
+    std::string name = key.substr(dot + 1);
+    size_t element = 0;
+    if (table->append) {
+      const size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+      const size_t count = elements_[table->name].size();
+      if (digits == 0 || digits > 6 || name.substr(digits, 1) != ".")
+        return fail(where, fmt::format("write {0}.INDEX.KEY, such as {0}.0.name", table->name));
+      element = std::stoul(name.substr(0, digits));
+      name = name.substr(digits + 1);
+      if (element >= count)
+        return fail(where, fmt::format("the file has {} [[{}]], counted from 0", count, table->name));
+    }
+    const Field* field = find_field(*table, name);
+    if (!field) {  // one entry of a table of strings: scene.material_alias.NAME
+      const Field* aliases = find_field(*table, name.substr(0, name.find('.')));
+      if (aliases && name.find('.') != std::string::npos && is_aliases(*aliases)) field = aliases;
+    } else if (is_aliases(*field)) {
+      return fail(where, fmt::format("write {}.NAME=MATERIAL", key));
+    }
+    if (!field) return unknown(where, table->name + "." + name);
+    if (const toml::node* value = parse_value(text.substr(equals + 1), where))
+      assign_later(key, {field, table->name + "." + name, element, value, where});
+  }
+
+  // The value as TOML; text that is none is a string, unless it began as a TOML string, array or table.
+  const toml::node* parse_value(const std::string& text, const Place& where) {
+    try {
+      set_documents_.push_back(toml::parse("value = " + text));
+      if (set_documents_.back().size() == 1) return set_documents_.back().get("value");
+    } catch (const toml::parse_error& e) {
+      if (text.find_first_of("\"'[{") == 0) {
+        fail(where, std::string(e.description()));
+        return nullptr;
+      }
+    }
+    set_documents_.push_back(toml::table{{"value", text}});
+    return set_documents_.back().get("value");
+  }
+
+  void store(const Assignment& a) {
+    const Slot slot = a.field->slot(config_, a.element);
+    const std::string problem = assign(*a.field, a.key, slot, *a.value, a.place.set > 0 ? fs::path() : folder_);
+    if (!problem.empty()) return fail(a.place, problem);
+    if (a.field->later.empty()) return;
+    Config defaults = prototype();
+    const std::string given = literal(slot);
+    const auto& available = a.field->available;
+    if (given != literal(a.field->slot(defaults, 0)) &&
+        std::find(available.begin(), available.end(), given) == available.end())
+      fail(a.place, fmt::format("{} = {} is not available in this version: {}", a.key, given, a.field->later));
+  }
+
+  Place place_of(const std::string& path) const {
+    const auto found = assignments_.find(path);
+    return found == assignments_.end() ? Place{} : found->second.place;
+  }
+
+  // What only the whole shows: keys that are missing, or that exclude each other.
+  void check_whole() {
+    for (const Table& table : tables()) {
+      if (!table.append) continue;
+      const auto& places = elements_[table.name];
+      if (places.empty() && !table.optional)
+        fail({}, fmt::format("no [[{0}]]: add at least one, with name and position_m", table.name));
+      for (size_t i = 0; i < places.size(); ++i)
+        for (const Field& field : table.fields)
+          if (field.required && !assignments_.contains(fmt::format("{}.{}.{}", table.name, i, field.name)))
+            fail({places[i], 0}, fmt::format("[[{}]] has no {}: give it {}", table.name, field.name, accepted(field)));
+    }
+    check_scene();
+    check_names("receiver", config_.receivers, check_names("transmitter", config_.transmitters, {}));
+    check_names("material", config_.materials, {});
+    for (size_t i = 0; i < config_.materials.size(); ++i) {
+      const MaterialConfig& m = config_.materials[i];
+      if ((m.a || m.b || m.c || m.d) && (m.permittivity || m.conductivity_s_m))
+        fail({elements_["material"][i], 0},
+             "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: give one kind");
+    }
+  }
+
+  void check_scene() {
+    if (config_.scene.file.empty() && config_.scene.generate.empty()) {
+      const toml::node* table = document_.get("scene");
+      fail(table ? place(table->source()) : Place{},
+           "no scene: give scene.file = \"FILE\", or scene.generate = \"--seed 1\" for a city made on the spot");
+    } else if (!config_.scene.file.empty() && !config_.scene.generate.empty()) {
+      fail(std::max(place_of("scene.generate"), place_of("scene.file")),
+           "scene.file and scene.generate exclude each other: empty one of them");
+    }
+  }
+
+  template <class Named>
+  std::set<std::string> check_names(const std::string& table, const std::vector<Named>& all,
+                                    std::set<std::string> seen) {
+    for (size_t i = 0; i < all.size(); ++i)
+      if (!all[i].name.empty() && !seen.insert(all[i].name).second)
+        fail(place_of(fmt::format("{}.{}.name", table, i)),
+             fmt::format("{}.name = {} is taken: names are unique, choose another", table, toml_string(all[i].name)));
+    return seen;
+  }
+};
+
+}  // namespace
+
+Config parse_config(std::string_view toml, const std::string& file_name, const std::vector<std::string>& sets) {
+  return Parser(file_name, sets).parse(toml);
+}
+
+Config load_config(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (fs::is_directory(file) || !in || !(text << in.rdbuf()))
+    throw ConfigError(
+        fmt::format("{}: cannot be read as a config file; `wavetracer init` prints one to start from", file.string()));
+  return parse_config(text.str(), file.string(), sets);
+}
+
+}  // namespace wavetracer

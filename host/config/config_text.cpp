@@ -1,0 +1,97 @@
+// Texts made of the field table: the commented config of `init`, the key list of `--help`, the resolved config.
+// It assumes that a table without brackets of its own follows the one before it, as TOML reads it.
+#include <fmt/format.h>
+#include "config/config_file.hpp"
+#include "config/fields.hpp"
+
+namespace wavetracer {
+namespace {
+
+using namespace config;
+
+// Text broken at spaces so that no line is longer than 100 characters, each led by `lead`.
+std::string wrapped(const std::string& text, const std::string& lead) {
+  std::string out, line;
+  size_t start = 0;
+  while (start < text.size()) {
+    const size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (!line.empty() && lead.size() + line.size() + 1 + word.size() > 100) {
+      out += lead + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    start = end + 1;
+  }
+  return out + lead + line + "\n";
+}
+
+// Type, range, default and availability, in one sentence.
+std::string facts(const Field& field) {
+  Config defaults = prototype();
+  const std::string value = literal(field.slot(defaults, 0));
+  std::string out = accepted(field);
+  out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+  out += field.required                                      ? "; required."
+         : value.empty() || value == "\"\"" || value == "{}" ? "."
+                                                             : "; default " + value + ".";
+  if (!field.later.empty()) out += " Not in this version: " + field.later + ".";
+  return out;
+}
+
+std::string header(const Table& table) { return table.append ? "[[" + table.name + "]]" : "[" + table.name + "]"; }
+
+}  // namespace
+
+std::string commented_config() {
+  std::string out = "# A wavetracer configuration with every key: what it means, its range and its default.\n";
+  Config defaults = prototype();
+  for (const Table& table : tables()) {
+    const std::string off = table.optional ? "# " : "";
+    out += "\n" + wrapped(table.doc, "# ") + off + header(table) + "\n";
+    for (const Field& field : table.fields) {
+      out += wrapped(field.doc, "# ") + wrapped(facts(field), "# ");
+      const std::string value = literal(field.slot(defaults, 0));
+      // An example that is not needed to run, or nothing to write: a comment.
+      const bool example_only = !field.example.empty() && value == "{}";
+      const bool empty = field.example.empty() && (value.empty() || value == "\"\"");
+      const std::string& shown = field.example.empty() ? value : field.example;
+      out += (off.empty() && (empty || example_only) ? "# " : off) + field.name + " = " + shown + "\n";
+    }
+  }
+  return out;
+}
+
+std::string field_help() {
+  std::string out = "Keys of the config file (TOML):\n";
+  for (const Table& table : tables()) {
+    out += "\n" + header(table) + "  " + table.doc + "\n";
+    for (const Field& field : table.fields)
+      out +=
+          "  " + table.name + "." + field.name + "\n" + wrapped(field.doc, "      ") + wrapped(facts(field), "      ");
+  }
+  return out;
+}
+
+std::string resolved_config(const Config& config) {
+  std::string out;
+  Config values = config;  // slots point to what may be written to
+  const auto write = [&](const Table& table, size_t element) {
+    out += (out.empty() ? "" : "\n") + header(table) + "\n";
+    for (const Field& field : table.fields) {
+      const std::string value = literal(field.slot(values, element));
+      if (!value.empty()) out += field.name + " = " + value + "\n";
+    }
+  };
+  for (const Table& table : tables()) {
+    if (!table.append) {
+      write(table, 0);
+      continue;
+    }
+    const size_t count = table.count(values);
+    for (size_t i = 0; i < count; ++i) write(table, i);
+  }
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,72 @@
+// The field table: every key of the config file, once. Parsing, `validate`, `init`, `--help` and hints all read it.
+// It assumes that defaults stand in config.hpp; a field only says where its member is, so the two cannot disagree.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+#include "wavetracer/config.hpp"
+
+namespace wavetracer::config {
+
+using Aliases = std::map<std::string, std::string>;
+// Where the value of a field lives. The alternative held is the type of the field.
+using Slot = std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<double>*,
+                          std::array<double, 3>*, Aliases*>;
+
+// Numbers allowed, both ends included unless lower_open.
+struct Range {
+  double lower = -std::numeric_limits<double>::max();  // so that, unless said otherwise, infinity is out of range
+  double upper = std::numeric_limits<double>::max();
+  bool lower_open = false;
+};
+
+enum class Form {
+  plain,           // a value, or one of `choices`
+  choice_or_file,  // one of `choices`, or the path of a file
+  input_file,      // the path of a file that must exist when the run starts
+  output_folder,   // the path of a folder that the run creates
+};
+
+struct Field {
+  std::string name;                           // without its table
+  std::function<Slot(Config&, size_t)> slot;  // the index is that of the element of an array of tables
+  std::string unit = {};
+  Range range = {};
+  std::vector<std::string> choices = {};
+  Form form = Form::plain;
+  bool required = false;
+  std::string doc = {};
+  std::string example = {};  // TOML that `init` writes; empty: the default, or a comment where there is none
+  // Not empty: the feature is not in this version, and this says what to use. Only the default and the values of
+  // `available` are accepted then.
+  std::string later = {};
+  std::vector<std::string> available = {};
+};
+
+struct Table {
+  std::string name;
+  std::string doc;
+  std::vector<Field> fields;
+  // Set for an array of tables: adds an element and returns its index; the number of elements.
+  size_t (*append)(Config&) = nullptr;
+  size_t (*count)(const Config&) = nullptr;
+  bool optional = false;  // an array of tables that may be empty
+};
+
+const std::vector<Table>& tables();
+
+// A Config of defaults with one element in each array of tables, so that every slot exists at index 0.
+Config prototype();
+
+// The value as TOML; empty for an optional number that is not set.
+std::string literal(const Slot& slot);
+// What a field accepts, in words: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
+std::string accepted(const Field& field);
+
+}  // namespace wavetracer::config

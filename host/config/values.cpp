@@ -1,0 +1,230 @@
+// Conversions between TOML and the members of Config, one a slot type.
+// A float of integral value (1e6) is taken where an integer is asked for; NaN never is a value.
+#include "config/values.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include "config/spelling.hpp"
+
+namespace wavetracer::config {
+namespace {
+
+template <class T>
+constexpr bool is_integer = std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>;
+template <class T>
+constexpr bool is_real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
+
+template <class... F>
+struct Overload : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overload(F...) -> Overload<F...>;
+
+std::string number(double x) {
+  if (std::isinf(x)) return x < 0 ? "-inf" : "inf";
+  std::string text = fmt::format("{}", x);  // the shortest text that reads back as x
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string short_number(double x) { return std::isinf(x) ? "inf" : fmt::format("{:.10g}", x); }
+
+std::string kind_of(const toml::node& value) {
+  switch (value.type()) {
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number with a fraction";
+    case toml::node_type::boolean:
+      return "a boolean";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
+  }
+}
+
+std::string unquoted(const toml::node& value) {
+  if (const auto* i = value.as_integer()) return fmt::format("{}", i->get());
+  if (const auto* x = value.as_floating_point()) return std::isnan(x->get()) ? "nan" : number(x->get());
+  return kind_of(value);
+}
+
+bool inside(double x, const Range& range) {  // false for NaN
+  return x <= range.upper && (range.lower_open ? x > range.lower : x >= range.lower);
+}
+
+std::string wrong_type(const Field& field, const std::string& key, const toml::node& value) {
+  return fmt::format("{} must be {}, not {}", key, accepted(field), kind_of(value));
+}
+
+std::string out_of_range(const Field& field, const std::string& key, const toml::node& value) {
+  return fmt::format("{} = {} is out of range: it must be {}", key, unquoted(value), accepted(field));
+}
+
+template <class T>
+std::string assign_integer(const Field& field, const std::string& key, T& to, const toml::node& value) {
+  if (const auto* i = value.as_integer()) {
+    if (!inside(static_cast<double>(i->get()), field.range)) return out_of_range(field, key, value);
+    to = static_cast<T>(i->get());
+    return {};
+  }
+  const auto* x = value.as_floating_point();
+  if (!x) return wrong_type(field, key, value);
+  if (!inside(x->get(), field.range)) return out_of_range(field, key, value);
+  // Up to 2^53 a double holds every integer, so the text said exactly this one.
+  if (x->get() != std::floor(x->get()) || x->get() > 9007199254740992.0) return wrong_type(field, key, value);
+  to = static_cast<T>(x->get());
+  return {};
+}
+
+template <class T>
+std::string assign_real(const Field& field, const std::string& key, T& to, const toml::node& value) {
+  if (!value.is_number()) return wrong_type(field, key, value);
+  const double x = *value.value<double>();
+  if (!inside(x, field.range)) return out_of_range(field, key, value);
+  to = x;
+  return {};
+}
+
+std::string assign_text(const Field& field, const std::string& key, std::string& to, const toml::node& value,
+                        const std::filesystem::path& folder) {
+  const auto* text = value.as_string();
+  if (!text) return wrong_type(field, key, value);
+  const std::string& given = text->get();
+  if (field.required && given.empty()) return key + " is empty: give it a name";
+  to = given;
+  if (field.form == Form::input_file || field.form == Form::output_folder) to = resolved_path(folder, given);
+  if (field.choices.empty() || std::find(field.choices.begin(), field.choices.end(), given) != field.choices.end())
+    return {};
+  // A dot or a slash tells a file from a misspelt name.
+  if (field.form == Form::choice_or_file && given.find_first_of("./") != std::string::npos) {
+    to = resolved_path(folder, given);
+    return {};
+  }
+  return fmt::format("{} = {} is not known: it must be {}{}", key, toml_string(given), accepted(field),
+                     hint(given, field.choices));
+}
+
+std::string assign_vector(const Field& field, const std::string& key, std::array<double, 3>& to,
+                          const toml::node& value) {
+  const auto* array = value.as_array();
+  if (!array) return wrong_type(field, key, value);
+  if (array->size() != to.size()) return fmt::format("{} must be {}, not {}", key, accepted(field), array->size());
+  for (size_t i = 0; i < to.size(); ++i) {
+    const std::string element = fmt::format("{}[{}]", key, i);
+    const toml::node& node = (*array)[i];
+    if (!node.is_number()) return fmt::format("{} must be a number, not {}", element, kind_of(node));
+    to[i] = *node.value<double>();
+    if (!inside(to[i], field.range))
+      return fmt::format("{} = {} is out of range: it must be a finite number", element, unquoted(node));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string resolved_path(const std::filesystem::path& folder, const std::string& path) {
+  return path.empty() ? path : std::filesystem::absolute(folder / path).lexically_normal().string();
+}
+
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string assign(const Field& field, const std::string& key, const Slot& slot, const toml::node& value,
+                   const std::filesystem::path& folder) {
+  return std::visit(Overload{
+                        [&](std::string* to) { return assign_text(field, key, *to, value, folder); },
+                        [&](bool* to) {
+                          if (!value.is_boolean()) return wrong_type(field, key, value);
+                          *to = value.as_boolean()->get();
+                          return std::string();
+                        },
+                        [&](std::array<double, 3>* to) { return assign_vector(field, key, *to, value); },
+                        [&](Aliases* to) {  // key is that of one entry: table.field.NAME
+                          if (!value.is_string())
+                            return fmt::format("{} must be a string, not {}", key, kind_of(value));
+                          const size_t dot = key.find('.', key.find('.') + 1);
+                          (*to)[key.substr(dot + 1)] = value.as_string()->get();
+                          return std::string();
+                        },
+                        [&]<class T>(T* to) {
+                          if constexpr (is_integer<T>)
+                            return assign_integer(field, key, *to, value);
+                          else
+                            return assign_real(field, key, *to, value);
+                        },
+                    },
+                    slot);
+}
+
+std::string literal(const Slot& slot) {
+  return std::visit(Overload{
+                        [](const std::string* s) { return toml_string(*s); },
+                        [](const bool* b) { return std::string(*b ? "true" : "false"); },
+                        [](const uint32_t* i) { return fmt::format("{}", *i); },
+                        [](const uint64_t* i) { return fmt::format("{}", *i); },
+                        [](const double* x) { return number(*x); },
+                        [](const std::optional<double>* x) { return *x ? number(**x) : std::string(); },
+                        [](const std::array<double, 3>* v) {
+                          return fmt::format("[{}, {}, {}]", number((*v)[0]), number((*v)[1]), number((*v)[2]));
+                        },
+                        [](const Aliases* aliases) {
+                          std::string out;
+                          for (const auto& [from, to] : *aliases)
+                            out +=
+                                fmt::format("{}{} = {}", out.empty() ? "{ " : ", ", toml_string(from), toml_string(to));
+                          return out.empty() ? "{}" : out + " }";
+                        },
+                    },
+                    slot);
+}
+
+std::string accepted(const Field& field) {
+  Config sample = prototype();
+  const std::string unit = field.unit.empty() ? "" : " (" + field.unit + ")";
+  const auto range = [&](std::string_view noun) {
+    const Range& r = field.range;
+    std::string out(noun);
+    const double largest = std::numeric_limits<double>::max();
+    if (r.lower > -largest) out += (r.lower_open ? " above " : " from ") + short_number(r.lower);
+    if (r.upper < largest || std::isinf(r.upper)) out += (r.lower_open ? " up to " : " to ") + short_number(r.upper);
+    return out + unit;
+  };
+  std::string choices;
+  for (const std::string& choice : field.choices) choices += (choices.empty() ? "" : ", ") + toml_string(choice);
+  return std::visit(
+      Overload{
+          [&](const std::string*) -> std::string {
+            if (field.form == Form::choice_or_file) return choices + " or the path of a file";
+            if (!choices.empty()) return (field.choices.size() > 1 ? "one of " : "") + choices;
+            if (field.form == Form::input_file) return "the path of a file";
+            return field.form == Form::output_folder ? "the path of a folder" : "a string";
+          },
+          [&](const bool*) -> std::string { return "true or false"; },
+          [&](const std::array<double, 3>*) -> std::string { return "three numbers" + unit; },
+          [&](const Aliases*) -> std::string { return "a table of strings"; },
+          [&]<class T>(const T*) -> std::string { return range(is_integer<T> ? "an integer" : "a number"); },
+      },
+      field.slot(sample, 0));
+}
+
+}  // namespace wavetracer::config

@@ -1,0 +1,78 @@
+// Context: a device opened with one in-order profiling queue.
+// Requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept.
+#include <fmt/format.h>
+#include "gpu/device.hpp"
+#include "gpu/state.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::gpu {
+
+Context::Context(std::string_view device_text) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  const std::vector<DeviceInfo> devices = list_devices();
+  s.info = devices[choose_device(devices, device_text)];
+  if (!s.info.fp64 || !s.info.int64_atomics) {
+    throw DeviceError(fmt::format(
+        "{} ({}) lacks {}; choose another device (`wavetracer devices` lists them)", s.info.name, s.info.platform,
+        s.info.fp64 ? "64-bit atomics (cl_khr_int64_base_atomics)" : "double precision (cl_khr_fp64)"));
+  }
+  try {
+    s.device = all_devices().at(s.info.index);
+    s.context = cl::Context(s.device);
+    s.queue = cl::CommandQueue(s.context, s.device, CL_QUEUE_PROFILING_ENABLE);
+    s.device_options = device_options(s.device, s.info);
+  } catch (const cl::Error& error) {
+    s.fail(error.err(), fmt::format("opening the device ({})", error.what()));
+  }
+}
+
+Context::~Context() {
+  try {
+    if (state_->queue()) state_->queue.finish();
+  } catch (const cl::Error&) {
+    // A failed command was reported, or is of no interest any more.
+  }
+}
+
+const DeviceInfo& Context::info() const { return state_->info; }
+
+double Context::build_seconds() const { return state_->build_seconds; }
+
+size_t Context::builds_from_source() const { return state_->builds_from_source; }
+
+void Context::finish() {
+  try {
+    state_->queue.finish();
+  } catch (const cl::Error& error) {
+    state_->fail(error.err(), "finishing the queue");
+  }
+}
+
+std::map<std::string, double> Context::profile() {
+  finish();
+  try {
+    const auto& sums = state_->profile.sums();
+    return {sums.begin(), sums.end()};
+  } catch (const cl::Error& error) {
+    state_->fail(error.err(), "reading the profile");
+  }
+}
+
+void Context::reset_profile() { state_->profile.reset(); }
+
+void Context::State::fail(cl_int code, const std::string& action) const {
+  std::string message = fmt::format("{}: {} failed: {}", info.name, action, error_name(code));
+  if (is_out_of_memory(code)) {
+    message += fmt::format(
+        ". The device has {} MiB, {} MiB at most a buffer; this run holds {}. Lower trace.batch_rays, or trace.rays where it "
+        "is "
+        "not set, or choose a device with more memory",
+        info.global_memory >> 20, info.max_buffer >> 20, allocations->summary());
+  }
+  // What NVIDIA answers to everything after a kernel that faulted.
+  if (code == CL_INVALID_COMMAND_QUEUE)
+    message += ". An earlier command broke the queue: a kernel out of its buffers' bounds?";
+  throw DeviceError(message);
+}
+
+}  // namespace wavetracer::gpu

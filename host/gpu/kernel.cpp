@@ -1,0 +1,77 @@
+// The one checked launch: arguments against what the kernel wants, sizes padded, failures named.
+// A wrong argument is a fault of the calling code (std::logic_error); a refused launch is the device's (DeviceError).
+#include <fmt/format.h>
+#include <stdexcept>
+#include "gpu/state.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::gpu {
+
+std::string Kernel::State::describe(unsigned index) const {
+  const std::string declared =
+      index < arguments.size() ? fmt::format(" ({} {})", arguments[index].type, arguments[index].name) : "";
+  return fmt::format("argument {}{} of kernel {}", index, declared, name);
+}
+
+const std::string& Kernel::name() const {
+  static const std::string none;
+  return state_ ? state_->name : none;
+}
+
+void Kernel::check_count(size_t count) const {
+  if (!state_) throw std::logic_error("launching a kernel that was never made");
+  if (count != state_->argument_count) {
+    throw std::logic_error(
+        fmt::format("kernel {} takes {} arguments, {} were given", state_->name, state_->argument_count, count));
+  }
+}
+
+void Kernel::set_value(unsigned index, const void* value, size_t bytes) {
+  State& s = *state_;
+  if (index < s.arguments.size()) {
+    const Argument& wanted = s.arguments[index];
+    if (wanted.kind != Argument::Kind::value) {
+      throw std::logic_error(fmt::format("{} is {} memory, a plain value was given", s.describe(index),
+                                         wanted.kind == Argument::Kind::local ? "local" : "global"));
+    }
+    if (wanted.bytes != 0 && wanted.bytes != bytes) {
+      throw std::logic_error(
+          fmt::format("{} has {} bytes, a value of {} was given", s.describe(index), wanted.bytes, bytes));
+    }
+  }
+  const cl_int code = clSetKernelArg(s.kernel(), index, bytes, value);
+  if (code == CL_SUCCESS) return;
+  throw std::logic_error(fmt::format("{} refuses a value of {} bytes: {}", s.describe(index), bytes, error_name(code)));
+}
+
+void Kernel::set_memory(unsigned index, const Memory& memory) {
+  State& s = *state_;
+  if (!memory) throw std::logic_error(fmt::format("{} is a buffer that was never allocated", s.describe(index)));
+  if (memory.context_->state_.get() != s.context) {
+    throw std::logic_error(fmt::format("{} is a buffer of another context", s.describe(index)));
+  }
+  if (index < s.arguments.size() && s.arguments[index].kind != Argument::Kind::memory) {
+    throw std::logic_error(fmt::format("{} is no global memory, a buffer was given", s.describe(index)));
+  }
+  const cl_mem handle = static_cast<cl_mem>(memory.handle_.get());
+  const cl_int code = clSetKernelArg(s.kernel(), index, sizeof handle, &handle);
+  if (code == CL_SUCCESS) return;
+  throw std::logic_error(fmt::format("{} refuses a buffer: {}", s.describe(index), error_name(code)));
+}
+
+void Kernel::enqueue(Range range, const char* stage) {
+  State& s = *state_;
+  if (range.local == 0) throw std::logic_error(fmt::format("kernel {} was given work-groups of no items", s.name));
+  if (range.global == 0) return;
+  const size_t padded = (range.global + range.local - 1) / range.local * range.local;
+  cl::Event event;
+  const cl_int code =
+      clEnqueueNDRangeKernel(s.context->queue(), s.kernel(), 1, nullptr, &padded, &range.local, 0, nullptr, &event());
+  if (code != CL_SUCCESS) {
+    s.context->fail(code, fmt::format("launching kernel {} over {} items in groups of {} (the device allows {})",
+                                      s.name, padded, range.local, s.context->info.max_work_group));
+  }
+  s.context->profile.add(stage, std::move(event));
+}
+
+}  // namespace wavetracer::gpu

@@ -1,0 +1,37 @@
+// Folding of profiling events into sums.
+// Half of the pending events are folded at a time: by then the device has mostly finished them, so launches seldom
+// wait.
+#include "gpu/profile.hpp"
+
+namespace wavetracer::gpu {
+
+void Profile::add(std::string_view stage, cl::Event event) {
+  auto entry = sums_.find(stage);
+  if (entry == sums_.end()) entry = sums_.emplace(stage, 0.0).first;
+  pending_.push_back({std::move(event), &entry->second});
+  if (pending_.size() > max_pending) fold(max_pending / 2);
+}
+
+const std::map<std::string, double, std::less<>>& Profile::sums() {
+  fold(pending_.size());
+  return sums_;
+}
+
+void Profile::reset() {
+  pending_.clear();
+  sums_.clear();
+}
+
+void Profile::fold(size_t count) {
+  if (count == 0) return;
+  pending_[count - 1].event.wait();
+  for (; count > 0; --count) {
+    const Pending& oldest = pending_.front();
+    const cl_ulong start = oldest.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const cl_ulong end = oldest.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    *oldest.seconds += static_cast<double>(end - start) * 1e-9;
+    pending_.pop_front();
+  }
+}
+
+}  // namespace wavetracer::gpu

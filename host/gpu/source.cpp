@@ -1,0 +1,158 @@
+// Expansion of a program's source: every line `#include "name"` is replaced by the file it names, as C does it.
+// Assumes include guards, since includes may be conditional; `#include <...>` is left to the compiler it is meant for.
+#include "gpu/source.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <vector>
+#include "gpu/gpu.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::gpu {
+
+namespace {
+
+struct File {
+  std::string path;  // as build logs shall name it
+  std::string text;
+};
+
+// Where files come from: the embedded table, or a kernels folder on disk with include/ beside it.
+class Source {
+ public:
+  Source() {
+    if (const char* folder = std::getenv("WAVETRACER_KERNEL_DIR"); folder && *folder) folder_ = folder;
+  }
+
+  // name is relative to kernels/, or to include/ as C++ has it.
+  std::optional<File> find(const std::string& name) const {
+    if (!folder_.empty()) {
+      for (const std::filesystem::path& found : {folder_ / name, folder_ / ".." / "include" / name}) {
+        const std::filesystem::path path = found.lexically_normal();
+        if (std::ifstream in(path, std::ios::binary); in && std::filesystem::is_regular_file(path)) {
+          return File{path.generic_string(), std::string(std::istreambuf_iterator<char>(in), {})};
+        }
+      }
+      return std::nullopt;
+    }
+    for (const EmbeddedFile& file : embedded_files()) {
+      if (file.path == "kernels/" + name || file.path == "include/" + name) {
+        return File{std::string(file.path), std::string(file.text)};
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::string place() const {
+    return folder_.empty() ? std::string("the kernels built into wavetracer")
+                           : fmt::format("{} (WAVETRACER_KERNEL_DIR) or ../include beside it", folder_.string());
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// The file named by a line `#include "name"`, blanks allowed where C allows them.
+std::optional<std::string> included_name(std::string_view line) {
+  const auto skip_blanks = [&line] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
+  const auto take = [&line](std::string_view word) {
+    if (!line.starts_with(word)) return false;
+    line.remove_prefix(word.size());
+    return true;
+  };
+  skip_blanks();
+  if (!take("#")) return std::nullopt;
+  skip_blanks();
+  if (!take("include")) return std::nullopt;
+  skip_blanks();
+  if (!take("\"")) return std::nullopt;
+  const size_t end = line.find('"');
+  if (end == std::string_view::npos) return std::nullopt;
+  return std::string(line.substr(0, end));
+}
+
+class Expansion {
+ public:
+  explicit Expansion(const Source& source) : source_(source) {}
+
+  void append(const File& file) {
+    open_.push_back(file.path);
+    out_ += fmt::format("#line 1 \"{}\"\n", file.path);
+    const std::string_view text = file.text;
+    size_t number = 1;
+    for (size_t begin = 0; begin < text.size(); ++number) {
+      const size_t end = std::min(text.find('\n', begin), text.size());
+      append_line(file, number, text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    open_.pop_back();
+  }
+
+  std::string take() { return std::move(out_); }
+
+ private:
+  void append_line(const File& file, size_t number, std::string_view line) {
+    const std::optional<std::string> name = included_name(line);
+    if (!name) {
+      out_.append(line).push_back('\n');
+      return;
+    }
+    const std::optional<File> included = source_.find(*name);
+    if (!included) {
+      throw DeviceError(
+          fmt::format("{}:{}: included file \"{}\" is not in {}; names are relative to kernels/ or include/", file.path,
+                      number, *name, source_.place()));
+    }
+    // A file within itself would be empty by its guard; leaving it out is what ends a circle.
+    if (std::find(open_.begin(), open_.end(), included->path) == open_.end()) append(*included);
+    out_ += fmt::format("#line {} \"{}\"\n", number + 1, file.path);
+  }
+
+  const Source& source_;
+  std::vector<std::string> open_;  // the files being expanded, outermost first
+  std::string out_;
+};
+
+}  // namespace
+
+std::string program_source(const std::string& program) {
+  const Source source;
+  const std::optional<File> file = source.find(program + ".cl");
+  if (!file)
+    throw DeviceError(fmt::format("kernel program \"{}\": {}.cl is not in {}", program, program, source.place()));
+  Expansion expansion(source);
+  expansion.append(*file);
+  return expansion.take();
+}
+
+std::string with_places(const std::string& log, const std::string& source) {
+  static const std::regex directive("#line ([0-9]+) \"(.*)\""), counted("(<kernel>|input\\.cl):([0-9]+):");
+  std::vector<std::string> places;  // of each line of the source
+  std::istringstream lines(source);
+  std::string file;
+  size_t number = 0;
+  for (std::string line; std::getline(lines, line); ++number) {
+    places.push_back(fmt::format("{}:{}:", file, number));
+    if (std::smatch match; std::regex_match(line, match, directive)) {
+      number = std::stoul(match[1]) - 1;
+      file = match[2];
+    }
+  }
+  std::string out;
+  auto copied = log.begin();
+  for (std::sregex_iterator match(log.begin(), log.end(), counted), end; match != end; ++match) {
+    const size_t line = std::stoul((*match)[2]);
+    if (line == 0 || line > places.size()) continue;
+    out.append(copied, (*match)[0].first).append(places[line - 1]);
+    copied = (*match)[0].second;
+  }
+  return out.append(copied, log.end());
+}
+
+}  // namespace wavetracer::gpu

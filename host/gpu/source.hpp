@@ -1,0 +1,22 @@
+// Kernel sources: the table embedded in the library, and the places of lines after the expansion of includes.
+// Paths are those of the source tree: "kernels/trace.cl", "include/wavetracer/device/bvh.h".
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace wavetracer::gpu {
+
+struct EmbeddedFile {
+  std::string_view path, text;
+};
+
+// Generated at build time by cmake/embed_kernels.cmake, sorted by path.
+std::span<const EmbeddedFile> embedded_files();
+
+// A build log with places as the #line directives of `source` have them. NVIDIA and Oclgrind count the lines of the
+// text that they were given ("<kernel>:812:5", "input.cl:812:5"); PoCL follows the directives, and its log stays as it
+// is.
+std::string with_places(const std::string& log, const std::string& source);
+
+}  // namespace wavetracer::gpu

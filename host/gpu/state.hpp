@@ -1,0 +1,73 @@
+// The private halves of Context and Kernel, shared by this folder's .cpp files.
+// A Context::State stays where it is for its whole life; kernels and buffers keep plain pointers to it.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+#include "gpu/cache.hpp"
+#include "gpu/gpu.hpp"
+#include "gpu/opencl.hpp"
+#include "gpu/profile.hpp"
+
+namespace wavetracer::gpu {
+
+// The buffers that are alive, for messages. Outlives its Context where a buffer does.
+class Allocations {
+ public:
+  void add(void* handle, std::string name, size_t bytes);
+  void remove(void* handle);
+  std::string name(void* handle) const;
+  // "1234 MiB in 17 buffers, the largest: rays (512 MiB), hits (256 MiB)".
+  std::string summary() const;
+
+ private:
+  struct Entry {
+    std::string name;
+    size_t bytes;
+  };
+  std::map<void*, Entry> live_;
+};
+
+struct Context::State {
+  DeviceInfo info;
+  cl::Device device;
+  cl::Context context;
+  cl::CommandQueue queue;
+  std::string device_options;
+  ProgramCache cache = ProgramCache::from_environment();
+  Profile profile;
+  std::shared_ptr<Allocations> allocations = std::make_shared<Allocations>();
+  std::map<std::string, cl::Program> programs;                    // by name and options
+  std::map<std::string, std::shared_ptr<Kernel::State>> kernels;  // by name, program and options
+  double build_seconds = 0;
+  size_t builds_from_source = 0;
+
+  // A program, built at its first use: from the disk cache, else from source.
+  const cl::Program& program(const std::string& name, const std::string& options);
+  cl::Program build_from_source(const std::string& name, const std::string& options, const std::string& source);
+  // Enqueues a copy between two cl_mem, the ranges of which do not overlap.
+  void copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, const char* stage);
+  // Throws DeviceError: what was tried, the error's name and, where memory ran out, what to lower.
+  [[noreturn]] void fail(cl_int code, const std::string& action) const;
+};
+
+// What a kernel wants as one argument, as far as the runtime tells.
+struct Argument {
+  enum class Kind { unknown, value, memory, local } kind = Kind::unknown;
+  size_t bytes = 0;  // of a value; 0 where its type is not one of OpenCL C's own
+  std::string name, type;
+};
+
+struct Kernel::State {
+  Context::State* context;
+  cl::Kernel kernel;
+  std::string name;
+  size_t argument_count;
+  std::vector<Argument> arguments;  // empty where the runtime tells nothing
+
+  // "argument 2 (global uint* counts) of kernel trace".
+  std::string describe(unsigned index) const;
+};
+
+}  // namespace wavetracer::gpu

@@ -1,0 +1,92 @@
+// The program on an OpenCL device: devices, a whole run, a wrong --device, an interrupt.
+// It is skipped, saying so, where there is no device.
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <chrono>
+#include <fstream>
+#include <thread>
+#include "program.hpp"
+
+namespace {
+
+const std::string street =
+    "scene.generate = \"--blocks 2\"\ntrace.rays = 20000\ntrace.max_depth = 2\n"
+    "[[transmitter]]\nname = \"mast\"\nposition_m = [0, 0, 6]\n"
+    "[[receiver]]\nname = \"car\"\nposition_m = [50, 0, 2]\n";
+
+bool device_present() {
+  const Outcome devices = run_program({"devices"});
+  if (devices.code != 0) MESSAGE("skipped, no OpenCL device: " << devices.err);
+  return devices.code == 0;
+}
+
+size_t lines(const std::string& file) {
+  std::ifstream in(file);
+  size_t count = 0;
+  for (std::string line; std::getline(in, line);) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("devices marks the device that a run takes") {
+  if (!device_present()) return;
+  const Outcome devices = run_program({"devices"});
+  CHECK(contains(devices.out, "platform"));
+  CHECK(contains(devices.out, "\n*  "));
+  CHECK(devices.err.empty());
+}
+
+TEST_CASE("a run writes three files and says what it found") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3"});
+  CAPTURE(run.err);
+  CHECK(run.code == 0);
+  CHECK(contains(run.out, "rays       20000 launched"));
+  CHECK(contains(run.out, "median of 3"));
+  CHECK(contains(run.out, "mast -> car"));
+  CHECK(contains(run.out, "LOS yes"));
+  CHECK(contains(run.out, folder.path("out/paths.h5")));
+  CHECK_FALSE(contains(run.err, "\x1b"));  // no terminal, no escape sequences
+  for (const char* name : {"out/paths.h5", "out/links.csv", "out/summary.json"})
+    CHECK(std::filesystem::file_size(folder.path(name)) > 0);
+  CHECK(lines(folder.path("out/links.csv")) == 2);
+}
+
+TEST_CASE("output.directory is relative to the config file") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", "output.directory = \"results\"\n" + street);
+  CHECK(run_program({"run", "-c", file, "--set", "trace.rays=100"}).code == 0);
+  CHECK(std::filesystem::exists(folder.path("results/links.csv")));
+}
+
+TEST_CASE("a device that is not there exits 4 with the list of those that are") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out"), "--device", "no such device"});
+  CHECK(run.code == 4);
+  CHECK(contains(run.err, "no such device"));
+  CHECK(run.out.empty());
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("an interrupt ends the run after the repeat in progress, with whole files and exit code 130") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  Program run({"run", "-c", file, "-o", folder.path("out"), "--repeat", "1000000"});
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 3000 && !contains(run.messages(), "ready after"); ++i) std::this_thread::sleep_for(20ms);
+  std::this_thread::sleep_for(300ms);  // some repeats
+  run.signal(SIGINT);
+  const Outcome outcome = run.wait();
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(contains(outcome.err, "interrupted"));
+  // It may have come before the first repeat was done, where the kernels had to be compiled first.
+  if (!contains(outcome.err, "nothing was written")) CHECK(lines(folder.path("out/links.csv")) == 2);
+}

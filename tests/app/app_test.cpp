@@ -1,0 +1,120 @@
+// The program without a device: usage, config and input errors, init, validate, scene.
+// Each error must have its exit code, say where and what, and leave nothing behind.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "program.hpp"
+#include "wavetracer/version.hpp"
+
+namespace {
+
+const std::string ends =
+    "[[transmitter]]\nname = \"t\"\nposition_m = [0, 0, 6]\n[[receiver]]\nname = \"r\"\nposition_m = [50, 0, 2]\n";
+const std::string city = "scene.generate = \"--blocks 2\"\n";
+
+void check(const Outcome& outcome, int code, const std::string& message) {
+  CAPTURE(outcome.out);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == code);
+  CHECK(contains(outcome.err, message));
+  CHECK(outcome.out.empty());
+}
+
+}  // namespace
+
+TEST_CASE("--version and --help") {
+  const Outcome version = run_program({"--version"});
+  CHECK(version.code == 0);
+  CHECK(version.out == "wavetracer " WAVETRACER_VERSION "\n");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"run", "--help"}}) {
+    const Outcome help = run_program(words);
+    CHECK(help.code == 0);
+    CHECK(contains(help.out, "trace.max_depth"));
+    CHECK(contains(help.out, "cache.residual_value"));
+  }
+}
+
+TEST_CASE("usage errors exit 2") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + ends);
+  check(run_program({}), 2, "Subcommands:");
+  check(run_program({"runn"}), 2, "runn");
+  check(run_program({"run"}), 2, "--config is required");
+  check(run_program({"run", "-c", file, "--repeat", "0"}), 2, "--repeat");
+  check(run_program({"run", "-c", file, "--nonsense"}), 2, "--nonsense");
+  check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: a run without trajectories");
+  check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: nothing to resume");
+  check(run_program({"bench", "rays"}), 2, "no recipe \"rays\"");
+  check(run_program({"bench"}), 2, "no recipe given");
+  check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("config errors exit 2 with file, line and column, and write nothing") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + "[trace]\nray = 5\n" + ends);
+  check(run_program({"run", "-c", file, "-o", folder.path("out")}), 2,
+        file + ":3:1: unknown key \"trace.ray\"; did you mean \"trace.rays\"?\n");
+  check(run_program({"validate", "-c", file}), 2, file + ":3:1: unknown key");
+  const std::string good = folder.file("b.toml", city + ends);
+  check(run_program({"validate", "-c", good, "--set", "trace.rays=0"}), 2, "--set trace.rays=0: trace.rays = 0");
+  check(run_program({"run", "-c", good, "-o", folder.path("out"), "--set", "trace.diffraction=true"}), 2,
+        "trace.diffraction = true is not available in this version");
+  check(run_program({"validate", "-c", good, "--set", "scene.generate=--stories 3"}), 2, "--stories");
+  check(run_program({"validate", "-c", folder.path("absent.toml")}), 2, "absent.toml: cannot be read");
+  CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("missing input files exit 3 and name the key") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", "scene.file = \"absent.xml\"\n" + ends);
+  check(run_program({"run", "-c", file, "-o", folder.path("out")}), 3,
+        "scene.file is \"" + folder.path("absent.xml") + "\", which cannot be read: No such file");
+  check(run_program({"validate", "-c", file}), 3, "scene.file");
+  const std::string antenna = folder.file("b.toml", city + ends + "antenna = \"absent.csv\"\n");
+  check(run_program({"validate", "-c", antenna}), 3, "receiver.antenna is \"" + folder.path("absent.csv"));
+  check(run_program({"scene", "info", folder.path("absent.xml")}), 3, "absent.xml");
+  CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("an output folder that cannot be written to exits 1 before anything is traced") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + ends);
+  check(run_program({"run", "-c", file, "-o", file + "/out"}), 1, file + "/out: cannot write there");
+  if (geteuid() == 0) return;  // permissions do not bind root
+  chmod(folder.path().c_str(), 0500);
+  check(run_program({"run", "-c", file, "-o", folder.path("out")}), 1, "Permission denied");
+  chmod(folder.path().c_str(), 0700);
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("without any OpenCL platform the exit code is 4 and the message says what to install") {
+  const Folder folder, no_vendors;
+  const std::string file = folder.file("a.toml", city + ends);
+  const std::vector<std::string> environment = {"OCL_ICD_VENDORS=" + no_vendors.path()};
+  check(run_program({"devices"}, environment), 4, "pocl-opencl-icd");
+  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out")}, environment);
+  check(run, 4, "pocl-opencl-icd");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("init, then validate") {
+  const Folder folder;
+  const Outcome init = run_program({"init"});
+  CHECK(init.code == 0);
+  const std::string file = folder.file("a.toml", init.out);
+  const Outcome validate = run_program({"validate", "-c", file});
+  CHECK(validate.code == 0);
+  CHECK(validate.err.empty());
+  CHECK(contains(validate.out, file + ": ok\n"));
+}
+
+TEST_CASE("scene city writes what scene info reads") {
+  const Folder folder;
+  const Outcome made = run_program({"scene", "city", "-o", folder.path("city"), "--seed", "3", "--blocks", "2"});
+  CHECK(made.code == 0);
+  const Outcome info = run_program({"scene", "info", folder.path("city/city.xml")});
+  CHECK(info.code == 0);
+  CHECK(contains(info.out, "triangles"));
+  CHECK(contains(info.out, "concrete"));
+}

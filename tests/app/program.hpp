@@ -1,0 +1,46 @@
+// Runs the built program as a user does, and keeps what it said.
+// Each Folder is a fresh one below the system's temporary folder, removed at the end of the test.
+#pragma once
+#include <sys/types.h>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct Outcome {
+  int code = -1;  // exit code; 128 + signal where a signal ended it
+  std::string out, err;
+};
+
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string path(const std::string& name = "") const { return (folder_ / name).string(); }
+  // Writes a file and returns its path.
+  std::string file(const std::string& name, const std::string& text) const;
+  size_t entries() const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// A program that is running; wait() collects it.
+class Program {
+ public:
+  // environment: NAME=VALUE texts over those of this process.
+  explicit Program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+  Outcome wait();
+  void signal(int number) const;
+  // What it has written to stderr so far.
+  std::string messages() const;
+
+ private:
+  Folder folder_;
+  pid_t process_ = 0;
+};
+
+Outcome run_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -1,0 +1,227 @@
+// Config files: what is accepted, what each kind of mistake answers, and that --set behaves as the file does.
+// The texts are written here by hand; positions are counted in them, not computed by the parser.
+#include <doctest/doctest.h>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include "config/config_file.hpp"
+#include "wavetracer/error.hpp"
+
+namespace {
+
+using wavetracer::Config;
+using wavetracer::ConfigError;
+using wavetracer::parse_config;
+
+const std::string ends =
+    "[[transmitter]]\nname = \"t\"\nposition_m = [0, 0, 6]\n"
+    "[[receiver]]\nname = \"r\"\nposition_m = [10, 0, 1.5]\n";
+const std::string scene = "scene.file = \"s.xml\"\n";
+
+// The message of the ConfigError of this text, or "no error".
+std::string error_of(const std::string& text, const std::vector<std::string>& sets = {}) {
+  try {
+    parse_config(text, "a.toml", sets);
+  } catch (const ConfigError& e) {
+    CHECK(e.code() == wavetracer::ExitCode::usage);
+    return e.what();
+  }
+  return "no error";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+#define CHECK_CONTAINS(text, part) \
+  do {                             \
+    const std::string in = (text); \
+    CAPTURE(in);                   \
+    CHECK(contains(in, part));     \
+  } while (false)
+
+}  // namespace
+
+TEST_CASE("a minimal config keeps every default") {
+  const Config c = parse_config(scene + ends, "/data/a.toml");
+  const Config d;
+  CHECK(c.scene.file == "/data/s.xml");
+  CHECK(c.radio.frequency_hz == d.radio.frequency_hz);
+  CHECK(c.trace.rays == d.trace.rays);
+  CHECK(c.trace.max_depth == d.trace.max_depth);
+  CHECK(c.output.directory == "/data/out");
+  REQUIRE(c.transmitters.size() == 1);
+  REQUIRE(c.receivers.size() == 1);
+  CHECK(c.receivers[0].name == "r");
+  CHECK(c.receivers[0].position_m == std::array<double, 3>{10, 0, 1.5});
+}
+
+TEST_CASE("every kind of value is read, dotted keys at the top and tables alike") {
+  const Config c = parse_config(
+      "scene.file = \"sub/../s.xml\"\nscene.scale = 2\nscene.up = \"y\"\nradio.frequency_hz = 28000000000.0\n"
+      "trace.rays = 1e6\ntrace.seed = 9223372036854775807\ntrace.diffraction = false\n"
+      "[scene.material_alias]\n\"my wall\" = \"concrete\"\ndoor = \"wood\"\n"
+      "[order]\nmethod = \"WS\"\n[output]\ndirectory = \"/abs/out\"\n"
+      "[[material]]\nname = \"m\"\npermittivity = 4\nthickness_m = inf\n" +
+          ends,
+      "/data/a.toml");
+  CHECK(c.scene.file == "/data/s.xml");
+  CHECK(c.scene.scale == 2.0);
+  CHECK(c.scene.up == "y");
+  CHECK(c.radio.frequency_hz == 28e9);
+  CHECK(c.trace.rays == 1000000);
+  CHECK(c.trace.seed == 9223372036854775807u);
+  CHECK(c.scene.material_alias == std::map<std::string, std::string>{{"my wall", "concrete"}, {"door", "wood"}});
+  CHECK(c.order.method == "WS");
+  CHECK(c.output.directory == "/abs/out");
+  REQUIRE(c.materials.size() == 1);
+  CHECK(*c.materials[0].permittivity == 4.0);
+  CHECK(std::isinf(*c.materials[0].thickness_m));
+  CHECK_FALSE(c.materials[0].a.has_value());
+}
+
+TEST_CASE("the form that dotted keys before arrays of tables give is accepted") {
+  const Config c = parse_config(
+      "scene.file = \"/s.xml\"\nradio.frequency_hz = 3500000000.0\ntrace.rays = 1000000\ntrace.max_depth = 5\n"
+      "trace.reflection = true\ntrace.diffraction = false\ntrace.transmission = false\ntrace.scattering = false\n"
+      "[[transmitter]]\nname = \"tx0\"\nposition_m = [8.5, 21, 27]\nantenna = \"isotropic\"\npolarization = \"VH\"\n"
+      "[[receiver]]\nname = \"rx0\"\nposition_m = [45, 90, 1.5]\nantenna = \"isotropic\"\npolarization = \"VH\"\n",
+      "case.toml");
+  CHECK(c.transmitters[0].polarization == "VH");
+  CHECK(c.radio.frequency_hz == 3.5e9);
+}
+
+TEST_CASE("an unknown key names its place and the nearest known key") {
+  CHECK(error_of("scene.file = \"s.xml\"\n\n[trace]\n  ray = 5\n" + ends) ==
+        "a.toml:4:3: unknown key \"trace.ray\"; did you mean \"trace.rays\"?");
+  CHECK_CONTAINS(error_of(scene + "trace.max_dpeth = 5\n" + ends),
+                 "a.toml:2:7: unknown key \"trace.max_dpeth\"; did "
+                 "you mean \"trace.max_depth\"?");
+  CHECK_CONTAINS(error_of("rays = 5\n" + scene + ends),
+                 "a.toml:1:1: unknown key \"rays\"; did you mean \"trace.rays\"?");
+  CHECK_CONTAINS(error_of("[trcae]\n" + ends), "unknown key \"trcae\"; did you mean \"trace\"?");
+  CHECK_CONTAINS(error_of(scene + ends + "positon_m = [0, 0, 0]\n"),
+                 "a.toml:8:1: unknown key \"receiver.positon_m\"; did you mean \"receiver.position_m\"?");
+  CHECK(error_of(scene + "completely.different = 1\n" + ends) == "a.toml:2:1: unknown key \"completely\"");
+}
+
+TEST_CASE("syntax errors and repeated keys carry their place") {
+  CHECK_CONTAINS(error_of("scene.file = \n" + ends), "a.toml:1:");
+  CHECK_CONTAINS(error_of("[trace]\nrays = 1\nrays = 2\n"), "a.toml:3:");
+  CHECK_CONTAINS(error_of("trace.rays = 99999999999999999999\n"), "a.toml:1:");
+}
+
+TEST_CASE("wrong types say what is expected") {
+  CHECK_CONTAINS(error_of(scene + "trace.rays = \"many\"\n" + ends),
+                 "a.toml:2:14: trace.rays must be an integer from 1 ");
+  CHECK_CONTAINS(error_of(scene + "trace.rays = 1.5\n" + ends), "not a number with a fraction");
+  CHECK_CONTAINS(error_of(scene + "trace.reflection = 1\n" + ends),
+                 "trace.reflection must be true or false, not an integer");
+  CHECK_CONTAINS(error_of(scene + "radio.frequency_hz = [1]\n" + ends), "radio.frequency_hz must be a number");
+  CHECK_CONTAINS(error_of("scene.file = 3\n" + ends),
+                 "a.toml:1:14: scene.file must be the path of a file, not an integer");
+  CHECK_CONTAINS(error_of("trace = 3\n" + scene + ends), "a.toml:1:9: trace must be a table: write [trace]");
+  CHECK_CONTAINS(error_of(scene + "[transmitter]\nname = \"t\"\n"), "write [[transmitter]]");
+  CHECK_CONTAINS(error_of(scene + "[scene.material_alias]\nx = 1\n" + ends), "scene.material_alias.x must be a string");
+}
+
+TEST_CASE("numbers outside their range, NaN and infinity") {
+  CHECK_CONTAINS(error_of(scene + "trace.rays = 0\n" + ends),
+                 "trace.rays = 0 is out of range: it must be an integer from 1 to");
+  CHECK_CONTAINS(error_of(scene + "trace.max_depth = 33\n" + ends), "from 0 to 32");
+  CHECK_CONTAINS(error_of(scene + "trace.max_depth = -1\n" + ends), "trace.max_depth = -1 is out of range");
+  CHECK_CONTAINS(error_of(scene + "radio.frequency_hz = nan\n" + ends), "radio.frequency_hz = nan is out of range");
+  CHECK_CONTAINS(error_of(scene + "radio.frequency_hz = inf\n" + ends), "out of range");
+  CHECK_CONTAINS(error_of(scene + "scene.scale = 0\n" + ends),
+                 "scene.scale = 0 is out of range: it must be a number above 0");
+  CHECK_CONTAINS(error_of(scene + "cache.load_factor = 1.01\n" + ends), "cache.load_factor");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nname = \"n\"\nposition_m = [0, nan, 0]\n"),
+                 "receiver.position_m[1] = nan is out of range");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nname = \"n\"\nposition_m = [0, 0, -inf]\n"),
+                 "receiver.position_m[2] = -inf is out of range");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nname = \"n\"\nposition_m = [0, 0]\n"),
+                 "must be three numbers (m), not 2");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nname = \"n\"\nposition_m = [0, 0, \"1\"]\n"),
+                 "receiver.position_m[2] must be a number, not a string");
+}
+
+TEST_CASE("choices are checked and hinted; an antenna may be a file") {
+  CHECK_CONTAINS(error_of(scene + "trace.directions = \"hilbrt\"\n" + ends), "did you mean \"hilbert\"?");
+  CHECK_CONTAINS(error_of(scene + ends + "antenna = \"isotropc\"\n"), "did you mean \"isotropic\"?");
+  const Config c = parse_config(scene + ends + "antenna = \"patterns/roof.csv\"\n", "/data/a.toml");
+  CHECK(c.receivers[0].antenna == "/data/patterns/roof.csv");
+}
+
+TEST_CASE("what is missing or said twice") {
+  CHECK_CONTAINS(error_of(ends), "a.toml:1:1: no scene: give scene.file");
+  CHECK_CONTAINS(error_of(scene), "no [[transmitter]]");
+  CHECK_CONTAINS(error_of(scene), "no [[receiver]]");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nposition_m = [0, 0, 0]\n"),
+                 "a.toml:8:1: [[receiver]] has no name");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nname = \"q\"\n"), "[[receiver]] has no position_m");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nname = \"t\"\nposition_m = [0, 0, 0]\n"),
+                 "a.toml:9:8: receiver.name = \"t\" is taken");
+  CHECK_CONTAINS(error_of(scene + ends + "[[receiver]]\nname = \"\"\nposition_m = [0, 0, 0]\n"),
+                 "receiver.name is empty");
+  CHECK_CONTAINS(error_of("scene.generate = \"--seed 1\"\n" + scene + ends), "exclude each other");
+  CHECK_CONTAINS(error_of(scene + "[[material]]\nname = \"m\"\na = 2\npermittivity = 3\n" + ends), "give one kind");
+}
+
+TEST_CASE("all mistakes are reported at once, in the order of the file") {
+  CHECK(error_of("zzz = 1\ntrace.max_depth = 99\naaa = 1\n" + scene + ends) ==
+        "a.toml:1:1: unknown key \"zzz\"\n"
+        "a.toml:2:19: trace.max_depth = 99 is out of range: it must be an integer from 0 to 32 (interactions)\n"
+        "a.toml:3:1: unknown key \"aaa\"");
+}
+
+TEST_CASE("keys of later versions name themselves and what to use; their defaults are fine") {
+  const std::vector<std::pair<std::string, std::string>> later = {
+      {"trajectories.file", "\"fcd.xml\""}, {"trace.diffraction", "true"},     {"trace.transmission", "true"},
+      {"trace.scattering", "true"},         {"trace.reception", "\"sphere\""}, {"trace.sphere_radius_m", "2.0"},
+      {"order.method", "\"HZ\""},           {"order.each_depth", "true"},      {"cache.kind", "\"open\""}};
+  for (const auto& [key, value] : later) {
+    const std::string message = error_of(scene + key + " = " + value + "\n" + ends);
+    CAPTURE(message);
+    CHECK(contains(message, "a.toml:2:"));
+    CHECK(contains(message, key + " = "));
+    CHECK(contains(message, "is not available in this version: "));
+  }
+  CHECK(error_of(scene + "trace.diffraction = false\norder.method = \"none\"\ncache.kind = \"none\"\n" + ends) ==
+        "no error");
+  CHECK(error_of(scene + "[cache]\nhash_method = 2\ndivision = 100\npurge = \"precision\"\n" + ends) == "no error");
+  CHECK_CONTAINS(error_of(scene + "cache.hash_method = 4\n" + ends), "cache.hash_method = 4 is out of range");
+  CHECK_CONTAINS(error_of(scene + "order.method = \"quicksort\"\n" + ends), "is not known");
+}
+
+TEST_CASE("--set overrides the file, as TOML or as a bare word") {
+  const Config c =
+      parse_config(scene + "trace.rays = 5\ntrace.diffraction = true\n" + ends, "/data/a.toml",
+                   {"trace.rays=7", "trace.diffraction=false", "trace.directions=fibonacci", "trace.rays=1e3",
+                    "scene.file=", "scene.generate=--seed 3", "scene.material_alias.door=wood",
+                    "receiver.0.position_m=[1, 2, 3]", "output.directory=\"/o\""});
+  CHECK(c.trace.rays == 1000);
+  CHECK_FALSE(c.trace.diffraction);
+  CHECK(c.trace.directions == "fibonacci");
+  CHECK(c.scene.file.empty());
+  CHECK(c.scene.generate == "--seed 3");
+  CHECK(c.scene.material_alias.at("door") == "wood");
+  CHECK(c.receivers[0].position_m == std::array<double, 3>{1, 2, 3});
+  CHECK(c.output.directory == "/o");
+}
+
+TEST_CASE("mistakes in --set are reported as --set") {
+  const auto of = [](const std::string& set) { return error_of(scene + ends, {set}); };
+  CHECK(of("trace.ray=5") == "--set trace.ray=5: unknown key \"trace.ray\"; did you mean \"trace.rays\"?");
+  CHECK_CONTAINS(of("trace.rays=many"), "--set trace.rays=many: trace.rays must be an integer");
+  CHECK_CONTAINS(of("trace.rays=0"), "--set trace.rays=0: trace.rays = 0 is out of range");
+  CHECK_CONTAINS(of("trace.rays"), "--set trace.rays: write it as key=value");
+  CHECK_CONTAINS(of("rays=5"), "did you mean \"trace.rays\"?");
+  CHECK_CONTAINS(of("receiver.1.name=x"), "the file has 1 [[receiver]]");
+  CHECK_CONTAINS(of("receiver.name=x"), "write receiver.INDEX.KEY");
+  CHECK_CONTAINS(of("receiver.0.position_m=[1, 2"), "--set receiver.0.position_m=[1, 2: ");
+  CHECK_CONTAINS(of("trace.rays=5\ntrace.seed=1"), "trace.rays must be an integer");
+  CHECK_CONTAINS(of("order.method=HZ"), "--set order.method=HZ: order.method = \"HZ\" is not available");
+}
+
+TEST_CASE("a file that cannot be read is a config error") {
+  CHECK_THROWS_AS(wavetracer::load_config("/nonexistent/a.toml"), ConfigError);
+  CHECK_THROWS_AS(wavetracer::load_config("/"), ConfigError);
+}

@@ -1,0 +1,133 @@
+// The field table and what is made of it: the contract's keys, init, help, the resolved config, spelling hints.
+// It assumes nothing of the parser's insides: texts go in, Configs and texts come out.
+#include <doctest/doctest.h>
+#include <set>
+#include "config/config_file.hpp"
+#include "config/fields.hpp"
+#include "config/spelling.hpp"
+
+using namespace wavetracer;
+
+TEST_CASE("every key of the contract is in the table, once") {
+  std::set<std::string> keys;
+  for (const auto& table : config::tables())
+    for (const auto& field : table.fields) {
+      CAPTURE(field.name);
+      CHECK(keys.insert(table.name + "." + field.name).second);
+      CHECK_FALSE(field.doc.empty());
+    }
+  for (const char* key : {"scene.file",
+                          "scene.generate",
+                          "radio.frequency_hz",
+                          "transmitter.name",
+                          "transmitter.position_m",
+                          "transmitter.antenna",
+                          "transmitter.polarization",
+                          "transmitter.orientation_deg",
+                          "receiver.name",
+                          "receiver.position_m",
+                          "receiver.antenna",
+                          "receiver.polarization",
+                          "receiver.orientation_deg",
+                          "trajectories.file",
+                          "trace.rays",
+                          "trace.max_depth",
+                          "trace.reflection",
+                          "trace.diffraction",
+                          "trace.transmission",
+                          "trace.scattering",
+                          "trace.directions",
+                          "trace.reception",
+                          "trace.sphere_radius_m",
+                          "trace.seed",
+                          "order.method",
+                          "order.each_depth",
+                          "cache.kind",
+                          "cache.hash_method",
+                          "cache.division",
+                          "cache.buffer_size",
+                          "cache.load_factor",
+                          "cache.readers_number",
+                          "cache.purge",
+                          "cache.residual_value",
+                          "output.directory"}) {
+    CAPTURE(key);
+    CHECK(keys.contains(key));
+  }
+}
+
+TEST_CASE("each slot is a member of its own") {
+  Config c = config::prototype();
+  std::set<const void*> members;
+  for (const auto& table : config::tables())
+    for (const auto& field : table.fields)
+      CHECK(members.insert(std::visit([](auto* p) { return static_cast<const void*>(p); }, field.slot(c, 0))).second);
+}
+
+TEST_CASE("the commented config of init parses, holds every key and keeps the defaults") {
+  const std::string text = commented_config();
+  const Config c = parse_config(text, "example.toml");
+  for (const auto& table : config::tables())
+    for (const auto& field : table.fields) {
+      CAPTURE(field.name);
+      const bool on = text.find("\n" + field.name + " = ") != std::string::npos;
+      const bool off = text.find("\n# " + field.name + " = ") != std::string::npos;
+      CHECK((on || off));
+    }
+  CHECK_FALSE(c.scene.generate.empty());
+  CHECK(c.transmitters.size() == 1);
+  CHECK(c.receivers.size() == 1);
+  Config filled = c, defaults = config::prototype();
+  for (const auto& table : config::tables()) {
+    if (table.append || table.name == "scene" || table.name == "output") continue;
+    for (const auto& field : table.fields)
+      CHECK(config::literal(field.slot(filled, 0)) == config::literal(field.slot(defaults, 0)));
+  }
+  for (size_t start = 0; start < text.size();) {
+    const size_t end = text.find('\n', start);
+    CHECK(end - start <= 120);
+    start = end + 1;
+  }
+}
+
+TEST_CASE("help names every key with its default") {
+  const std::string help = field_help();
+  CHECK(help.find("trace.rays") != std::string::npos);
+  CHECK(help.find("default 1000000") != std::string::npos);
+  CHECK(help.find("cache.residual_value") != std::string::npos);
+  CHECK(help.find("Not in this version") != std::string::npos);
+}
+
+TEST_CASE("the resolved config reads back the same, odd characters included") {
+  const Config c = parse_config(
+      "scene.file = \"a \\\"b\\\"\\\\ \\u0001\\u00e4.xml\"\nradio.frequency_hz = 5912345678.125\ntrace.rays = "
+      "12345678901\n"
+      "scene.material_alias.\"x.y\" = \"wood\"\n[[material]]\nname = \"m\"\nthickness_m = inf\nb = -0.1\n"
+      "[[transmitter]]\nname = \"t\"\nposition_m = [691234.123456789, 5334567.1, -0.0]\n"
+      "[[receiver]]\nname = \"r 1\"\nposition_m = [1e-300, 0, 0.1]\n",
+      "/data/a.toml");
+  const Config d = parse_config(c.text, "/elsewhere/b.toml");
+  CHECK(d.text == c.text);
+  CHECK(d.scene.file == c.scene.file);
+  CHECK(d.scene.material_alias == c.scene.material_alias);
+  CHECK(d.transmitters[0].position_m == c.transmitters[0].position_m);
+  CHECK(d.radio.frequency_hz == c.radio.frequency_hz);
+  CHECK(*d.materials[0].b == *c.materials[0].b);
+}
+
+TEST_CASE("edit distances of known pairs") {
+  using config::edit_distance;
+  CHECK(edit_distance("", "abc") == 3);
+  CHECK(edit_distance("kitten", "sitting") == 3);
+  CHECK(edit_distance("rays", "rays") == 0);
+  CHECK(edit_distance("dpeth", "depth") == 1);  // one swap of neighbours
+  CHECK(edit_distance("abc", "") == 3);
+}
+
+TEST_CASE("a hint needs a near word") {
+  const std::vector<std::string> known = {"trace.rays", "trace.seed"};
+  CHECK(config::nearest("trace.ray", known) == "trace.rays");
+  CHECK(config::nearest("seed", known) == "trace.seed");
+  CHECK(config::nearest("wavelength", known).empty());
+  CHECK(config::hint("xyz", known).empty());
+}

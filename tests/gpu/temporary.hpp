@@ -1,0 +1,108 @@
+// Things that tests set up and that vanish with them: a folder, an environment variable, a folder of kernels.
+// Not thread-safe, as the environment is not.
+#pragma once
+#include <unistd.h>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+
+namespace wavetracer::test {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "wavetracer_test_XXXXXX").string();
+    if (!::mkdtemp(name.data()))
+      throw std::filesystem::filesystem_error("mkdtemp", std::error_code(errno, std::generic_category()));
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Sets a variable, or unsets it where value is null, and restores what was there.
+class Environment {
+ public:
+  Environment(std::string name, const char* value) : name_(std::move(name)) {
+    if (const char* old = std::getenv(name_.c_str())) old_ = old;
+    set(value);
+  }
+  ~Environment() { set(old_ ? old_->c_str() : nullptr); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  void set(const char* value) {
+    if (value) {
+      ::setenv(name_.c_str(), value, 1);
+    } else {
+      ::unsetenv(name_.c_str());
+    }
+  }
+  std::string name_;
+  std::optional<std::string> old_;
+};
+
+inline std::string read_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_file(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+// PoCL's own cache of kernels: read once a process, from XDG_CACHE_HOME unless POCL_CACHE_DIR is set, and then expected
+// to stay. Call before the first use of OpenCL.
+inline void give_pocl_a_lasting_cache() {
+  static const TemporaryFolder folder;
+  ::setenv("POCL_CACHE_DIR", folder.path().c_str(), 0);
+}
+
+// A kernels folder of the test's own (WAVETRACER_KERNEL_DIR), with the project's device headers beside it,
+// and a program cache of its own (XDG_CACHE_HOME).
+class TemporaryKernels {
+ public:
+  TemporaryKernels() {
+    give_pocl_a_lasting_cache();
+    std::filesystem::create_directory(kernels());
+    std::filesystem::create_directory_symlink(std::filesystem::path(WAVETRACER_SOURCE) / "include",
+                                              folder_.path() / "include");
+  }
+  std::filesystem::path kernels() const { return folder_.path() / "kernels"; }
+  std::filesystem::path cache() const { return folder_.path() / "cache"; }
+  void add(const std::string& name, const std::string& text) const { write_file(kernels() / name, text); }
+
+ private:
+  TemporaryFolder folder_;
+  Environment kernel_dir_{"WAVETRACER_KERNEL_DIR", kernels().c_str()};
+  Environment cache_home_{"XDG_CACHE_HOME", cache().c_str()};
+  Environment use_cache_{"WAVETRACER_NO_CACHE", nullptr};
+};
+
+// The message of an exception of type E; empty where none was thrown.
+template <class E, class F>
+std::string message_of(F&& action) {
+  try {
+    action();
+  } catch (const E& error) {
+    return error.what();
+  }
+  return {};
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace wavetracer::test
