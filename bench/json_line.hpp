@@ -23,6 +23,7 @@ struct Result {
   std::optional<double> baseline_value;  // in the same unit
   double error = 0;    // what the speed costs, in the words of the benchmark's documentation; 0 where exact
   std::string detail;  // a short remark for the table; may be empty
+  nlohmann::ordered_json extra = nlohmann::ordered_json::object();  // fields of this benchmark alone
 };
 
 // The command as a user would repeat it: the program without its folder, and its arguments.
@@ -51,6 +52,7 @@ inline void print(const Result& result, const std::string& command) {
   }
   line["error"] = result.error;
   line["detail"] = result.detail;
+  line.update(result.extra);
   line["command"] = command;
   const std::time_t now = std::time(nullptr);
   char date[32];

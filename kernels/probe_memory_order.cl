@@ -9,9 +9,9 @@ kernel void take_places(global uint* counter, global uint* places, uint count) {
   places[i] = wt_fetch_add_u32(counter, 1u);
 }
 
-// A set of non-zero words with linear probing. `inserted` counts the words that were new, `winners[slot]` who was first.
-kernel void insert_words(global const ulong* words, uint count, global ulong* slots, uint slot_mask, global uint* inserted,
-                         global uint* winners, global uint* lost) {
+// A set of non-zero words with linear probing. `inserted` counts the words that were new, `winners[slot]` their claims.
+kernel void insert_words(global const ulong* words, uint count, global ulong* slots, uint slot_mask,
+                         global uint* inserted, global uint* winners, global uint* lost) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const ulong word = words[i];
@@ -29,8 +29,8 @@ kernel void insert_words(global const ulong* words, uint count, global ulong* sl
   wt_fetch_add_u32(lost, 1u);
 }
 
-// The pair that this work-item shares with one of the work-group `distance` (a power of two) away. Which distance makes two
-// items meet depends on how a device spreads its groups over cores, and on whether it runs a group's items in turn.
+// The pair that this work-item shares with one of the work-group `distance` (a power of two) away. Which distance makes
+// two items meet depends on how a device spreads its groups over cores, and on whether it runs a group's items in turn.
 inline uint pair_of_item(uint distance) {
   const uint group = (uint)get_group_id(0);
   return (group / (2 * distance) * distance + group % distance) * (uint)get_local_size(0) + (uint)get_local_id(0);
@@ -54,7 +54,8 @@ kernel void publish(global uint* payload, global uint* flags, global uint* seen,
 
 // The same with one wide word, a claim by 32-bit compare-and-swap, and the fence alone: one winner a pair. A loser that
 // sees the flag but not the owner's word clears the word, which the host finds.
-kernel void claim(global uint* owners, global ulong* words, global uint* flags, global uint* wins, uint pairs, uint distance) {
+kernel void claim(global uint* owners, global ulong* words, global uint* flags, global uint* wins, uint pairs,
+                  uint distance) {
   const uint pair = pair_of_item(distance);
   if (pair >= pairs) return;
   const uint owner = (uint)get_global_id(0) + 1;
@@ -65,6 +66,8 @@ kernel void claim(global uint* owners, global ulong* words, global uint* flags, 
     wt_fetch_add_u32(wins + pair, before == 0 ? 1u : 2u);
   } else if (wt_load_relaxed_u32(flags + pair) != 0) {
     wt_fence();
-    if (wt_load_acquire_u64(words + pair) != wt_load_relaxed_u32(owners + pair)) wt_store_release_u64(words + pair, 0ul);
+    if (wt_load_acquire_u64(words + pair) != wt_load_relaxed_u32(owners + pair)) {
+      wt_store_release_u64(words + pair, 0ul);
+    }
   }
 }

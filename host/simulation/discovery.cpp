@@ -9,8 +9,6 @@ namespace wavetracer {
 namespace {
 
 constexpr uint64_t initial_slots = 1 << 18;
-// Packets of 16 win on the first segments of ordered rays and lose once reflections have scattered them.
-constexpr uint32_t packet_depths = 3;
 
 // Rays in flight: what fills the device, and what its caches like where there are few cores.
 uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& config) {
@@ -20,7 +18,11 @@ uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& config) 
   return std::clamp<uint64_t>(wanted, 256, std::max<uint64_t>(most, 256));
 }
 
-TraceShape first_shape(const gpu::DeviceInfo& device) { return device.cpu ? TraceShape::packet16 : TraceShape::bvh2; }
+// Packets win as long as neighbours in the queue travel together, which they do to the last depth once they were born in order.
+TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& config) {
+  if (!device.cpu) return TraceShape::bvh2;
+  return config.directions == "random" ? TraceShape::bvh8 : TraceShape::packet16;
+}
 
 }  // namespace
 
@@ -30,12 +32,10 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
       max_depth_(config.reflection ? config.max_depth : 0),
       batch_rays_(choose_batch(context.info(), config)),
       generate_(context, config.directions, config.rays, config.seed),
-      trace_(context, scene, config.directions == "random" && context.info().cpu ? TraceShape::bvh8 : first_shape(context.info())),
+      trace_(context, scene, choose_shape(context.info(), config)),
       scan_(context),
       interact_(context),
-      sequences_(context, initial_slots) {
-  if (context.info().cpu) trace_late_.emplace(context, scene, TraceShape::bvh8);
-}
+      sequences_(context, initial_slots) {}
 
 DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<glm::dvec3>& transmitters) {
   DiscoveryCounts counts;
@@ -75,8 +75,7 @@ void Discovery::launch(const std::vector<glm::dvec3>& transmitters, Batch batch)
 void Discovery::trace_batch(const DeviceScene& scene, DiscoveryCounts& counts) {
   const uint32_t block = Trace::block_size(context_.info());
   for (uint32_t depth = 1; depth <= max_depth_ && rays_.count > 0; ++depth) {
-    Trace& trace = trace_late_ && depth > packet_depths ? *trace_late_ : trace_;
-    trace(scene, rays_, hits_);
+    trace_(scene, rays_, hits_);
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
     interact_(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), next_, depth == max_depth_);
     counts.segments_per_depth[depth - 1] += rays_.count;

@@ -2,7 +2,6 @@
 // The wavefront loop generate, trace, interact, compact; batches bound the memory, whatever the number of rays.
 #pragma once
 #include <glm/vec3.hpp>
-#include <optional>
 #include <vector>
 
 #include "passes/generate_rays.hpp"
@@ -42,7 +41,6 @@ class Discovery {
   uint64_t batch_rays_;
   GenerateRays generate_;
   Trace trace_;
-  std::optional<Trace> trace_late_;  // for rays that no longer travel together
   Scan scan_;
   Interact interact_;
   Sequences sequences_;
