@@ -13,6 +13,7 @@
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
 #include "simulation/stopwatch.hpp"
+#include "simulation/tree_choice.hpp"
 #include "simulation/visible_paths.hpp"
 
 namespace wavetracer {
@@ -54,9 +55,9 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.setup["device"] = watch.lap();
   s.scene = load_scene(config);
   s.setup["load"] = watch.lap();
-  s.device_scene = make_device_scene(*s.context, s.scene, false);
-  s.setup["build"] = watch.lap();
   s.transmitters = recentred(config.transmitters, s.scene);
+  s.device_scene = choose_tree(*s.context, s.scene, config.trace, s.transmitters);
+  s.setup["build"] = watch.lap();
   s.ends = make_radio_ends(*s.context, s.transmitters, recentred(config.receivers, s.scene));
   s.discovery.emplace(*s.context, s.device_scene, config.trace);
   s.candidates.emplace(*s.context);

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# The links of bench_paths solved by Sionna RT: the same JSON lines, for `bench_paths --peer`.
+# Assumes `pip install sionna-rt` and, without an NVIDIA GPU, LLVM (Debian: libllvm15; DRJIT_LIBLLVM_PATH names its .so).
+"""Usage: bench_paths --write-links links.json
+       sionna_rt.py links.json munich.xml > peer.jsonl
+       bench_paths --peer peer.jsonl
+
+"error" is the share of paths that are missed, among the distinct ones that the largest launch for the same links finds.
+Paths that Sionna RT reports twice count once; so do those of coplanar neighbours, which have one length.
+"""
+import argparse
+import datetime
+import importlib.metadata
+import json
+import pathlib
+import platform
+import statistics
+import sys
+import time
+
+import mitsuba as mi
+import numpy as np
+import sionna.rt as rt
+
+# Transmitters, receivers, rays a transmitter: those of bench_paths.cpp, the ones of most rays last for each set of links.
+CASES = [(1, 1, 10**5), (1, 1, 10**6), (1, 1, 10**7), (1, 10, 10**6), (1, 100, 10**6), (1, 100, 10**7), (10, 100, 10**6), (10, 100, 10**7)]
+LARGE = 10**7  # cases of so many rays are for GPUs, and for --large
+SAME_DELAY_S, SAME_DELAY = 30e-12, 2e-6  # float32 delays of one path agree to this, absolute or relative
+
+
+def load(scene_file, links, tx_count, rx_count):
+    scene = rt.load_scene(str(scene_file))
+    scene.frequency = links["frequency_hz"]
+    array = dict(num_rows=1, num_cols=1, vertical_spacing=0.5, horizontal_spacing=0.5, pattern="iso", polarization="V")
+    scene.tx_array, scene.rx_array = rt.PlanarArray(**array), rt.PlanarArray(**array)
+    for i, position in enumerate(links["transmitters_m"][:tx_count]):
+        scene.add(rt.Transmitter(name=f"tx{i}", position=position))
+    for i, position in enumerate(links["receivers_m"][:rx_count]):
+        scene.add(rt.Receiver(name=f"rx{i}", position=position))
+    return scene
+
+
+def distinct_paths(paths):
+    """(link, depth, delay) of every path, each once, sorted."""
+    valid = paths.valid.numpy()  # rx, tx, path
+    link = np.broadcast_to(np.arange(valid.shape[0] * valid.shape[1]).reshape(valid.shape[:2] + (1,)), valid.shape)[valid]
+    depth = (paths.interactions.numpy() != 0).sum(axis=0)[valid]  # depth, rx, tx, path
+    delay = paths.tau.numpy()[valid]
+    found = []
+    for row in sorted(zip(link.tolist(), depth.tolist(), delay.tolist())):
+        if not (found and found[-1][:2] == row[:2] and same_delay(found[-1][2], row[2])):
+            found.append(row)
+    return found
+
+
+def same_delay(a, b):
+    return abs(a - b) <= max(SAME_DELAY_S, SAME_DELAY * b)
+
+
+def recall(reference, found):
+    """Share of the reference's paths that are in `found`, which has no path twice."""
+    left = {}
+    for *key, delay in found:
+        left.setdefault(tuple(key), []).append(delay)
+    hits = 0
+    for *key, delay in reference:
+        delays = left.get(tuple(key), [])
+        match = next((d for d in delays if same_delay(d, delay)), None)
+        if match is not None:
+            delays.remove(match)
+            hits += 1
+    return hits / max(len(reference), 1)
+
+
+def solve(solver, scene, links, rays):
+    """Seconds of one solve until its results lie in the host's memory, and the paths."""
+    start = time.perf_counter()
+    paths = solver(scene, max_depth=links["max_depth"], samples_per_src=rays, los=True, specular_reflection=True,
+                   diffuse_reflection=False, refraction=False, diffraction=False, synthetic_array=True)
+    real, imaginary = paths.a
+    for result in (paths.valid, paths.tau, real, imaginary):
+        result.numpy()
+    return time.perf_counter() - start, paths
+
+
+def device_name():
+    where = "OptiX" if mi.variant().startswith("cuda") else "LLVM"
+    processor = platform.processor() or platform.machine()
+    cpuinfo = pathlib.Path("/proc/cpuinfo")
+    if where == "LLVM" and cpuinfo.exists():
+        models = [line.split(":", 1)[1].strip() for line in cpuinfo.read_text().splitlines() if line.startswith("model name")]
+        processor = f"{models[0]}, {len(models)} threads" if models else processor
+    what = "CUDA GPU" if where == "OptiX" else processor
+    return f"{what}, Sionna RT {importlib.metadata.version('sionna-rt')} ({where})"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("links", type=pathlib.Path, help="written by bench_paths --write-links")
+    parser.add_argument("scene", type=pathlib.Path, help="the Mitsuba XML file of the same scene")
+    parser.add_argument("--runs", type=int, default=5, help="warm solves of which the median counts")
+    parser.add_argument("--large", action="store_true", help="on a CPU, too, the cases of 1e7 rays")
+    parser.add_argument("--only", metavar="TXxRX", help="only cases of this many links, such as 1x100")
+    arguments = parser.parse_args()
+    links = json.loads(arguments.links.read_text(encoding="utf-8"))
+    solver = rt.PathSolver()
+    device = device_name()
+    results = []
+    for tx_count, rx_count, rays in CASES:
+        name = f"{tx_count}x{rx_count}"
+        on_gpu = mi.variant().startswith("cuda")
+        if (rays >= LARGE and not on_gpu and not arguments.large) or arguments.only not in (None, name):
+            continue
+        scene = load(arguments.scene, links, tx_count, rx_count)
+        first, _ = solve(solver, scene, links, rays)
+        solves = [solve(solver, scene, links, rays) for _ in range(arguments.runs)]
+        results.append((name, rays, first, statistics.median(s for s, _ in solves), distinct_paths(solves[-1][1])))
+        print(f"sionna_rt.py: {name}, {rays} rays: {results[-1][3]:.3f} s, {len(results[-1][4])} paths", file=sys.stderr)
+    largest = {name: paths for name, _, _, _, paths in results}
+    for name, rays, first, median, paths in results:
+        print(json.dumps({
+            "bench": "paths", "case": f"{links['scene']}, {name} links, {rays:.0e} rays a transmitter", "device": device,
+            "value": median, "unit": "s a frame", "baseline": None, "baseline_value": None, "ratio": None,
+            "error": 1 - recall(largest[name], paths), "detail": f"{len(paths)} distinct paths; first solve {first:.3f} s",
+            "links": name, "rays": rays, "paths": len(paths), "first_frame_s": first, "command": " ".join(sys.argv),
+            "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")}))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,18 @@
+// Places for antennas in the streets of a city: points with nothing but sky above them.
+// Assumes streets at z = 0 of the file's coordinates, as in munich and in the generated city.
+#pragma once
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer::bench {
+
+// `count` points at height_m within radius_m of centre_m, file coordinates, to a millimetre. A point is taken where a
+// ray straight down from the sky meets the ground first. The same arguments give the same points everywhere.
+// Throws InputError where hardly any place is open.
+std::vector<glm::dvec3> street_points(const Scene& scene, glm::dvec3 centre_m, double radius_m, double height_m,
+                                      size_t count);
+
+}  // namespace wavetracer::bench
