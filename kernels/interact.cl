@@ -32,7 +32,7 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
       last_node = wt_trie_insert(table, mask, parent, surface);
       last_parent = parent;
       last_surface = surface;
-      if (last_node == WT_NONE) counters->trie_overflow = 1;
+      if (last_node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
     }
     if (!last) go_on(surfaces, rays, hits, capacity, i, surface, last_node, next, j);
     ++j;
@@ -52,7 +52,7 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
   barrier(CLK_LOCAL_MEM_FENCE);
   if (surface == WT_NONE) return;
   const uint node = wt_trie_insert(table, mask, wt_load_word(rays, capacity, WT_RAY_NODE, i), surface);
-  if (node == WT_NONE) counters->trie_overflow = 1;
+  if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
   if (last) return;
   uint j = block_offsets[get_group_id(0)] + popcount(alive[lane / 32] & ((1u << (lane % 32)) - 1u));
   for (uint w = 0; w < lane / 32; ++w) j += popcount(alive[w]);

@@ -46,7 +46,7 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_NODE* triangl
     const wt_hit hit = WT_NEXT_HIT(o, d, t, after, t_max);
     if (hit.primitive == WT_NONE) return;
     if (hit.surface != source && hit.surface != goal && blocks(surfaces + hit.surface, from, to)) {
-      solved[i].blocked = 1;
+      atomic_or(&solved[i].blocked, 1u);
       return;
     }
     t = hit.t;

@@ -35,7 +35,7 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
     uint node = wt_trie_insert(table, mask, parents[k + 1], chain[k]);
     if (node != WT_NONE) node = wt_trie_insert(table, mask, node, chain[k + 1]);
     for (uint j = k; j-- > 0 && node != WT_NONE;) node = wt_trie_insert(table, mask, node, chain[j]);
-    if (node == WT_NONE) counters->trie_overflow = 1;
+    if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
   }
 }
 
@@ -50,5 +50,5 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
   if (level != depth) return;
   const uint node = wt_trie_insert(table, mask, parent & WT_ROOT ? parent : moved[parent], wt_trie_surface(old_table[slot]));
   moved[slot] = node;
-  if (node == WT_NONE) counters->trie_overflow = 1;
+  if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
 }
