@@ -37,9 +37,9 @@ struct Case {
 };
 
 const Case cases[] = {
-    {1, 1, 100'000, 0.061, 0.0149},      {1, 1, 1'000'000, 0.285, 0.0178}, {1, 1, 10'000'000, 2.63, 0.0505},
-    {1, 10, 1'000'000, 1.49, 0.0423},    {1, 100, 1'000'000, 9.8, 0.170},  {1, 100, 10'000'000, {}, 1.46},
-    {10, 100, 1'000'000, {}, 1.35},      {10, 100, 10'000'000, {}, 13.2},
+    {1, 1, 100'000, 0.061, 0.0149},   {1, 1, 1'000'000, 0.285, 0.0178}, {1, 1, 10'000'000, 2.63, 0.0505},
+    {1, 10, 1'000'000, 1.49, 0.0423}, {1, 100, 1'000'000, 9.8, 0.170},  {1, 100, 10'000'000, {}, 1.46},
+    {10, 100, 1'000'000, {}, 1.35},   {10, 100, 10'000'000, {}, 13.2},
 };
 constexpr uint64_t large_rays = 10'000'000;  // cases of so many are for GPUs, and for --large
 
@@ -81,8 +81,8 @@ Place load_place(const std::string& shared) {
   }
   place.scene = config.scene;
   // The receivers, then the transmitters after the first one.
-  auto points = street_points(load_scene(config), first, radius_m, antenna_height_m,
-                              most_receivers + most_transmitters - 1);
+  auto points =
+      street_points(load_scene(config), first, radius_m, antenna_height_m, most_receivers + most_transmitters - 1);
   const auto border = points.begin() + static_cast<std::ptrdiff_t>(most_receivers);
   // The nearest receiver leads, so that the single link is one that has paths.
   std::iter_swap(points.begin(), std::min_element(points.begin(), border, [&](const auto& a, const auto& b) {
@@ -120,8 +120,8 @@ Peer read_peer(const std::string& file) {
       peer[{json.at("links").get<std::string>(), json.at("rays").get<uint64_t>()}] = {
           {"name", json.at("device")}, {"seconds", json.at("value").get<double>()}, {"paths", json.at("paths")}};
     } catch (const nlohmann::json::exception& error) {
-      throw InputError(fmt::format("{}:{}: {}; expected a line of bench/peers/sionna_rt.py", file, number,
-                                   error.what()));
+      throw InputError(
+          fmt::format("{}:{}: {}; expected a line of bench/peers/sionna_rt.py", file, number, error.what()));
     }
   }
   return peer;
@@ -173,8 +173,9 @@ void run(const Options& options, const std::string& command) {
     reference::Case& reference = references[links];
     if (reference.name.empty()) {
       reference.name = links;
-      reference.paths =
-          make_simulation(place, c.transmitters, c.receivers, options.reference_rays, options.device).run_frame(0).paths;
+      reference.paths = make_simulation(place, c.transmitters, c.receivers, options.reference_rays, options.device)
+                            .run_frame(0)
+                            .paths;
     }
     const reference::Comparison comparison = reference::compare_paths(reference, frames.result.paths);
 

@@ -28,9 +28,8 @@ struct Options {
 std::vector<RadioEnd> ends(const char* prefix, const std::vector<glm::dvec3>& points) {
   std::vector<RadioEnd> result;
   for (const glm::dvec3& p : points)
-    result.push_back({.name = fmt::format("{}{}", prefix, result.size()),
-                      .position_m = {p.x, p.y, p.z},
-                      .polarization = "VH"});
+    result.push_back(
+        {.name = fmt::format("{}{}", prefix, result.size()), .position_m = {p.x, p.y, p.z}, .polarization = "VH"});
   return result;
 }
 

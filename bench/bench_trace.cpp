@@ -129,6 +129,7 @@ std::string rates(const Segments& segments, const std::array<double, kSegments>&
 struct Options {
   size_t rays = 1000000, runs = 7;
   std::string device, scene;
+  bool peers = true;
 };
 
 void run(const Options& options, const std::string& command) {
@@ -158,6 +159,7 @@ void run(const Options& options, const std::string& command) {
   Tracer* truth = ours.front().tracer.get();
 #ifdef WAVETRACER_EMBREE
   for (const EmbreeConfig& config : embree_configs()) {
+    if (!options.peers) break;
     peers.push_back({config.name, std::make_unique<EmbreeTracer>(triangles, config)});
     if (config.robust && config.width == 1) truth = peers.back().tracer.get();
   }
@@ -237,6 +239,7 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--scene", options.scene,
                  "a scene file with (45, 90, 1.5) m in the open; default: munich, or a generated city");
+  app.add_flag("!--no-peers", options.peers, "leave Embree out, on machines whose device is not the CPU");
   CLI11_PARSE(app, argc, argv);
   try {
     bench::run(options, bench::command_line(argc, argv));

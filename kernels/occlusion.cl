@@ -7,7 +7,7 @@
 
 #ifdef WT_SHAPE_BVH2
 #define WT_NODE float4
-#define WT_NEXT_HIT(o, d, t_min, after, t_max) wt_nearest_bvh2(nodes, triangles, triangle_slots, extent_m, o, d, t_min, after, t_max, WT_NONE)
+#define WT_NEXT_HIT(o, d, t_min, after, t_max) wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, t_min, after, t_max, WT_NONE)
 #else
 #define WT_NODE float
 #define WT_NEXT_HIT(o, d, t_min, after, t_max) wt_nearest_bvh8(nodes, triangles, extent_m, o, d, t_min, after, t_max, WT_NONE)

@@ -1,4 +1,5 @@
-// sequences: the trie as a list (collect), its neighbours (commute), and a larger trie filled from a smaller one (regrow).
+// sequences: the trie as a list (collect), its neighbours (commute), and a larger trie filled from a smaller one (regrow,
+// follow).
 // A node is its slot, so a parent must be in the new table before its children: regrow runs once a depth.
 #include "lib/trie.clh"
 
@@ -32,6 +33,8 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
     const global float* a = surfaces[chain[k]].normal;
     const global float* b = surfaces[chain[k + 1]].normal;
     if (fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) > WT_PERPENDICULAR) continue;
+    // A surface never follows itself: its image of an image is the thing itself, and rounding would see a path through it.
+    if ((k + 2 < depth && chain[k + 2] == chain[k]) || (k > 0 && chain[k - 1] == chain[k + 1])) continue;
     uint node = wt_trie_insert(table, mask, parents[k + 1], chain[k]);
     if (node != WT_NONE) node = wt_trie_insert(table, mask, node, chain[k + 1]);
     for (uint j = k; j-- > 0 && node != WT_NONE;) node = wt_trie_insert(table, mask, node, chain[j]);
@@ -51,4 +54,10 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
   const uint node = wt_trie_insert(table, mask, parent & WT_ROOT ? parent : moved[parent], wt_trie_surface(old_table[slot]));
   moved[slot] = node;
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
+}
+
+// After regrow: listed nodes by their new ids.
+kernel void follow(global uint* nodes, uint node_count, const global uint* moved) {
+  const uint i = get_global_id(0);
+  if (i < node_count && !(nodes[i] & WT_ROOT)) nodes[i] = moved[nodes[i]];
 }

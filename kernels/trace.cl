@@ -14,15 +14,15 @@ inline void store_hit(global float* hits, uint capacity, uint i, float t, uint p
 #ifdef WT_SHAPE_BVH2
 // One ray a work-item, one block a work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
-    const global float4* nodes, const global float4* triangles, uint triangle_slots, float extent_m, const global float* rays,
-    uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
+    const global float4* nodes, const global float4* triangles, uint triangle_slots, const global float* rays, uint capacity,
+    uint ray_count, global float* hits, global uint* block_hits) {
   const uint i = get_global_id(0);
   local uint count;
   if (get_local_id(0) == 0) count = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (i < ray_count) {
     const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
-    const wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, extent_m, o, d, 0.0f, WT_NONE, INFINITY,
+    const wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, 0.0f, WT_NONE, INFINITY,
                                        wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
     store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
     if (hit.surface != WT_NONE) atomic_inc(&count);

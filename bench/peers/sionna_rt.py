@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # The links of bench_paths solved by Sionna RT: the same JSON lines, for `bench_paths --peer`.
-# Assumes `pip install sionna-rt` and, without an NVIDIA GPU, LLVM (Debian: libllvm15; DRJIT_LIBLLVM_PATH names its .so).
+# Assumes `pip install sionna-rt`; on CPUs LLVM, too: 15 is too old, libllvm19 works (DRJIT_LIBLLVM_PATH names its .so).
 """Usage: bench_paths --write-links links.json
        sionna_rt.py links.json munich.xml > peer.jsonl
        bench_paths --peer peer.jsonl
 
-"error" is the share of paths that are missed, among the distinct ones that the largest launch for the same links finds.
+"error" is the share of paths that are missed, among the distinct ones that the largest launch for the same links finds;
+null for that launch itself.
 Paths that Sionna RT reports twice count once; so do those of coplanar neighbours, which have one length.
 """
 import argparse
@@ -22,8 +23,9 @@ import mitsuba as mi
 import numpy as np
 import sionna.rt as rt
 
-# Transmitters, receivers, rays a transmitter: those of bench_paths.cpp, the ones of most rays last for each set of links.
-CASES = [(1, 1, 10**5), (1, 1, 10**6), (1, 1, 10**7), (1, 10, 10**6), (1, 100, 10**6), (1, 100, 10**7), (10, 100, 10**6), (10, 100, 10**7)]
+# Transmitters, receivers, rays a transmitter: those of bench_paths.cpp. For each set of links the most rays come last.
+CASES = [(1, 1, 10**5), (1, 1, 10**6), (1, 1, 10**7), (1, 10, 10**6),
+         (1, 100, 10**6), (1, 100, 10**7), (10, 100, 10**6), (10, 100, 10**7)]
 LARGE = 10**7  # cases of so many rays, those of all transmitters together, are for GPUs, and for --large
 SAME_DELAY_S, SAME_DELAY = 30e-12, 2e-6  # float32 delays of one path agree to this, absolute or relative
 
@@ -43,7 +45,8 @@ def load(scene_file, links, tx_count, rx_count):
 def distinct_paths(paths):
     """(link, depth, delay) of every path, each once, sorted."""
     valid = paths.valid.numpy()  # rx, tx, path
-    link = np.broadcast_to(np.arange(valid.shape[0] * valid.shape[1]).reshape(valid.shape[:2] + (1,)), valid.shape)[valid]
+    links = np.arange(valid.shape[0] * valid.shape[1]).reshape(valid.shape[:2] + (1,))
+    link = np.broadcast_to(links, valid.shape)[valid]
     depth = (paths.interactions.numpy() != 0).sum(axis=0)[valid]  # depth, rx, tx, path
     delay = paths.tau.numpy()[valid]
     found = []
@@ -88,10 +91,18 @@ def device_name():
     processor = platform.processor() or platform.machine()
     cpuinfo = pathlib.Path("/proc/cpuinfo")
     if where == "LLVM" and cpuinfo.exists():
-        models = [line.split(":", 1)[1].strip() for line in cpuinfo.read_text().splitlines() if line.startswith("model name")]
-        processor = f"{models[0]}, {len(models)} threads" if models else processor
+        names = [line for line in cpuinfo.read_text().splitlines() if line.startswith("model name")]
+        processor = f"{names[0].split(':', 1)[1].strip()}, {len(names)} threads" if names else processor
     what = "CUDA GPU" if where == "OptiX" else processor
     return f"{what}, Sionna RT {importlib.metadata.version('sionna-rt')} ({where})"
+
+
+def measure(solver, scene, links, rays, runs):
+    """Seconds of the first solve, median seconds of warm ones, and the distinct paths."""
+    first, _ = solve(solver, scene, links, rays)
+    solve(solver, scene, links, rays)  # the second solve still compiles
+    seconds = [solve(solver, scene, links, rays)[0] for _ in range(runs)]  # no result outlives its solve
+    return first, statistics.median(seconds), distinct_paths(solve(solver, scene, links, rays)[1])
 
 
 def main():
@@ -103,30 +114,38 @@ def main():
     parser.add_argument("--only", metavar="TXxRX", help="only cases of this many links, such as 1x100")
     arguments = parser.parse_args()
     links = json.loads(arguments.links.read_text(encoding="utf-8"))
+    all_cases = arguments.large or mi.variant().startswith("cuda")
     solver = rt.PathSolver()
-    device = device_name()
     results = []
     for tx_count, rx_count, rays in CASES:
         name = f"{tx_count}x{rx_count}"
-        on_gpu = mi.variant().startswith("cuda")
-        if (tx_count * rays >= LARGE and not on_gpu and not arguments.large) or arguments.only not in (None, name):
+        if (tx_count * rays >= LARGE and not all_cases) or arguments.only not in (None, name):
             continue
         scene = load(arguments.scene, links, tx_count, rx_count)
-        first, _ = solve(solver, scene, links, rays)
-        solve(solver, scene, links, rays)  # the second solve still compiles
-        solves = [solve(solver, scene, links, rays) for _ in range(arguments.runs)]
-        median = statistics.median(seconds for seconds, _ in solves)
-        paths = distinct_paths(solves[-1][1])
+        first, median, paths = measure(solver, scene, links, rays, arguments.runs)
         results.append((name, rays, first, median, paths))
         print(f"sionna_rt.py: {name}, {rays} rays: {median:.3f} s, {len(paths)} paths", file=sys.stderr)
-    largest = {name: paths for name, _, _, _, paths in results}
+    largest = {name: (rays, paths) for name, rays, _, _, paths in results}
     for name, rays, first, median, paths in results:
+        most_rays, most_paths = largest[name]
         print(json.dumps({
-            "bench": "paths", "case": f"{links['scene']}, {name} links, {rays:.0e} rays a transmitter", "device": device,
-            "value": median, "unit": "s a frame", "baseline": None, "baseline_value": None, "ratio": None,
-            "error": 1 - recall(largest[name], paths), "detail": f"{len(paths)} distinct paths; first solve {first:.3f} s",
-            "links": name, "rays": rays, "paths": len(paths), "first_frame_s": first, "command": " ".join(sys.argv),
-            "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")}))
+            "bench": "paths",
+            "case": f"{links['scene']}, {name} links, {rays:.0e} rays a transmitter",
+            "device": device_name(),
+            "value": median,
+            "unit": "s a frame",
+            "baseline": None,
+            "baseline_value": None,
+            "ratio": None,
+            "error": None if rays == most_rays else 1 - recall(most_paths, paths),
+            "detail": f"{len(paths)} distinct paths; first solve {first:.3f} s",
+            "links": name,
+            "rays": rays,
+            "paths": len(paths),
+            "first_frame_s": first,
+            "command": " ".join([pathlib.Path(sys.argv[0]).name] + sys.argv[1:]),
+            "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        }))
 
 
 if __name__ == "__main__":

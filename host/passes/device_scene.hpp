@@ -13,10 +13,12 @@ namespace wavetracer {
 enum class TraceShape { bvh2, bvh8, packet16 };
 
 struct DeviceScene {
-  gpu::Buffer<float> nodes2, triangles2;  // BVH2 (GPUs; packets on CPUs)
+  gpu::Buffer<float> nodes2;              // BVH2, boxes as centre and padded half size (one ray a work-item)
+  gpu::Buffer<float> packet_nodes2;       // BVH2, boxes as minimum and maximum (CPUs only)
+  gpu::Buffer<float> triangles2;          // triangles of both
   gpu::Buffer<float> nodes8, blocks8;     // BVH8 (CPUs only)
   uint32_t triangle_slots = 0;
-  float extent_m = 0;                     // largest absolute coordinate, recentred
+  float extent_m = 0;                     // largest absolute coordinate of scene and rays, recentred
   bool cpu = false;
   gpu::Buffer<wt_surface> surfaces;
   gpu::Buffer<wt_exact_surface> exact_surfaces;
@@ -24,7 +26,8 @@ struct DeviceScene {
   gpu::Definitions definitions;           // stack sizes that the trees need
 };
 
-// Builds the trees and uploads everything. spatial_splits: see accel/build.hpp.
-DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits);
+// Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred coordinate
+// of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.
+DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m = 0);
 
 }  // namespace wavetracer

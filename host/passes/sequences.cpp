@@ -14,6 +14,7 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots)
       collect_(context.kernel("sequences", "collect")),
       commute_(context.kernel("sequences", "commute")),
       regrow_(context.kernel("sequences", "regrow")),
+      follow_(context.kernel("sequences", "follow")),
       table_(context.buffer<uint64_t>(slots, "sequences")),
       nodes_(context.buffer<uint32_t>(4096, "sequence list")),
       counters_(context.buffer<wt_counters>(1, "counters")) {
@@ -25,7 +26,7 @@ void Sequences::clear() {
   counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
 }
 
-void Sequences::regrow(uint32_t max_depth) {
+void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
   if (table_.size() >= uint64_t{1} << 30)
     throw RuntimeError("the set of distinct sequences has outgrown 2^30 slots; lower trace.rays or trace.max_depth");
   const gpu::Buffer<uint64_t> old = table_;
@@ -36,17 +37,17 @@ void Sequences::regrow(uint32_t max_depth) {
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
       regrow_({old.size(), 64}, "sequences", old, static_cast<uint32_t>(old.size()), depth, moved, table_,
               static_cast<uint32_t>(table_.size() - 1), counters_);
-    if (!overflowed()) return;
+    if (!overflowed()) break;
   }
+  if (listed_count > 0) follow_({listed_count, 64}, "sequences", nodes_, listed_count, moved);
 }
 
-void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t transmitter_count,
-                        uint32_t max_depth) {
+void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   for (;;) {
     commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count, surfaces, counters_);
     if (!overflowed()) return;
-    regrow(max_depth);
-    node_count = collect(transmitter_count);
+    // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was full.
+    regrow(max_depth, node_count);
   }
 }
 

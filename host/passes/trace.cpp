@@ -17,7 +17,7 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
   const uint32_t blocks = (rays.count + block_ - 1) / block_;
   switch (shape_) {
     case TraceShape::bvh2:
-      kernel_({rays.count, block_}, "trace", scene.nodes2, scene.triangles2, scene.triangle_slots, scene.extent_m, rays.planes,
+      kernel_({rays.count, block_}, "trace", scene.nodes2, scene.triangles2, scene.triangle_slots, rays.planes,
               rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::bvh8:
@@ -25,7 +25,7 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
               hits.planes, hits.block_hits);
       break;
     case TraceShape::packet16:
-      kernel_({blocks, 16}, "trace", scene.nodes2, scene.triangles2, scene.triangle_slots, scene.nodes8, scene.blocks8,
+      kernel_({blocks, 16}, "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots, scene.nodes8, scene.blocks8,
               scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
   }

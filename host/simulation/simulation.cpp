@@ -27,6 +27,14 @@ std::vector<glm::dvec3> recentred(const std::vector<RadioEnd>& ends, const Scene
   return out;
 }
 
+// The largest absolute coordinate of any end.
+double reach_m(std::initializer_list<std::vector<glm::dvec3>> ends) {
+  double reach = 0;
+  for (const auto& points : ends)
+    for (const glm::dvec3& p : points) reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return reach;
+}
+
 }  // namespace
 
 struct Simulation::State {
@@ -56,9 +64,10 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.scene = load_scene(config);
   s.setup["load"] = watch.lap();
   s.transmitters = recentred(config.transmitters, s.scene);
-  s.device_scene = choose_tree(*s.context, s.scene, config.trace, s.transmitters);
+  const std::vector<glm::dvec3> receivers = recentred(config.receivers, s.scene);
+  s.device_scene = choose_tree(*s.context, s.scene, config.trace, s.transmitters, reach_m({s.transmitters, receivers}));
   s.setup["build"] = watch.lap();
-  s.ends = make_radio_ends(*s.context, s.transmitters, recentred(config.receivers, s.scene));
+  s.ends = make_radio_ends(*s.context, s.transmitters, receivers);
   s.discovery.emplace(*s.context, s.device_scene, config.trace);
   s.candidates.emplace(*s.context);
   s.solve.emplace(*s.context, config.trace.max_depth);
@@ -84,7 +93,7 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   const DiscoveryCounts found = (*s.discovery)(s.device_scene, s.transmitters);
   Sequences& sequences = s.discovery->sequences();
   uint32_t node_count = sequences.collect(s.ends.transmitter_count);
-  sequences.commute(s.device_scene.surfaces, node_count, s.ends.transmitter_count, s.config.trace.max_depth);
+  sequences.commute(s.device_scene.surfaces, node_count, s.config.trace.max_depth);
   node_count = sequences.collect(s.ends.transmitter_count);
   const uint32_t candidate_count =
       (*s.candidates)(s.device_scene, s.ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());

@@ -12,8 +12,8 @@ namespace wavetracer {
 // Launches a frame of at least this many rays pay for building two trees and sampling both.
 constexpr uint64_t tree_choice_rays = uint64_t{1} << 24;
 
-// transmitters: recentred metres.
+// transmitters: recentred metres; reach_m: see make_device_scene.
 DeviceScene choose_tree(gpu::Context& context, const Scene& scene, const TraceConfig& config,
-                        const std::vector<glm::dvec3>& transmitters);
+                        const std::vector<glm::dvec3>& transmitters, double reach_m);
 
 }  // namespace wavetracer

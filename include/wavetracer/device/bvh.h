@@ -11,6 +11,8 @@
 //   4 right.min.x  5 right.max.x  6 right.min.y  7 right.max.y
 //   8 left.min.z   9 left.max.z  10 right.min.z 11 right.max.z
 //  12 left child  13 right child (int)  14, 15 zero
+// Packets read it so. For one ray a work-item the upload (host/passes/device_scene.cpp) turns each pair (min, max) into
+// (centre, half size), padded for rounding; there, an unused child has half size -1.
 // Its leaves count triangles; a triangle is three float4 (v0.xyz, primitive) (v1.xyz, surface) (v2.xyz, 0), integers as bits,
 // stored three times, with coordinates rotated so that axis kz comes last: copy kz holds (v[(kz+1)%3], v[(kz+2)%3], v[kz]).
 // Copy kz starts at float4 index kz * 3 * triangle_slots.

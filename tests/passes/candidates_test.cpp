@@ -1,0 +1,78 @@
+// candidates: the float32 rejection never loses what the image method in double accepts, and loses most of the rest.
+// Every sequence of random planes against every receiver; grazing legs, and images that are kilometres away.
+#include "passes/candidates.hpp"
+
+#include <doctest/doctest.h>
+
+#include "passes/image_method.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+struct Outcome {
+  size_t accepted = 0, lost = 0, candidates = 0, pairs = 0;
+};
+
+Outcome compare(const std::vector<Quad>& quads, const std::vector<glm::dvec3>& transmitters,
+                const std::vector<glm::dvec3>& receivers, const std::vector<Sequence>& sequences, uint32_t max_depth) {
+  const Exact exact(reference::scene_of_quads(quads), transmitters, receivers, sequences, max_depth);
+  Outcome out;
+  CHECK(exact.candidates.size() == exact.candidate_count);  // none is listed twice
+  out.candidates = exact.candidate_count - transmitters.size() * receivers.size();
+  for (const Sequence& s : with_prefixes(sequences))
+    for (uint32_t r = 0; r < receivers.size(); ++r) {
+      ++out.pairs;
+      if (!image_method(quads, transmitters[s.transmitter], s.surfaces, receivers[r])) continue;
+      ++out.accepted;
+      out.lost += !exact.candidates.contains({s, r});
+    }
+  for (uint32_t t = 0; t < transmitters.size(); ++t)
+    for (uint32_t r = 0; r < receivers.size(); ++r) CHECK(exact.candidates.contains({Sequence{t, {}}, r}));
+  return out;
+}
+
+std::vector<glm::dvec3> random_points(size_t count, double extent, Random& random) {
+  std::vector<glm::dvec3> points;
+  for (size_t i = 0; i < count; ++i) points.push_back(random.in_cube(extent));
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("random planes: nothing that solves is rejected, and most of what does not solve is") {
+  Random random(1);
+  const std::vector<Quad> quads = random_quads(9, 10, 12, random);
+  for (const size_t receivers : {size_t{1}, size_t{15}, size_t{16}, size_t{17}}) {
+    CAPTURE(receivers);
+    const Outcome o = compare(quads, random_points(2, 12, random), random_points(receivers, 12, random), all_sequences(2, 9, 2), 2);
+    CHECK(o.lost == 0);
+    if (receivers > 1) CHECK(o.accepted > 0);
+    CHECK(o.candidates < o.pairs / 2);
+  }
+}
+
+TEST_CASE("grazing legs: receivers a hair above planes that are seen edge on") {
+  Random random(2);
+  std::vector<Quad> quads;
+  for (int i = 0; i < 6; ++i) quads.push_back({{-500.0 + 150 * i, -400, 0.01 * i}, {160, 3, 0.01}, {-5, 800, -0.02}});
+  std::vector<glm::dvec3> receivers;
+  for (int i = 0; i < 17; ++i)
+    receivers.push_back({random.between(-450, 450), random.between(-380, 380), 0.06 + random() * random() * 0.5});
+  const Outcome o = compare(quads, {{-480, 20, 0.3}, {400, -300, 0.07}}, receivers, all_sequences(2, 6, 2), 2);
+  CHECK(o.lost == 0);
+  CHECK(o.accepted >= 8);
+}
+
+TEST_CASE("far images: four reflections between walls that are kilometres apart") {
+  Random random(3);
+  const std::vector<Quad> quads{{{-4000, -3000, -50}, {8000, 11, 0}, {0, 5, 900}},
+                                {{-4000, 2500, -50}, {8000, -17, 0}, {3, -9, 900}},
+                                {{-5000, -5000, -40}, {10000, 0, 1}, {0, 10000, 2}}};
+  std::vector<glm::dvec3> receivers;
+  for (int i = 0; i < 20; ++i) receivers.push_back({random.between(-3500, 3500), random.between(-2900, 2400), random.between(-20, 300)});
+  const Outcome o = compare(quads, {{-1000, 500, 25}, {2000, -2000, 5}}, receivers, all_sequences(2, 3, 4), 4);
+  CHECK(o.lost == 0);
+  CHECK(o.accepted > 100);
+}

@@ -1,0 +1,214 @@
+// generate_rays: launch index to direction is one pure function, the same on the device as on the host.
+// Equal solid angles, unit length, and neighbours in index that are neighbours on the sphere.
+#include "passes/generate_rays.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "passes/triangles.hpp"
+#include "wavetracer/device/directions.h"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+constexpr uint64_t seed = 42;
+const char* const maps[] = {"hilbert", "fibonacci", "random"};
+
+// What the maps take: the step or the seed, and the cells of hilbert: the fewest faces and levels that hold n rays.
+struct Launch {
+  uint64_t parameter;
+  unsigned level = 0, faces = 3;
+
+  Launch(const std::string& map, uint64_t n) : parameter(map == "random" ? seed : ~uint64_t{0} / n) {
+    while ((uint64_t{12} << (2 * level)) < n) ++level;
+    while ((uint64_t{faces} << (2 * level)) < n) ++faces;
+  }
+
+  Float3 direction(const std::string& map, uint64_t i) const {
+    const device::wt_direction d = map == "hilbert"     ? device::wt_direction_hilbert(i, parameter, level, faces)
+                                   : map == "fibonacci" ? device::wt_direction_fibonacci(i, parameter, level, faces)
+                                                        : device::wt_direction_random(i, parameter, level, faces);
+    return {d.x, d.y, d.z};
+  }
+};
+
+std::vector<Float3> host_directions(const std::string& map, uint64_t n) {
+  const Launch launch(map, n);
+  std::vector<Float3> out;
+  for (uint64_t i = 0; i < n; ++i) out.push_back(launch.direction(map, i));
+  return out;
+}
+
+// In units of the sphere's area over n rays' shares: z from -1 to 1, then the azimuth in turns.
+std::pair<double, double> cylinder(const Float3& d) {
+  const double turn = std::atan2(double{d[1]}, double{d[0]}) / (2 * std::numbers::pi);
+  return {(1 - double{d[2]}) / 2, turn < 0 ? turn + 1 : turn};
+}
+
+double mean_step_rad(const std::vector<Float3>& directions) {
+  double sum = 0;
+  for (size_t i = 1; i < directions.size(); ++i) {
+    const glm::dvec3 a = to_double(directions[i - 1]), b = to_double(directions[i]);
+    sum += std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+  }
+  return sum / static_cast<double>(directions.size() - 1);
+}
+
+// Pearson's statistic of the counts in bands x turns bins of equal area.
+double chi_square(const std::vector<Float3>& directions, size_t bands, size_t turns) {
+  std::vector<double> counts(bands * turns, 0);
+  for (const Float3& d : directions) {
+    const auto [height, turn] = cylinder(d);
+    const size_t band = std::min(static_cast<size_t>(height * static_cast<double>(bands)), bands - 1);
+    counts[band * turns + std::min(static_cast<size_t>(turn * static_cast<double>(turns)), turns - 1)] += 1;
+  }
+  const double expected = static_cast<double>(directions.size()) / static_cast<double>(counts.size());
+  double sum = 0;
+  for (const double count : counts) sum += (count - expected) * (count - expected) / expected;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("device directions are the host's, bit for bit") {
+  for (const std::string map : maps)
+    for (const uint32_t n : {1u, 15u, 16u, 17u, 1000u}) {
+      CAPTURE(map);
+      CAPTURE(n);
+      GenerateRays generate(context(), map, n, seed);
+      RayQueue queue = make_ray_queue(context(), n, "rays");
+      generate(queue, 3, {1.5, -2.25, 0.125}, 0, n);
+      REQUIRE(queue.count == n);
+      const std::vector<Ray> rays = download(queue);
+      const Launch launch(map, n);
+      size_t different = 0;
+      for (uint32_t i = 0; i < n; ++i)
+        different += rays[i] != Ray{{1.5f, -2.25f, 0.125f}, launch.direction(map, i), WT_NONE, WT_ROOT | 3};
+      CHECK(different == 0);
+    }
+}
+
+TEST_CASE("large launch indices: the last of 2^31 rays are the host's") {
+  constexpr uint64_t n = uint64_t{1} << 31;
+  for (const std::string map : maps) {
+    CAPTURE(map);
+    GenerateRays generate(context(), map, n, seed);
+    RayQueue queue = make_ray_queue(context(), 100, "rays");
+    generate(queue, 0, {0, 0, 0}, n - 100, 100);
+    const std::vector<Ray> rays = download(queue);
+    const Launch launch(map, n);
+    size_t different = 0;
+    for (uint32_t i = 0; i < 100; ++i) different += rays[i].direction != launch.direction(map, n - 100 + i);
+    CHECK(different == 0);
+  }
+}
+
+TEST_CASE("a launch in parts, and of several transmitters, gives the same rays") {
+  constexpr uint32_t n = 300;
+  for (const std::string map : maps) {
+    CAPTURE(map);
+    GenerateRays generate(context(), map, n, seed);
+    RayQueue whole = make_ray_queue(context(), 2 * n, "whole"), parts = make_ray_queue(context(), 2 * n, "parts");
+    generate(whole, 0, {1, 2, 3}, 0, n);
+    generate(whole, 1, {-4, 5, 6}, 0, n);
+    for (const auto& [first, count] : {std::pair{0u, 1u}, {1u, 15u}, {16u, 16u}, {32u, 17u}, {49u, n - 49}})
+      generate(parts, 0, {1, 2, 3}, first, count);
+    for (const auto& [first, count] : {std::pair{0u, 157u}, {157u, n - 157}})
+      generate(parts, 1, {-4, 5, 6}, first, count);
+    CHECK(download(parts) == download(whole));
+  }
+}
+
+TEST_CASE("more rays than the queue holds are refused") {
+  GenerateRays generate(context(), "fibonacci", 5000, seed);
+  RayQueue queue = make_ray_queue(context(), 100, "rays");
+  CHECK_THROWS_AS(generate(queue, 0, {0, 0, 0}, 0, 5000), std::logic_error);
+}
+
+TEST_CASE("directions have unit length") {
+  for (const std::string map : maps) {
+    CAPTURE(map);
+    double worst = 0;
+    for (const Float3& d : host_directions(map, 100000))
+      worst = std::max(worst, std::abs(glm::length(to_double(d)) - 1));
+    CHECK(worst < 1e-6);
+  }
+}
+
+TEST_CASE("equal solid angles: chi-square over 192 bins of equal area") {
+  // Of independent samples the statistic has mean 191 and standard deviation 19.5; its 99.9 % point is 257.
+  CHECK(chi_square(host_directions("random", 100000), 12, 16) < 257);
+  CHECK(chi_square(host_directions("random", 100000), 12, 16) > 135);  // the 0.1 % point: suspiciously even below
+  // Even maps are far below it: a bin is off by the cells on its border at most.
+  for (const uint64_t n : {uint64_t{3072}, uint64_t{100000}, uint64_t{65537}}) {
+    CAPTURE(n);
+    CHECK(chi_square(host_directions("hilbert", n), 12, 16) < 20);
+    CHECK(chi_square(host_directions("fibonacci", n), 12, 16) < 20);
+  }
+}
+
+TEST_CASE("hilbert: each of 3 x 32 x 32 cells of equal area has one of 3,072 rays") {
+  std::set<std::pair<int, int>> cells;
+  for (const Float3& d : host_directions("hilbert", 3072)) {
+    const auto [height, turn] = cylinder(d);
+    cells.emplace(static_cast<int>(height * 32), static_cast<int>(turn * 96));
+  }
+  CHECK(cells.size() == 3072);
+}
+
+TEST_CASE("hilbert and fibonacci: heights are evenly spread, and no two rays are the same") {
+  constexpr uint64_t n = 10240;  // ten faces of 1,024 cells, whose heights are steps of 1 / 1,024
+  for (const std::string map : {"hilbert", "fibonacci"}) {
+    CAPTURE(map);
+    std::vector<Float3> directions = host_directions(map, n);
+    std::vector<double> heights;
+    for (const Float3& d : directions) heights.push_back(cylinder(d).first);
+    std::sort(heights.begin(), heights.end());
+    double worst = 0;  // the star discrepancy in one dimension
+    for (size_t i = 0; i < heights.size(); ++i)
+      worst = std::max(worst, std::abs(heights[i] - (static_cast<double>(i) + 0.5) / n));
+    CHECK(worst < 1.0 / 1024);
+    std::sort(directions.begin(), directions.end());
+    CHECK(std::adjacent_find(directions.begin(), directions.end()) == directions.end());
+  }
+}
+
+TEST_CASE("hilbert: consecutive rays are neighbours on the sphere") {
+  // Neighbours of a square lattice are sqrt(4 pi / n) apart; offsets inside the cells and their stretch towards the poles
+  // cost about a factor of two, whatever n.
+  for (const uint64_t n : {uint64_t{3072}, uint64_t{50000}, uint64_t{200000}}) {
+    CAPTURE(n);
+    const double lattice = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));
+    CHECK(mean_step_rad(host_directions("hilbert", n)) < 2.5 * lattice);
+    CHECK(mean_step_rad(host_directions("fibonacci", n)) > 10 * lattice);  // golden-ratio turns: far apart
+  }
+}
+
+TEST_CASE("the Hilbert curve visits every cell once, by unit steps") {
+  for (const unsigned level : {1u, 2u, 5u, 8u}) {
+    CAPTURE(level);
+    std::set<std::pair<uint32_t, uint32_t>> visited;
+    uint32_t before_x = 0, before_y = 0, jumps = 0;
+    for (uint32_t i = 0; i < 1u << (2 * level); ++i) {
+      uint32_t x, y;
+      device::wt_hilbert_cell(i << (32 - 2 * level), &x, &y);
+      x >>= 16 - level;
+      y >>= 16 - level;
+      visited.emplace(x, y);
+      const int step = std::abs(static_cast<int>(x - before_x)) + std::abs(static_cast<int>(y - before_y));
+      jumps += i > 0 && step != 1;
+      before_x = x;
+      before_y = y;
+    }
+    CHECK(visited.size() == 1u << (2 * level));
+    CHECK(jumps == 0);
+  }
+}

@@ -1,0 +1,113 @@
+// occlusion: the blocking rule. A surface blocks a leg whose ends lie on opposite sides of its plane, farther than 0.1 mm.
+// Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg, boxes that touch.
+#include "passes/occlusion.hpp"
+
+#include <doctest/doctest.h>
+
+#include "passes/image_method.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// A wall x = at of 4 m x 4 m around y = z = 0.
+Quad wall(double at) { return {{at, -2, -2}, {0, 4, 0}, {0, 0, 4}}; }
+Quad ground(double half) { return {{-half, -half, 0}, {2 * half, 0, 0}, {0, 2 * half, 0}}; }
+
+bool sees(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3& b) {
+  return Exact(reference::scene_of_quads(quads), {a}, {b}, {}, 1).visible() == 1;
+}
+
+// Is there a path with these reflections, and no leg of it obstructed?
+bool reflects(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3& b, const std::vector<uint32_t>& surfaces) {
+  const Sequence wanted{0, surfaces};
+  const Exact exact(reference::scene_of_quads(quads), {a}, {b}, {wanted}, static_cast<uint32_t>(surfaces.size()));
+  return std::any_of(exact.solved.begin(), exact.solved.end(),
+                     [&](const SolvedPath& p) { return p.sequence == wanted && !p.blocked; });
+}
+
+}  // namespace
+
+TEST_CASE("a wall blocks what crosses it, from either side, and nothing beside or before it") {
+  CHECK_FALSE(sees({wall(0)}, {-3, 0.1, 0.2}, {3, 0.3, -0.4}));
+  CHECK_FALSE(sees({wall(0)}, {3, 0.3, -0.4}, {-3, 0.1, 0.2}));
+  CHECK(sees({wall(0)}, {-3, 2.5, 0}, {3, 2.5, 0}));
+  CHECK(sees({wall(0)}, {-3, 0, 0}, {-0.5, 0, 0}));
+  CHECK_FALSE(sees({wall(0)}, {-3, 1.9999, 0}, {3, 1.9999, 0}));
+  CHECK(sees({wall(0)}, {-3, 2.0001, 0}, {3, 2.0001, 0}));
+  CHECK_FALSE(sees({wall(0)}, {-3, 0.5, 0.5}, {3, 0.5, 0.5}));  // through the diagonal
+  CHECK(sees({}, {-3, 0.5, 0.5}, {3, 0.5, 0.5}));
+}
+
+TEST_CASE("two walls 1 mm apart: a reflection on the front one stands, on the one behind it does not") {
+  const std::vector<Quad> walls{wall(0), wall(0.001)};
+  CHECK(reflects(walls, {-3, -0.5, 0}, {-2, 0.5, 0.3}, {0}));
+  CHECK_FALSE(reflects(walls, {-3, -0.5, 0}, {-2, 0.5, 0.3}, {1}));
+  CHECK(reflects(walls, {3, -0.5, 0}, {2, 0.5, 0.3}, {1}));
+  CHECK_FALSE(reflects(walls, {3, -0.5, 0}, {2, 0.5, 0.3}, {0}));
+  CHECK_FALSE(sees(walls, {-3, 0, 0}, {0.0005, 0, 0}));  // an end between them
+  CHECK_FALSE(sees(walls, {0.0005, 0, 0}, {3, 0, 0}));
+  CHECK(sees(walls, {0.0005, -1, 0}, {0.0005, 1, 0}));
+}
+
+TEST_CASE("the same 1 mm apart, half a kilometre from the origin") {
+  const glm::dvec3 far{500, -400, 30};
+  std::vector<Quad> walls{wall(0), wall(0.001)};
+  for (Quad& w : walls) w.corner += far;
+  CHECK(reflects(walls, far + glm::dvec3{-3, -0.5, 0}, far + glm::dvec3{-2, 0.5, 0.3}, {0}));
+  CHECK_FALSE(reflects(walls, far + glm::dvec3{-3, -0.5, 0}, far + glm::dvec3{-2, 0.5, 0.3}, {1}));
+  CHECK(reflects(walls, far + glm::dvec3{3, -0.5, 0}, far + glm::dvec3{2, 0.5, 0.3}, {1}));
+}
+
+TEST_CASE("an end on a surface is not hidden by it") {
+  for (const double off : {0.0, 5e-5, -5e-5}) {
+    CAPTURE(off);
+    CHECK(sees({wall(0)}, {-3, 0, 0}, {off, 0.1, 0.2}));
+    CHECK(sees({wall(0)}, {3, 0, 0}, {off, 0.1, 0.2}));
+  }
+  CHECK_FALSE(sees({wall(0)}, {-3, 0, 0}, {2e-4, 0.1, 0.2}));
+  CHECK(sees({ground(50)}, {-20, 3, 0}, {20, -4, 1.5}));  // an antenna on the ground
+  CHECK(sees({ground(50)}, {-20, 3, 0}, {20, -4, 0}));    // both of them
+}
+
+TEST_CASE("coplanar patches along a grazing leg do not block it") {
+  // A road of 50 patches; the leg runs from one reflection point far along it, 1 mm to 1 m above.
+  std::vector<Quad> road;
+  for (int i = 0; i < 50; ++i) road.push_back({{-50.0 + 2 * i, -5, 0}, {2, 0, 0}, {0, 10, 0}});
+  for (const double height : {0.001, 0.01, 0.1, 1.0}) {
+    CAPTURE(height);
+    CHECK(sees(road, {-49, 0.3, height}, {49, -0.4, height}));
+    CHECK(reflects(road, {-49, 0.3, height}, {49, -0.4, height * 1.03}, {24}));
+  }
+  // A wall that continues in other patches: the reflection at its one end grazes all of them.
+  CHECK(reflects(road, {-49, 0, 2}, {49.5, 0, 0.02}, {49}));
+}
+
+TEST_CASE("boxes that touch: nothing sees into the seam, and a reflection beside it stands") {
+  std::vector<Quad> quads = reference::box_walls({0, 0, 0}, {5, 5, 5});  // 0 .. 5
+  const std::vector<Quad> right = reference::box_walls({5, 0, 0}, {9, 5, 5});  // 6 .. 11; its wall 6 lies on wall 1
+  quads.insert(quads.end(), right.begin(), right.end());
+  CHECK_FALSE(sees(quads, {5, -2, 2}, {5, 7, 2}));  // straight along the seam: the ends lie on neither box
+  CHECK_FALSE(sees(quads, {4.7, -2, 2}, {5.3, 7, 2}));
+  CHECK(reflects(quads, {3, -4, 2}, {4.9, -3, 2.5}, {2}));
+  CHECK(reflects(quads, {5.1, -4, 2}, {8, -3, 2.5}, {8}));
+  CHECK_FALSE(reflects(quads, {3, -4, 2}, {4, -3, 2}, {1}));  // the shared wall is inside
+  CHECK_FALSE(sees(quads, {2, 2, 2}, {7, 2, 2}));             // from inside one to inside the other
+}
+
+TEST_CASE("every leg of a path is tested") {
+  // The screen stands between the two reflections of a ground-wall path, or before, or after.
+  const Quad back_wall{{10, -10, -1}, {0, 20, 0}, {0, 0, 12}};
+  const glm::dvec3 a{0, 0, 3}, b{2, 0, 6};
+  const auto path = [&](const Quad& screen) { return reflects({ground(20), back_wall, screen}, a, b, {0, 1}); };
+  const auto points = image_method({ground(20), back_wall}, a, {0, 1}, b);
+  REQUIRE(points.has_value());
+  const auto screen_between = [](const glm::dvec3& p, const glm::dvec3& q) {
+    return Quad{(p + q) / 2.0 - glm::dvec3{0, 0.2, 0.2}, {0, 0.4, 0}, {0, 0, 0.4}};
+  };
+  CHECK(path({{5, 5, 5}, {1, 0, 0}, {0, 1, 0}}));
+  CHECK_FALSE(path(screen_between(a, (*points)[0])));
+  CHECK_FALSE(path(screen_between((*points)[0], (*points)[1])));
+  CHECK_FALSE(path(screen_between((*points)[1], b)));
+}

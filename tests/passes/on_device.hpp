@@ -1,0 +1,104 @@
+// What the tests of the passes share: one device context a program, rays and hits as plain records, and queues of them.
+// Assumes that each program runs its tests on one thread, on the default device (Oclgrind's, where it runs under it).
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "passes/device_scene.hpp"
+#include "passes/ray_queue.hpp"
+#include "passes/trace.hpp"
+
+namespace wavetracer::test {
+
+using Float3 = std::array<float, 3>;
+
+struct Ray {
+  Float3 origin{}, direction{};
+  uint32_t surface = WT_NONE;  // the surface that it leaves
+  uint32_t node = WT_ROOT;
+  bool operator==(const Ray&) const = default;
+};
+
+struct Hit {
+  float t = 0;  // 0 on a miss, where the device leaves it undefined
+  uint32_t primitive = WT_NONE, surface = WT_NONE;
+  bool missed() const { return primitive == WT_NONE; }
+  bool operator==(const Hit&) const = default;
+};
+
+// Kernels are compiled once for all tests of a program. Never destroyed: at exit the driver may be gone before us.
+inline gpu::Context& context() {
+  static gpu::Context& shared = *new gpu::Context;
+  return shared;
+}
+
+// Every shape of traversal that the device can run. BVH2 runs on all.
+inline std::vector<TraceShape> shapes() {
+  if (!context().info().cpu) return {TraceShape::bvh2};
+  return {TraceShape::bvh2, TraceShape::bvh8, TraceShape::packet16};
+}
+
+inline std::string name_of(TraceShape shape) {
+  return shape == TraceShape::bvh2 ? "bvh2" : shape == TraceShape::bvh8 ? "bvh8" : "packet16";
+}
+
+inline RayQueue upload(const std::vector<Ray>& rays) {
+  RayQueue queue = make_ray_queue(context(), rays.size(), "test rays");
+  queue.count = static_cast<uint32_t>(rays.size());
+  std::vector<float> planes(queue.planes.size(), 0.0f);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      planes[(WT_RAY_ORIGIN + axis) * queue.capacity + i] = rays[i].origin[axis];
+      planes[(WT_RAY_DIRECTION + axis) * queue.capacity + i] = rays[i].direction[axis];
+    }
+    planes[size_t{WT_RAY_NODE} * queue.capacity + i] = std::bit_cast<float>(rays[i].node);
+    planes[size_t{WT_RAY_SURFACE} * queue.capacity + i] = std::bit_cast<float>(rays[i].surface);
+  }
+  queue.planes.write(planes);
+  return queue;
+}
+
+inline std::vector<Ray> download(const RayQueue& queue) {
+  const std::vector<float> planes = queue.planes.read();
+  std::vector<Ray> rays(queue.count);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      rays[i].origin[axis] = planes[(WT_RAY_ORIGIN + axis) * queue.capacity + i];
+      rays[i].direction[axis] = planes[(WT_RAY_DIRECTION + axis) * queue.capacity + i];
+    }
+    rays[i].node = std::bit_cast<uint32_t>(planes[size_t{WT_RAY_NODE} * queue.capacity + i]);
+    rays[i].surface = std::bit_cast<uint32_t>(planes[size_t{WT_RAY_SURFACE} * queue.capacity + i]);
+  }
+  return rays;
+}
+
+inline std::vector<Hit> download(const HitList& list, size_t count) {
+  const std::vector<float> planes = list.planes.read();
+  std::vector<Hit> hits(count);
+  for (size_t i = 0; i < count; ++i) {
+    hits[i].primitive = std::bit_cast<uint32_t>(planes[size_t{WT_HIT_PRIMITIVE} * list.capacity + i]);
+    hits[i].surface = std::bit_cast<uint32_t>(planes[size_t{WT_HIT_SURFACE} * list.capacity + i]);
+    hits[i].t = hits[i].missed() ? 0.0f : planes[size_t{WT_HIT_T} * list.capacity + i];
+  }
+  return hits;
+}
+
+// The nearest hit of each ray.
+inline std::vector<Hit> trace(const DeviceScene& scene, TraceShape shape, const std::vector<Ray>& rays) {
+  const RayQueue queue = upload(rays);
+  HitList list = make_hit_list(context(), rays.size(), Trace::block_size(context().info()));
+  Trace pass(context(), scene, shape);
+  pass(scene, queue, list);
+  return download(list, rays.size());
+}
+
+inline size_t misses(const std::vector<Hit>& hits) {
+  size_t count = 0;
+  for (const Hit& hit : hits) count += hit.missed();
+  return count;
+}
+
+}  // namespace wavetracer::test

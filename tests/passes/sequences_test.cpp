@@ -1,0 +1,159 @@
+// sequences: the trie is a set, whatever the size of its table: against std::set, small and full tables, exchanges.
+// Sequences are made up; no ray is traced.
+#include "passes/sequences.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "passes/exact.hpp"
+#include "passes/triangles.hpp"
+#include "wavetracer/error.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+constexpr uint32_t surface_count = 30, transmitter_count = 3, max_depth = 5;
+
+// Surfaces with these normals, all that interact and commute want to know.
+DeviceScene scene_of_normals(const std::vector<Float3>& normals) {
+  DeviceScene scene;
+  scene.cpu = context().info().cpu;
+  std::vector<wt_surface> surfaces(normals.size());
+  for (size_t i = 0; i < normals.size(); ++i) std::copy(normals[i].begin(), normals[i].end(), surfaces[i].normal);
+  scene.surfaces = context().buffer(surfaces, "surfaces");
+  return scene;
+}
+
+DeviceScene any_scene() { return scene_of_normals(std::vector<Float3>(surface_count, {0, 0, 1})); }
+
+std::vector<Sequence> random_sequences(size_t count, uint32_t seed) {
+  Random random(seed);
+  std::vector<Sequence> out(count);
+  for (Sequence& s : out) {
+    s.transmitter = random.below(transmitter_count);
+    s.surfaces.resize(random.below(max_depth + 1));
+    // Squared: some surfaces are met far more often than others, as in a scene.
+    for (uint32_t& surface : s.surfaces) surface = static_cast<uint32_t>(std::pow(random(), 2) * surface_count);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a new set is empty: the roots alone are listed") {
+  Sequences set(context(), 1024);
+  CHECK(set.collect(transmitter_count) == transmitter_count);
+  CHECK(contents(set, transmitter_count) == SequenceSet{});
+  CHECK_FALSE(set.overflowed());
+}
+
+TEST_CASE("the set holds every prefix once, as std::set does, and clear empties it") {
+  const DeviceScene scene = any_scene();
+  Sequences set(context(), 16384);
+  for (const uint32_t seed : {1u, 2u}) {
+    const std::vector<Sequence> sequences = random_sequences(900, seed);
+    enter_once(set, scene, sequences);
+    CHECK_FALSE(set.overflowed());
+    CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+    enter_once(set, scene, sequences);  // again: nothing new
+    CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+    set.clear();
+    CHECK(contents(set, transmitter_count) == SequenceSet{});
+  }
+}
+
+TEST_CASE("growth keeps every chain") {
+  const DeviceScene scene = any_scene();
+  const std::vector<Sequence> sequences = random_sequences(150, 3);
+  Sequences set(context(), 1024);
+  enter_once(set, scene, sequences);
+  REQUIRE_FALSE(set.overflowed());
+  set.regrow(max_depth);
+  CHECK(set.table().size() == 4096);
+  CHECK_FALSE(set.overflowed());
+  CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+}
+
+TEST_CASE("a table that is far too small overflows, says so, and grows to the same set") {
+  const DeviceScene scene = any_scene();
+  const std::vector<Sequence> sequences = random_sequences(900, 4);
+  Sequences set(context(), 64);
+  enter_once(set, scene, sequences);
+  CHECK(set.overflowed());
+  enter(set, scene, sequences, max_depth);
+  CHECK_FALSE(set.overflowed());
+  CHECK(set.table().size() >= with_prefixes(sequences).size());
+  CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+}
+
+TEST_CASE("what follows a prefix that found no slot is not entered") {
+  // 970 first surfaces crowd the table: some find no slot near theirs, while others are free elsewhere. Only the last go
+  // on, and what comes after one that found no slot would hang in the air.
+  const DeviceScene scene = scene_of_normals(std::vector<Float3>(1000, {0, 0, 1}));
+  std::vector<Sequence> sequences;
+  for (uint32_t a = 0; a < 970; ++a) sequences.push_back({a % 3, {a}});
+  for (uint32_t a = 930; a < 970; ++a) sequences[a].surfaces = {a, a + 1, a + 2};
+  Sequences set(context(), 1024);
+  enter_once(set, scene, sequences);
+  REQUIRE(set.overflowed());
+  size_t orphans = 0;
+  for (const uint64_t key : set.table().read()) orphans += key != WT_EMPTY && (key >> 32) == WT_NONE;
+  CHECK(orphans == 0);
+  set.regrow(max_depth);
+  const auto held = contents(set, transmitter_count);
+  REQUIRE(held.has_value());
+  const SequenceSet all = with_prefixes(sequences);
+  CHECK(std::includes(all.begin(), all.end(), held->begin(), held->end()));
+}
+
+TEST_CASE("the list of nodes grows with the set") {
+  const DeviceScene scene = any_scene();
+  const std::vector<Sequence> sequences = random_sequences(3000, 5);
+  Sequences set(context(), 32768);
+  enter(set, scene, sequences, max_depth);
+  const size_t expected = with_prefixes(sequences).size() + transmitter_count;
+  REQUIRE(expected > 4096);  // more than the list begins with
+  CHECK(set.collect(transmitter_count) == expected);
+}
+
+TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, and nothing else") {
+  // 0, 1: walls across x; 2: a wall across y; 3: the ground; 4: askew; 5: leaning by 0.01 from perpendicular to the ground.
+  const std::vector<Float3> normals{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6f, 0, 0.8f}, {0, 0.99995f, 0.01f}};
+  const DeviceScene scene = scene_of_normals(normals);
+  const auto perpendicular = [&](uint32_t a, uint32_t b) {
+    double dot = 0;
+    for (size_t axis = 0; axis < 3; ++axis) dot += double{normals[a][axis]} * normals[b][axis];
+    return std::abs(dot) < 0.015;
+  };
+  std::vector<Sequence> sequences;
+  Random random(6);
+  for (int i = 0; i < 60; ++i) {
+    Sequence s{random.below(2), {}};
+    for (uint32_t length = 1 + random.below(4); s.surfaces.size() < length;) {
+      const uint32_t surface = random.below(6);
+      if (s.surfaces.empty() || s.surfaces.back() != surface) s.surfaces.push_back(surface);
+    }
+    sequences.push_back(s);
+  }
+  std::vector<Sequence> expected = sequences;
+  for (const Sequence& s : with_prefixes(sequences))
+    for (size_t k = 0; k + 1 < s.surfaces.size(); ++k) {
+      if (!perpendicular(s.surfaces[k], s.surfaces[k + 1])) continue;
+      Sequence swapped = s;
+      std::swap(swapped.surfaces[k], swapped.surfaces[k + 1]);
+      // A surface does not follow itself: no ray does that.
+      if (std::adjacent_find(swapped.surfaces.begin(), swapped.surfaces.end()) != swapped.surfaces.end()) continue;
+      expected.push_back(swapped);
+    }
+  for (const uint64_t slots : {uint64_t{4096}, uint64_t{128}}) {  // the second must grow on the way
+    CAPTURE(slots);
+    Sequences set(context(), slots);
+    enter(set, scene, sequences, 4);
+    REQUIRE(contents(set, 2) == with_prefixes(sequences));
+    set.commute(scene.surfaces, set.collect(2), 4);
+    CHECK(contents(set, 2) == with_prefixes(expected));
+  }
+}

@@ -1,0 +1,101 @@
+// solve: points of all candidates against the image method on parallelograms, and with occlusion against brute force.
+// Positions are generic; what happens on borders is the business of tests/simulation.
+#include "passes/solve.hpp"
+
+#include <doctest/doctest.h>
+
+#include "passes/image_method.hpp"
+#include "reference/brute_force.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// Boxes on a ground: five quads each.
+std::vector<Quad> random_town(size_t boxes, uint32_t seed) {
+  Random random(seed);
+  std::vector<Quad> quads{{{-40, -40, 0}, {80, 0, 0}, {0, 80, 0}}};
+  for (size_t i = 0; i < boxes; ++i) {
+    const glm::dvec3 lower{random.between(-30, 25), random.between(-30, 25), 0};
+    const double turn = random.between(0, 1.5), width = random.between(3, 9), depth = random.between(3, 9);
+    const glm::dvec3 u{width * std::cos(turn), width * std::sin(turn), 0}, v{-depth * std::sin(turn), depth * std::cos(turn), 0};
+    const glm::dvec3 up{0, 0, random.between(2, 12)};
+    quads.insert(quads.end(), {{lower, u, up}, {lower + u, v, up}, {lower + v, u, up}, {lower, v, up}, {lower + up, u, v}});
+  }
+  return quads;
+}
+
+void check_against_image_method(const std::vector<Quad>& quads, const std::vector<glm::dvec3>& transmitters,
+                                const std::vector<glm::dvec3>& receivers, uint32_t max_depth, size_t at_least) {
+  const std::vector<Sequence> sequences =
+      all_sequences(static_cast<uint32_t>(transmitters.size()), static_cast<uint32_t>(quads.size()), max_depth);
+  const Exact exact(reference::scene_of_quads(quads), transmitters, receivers, sequences, max_depth);
+  std::set<std::pair<Sequence, uint32_t>> expected;
+  for (const Sequence& s : with_prefixes(sequences))
+    for (uint32_t r = 0; r < receivers.size(); ++r)
+      if (image_method(quads, transmitters[s.transmitter], s.surfaces, receivers[r])) expected.emplace(s, r);
+  CHECK(expected.size() >= at_least);
+  double worst = 0;
+  size_t lines_of_sight = 0;
+  for (const SolvedPath& path : exact.solved) {
+    const Sequence& s = path.sequence;
+    lines_of_sight += s.surfaces.empty();
+    if (s.surfaces.empty()) continue;
+    const auto points = image_method(quads, transmitters[s.transmitter], s.surfaces, receivers[path.receiver]);
+    CHECK(expected.erase({s, path.receiver}) == 1);
+    if (!points) continue;
+    for (size_t k = 0; k < points->size(); ++k) worst = std::max(worst, glm::distance((*points)[k], path.points[k]));
+  }
+  CHECK(lines_of_sight == transmitters.size() * receivers.size());
+  CHECK(expected.empty());
+  CHECK(worst < 1e-9);
+}
+
+}  // namespace
+
+TEST_CASE("random planes to order 3: exactly what the image method accepts, to a nanometre") {
+  Random random(4);
+  const std::vector<Quad> quads = random_quads(7, 10, 15, random);
+  std::vector<glm::dvec3> receivers;
+  for (int i = 0; i < 9; ++i) receivers.push_back(random.in_cube(12));
+  check_against_image_method(quads, {random.in_cube(12), random.in_cube(12)}, receivers, 3, 10);
+}
+
+TEST_CASE("a box to order 4: 4 n^2 + 2 paths of order n") {
+  const std::vector<Quad> quads = reference::box_walls({0, 0, 0}, {5, 4, 3});
+  const Exact exact(reference::scene_of_quads(quads), {{1.1, 0.7, 1.3}}, {{3.7, 3.2, 0.9}}, all_sequences(1, 6, 4), 4);
+  size_t by_order[5] = {};
+  for (const SolvedPath& path : exact.solved) by_order[path.sequence.surfaces.size()] += !path.blocked;
+  CHECK(by_order[0] == 1);
+  for (size_t n = 1; n <= 4; ++n) CHECK(by_order[n] == 4 * n * n + 2);
+}
+
+TEST_CASE("with occlusion: the sets of brute force, in towns of boxes") {
+  for (const uint32_t seed : {1u, 2u, 3u}) {
+    CAPTURE(seed);
+    const std::vector<Quad> quads = random_town(2, seed);
+    const Scene scene = reference::scene_of_quads(quads);
+    Random random(seed + 100);
+    std::vector<glm::dvec3> transmitters{{-35, 1, 7}}, receivers;
+    for (int i = 0; i < 6; ++i) receivers.push_back({random.between(-38, 38), random.between(-38, 38), random.between(1, 14)});
+    const Exact exact(scene, transmitters, receivers, all_sequences(1, static_cast<uint32_t>(quads.size()), 2), 2);
+    const PathGeometry slow = reference::brute_force_paths(scene, transmitters, receivers, 2);
+    std::set<std::pair<Sequence, uint32_t>> mine, expected;
+    for (const SolvedPath& path : exact.solved)
+      if (!path.blocked) mine.emplace(path.sequence, path.receiver);
+    for (size_t i = 0; i < slow.size(); ++i)
+      expected.insert({Sequence{slow.tx[i], {slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i]),
+                                             slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i + 1])}},
+                       slow.rx[i]});
+    CHECK(mine == expected);
+    CHECK(mine.size() > 10);
+  }
+}
+
+TEST_CASE("a receiver at a transmitter has no line of sight; reflections straight back remain") {
+  const Exact exact(reference::scene_of_quads({{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}}), {{1, 1, 3}}, {{1, 1, 3}}, all_sequences(1, 1, 1), 1);
+  REQUIRE(exact.solved.size() == 1);
+  CHECK(exact.solved[0].points == std::vector<glm::dvec3>{{1, 1, 0}});
+  CHECK(exact.visible() == 1);
+}
