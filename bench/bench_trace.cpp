@@ -99,20 +99,26 @@ std::pair<Segments, Truth> make_segments(std::vector<Ray> launched, Tracer& trut
   return {std::move(segments), std::move(hits)};
 }
 
-Sample measure(Tracer& tracer, const Segments& segments, const Truth& truth, size_t runs) {
-  Sample sample;
+// Every tracer over every segment. Runs go round the tracers in turn, so that a machine that slows down for a while
+// slows them all, and ratios of medians mean something.
+std::vector<Sample> measure(std::span<const NamedTracer> tracers, const Segments& segments, const Truth& truth,
+                            size_t runs) {
+  std::vector<Sample> samples(tracers.size());
   for (size_t s = 0; s < kSegments; s++) {
-    const std::vector<Hit> hits = trace_once(tracer, segments[s]);  // warm-up
-    if (hits.empty()) continue;
-    std::vector<double> seconds(runs);
-    for (double& one : seconds) one = tracer.run();
-    sample.seconds[s] = median(seconds);
-    for (size_t i = 0; i < hits.size(); i++) {
-      const float expected = truth[s][i].t;
-      sample.differing += !(std::abs(hits[i].t - expected) <= 1e-3f + 1e-4f * std::abs(expected));
+    if (segments[s].empty()) continue;
+    for (size_t i = 0; i < tracers.size(); i++) {
+      const std::vector<Hit> hits = trace_once(*tracers[i].tracer, segments[s]);  // warm-up; its rays stay loaded
+      for (size_t ray = 0; ray < hits.size(); ray++) {
+        const float expected = truth[s][ray].t;
+        samples[i].differing += !(std::abs(hits[ray].t - expected) <= 1e-3f + 1e-4f * std::abs(expected));
+      }
     }
+    std::vector<std::vector<double>> seconds(tracers.size());
+    for (size_t run = 0; run < runs; run++)
+      for (size_t i = 0; i < tracers.size(); i++) seconds[i].push_back(tracers[i].tracer->run());
+    for (size_t i = 0; i < tracers.size(); i++) samples[i].seconds[s] = median(seconds[i]);
   }
-  return sample;
+  return samples;
 }
 
 double sum(const std::array<double, kSegments>& seconds) {
@@ -141,12 +147,12 @@ void run(const Options& options, const std::string& command) {
 
   gpu::Context context(options.device);
   const gpu::DeviceInfo& info = context.info();
-  std::vector<NamedTracer> ours, peers;
+  std::vector<NamedTracer> tracers;  // ours, then peers
   std::vector<std::unique_ptr<DeviceScene>> device_scenes;
   for (const bool splits : {false, true}) {
     device_scenes.push_back(std::make_unique<DeviceScene>(make_device_scene(context, place.scene, splits)));
     const auto add = [&](const char* name, TraceShape shape) {
-      ours.push_back({std::string(name) + (splits ? "-splits" : ""),
+      tracers.push_back({std::string(name) + (splits ? "-splits" : ""),
                       std::make_unique<OurTracer>(context, *device_scenes.back(), shape, options.rays)});
     };
     if (info.cpu) {
@@ -156,12 +162,13 @@ void run(const Options& options, const std::string& command) {
       add("bvh2", TraceShape::bvh2);
     }
   }
-  Tracer* truth = ours.front().tracer.get();
+  const size_t ours = tracers.size();
+  Tracer* truth = tracers.front().tracer.get();
 #ifdef WAVETRACER_EMBREE
   for (const EmbreeConfig& config : embree_configs()) {
     if (!options.peers) break;
-    peers.push_back({config.name, std::make_unique<EmbreeTracer>(triangles, config)});
-    if (config.robust && config.width == 1) truth = peers.back().tracer.get();
+    tracers.push_back({config.name, std::make_unique<EmbreeTracer>(triangles, config)});
+    if (config.robust && config.width == 1) truth = tracers.back().tracer.get();
   }
 #else
   fmt::print(stderr,
@@ -177,52 +184,43 @@ void run(const Options& options, const std::string& command) {
     for (const auto& segment : segments) ray_count += static_cast<double>(segment.size());
     const auto rate = [&](double seconds) { return ray_count / seconds * 1e-6; };
 
+    const std::vector<Sample> samples = measure(tracers, segments, expected, options.runs);
     double best_single = 0;
     std::string best_name;
     std::array<double, kSegments> best_each;
     best_each.fill(std::numeric_limits<double>::infinity());
-    for (const NamedTracer& peer : peers) {
-      const Sample sample = measure(*peer.tracer, segments, expected, options.runs);
-      for (size_t s = 0; s < kSegments; s++) best_each[s] = std::min(best_each[s], sample.seconds[s]);
-      if (rate(sum(sample.seconds)) > best_single) {
-        best_single = rate(sum(sample.seconds));
-        best_name = peer.name;
-      }
-      print({"trace",
-             label + ": " + peer.name,
-             host_device,
-             rate(sum(sample.seconds)),
-             "Mrays/s",
-             Better::higher,
-             "",
-             {},
-             static_cast<double>(sample.differing),
-             rates(segments, sample.seconds)},
-            command);
-    }
-    for (const NamedTracer& tracer : ours) {
-      const Sample sample = measure(*tracer.tracer, segments, expected, options.runs);
-      Result result{"trace",
-                    label + ": " + tracer.name,
-                    info.name,
-                    rate(sum(sample.seconds)),
+    const auto result = [&](size_t i) {
+      return Result{"trace",
+                    label + ": " + tracers[i].name,
+                    i < ours ? info.name : host_device,
+                    rate(sum(samples[i].seconds)),
                     "Mrays/s",
                     Better::higher,
                     "",
                     {},
-                    static_cast<double>(sample.differing),
-                    rates(segments, sample.seconds)};
-      if (!peers.empty()) {
-        result.baseline = "Embree's best setting, " + best_name;
-        result.baseline_value = best_single;
+                    static_cast<double>(samples[i].differing),
+                    rates(segments, samples[i].seconds)};
+    };
+    for (size_t i = ours; i < tracers.size(); i++) {
+      for (size_t s = 0; s < kSegments; s++) best_each[s] = std::min(best_each[s], samples[i].seconds[s]);
+      if (rate(sum(samples[i].seconds)) > best_single) {
+        best_single = rate(sum(samples[i].seconds));
+        best_name = tracers[i].name;
       }
-      print(result, command);
-      if (!peers.empty()) {
-        result.name += ", against the best of each segment";
-        result.baseline = "Embree's best setting for each segment";
-        result.baseline_value = rate(sum(best_each));
-        print(result, command);
+      print(result(i), command);
+    }
+    for (size_t i = 0; i < ours; i++) {
+      Result one = result(i);
+      if (ours < tracers.size()) {
+        one.baseline = "Embree's best setting, " + best_name;
+        one.baseline_value = best_single;
       }
+      print(one, command);
+      if (ours == tracers.size()) continue;
+      one.name += ", against the best of each segment";
+      one.baseline = "Embree's best setting for each segment";
+      one.baseline_value = rate(sum(best_each));
+      print(one, command);
     }
   }
 }

@@ -30,6 +30,10 @@ inline int inside(const global wt_exact_surface* s, const global double* triangl
   return 0;
 }
 
+inline double rounding(double3 p) { return 1e-9 * (1.0 + fabs(p.x) + fabs(p.y) + fabs(p.z)); }
+
+inline int same_point(double3 p, double3 q) { return fabs(p.x - q.x) + fabs(p.y - q.y) + fabs(p.z - q.z) <= rounding(p); }
+
 kernel void solve(const global ulong* table, const global double4* transmitters, const global double4* receivers,
                   const global wt_exact_surface* surfaces, const global double* triangles, const global wt_candidate* candidates,
                   uint candidate_count, uint max_depth, global wt_solved* solved, global double* vertices, global uint* sequences,
@@ -47,21 +51,31 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
   for (uint k = depth; k-- > 0;) {
     const global wt_exact_surface* s = surfaces + chain[k];
     const double a = wt_above(s, images[k + 1]), b = wt_above(s, target);
-    if (!((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0))) return;
-    const double u = a / (a - b);
-    const double3 from = images[k + 1];
-    const double3 p = (double3)(from.x + u * (target.x - from.x), from.y + u * (target.y - from.y), from.z + u * (target.z - from.z));
+    double3 p = target;
+    if (k + 1 < depth && fabs(b) <= rounding(target)) {
+      // The point of the next surface is on this one as well. On an edge both reflect it there, with no leg between: whichever
+      // comes first, rounding must not decide that neither does; the equal paths of both orders merge later. Two surfaces in
+      // one plane, though, would undo each other's reflection, and let the leg through.
+      const double cosine = wt_dot(wt_normal(s), wt_normal(surfaces + chain[k + 1]));
+      if (cosine * cosine > 1.0 - 1e-6) return;
+    } else {
+      if (!((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0))) return;
+      const double u = a / (a - b);
+      const double3 from = images[k + 1];
+      p = (double3)(from.x + u * (target.x - from.x), from.y + u * (target.y - from.y), from.z + u * (target.z - from.z));
+    }
     if (!inside(s, triangles, p)) return;
     points[k] = p;
     target = p;
   }
-  // The leg that arrives at a surface must come from the side that it leaves to.
-  double3 before = images[0];
+  // The leg that arrives at a surface must come from the side that it leaves to. Legs of no length are passed over.
   for (uint k = 0; k < depth; ++k) {
-    const double3 after = k + 1 < depth ? points[k + 1] : receivers[candidates[i].receiver].xyz;
-    const double a = wt_above(surfaces + chain[k], before), b = wt_above(surfaces + chain[k], after);
+    uint before = k, after = k + 1;
+    while (before > 0 && same_point(points[before - 1], points[k])) --before;
+    while (after < depth && same_point(points[after], points[k])) ++after;
+    const double a = wt_above(surfaces + chain[k], before > 0 ? points[before - 1] : images[0]);
+    const double b = wt_above(surfaces + chain[k], after < depth ? points[after] : receivers[candidates[i].receiver].xyz);
     if (!((a < 0.0 && b < 0.0) || (a > 0.0 && b > 0.0))) return;
-    before = points[k];
   }
   // A receiver at a transmitter has no line of sight.
   if (depth == 0 && target.x == images[0].x && target.y == images[0].y && target.z == images[0].z) return;

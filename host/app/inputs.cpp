@@ -3,6 +3,7 @@
 #include "app/inputs.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include "config/fields.hpp"

@@ -1,6 +1,8 @@
 // Texts made of the field table: the commented config of `init`, the key list of `--help`, the resolved config.
 // It assumes that a table without brackets of its own follows the one before it, as TOML reads it.
 #include <fmt/format.h>
+#include <algorithm>
+#include <cctype>
 #include "config/config_file.hpp"
 #include "config/fields.hpp"
 

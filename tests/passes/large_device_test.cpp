@@ -66,7 +66,7 @@ TEST_CASE("a million rays at edges and vertices of closed rooms, and at random: 
     const DeviceScene uploaded = make_device_scene(context(), scene_of_triangles(triangles), false);
     for (const Aim aim : {Aim::edges, Aim::vertices, Aim::anywhere}) {
       CAPTURE(static_cast<int>(aim));
-      const std::vector<Ray> rays = aimed_rays(triangles, aim, 170000, {0.1, -0.2, 0.3}, 3, 13);
+      const std::vector<Ray> rays = aimed_rays(triangles, aim, 260000, {0.1, -0.2, 0.3}, 3, 13);
       for (const TraceShape traversal : shapes()) {
         CAPTURE(name_of(traversal));
         CHECK(misses(trace(uploaded, traversal, rays)) == 0);

@@ -99,3 +99,40 @@ TEST_CASE("a receiver at a transmitter has no line of sight; reflections straigh
   CHECK(exact.solved[0].points == std::vector<glm::dvec3>{{1, 1, 0}});
   CHECK(exact.visible() == 1);
 }
+
+TEST_CASE("nothing is solved through a surface, even where points of two surfaces coincide") {
+  // Two walls in one plane: mirrored by both, an image is the thing itself, and its leg crosses them like air.
+  const Quad wall{{0, -5, -5}, {0, 10, 0}, {0, 0, 10}}, same_plane{{0, -4, -3}, {0, 9, 0}, {0, 0, 8}};
+  Random random(8);
+  std::vector<glm::dvec3> receivers;
+  for (int i = 0; i < 60; ++i) receivers.push_back({random.between(0.5, 4), random.between(-2, 2), random.between(-2, 2)});
+  for (const double tilt : {0.0, 0.3, 0.7}) {  // askew, so that points round to either side of the plane
+    CAPTURE(tilt);
+    const auto turned = [&](const glm::dvec3& p) {
+      return glm::dvec3{p.x * std::cos(tilt) - p.y * std::sin(tilt), p.x * std::sin(tilt) + p.y * std::cos(tilt), p.z};
+    };
+    std::vector<Quad> quads{wall, same_plane};
+    for (Quad& q : quads) q = {turned(q.corner), turned(q.u), turned(q.v)};
+    std::vector<glm::dvec3> behind = receivers;
+    for (glm::dvec3& p : behind) p = turned(p);
+    const Exact exact(reference::scene_of_quads(quads), {turned({-3, 0.4, 0.3})}, behind, all_sequences(1, 2, 4), 4);
+    CHECK(exact.solved.size() == behind.size());  // the lines of sight, which occlusion then refuses
+    CHECK(exact.visible() == 0);
+  }
+}
+
+TEST_CASE("an edge of two walls: both orders reflect there, and nothing reaches behind them") {
+  const std::vector<Quad> walls{{{0, 0, -5}, {0, 10, 0}, {0, 0, 10}}, {{0, 0, -5}, {10, 0, 0}, {0, 0, 10}}};  // x = 0, y = 0
+  const auto orders = [&](const glm::dvec3& tx, const glm::dvec3& rx) {
+    const Exact exact(reference::scene_of_quads(walls), {tx}, {rx}, all_sequences(1, 2, 3), 3);
+    std::vector<size_t> depths;
+    for (const SolvedPath& path : exact.solved)
+      if (!path.blocked) depths.push_back(path.sequence.surfaces.size());
+    std::sort(depths.begin(), depths.end());
+    return depths;
+  };
+  CHECK(orders({1, 2, 0.5}, {1, 2, -0.5}) == std::vector<size_t>{0, 1, 1, 2, 2});  // straight back from the edge
+  CHECK(orders({1, 2, 0.5}, {1, 2.5, -0.5}) == std::vector<size_t>{0, 1, 1, 2});   // beside it, one order only
+  // Past the edge of the one wall, by the border of the other, and never by both: that would be through the first.
+  CHECK(orders({1, 1, 0.5}, {-1, 1, 0.5}) == std::vector<size_t>{1});
+}
