@@ -46,7 +46,8 @@ TEST_CASE("random planes: nothing that solves is rejected, and most of what does
   const std::vector<Quad> quads = random_quads(9, 10, 12, random);
   for (const size_t receivers : {size_t{1}, size_t{15}, size_t{16}, size_t{17}}) {
     CAPTURE(receivers);
-    const Outcome o = compare(quads, random_points(2, 12, random), random_points(receivers, 12, random), all_sequences(2, 9, 2), 2);
+    const Outcome o =
+        compare(quads, random_points(2, 12, random), random_points(receivers, 12, random), all_sequences(2, 9, 2), 2);
     CHECK(o.lost == 0);
     if (receivers > 1) CHECK(o.accepted > 0);
     CHECK(o.candidates < o.pairs / 2);
@@ -71,7 +72,8 @@ TEST_CASE("far images: four reflections between walls that are kilometres apart"
                                 {{-4000, 2500, -50}, {8000, -17, 0}, {3, -9, 900}},
                                 {{-5000, -5000, -40}, {10000, 0, 1}, {0, 10000, 2}}};
   std::vector<glm::dvec3> receivers;
-  for (int i = 0; i < 20; ++i) receivers.push_back({random.between(-3500, 3500), random.between(-2900, 2400), random.between(-20, 300)});
+  for (int i = 0; i < 20; ++i)
+    receivers.push_back({random.between(-3500, 3500), random.between(-2900, 2400), random.between(-20, 300)});
   const Outcome o = compare(quads, {{-1000, 500, 25}, {2000, -2000, 5}}, receivers, all_sequences(2, 3, 4), 4);
   CHECK(o.lost == 0);
   CHECK(o.accepted > 100);

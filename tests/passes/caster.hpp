@@ -49,7 +49,8 @@ inline std::string fault(std::span<const AccelTriangle> triangles, const Ray& ra
     if (std::isnan(mine.t)) return {};  // in the plane: any answer will do
     if (mine.inside_m < -position_error_m) return "the triangle is passed at " + std::to_string(-mine.inside_m) + " m";
     if (!(hit.t > 0)) return "a hit behind the origin";
-    if (std::abs(mine.t - hit.t) > mine.t_error) return "distance " + std::to_string(hit.t) + " for " + std::to_string(mine.t);
+    if (std::abs(mine.t - hit.t) > mine.t_error)
+      return "distance " + std::to_string(hit.t) + " for " + std::to_string(mine.t);
   }
   for (const AccelTriangle& other : triangles) {
     if (other.primitive == hit.primitive || other.surface == ray.surface) continue;

@@ -1,7 +1,8 @@
-// Sets of sequences on the device without tracing, and the exact half of a frame (candidates, solve, occlusion) on them.
+// Sets of sequences on the device without tracing, and the exact half of a frame (candidates, solve, occlusion).
 // Sequences enter through the interact pass, as rays do: with hit lists that a test writes itself.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <set>
@@ -70,7 +71,8 @@ inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Seq
 }
 
 // The same, growing the set until all of them are in it: what Discovery does with a batch.
-inline void enter(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>& sequences, uint32_t max_depth) {
+inline void enter(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>& sequences,
+                  uint32_t max_depth) {
   for (enter_once(set, scene, sequences); set.overflowed(); enter_once(set, scene, sequences)) set.regrow(max_depth);
 }
 
@@ -114,7 +116,10 @@ struct Exact {
 
   Exact(const Scene& scene, const std::vector<glm::dvec3>& transmitters, const std::vector<glm::dvec3>& receivers,
         const std::vector<Sequence>& sequences, uint32_t max_depth) {
-    const DeviceScene uploaded = make_device_scene(context(), scene, false);
+    double reach_m = 0;
+    for (const auto& ends : {transmitters, receivers})
+      for (const glm::dvec3& p : ends) reach_m = std::max({reach_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const DeviceScene uploaded = make_device_scene(context(), scene, false, reach_m);
     const RadioEnds ends = make_radio_ends(context(), transmitters, receivers);
     Sequences set(context(), 4096);
     enter(set, uploaded, sequences, max_depth);
@@ -138,7 +143,8 @@ struct Exact {
   }
 
   size_t visible() const {
-    return static_cast<size_t>(std::count_if(solved.begin(), solved.end(), [](const SolvedPath& p) { return !p.blocked; }));
+    return static_cast<size_t>(
+        std::count_if(solved.begin(), solved.end(), [](const SolvedPath& p) { return !p.blocked; }));
   }
 
  private:

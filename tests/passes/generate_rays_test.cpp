@@ -182,8 +182,8 @@ TEST_CASE("hilbert and fibonacci: heights are evenly spread, and no two rays are
 }
 
 TEST_CASE("hilbert: consecutive rays are neighbours on the sphere") {
-  // Neighbours of a square lattice are sqrt(4 pi / n) apart; offsets inside the cells and their stretch towards the poles
-  // cost about a factor of two, whatever n.
+  // Neighbours of a square lattice are sqrt(4 pi / n) apart; offsets inside the cells and their stretch towards the
+  // poles cost about a factor of two, whatever n.
   for (const uint64_t n : {uint64_t{3072}, uint64_t{50000}, uint64_t{200000}}) {
     CAPTURE(n);
     const double lattice = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));

@@ -1,4 +1,4 @@
-// The image method once more, on parallelograms: no triangles, no tolerance, no visibility. For sequences that a test names.
+// The image method once more, on parallelograms: no triangles, no tolerance. For sequences that a test names.
 // Shares nothing with kernels/solve.cl; legs are not tested.
 #pragma once
 #include <cmath>
@@ -19,10 +19,14 @@ inline glm::dvec3 normal_of(const Quad& quad) { return glm::normalize(glm::cross
 
 // The reflection points, or nothing where one lies outside its parallelogram or a leg comes through from behind.
 inline std::optional<std::vector<glm::dvec3>> image_method(const std::vector<Quad>& quads, const glm::dvec3& from,
-                                                           const std::vector<uint32_t>& sequence, const glm::dvec3& to) {
-  const auto height = [&](uint32_t s, const glm::dvec3& p) { return glm::dot(normal_of(quads[s]), p - quads[s].corner); };
+                                                           const std::vector<uint32_t>& sequence,
+                                                           const glm::dvec3& to) {
+  const auto height = [&](uint32_t s, const glm::dvec3& p) {
+    return glm::dot(normal_of(quads[s]), p - quads[s].corner);
+  };
   std::vector<glm::dvec3> images{from};
-  for (const uint32_t s : sequence) images.push_back(images.back() - 2 * height(s, images.back()) * normal_of(quads[s]));
+  for (const uint32_t s : sequence)
+    images.push_back(images.back() - 2 * height(s, images.back()) * normal_of(quads[s]));
   std::vector<glm::dvec3> points(sequence.size());
   glm::dvec3 target = to;
   for (size_t k = sequence.size(); k-- > 0;) {

@@ -68,7 +68,8 @@ TEST_CASE("rays that hit go on in their order, mirrored, on the side they came f
       const Surface& surface = scene.surfaces[step.hits[i].surface];
       wrong += after.surface != step.hits[i].surface;
       // The node is the pair (what the ray was, what it met).
-      wrong += after.node >= step.table.size() || step.table[after.node] != ((uint64_t{rays[i].node} << 32) | after.surface);
+      wrong +=
+          after.node >= step.table.size() || step.table[after.node] != ((uint64_t{rays[i].node} << 32) | after.surface);
       const glm::dvec3 d = to_double(rays[i].direction), o = to_double(rays[i].origin);
       const glm::dvec3 mirrored = d - 2 * glm::dot(d, surface.normal) * surface.normal;
       wrong += glm::distance(to_double(after.direction), mirrored) > 1e-6;
@@ -112,7 +113,8 @@ TEST_CASE("a mirrored ray starts off the surface also far from the origin and at
       const glm::dvec3 at{far, -far, far / 3};
       const glm::dvec3 normal = glm::normalize(glm::dvec3{1, 2, -2}), along = glm::normalize(glm::dvec3{2, -1, 0});
       const glm::dvec3 across = glm::cross(normal, along);
-      const Scene scene = scene_of_triangles({{{at - 40.0 * along - 30.0 * across, at + 40.0 * along - 30.0 * across, at + 60.0 * across}}});
+      const Scene scene = scene_of_triangles(
+          {{{at - 40.0 * along - 30.0 * across, at + 40.0 * along - 30.0 * across, at + 60.0 * across}}});
       for (const double side : {-1.0, 1.0}) {
         const glm::dvec3 from = at + side * 10 * slope * normal - 10.0 * along;
         const Step step(scene, {ray_towards(from, at - from)});

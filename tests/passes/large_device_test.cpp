@@ -1,4 +1,4 @@
-// What takes too many work-items for Oclgrind: a million rays at edges and vertices, a million bounces, lists that grow.
+// What takes too many work-items for Oclgrind: a million rays at edges and vertices, a million bounces, long lists.
 // The small cases are in the files named after the passes.
 #include <doctest/doctest.h>
 
@@ -95,7 +95,8 @@ TEST_CASE("a million bounces inside closed rooms: no ray leaves, though the naiv
 
 TEST_CASE("more candidates than the list begins with: it grows") {
   // Two parallel mirrors and receivers between them: every alternating sequence is a candidate for every one.
-  const std::vector<Quad> quads{{{-1e4, 0, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}}, {{-1e4, 5, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}}};
+  const std::vector<Quad> quads{{{-1e4, 0, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}},
+                                {{-1e4, 5, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}}};
   std::vector<glm::dvec3> receivers;
   for (int i = 0; i < 7000; ++i) receivers.push_back({0.01 * i, 2.5, 0});
   const Exact exact(reference::scene_of_quads(quads), {{0, 1, 0}}, receivers, all_sequences(1, 2, 5), 5);
@@ -104,7 +105,8 @@ TEST_CASE("more candidates than the list begins with: it grows") {
 }
 
 TEST_CASE("more solutions than the list begins with: it grows") {
-  const std::vector<Quad> quads{{{-1e4, 0, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}}, {{-1e4, 5, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}}};
+  const std::vector<Quad> quads{{{-1e4, 0, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}},
+                                {{-1e4, 5, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}}};
   std::vector<glm::dvec3> receivers;
   for (int i = 0; i < 3600; ++i) receivers.push_back({0.01 * i, 2.5, 0});
   const Exact exact(reference::scene_of_quads(quads), {{0, 1, 0}}, receivers, all_sequences(1, 2, 2), 2);

@@ -1,4 +1,4 @@
-// occlusion: the blocking rule. A surface blocks a leg whose ends lie on opposite sides of its plane, farther than 0.1 mm.
+// occlusion: a surface blocks a leg whose ends lie on opposite sides of its plane, both farther from it than 0.1 mm.
 // Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg, boxes that touch.
 #include "passes/occlusion.hpp"
 
@@ -20,7 +20,8 @@ bool sees(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3&
 }
 
 // Is there a path with these reflections, and no leg of it obstructed?
-bool reflects(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3& b, const std::vector<uint32_t>& surfaces) {
+bool reflects(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3& b,
+              const std::vector<uint32_t>& surfaces) {
   const Sequence wanted{0, surfaces};
   const Exact exact(reference::scene_of_quads(quads), {a}, {b}, {wanted}, static_cast<uint32_t>(surfaces.size()));
   return std::any_of(exact.solved.begin(), exact.solved.end(),
@@ -85,7 +86,7 @@ TEST_CASE("coplanar patches along a grazing leg do not block it") {
 }
 
 TEST_CASE("boxes that touch: nothing sees into the seam, and a reflection beside it stands") {
-  std::vector<Quad> quads = reference::box_walls({0, 0, 0}, {5, 5, 5});  // 0 .. 5
+  std::vector<Quad> quads = reference::box_walls({0, 0, 0}, {5, 5, 5});        // 0 .. 5
   const std::vector<Quad> right = reference::box_walls({5, 0, 0}, {9, 5, 5});  // 6 .. 11; its wall 6 lies on wall 1
   quads.insert(quads.end(), right.begin(), right.end());
   CHECK_FALSE(sees(quads, {5, -2, 2}, {5, 7, 2}));  // straight along the seam: the ends lie on neither box

@@ -1,8 +1,10 @@
 // What the tests of the passes share: one device context a program, rays and hits as plain records, and queues of them.
 // Assumes that each program runs its tests on one thread, on the default device (Oclgrind's, where it runs under it).
 #pragma once
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -84,6 +86,14 @@ inline std::vector<Hit> download(const HitList& list, size_t count) {
     hits[i].t = hits[i].missed() ? 0.0f : planes[size_t{WT_HIT_T} * list.capacity + i];
   }
   return hits;
+}
+
+// What make_device_scene must know of rays that start outside the scene: their largest absolute coordinate.
+inline double reach_of(const std::vector<Ray>& rays) {
+  double reach = 0;
+  for (const Ray& ray : rays)
+    for (const float x : ray.origin) reach = std::max(reach, std::abs(double{x}));
+  return reach;
 }
 
 // The nearest hit of each ray.

@@ -90,8 +90,8 @@ TEST_CASE("a table that is far too small overflows, says so, and grows to the sa
 }
 
 TEST_CASE("what follows a prefix that found no slot is not entered") {
-  // 970 first surfaces crowd the table: some find no slot near theirs, while others are free elsewhere. Only the last go
-  // on, and what comes after one that found no slot would hang in the air.
+  // 970 first surfaces crowd the table: some find no slot near theirs, while others are free elsewhere. Only the last
+  // go on, and what comes after one that found no slot would hang in the air.
   const DeviceScene scene = scene_of_normals(std::vector<Float3>(1000, {0, 0, 1}));
   std::vector<Sequence> sequences;
   for (uint32_t a = 0; a < 970; ++a) sequences.push_back({a % 3, {a}});
@@ -120,7 +120,8 @@ TEST_CASE("the list of nodes grows with the set") {
 }
 
 TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, and nothing else") {
-  // 0, 1: walls across x; 2: a wall across y; 3: the ground; 4: askew; 5: leaning by 0.01 from perpendicular to the ground.
+  // 0, 1: walls across x; 2: a wall across y; 3: the ground; 4: askew; 5: leaning by 0.01 from perpendicular to the
+  // ground.
   const std::vector<Float3> normals{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6f, 0, 0.8f}, {0, 0.99995f, 0.01f}};
   const DeviceScene scene = scene_of_normals(normals);
   const auto perpendicular = [&](uint32_t a, uint32_t b) {

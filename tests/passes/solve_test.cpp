@@ -19,9 +19,11 @@ std::vector<Quad> random_town(size_t boxes, uint32_t seed) {
   for (size_t i = 0; i < boxes; ++i) {
     const glm::dvec3 lower{random.between(-30, 25), random.between(-30, 25), 0};
     const double turn = random.between(0, 1.5), width = random.between(3, 9), depth = random.between(3, 9);
-    const glm::dvec3 u{width * std::cos(turn), width * std::sin(turn), 0}, v{-depth * std::sin(turn), depth * std::cos(turn), 0};
+    const glm::dvec3 u{width * std::cos(turn), width * std::sin(turn), 0},
+        v{-depth * std::sin(turn), depth * std::cos(turn), 0};
     const glm::dvec3 up{0, 0, random.between(2, 12)};
-    quads.insert(quads.end(), {{lower, u, up}, {lower + u, v, up}, {lower + v, u, up}, {lower, v, up}, {lower + up, u, v}});
+    quads.insert(quads.end(),
+                 {{lower, u, up}, {lower + u, v, up}, {lower + v, u, up}, {lower, v, up}, {lower + up, u, v}});
   }
   return quads;
 }
@@ -78,15 +80,17 @@ TEST_CASE("with occlusion: the sets of brute force, in towns of boxes") {
     const Scene scene = reference::scene_of_quads(quads);
     Random random(seed + 100);
     std::vector<glm::dvec3> transmitters{{-35, 1, 7}}, receivers;
-    for (int i = 0; i < 6; ++i) receivers.push_back({random.between(-38, 38), random.between(-38, 38), random.between(1, 14)});
+    for (int i = 0; i < 6; ++i)
+      receivers.push_back({random.between(-38, 38), random.between(-38, 38), random.between(1, 14)});
     const Exact exact(scene, transmitters, receivers, all_sequences(1, static_cast<uint32_t>(quads.size()), 2), 2);
     const PathGeometry slow = reference::brute_force_paths(scene, transmitters, receivers, 2);
     std::set<std::pair<Sequence, uint32_t>> mine, expected;
     for (const SolvedPath& path : exact.solved)
       if (!path.blocked) mine.emplace(path.sequence, path.receiver);
     for (size_t i = 0; i < slow.size(); ++i)
-      expected.insert({Sequence{slow.tx[i], {slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i]),
-                                             slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i + 1])}},
+      expected.insert({Sequence{slow.tx[i],
+                                {slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i]),
+                                 slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i + 1])}},
                        slow.rx[i]});
     CHECK(mine == expected);
     CHECK(mine.size() > 10);
@@ -94,7 +98,8 @@ TEST_CASE("with occlusion: the sets of brute force, in towns of boxes") {
 }
 
 TEST_CASE("a receiver at a transmitter has no line of sight; reflections straight back remain") {
-  const Exact exact(reference::scene_of_quads({{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}}), {{1, 1, 3}}, {{1, 1, 3}}, all_sequences(1, 1, 1), 1);
+  const Exact exact(reference::scene_of_quads({{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}}), {{1, 1, 3}}, {{1, 1, 3}},
+                    all_sequences(1, 1, 1), 1);
   REQUIRE(exact.solved.size() == 1);
   CHECK(exact.solved[0].points == std::vector<glm::dvec3>{{1, 1, 0}});
   CHECK(exact.visible() == 1);
@@ -105,7 +110,8 @@ TEST_CASE("nothing is solved through a surface, even where points of two surface
   const Quad wall{{0, -5, -5}, {0, 10, 0}, {0, 0, 10}}, same_plane{{0, -4, -3}, {0, 9, 0}, {0, 0, 8}};
   Random random(8);
   std::vector<glm::dvec3> receivers;
-  for (int i = 0; i < 60; ++i) receivers.push_back({random.between(0.5, 4), random.between(-2, 2), random.between(-2, 2)});
+  for (int i = 0; i < 60; ++i)
+    receivers.push_back({random.between(0.5, 4), random.between(-2, 2), random.between(-2, 2)});
   for (const double tilt : {0.0, 0.3, 0.7}) {  // askew, so that points round to either side of the plane
     CAPTURE(tilt);
     const auto turned = [&](const glm::dvec3& p) {
@@ -122,7 +128,8 @@ TEST_CASE("nothing is solved through a surface, even where points of two surface
 }
 
 TEST_CASE("an edge of two walls: both orders reflect there, and nothing reaches behind them") {
-  const std::vector<Quad> walls{{{0, 0, -5}, {0, 10, 0}, {0, 0, 10}}, {{0, 0, -5}, {10, 0, 0}, {0, 0, 10}}};  // x = 0, y = 0
+  const std::vector<Quad> walls{{{0, 0, -5}, {0, 10, 0}, {0, 0, 10}},
+                                {{0, 0, -5}, {10, 0, 0}, {0, 0, 10}}};  // x = 0, y = 0
   const auto orders = [&](const glm::dvec3& tx, const glm::dvec3& rx) {
     const Exact exact(reference::scene_of_quads(walls), {tx}, {rx}, all_sequences(1, 2, 3), 3);
     std::vector<size_t> depths;

@@ -26,14 +26,15 @@ std::vector<Ray> random_rays(size_t count, double extent, uint32_t seed) {
 }
 
 void check_against_caster(const Scene& scene, const std::vector<Ray>& rays, double position_error_m) {
-  const DeviceScene uploaded = make_device_scene(context(), scene, false);
+  const DeviceScene uploaded = make_device_scene(context(), scene, false, reach_of(rays));
   const std::vector<AccelTriangle> triangles = accel_triangles(scene);
   std::vector<Hit> first;
   for (const TraceShape shape : shapes()) {
     CAPTURE(name_of(shape));
     const std::vector<Hit> hits = trace(uploaded, shape, rays);
     std::string wrong;  // of the first ray whose hit is wrong
-    for (size_t i = 0; i < rays.size() && wrong.empty(); ++i) wrong = fault(triangles, rays[i], hits[i], position_error_m);
+    for (size_t i = 0; i < rays.size() && wrong.empty(); ++i)
+      wrong = fault(triangles, rays[i], hits[i], position_error_m);
     CHECK(wrong == "");
     if (first.empty()) first = hits;
     CHECK(hits == first);
@@ -52,19 +53,22 @@ TEST_CASE("random soups: the hits of a brute-force caster in double, in every sh
 TEST_CASE("closed rooms: the hits of a brute-force caster, in every shape") {
   for (const Room shape : {Room::box, Room::ball}) {
     const std::vector<Corners> triangles = room(shape, 6, 10);
-    check_against_caster(scene_of_triangles(triangles), aimed_rays(triangles, Aim::anywhere, 150, {0, 0, 0}, 4, 5), 2e-5);
+    check_against_caster(scene_of_triangles(triangles), aimed_rays(triangles, Aim::anywhere, 150, {0, 0, 0}, 4, 5),
+                         2e-5);
   }
 }
 
 TEST_CASE("with and without spatial splits, hits are the same bit for bit") {
   const Scene scene = scene_of_triangles(random_soup(300, 10, 6, 4));
   const std::vector<Ray> rays = random_rays(200, 10, 5);
-  const DeviceScene plain = make_device_scene(context(), scene, false), split = make_device_scene(context(), scene, true);
+  const DeviceScene plain = make_device_scene(context(), scene, false, reach_of(rays)),
+                    split = make_device_scene(context(), scene, true, reach_of(rays));
   for (const TraceShape shape : shapes()) CHECK(trace(plain, shape, rays) == trace(split, shape, rays));
 }
 
 TEST_CASE("a ray does not hit the surface that it leaves, and hits it from anywhere else") {
-  const Scene scene = scene_of_triangles({{{{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}}, {{{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}}}});
+  const Scene scene =
+      scene_of_triangles({{{{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}}, {{{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}}}});
   const DeviceScene uploaded = make_device_scene(context(), scene, false);
   std::vector<Ray> rays(2, Ray{{0, 0, -1}, {0, 0, 1}});
   rays[1].surface = 0;
@@ -105,7 +109,8 @@ TEST_CASE("packets: lanes of all octants and axes in one block, and lanes that s
   for (int block = 0; block < 12; ++block) {
     const glm::dvec3 common = random.direction();
     for (int lane = 0; lane < 16; ++lane)
-      rays.push_back(ray_towards(random.in_cube(2), lane < block ? random.direction() : common + 0.01 * random.direction()));
+      rays.push_back(
+          ray_towards(random.in_cube(2), lane < block ? random.direction() : common + 0.01 * random.direction()));
   }
   check_against_caster(scene, rays, 2e-5);
 }

@@ -1,5 +1,5 @@
 // Scenes of loose triangles and closed rooms for the tests of the passes, and rays aimed at their edges and vertices.
-// No loader and no welding, except in scene_by_loader: each triangle is a surface of its own, so none is skipped as coplanar.
+// Each triangle is a surface of its own, so that none is skipped as coplanar (but in scene_by_loader).
 #pragma once
 #include <array>
 #include <cmath>
