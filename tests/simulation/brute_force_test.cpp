@@ -1,0 +1,159 @@
+// Whole frames against brute force: identical sets of paths to order 3 in scenes of up to 60 surfaces, both directions.
+// Rays discover; what they may not do is miss a sequence or let one through that is no path.
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "passes/triangles.hpp"
+#include "reference/brute_force.hpp"
+#include "simulation/run.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+using Key = std::tuple<uint32_t, uint32_t, std::vector<uint32_t>>;  // tx, rx, surfaces
+
+struct Difference {
+  size_t found = 0, missed = 0, invented = 0;
+  double length_error = 0, vertex_error_m = 0;  // the former relative, of paths that are in both
+};
+
+Difference compare(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
+                   uint64_t rays, uint32_t order) {
+  Simulation simulation(config_of(scene_file, transmitters, receivers, rays, order));
+  const Paths paths = simulation.run_frame(0).paths;
+  const Scene& scene = simulation.scene();
+  REQUIRE(scene.surfaces.size() <= 62);
+  Points tx = transmitters, rx = receivers;
+  for (glm::dvec3& p : tx) p -= scene.origin_m;
+  for (glm::dvec3& p : rx) p -= scene.origin_m;
+  const PathGeometry slow = reference::brute_force_paths(scene, tx, rx, order);
+
+  std::map<Key, size_t> expected;
+  for (size_t i = 0; i < slow.size(); ++i)
+    expected[{slow.tx[i],
+              slow.rx[i],
+              {slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i]),
+               slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i + 1])}}] = i;
+  Difference out;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const auto first = static_cast<ptrdiff_t>(paths.vertex_offset[i]),
+               end = static_cast<ptrdiff_t>(paths.vertex_offset[i + 1]);
+    const auto at = expected.find(
+        {paths.tx[i], paths.rx[i], {paths.vertex_surface.begin() + first, paths.vertex_surface.begin() + end}});
+    if (at == expected.end()) {
+      ++out.invented;
+      continue;
+    }
+    ++out.found;
+    const size_t j = at->second;
+    const double length = reference::path_length_m(slow, j, tx[slow.tx[j]], rx[slow.rx[j]]);
+    out.length_error = std::max(out.length_error, std::abs(paths.delay_s[i] * speed_of_light / length - 1));
+    for (size_t k = 0; k < paths.depth[i]; ++k)
+      out.vertex_error_m =
+          std::max(out.vertex_error_m, glm::distance(paths.vertex_position_m[paths.vertex_offset[i] + k],
+                                                     slow.vertex[slow.first[j] + k] + scene.origin_m));
+    expected.erase(at);
+  }
+  out.missed = expected.size();
+  return out;
+}
+
+void check_identical(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
+                     uint64_t rays, uint32_t order, size_t at_least) {
+  const Difference d = compare(scene_file, transmitters, receivers, rays, order);
+  CHECK(d.missed == 0);
+  CHECK(d.invented == 0);
+  CHECK(d.found >= at_least);
+  CHECK(d.length_error < 1e-9);
+  CHECK(d.vertex_error_m < 1e-6);
+}
+
+std::vector<Quad> operator+(std::vector<Quad> a, const std::vector<Quad>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// A box of five faces that stands on z = 0, turned about the vertical.
+std::vector<Quad> building(const glm::dvec3& corner, double turn, double width, double depth, double height) {
+  const glm::dvec3 u{width * std::cos(turn), width * std::sin(turn), 0},
+      v{-depth * std::sin(turn), depth * std::cos(turn), 0};
+  const glm::dvec3 up{0, 0, height};
+  return {{corner, u, up}, {corner + u, v, up}, {corner + v, u, up}, {corner, v, up}, {corner + up, u, v}};
+}
+
+// Buildings on the cells of a grid, and the ground. Streets between them are at least 4 m wide.
+std::vector<Quad> town(int columns, int rows, uint32_t seed) {
+  Random random(seed);
+  std::vector<Quad> quads{{{-10, -10, 0}, {columns * 20.0 + 20, 0, 0}, {0, rows * 20.0 + 20, 0}}};
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j)
+      quads =
+          quads + building({i * 20 + random.between(2, 5), j * 20 + random.between(2, 5), 0}, random.between(0, 0.15),
+                           random.between(8, 12), random.between(8, 12), random.between(5, 15));
+  return quads;
+}
+
+const std::filesystem::path scenes = std::filesystem::path(WAVETRACER_SOURCE) / "tests/reference/scenes";
+
+}  // namespace
+
+TEST_CASE("a room with furniture, order 3") {
+  const std::vector<Quad> room = reference::box_walls({0, 0, 0}, {7, 5, 2.8}) +
+                                 building({1.2, 1.1, 0.001}, 0.3, 1.6, 0.8, 0.75) +
+                                 building({4.9, 3.1, 0.001}, -0.2, 0.6, 1.2, 1.9);
+  const SceneFile file(room);
+  check_identical(file.path(), {{0.613, 4.227, 1.741}, {6.359, 0.773, 2.117}},
+                  {{3.331, 2.629, 1.137}, {5.923, 4.619, 0.643}, {0.541, 0.431, 2.407}}, 400000, 3, 200);
+}
+
+TEST_CASE("corners and wedges, order 3") {
+  const SceneFile corner(
+      {{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 0, 0}, {9, 0, 0}, {0, 0, 9}}, {{0, 0, 0}, {0, 9, 0}, {0, 0, 9}}});
+  check_identical(corner.path(), {{3.1, 4.2, 2.3}}, {{5.7, 1.9, 3.8}, {1.1, 1.3, 6.9}}, 100000, 3, 16);
+  // Two mirrors at 50 degrees over a ground.
+  const SceneFile wedge({{{0, 0, 0}, {12, 0, 0}, {0, 0, 8}},
+                         {{0, 0, 0}, {12 * std::cos(0.873), 12 * std::sin(0.873), 0}, {0, 0, 8}},
+                         {{-5, -5, 0}, {20, 0, 0}, {0, 20, 0}}});
+  check_identical(wedge.path(), {{5.1, 1.9, 2.3}}, {{4.3, 3.1, 1.4}, {7.7, 4.4, 3.2}}, 100000, 3, 14);
+}
+
+TEST_CASE("a box with a screen, three reflectors: scenes of the reference lists, order 3") {
+  check_identical(scenes / "box_one_screen/box_one_screen.xml", {{2.11, 1.07, 1.92}},
+                  {{-2.87, -1.53, 2.41}, {3.05, -2.22, 0.83}}, 400000, 3, 20);
+  check_identical(scenes / "triple_reflector/triple_reflector.xml", {{0.31, 0.17, 1.03}}, {{1.13, -0.41, 1.67}}, 400000,
+                  3, 1);
+}
+
+TEST_CASE("towns of up to 11 buildings, order 3") {
+  // 31, 46 and 56 surfaces. One antenna in a street, one above the roofs; receivers anywhere, inside buildings too.
+  const std::tuple<int, int, uint32_t> towns[] = {{2, 3, 1}, {3, 3, 2}, {11, 1, 3}};
+  for (const auto& [columns, rows, seed] : towns) {
+    CAPTURE(seed);
+    const SceneFile file(town(columns, rows, seed));
+    const double x = columns * 20.0, y = rows * 20.0;
+    Random random(seed + 10);
+    Points receivers;
+    for (int i = 0; i < 12; ++i)
+      receivers.push_back({random.between(-8, x + 8), random.between(-8, y + 8), random.between(1, 17)});
+    check_identical(file.path(), {{0.4, 0.7 * y, 4.3}, {0.55 * x, -1.3, 18.1}}, receivers, 1000000, 3, 30);
+  }
+}
+
+TEST_CASE("loose panels in every direction, order 3") {
+  for (const uint32_t seed : {5u, 6u}) {
+    CAPTURE(seed);
+    Random random(seed);
+    std::vector<Quad> quads;
+    while (quads.size() < 14) {
+      const Quad quad{random.in_cube(8), 5.0 * random.direction(), 5.0 * random.direction()};
+      if (glm::length(glm::cross(quad.u, quad.v)) > 15) quads.push_back(quad);
+    }
+    const SceneFile file(quads);
+    Points receivers;
+    for (int i = 0; i < 12; ++i) receivers.push_back(random.in_cube(8));
+    check_identical(file.path(), {random.in_cube(8), random.in_cube(8)}, receivers, 1000000, 3, 12);
+  }
+}
