@@ -25,7 +25,7 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
   uint chain[WT_MAX_DEPTH], parents[WT_MAX_DEPTH];  // from the last surface back, with the node that each was added to
   uint depth = 0;
   for (uint n = nodes[i]; !(n & WT_ROOT) && depth < WT_MAX_DEPTH; n = parents[depth - 1]) {
-    const ulong key = table[n];
+    const ulong key = wt_load_relaxed_u64(table + n);  // others are inserting
     chain[depth] = wt_trie_surface(key);
     parents[depth++] = wt_trie_parent(key);
   }
