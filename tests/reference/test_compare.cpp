@@ -1,6 +1,7 @@
 // The comparison against reference lists, on lists whose outcome is known: the list itself, and the list with faults.
 // Percentages of numpy.percentile are given as numbers computed by hand.
 #include <doctest/doctest.h>
+#include <unistd.h>
 #include <cmath>
 #include <fstream>
 #include "reference/compare.hpp"
@@ -132,7 +133,8 @@ TEST_CASE("no paths: recall 0, not a crash") {
 TEST_CASE("a missing or broken list is an error that names it") {
   CHECK_THROWS_WITH_AS(load_case(folder / "none.json"), doctest::Contains("none.json"), InputError);
   const std::filesystem::path broken =
-      std::filesystem::path(WAVETRACER_BINARY_DIR) / "tests" / "reference" / "broken.json";
+      std::filesystem::temp_directory_path() / ("wavetracer-broken-" + std::to_string(getpid()) + ".json");
   std::ofstream(broken) << "{\"case\": 1}";
   CHECK_THROWS_WITH_AS(load_case(broken), doctest::Contains("is not a reference list"), InputError);
+  std::filesystem::remove(broken);
 }
