@@ -1,14 +1,15 @@
-// candidates: every sequence against every receiver, rejected in float32 where the last reflection surely misses its surface.
-// Roots (lines of sight) are candidates always. Conservative: each bound covers the rounding of everything it is computed from.
+// candidates: every sequence against every receiver, rejected in float32 where the last reflection surely misses its
+// surface. Roots (lines of sight) are candidates always. Conservative: each bound covers the rounding of everything it
+// is computed from.
 #include "lib/images.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
 // One sequence and 16 receivers a work-item. nodes[] holds the roots first, then the trie's nodes.
 // receivers: three planes of receiver_capacity floats, padded to a multiple of 16 with copies of the last one.
-kernel void candidates(const global ulong* table, const global uint* nodes, uint node_count, const global double4* transmitters,
-                       const global wt_exact_surface* exact, const global wt_surface* surfaces, const global float* receivers,
-                       uint receiver_count, uint receiver_capacity, global wt_candidate* out, uint capacity,
-                       global wt_counters* counters) {
+kernel void candidates(const global ulong* table, const global uint* nodes, uint node_count,
+                       const global double4* transmitters, const global wt_exact_surface* exact,
+                       const global wt_surface* surfaces, const global float* receivers, uint receiver_count,
+                       uint receiver_capacity, global wt_candidate* out, uint capacity, global wt_counters* counters) {
   const uint groups = receiver_capacity / 16;
   const uint i = get_global_id(0) / groups, first = get_global_id(0) % groups * 16;
   if (i >= node_count) return;
@@ -20,8 +21,8 @@ kernel void candidates(const global ulong* table, const global uint* nodes, uint
     double3 image = transmitters[transmitter].xyz;
     for (uint k = 0; k < depth; ++k) image = wt_reflected(exact + chain[k], image);
 
-    // The leg from the image to a receiver crosses the last plane at distance fractions |a| : |b|. An error e of a, b moves the
-    // crossing by up to (|leg| + ...) e / (|a| + |b|) along the plane.
+    // The leg from the image to a receiver crosses the last plane at distance fractions |a| : |b|. An error e of a, b
+    // moves the crossing by up to (|leg| + ...) e / (|a| + |b|) along the plane.
     const global wt_surface* s = surfaces + chain[depth - 1];
     const float16 x = vload16(0, receivers + first), y = vload16(0, receivers + receiver_capacity + first);
     const float16 z = vload16(0, receivers + 2 * (size_t)receiver_capacity + first);

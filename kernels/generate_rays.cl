@@ -1,5 +1,6 @@
 // generate_rays: the launch rays of one transmitter, a range of its launch indices, into a range of a ray queue.
-// WT_DIRECTIONS names the map (wt_direction_hilbert, _fibonacci, _random); parameter is its step or seed, level and faces are those of hilbert.
+// WT_DIRECTIONS names the map (wt_direction_hilbert, _fibonacci, _random); parameter is its step or seed, level and
+// faces are those of hilbert.
 #ifdef WT_CPU
 #define WT_DIRECTION_WIDTH 16
 #endif
@@ -9,9 +10,8 @@
 
 #ifdef WT_CPU
 // 16 rays a work-item. Queues are padded, so the last item may write past the count.
-kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index, ulong parameter, uint level,
-                          uint faces,
-                          float x, float y, float z, uint root) {
+kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
+                          ulong parameter, uint level, uint faces, float x, float y, float z, uint root) {
   const uint k = get_global_id(0) * 16;
   if (k >= count) return;
   const ulong16 lane = (ulong16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
@@ -28,9 +28,8 @@ kernel void generate_rays(global float* rays, uint capacity, uint first_slot, ui
   vstore16((float16)as_float(WT_NONE), 0, r + 7 * plane);
 }
 #else
-kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index, ulong parameter, uint level,
-                          uint faces,
-                          float x, float y, float z, uint root) {
+kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
+                          ulong parameter, uint level, uint faces, float x, float y, float z, uint root) {
   const uint k = get_global_id(0);
   if (k >= count) return;
   const wt_direction d = WT_DIRECTIONS(first_index + k, parameter, level, faces);

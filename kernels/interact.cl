@@ -1,11 +1,12 @@
-// interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in order.
-// Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: only the trie is wanted.
+// interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in
+// order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: only the trie is
+// wanted.
 #include "lib/mirror.clh"
 #include "lib/trie.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-inline void go_on(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity, uint i,
-                  uint surface, uint node, global float* next, uint j) {
+inline void go_on(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity,
+                  uint i, uint surface, uint node, global float* next, uint j) {
   float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
   wt_mirror(surfaces + surface, hits[i], &o, &d);
   wt_store_float3(next, capacity, WT_RAY_ORIGIN, j, o);
@@ -15,10 +16,11 @@ inline void go_on(const global wt_surface* surfaces, const global float* rays, c
 }
 
 #ifdef WT_CPU
-// WT_BLOCKS_PER_ITEM blocks a work-item, their rays in turn. Neighbours mostly share their prefix: the last insertion is kept.
+// WT_BLOCKS_PER_ITEM blocks a work-item, their rays in turn. Neighbours mostly share their prefix: the last insertion
+// is kept.
 kernel void interact(const global float* rays, const global float* hits, uint capacity, uint ray_count,
-                     const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table, uint mask,
-                     global wt_counters* counters, global float* next, uint last) {
+                     const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table,
+                     uint mask, global wt_counters* counters, global float* next, uint last) {
   const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
   const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, ray_count);
   if (first >= ray_count) return;
@@ -39,10 +41,12 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
   }
 }
 #else
-// One ray a work-item, one block a work-group; the rank of a ray inside its block comes from a bit mask in local memory.
+// One ray a work-item, one block a work-group; the rank of a ray inside its block comes from a bit mask in local
+// memory.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
     const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
-    const global wt_surface* surfaces, global ulong* table, uint mask, global wt_counters* counters, global float* next, uint last) {
+    const global wt_surface* surfaces, global ulong* table, uint mask, global wt_counters* counters, global float* next,
+    uint last) {
   local uint alive[WT_BLOCK / 32];
   const uint i = get_global_id(0), lane = get_local_id(0);
   if (lane < WT_BLOCK / 32) alive[lane] = 0;

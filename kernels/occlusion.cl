@@ -1,5 +1,6 @@
-// occlusion: is a leg of a solved path obstructed? Hits come from the watertight float32 traversal, in order; each is judged in
-// double: a surface blocks when the leg's ends lie on opposite sides of its plane, both farther from it than the tolerance.
+// occlusion: is a leg of a solved path obstructed? Hits come from the watertight float32 traversal, in order; each is
+// judged in double: a surface blocks when the leg's ends lie on opposite sides of its plane, both farther from it than
+// the tolerance.
 #include "lib/bvh2.clh"
 #include "lib/bvh8.clh"
 #include "lib/images.clh"
@@ -7,14 +8,16 @@
 
 #ifdef WT_SHAPE_BVH2
 #define WT_NODE float4
-#define WT_NEXT_HIT(o, d, t_min, after, t_max) wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, t_min, after, t_max, WT_NONE)
+#define WT_NEXT_HIT(o, d, t_min, after, t_max) \
+  wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, t_min, after, t_max, WT_NONE)
 #else
 #define WT_NODE float
-#define WT_NEXT_HIT(o, d, t_min, after, t_max) wt_nearest_bvh8(nodes, triangles, extent_m, o, d, t_min, after, t_max, WT_NONE)
+#define WT_NEXT_HIT(o, d, t_min, after, t_max) \
+  wt_nearest_bvh8(nodes, triangles, extent_m, o, d, t_min, after, t_max, WT_NONE)
 #endif
 
-// An end closer than this to a surface's plane is on that surface and is not hidden by it: ten times the float32 rounding of
-// coordinates of a kilometre, and less than any wall is thick.
+// An end closer than this to a surface's plane is on that surface and is not hidden by it: ten times the float32
+// rounding of coordinates of a kilometre, and less than any wall is thick.
 #define WT_ON_SURFACE_M 1e-4
 
 inline int blocks(const global wt_exact_surface* s, double3 from, double3 to) {
@@ -23,9 +26,9 @@ inline int blocks(const global wt_exact_surface* s, double3 from, double3 to) {
 }
 
 kernel void occlusion(const global WT_NODE* nodes, const global WT_NODE* triangles, uint triangle_slots, float extent_m,
-                      const global double4* transmitters, const global double4* receivers, const global wt_exact_surface* surfaces,
-                      uint solved_count, uint max_depth, global wt_solved* solved, const global double* vertices,
-                      const global uint* sequences) {
+                      const global double4* transmitters, const global double4* receivers,
+                      const global wt_exact_surface* surfaces, uint solved_count, uint max_depth,
+                      global wt_solved* solved, const global double* vertices, const global uint* sequences) {
   const uint i = get_global_id(0) / (max_depth + 1), leg = get_global_id(0) % (max_depth + 1);
   if (i >= solved_count || leg > solved[i].depth) return;
   const uint depth = solved[i].depth;
@@ -38,7 +41,8 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_NODE* triangl
   const double length = sqrt(wt_dot(to - from, to - from));
   if (!(length > 0.0)) return;
   const float3 o = (float3)((float)from.x, (float)from.y, (float)from.z);
-  const float3 d = (float3)((float)((to.x - from.x) / length), (float)((to.y - from.y) / length), (float)((to.z - from.z) / length));
+  const float3 d =
+      (float3)((float)((to.x - from.x) / length), (float)((to.y - from.y) / length), (float)((to.z - from.z) / length));
   const float t_max = (float)length;
   float t = 0.0f;
   uint after = WT_NONE;

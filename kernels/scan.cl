@@ -1,7 +1,8 @@
 // scan: exclusive prefix sums of block counts in place, by one work-group; total[0] becomes the sum of all.
 // For the few hundred thousand blocks of a batch; WT_SCAN_ITEMS work-items (1 on CPUs), each over a contiguous part.
 
-__attribute__((reqd_work_group_size(WT_SCAN_ITEMS, 1, 1))) kernel void scan(global uint* counts, uint count, global uint* total) {
+__attribute__((reqd_work_group_size(WT_SCAN_ITEMS, 1, 1))) kernel void scan(global uint* counts, uint count,
+                                                                            global uint* total) {
   local uint sums[WT_SCAN_ITEMS];
   const uint lane = get_local_id(0);
   const uint part = (count + WT_SCAN_ITEMS - 1) / WT_SCAN_ITEMS;

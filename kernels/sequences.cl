@@ -1,10 +1,11 @@
-// sequences: the trie as a list (collect), its neighbours (commute), and a larger trie filled from a smaller one (regrow,
-// follow).
-// A node is its slot, so a parent must be in the new table before its children: regrow runs once a depth.
+// sequences: the trie as a list (collect), its neighbours (commute), and a larger trie filled from a smaller one
+// (regrow, follow). A node is its slot, so a parent must be in the new table before its children: regrow runs once a
+// depth.
 #include "lib/trie.clh"
 
 // Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number.
-kernel void collect(const global ulong* table, uint slots, global uint* nodes, uint capacity, global wt_counters* counters) {
+kernel void collect(const global ulong* table, uint slots, global uint* nodes, uint capacity,
+                    global wt_counters* counters) {
   const uint slot = get_global_id(0);
   if (slot >= slots || table[slot] == WT_EMPTY) return;
   const uint i = atomic_inc(&counters->nodes);
@@ -14,12 +15,12 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
 // Surfaces count as perpendicular below this cosine: what is tried in vain only costs a candidate.
 #define WT_PERPENDICULAR 0.02f
 
-// Mirrors in perpendicular planes commute: where a ray met a wall and then the ground, the same image also serves the ground and
-// then the wall, and the receiver's position decides which of the two is a path. Rays find one of them and may miss the other
-// (nearly all missed paths of street scenes are such), so both are entered: for every listed node, every exchange of two
-// neighbouring perpendicular surfaces. Geometry decides later, as always.
-kernel void commute(global ulong* table, uint mask, const global uint* nodes, uint node_count, const global wt_surface* surfaces,
-                    global wt_counters* counters) {
+// Mirrors in perpendicular planes commute: where a ray met a wall and then the ground, the same image also serves the
+// ground and then the wall, and the receiver's position decides which of the two is a path. Rays find one of them and
+// may miss the other (nearly all missed paths of street scenes are such), so both are entered: for every listed node,
+// every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always.
+kernel void commute(global ulong* table, uint mask, const global uint* nodes, uint node_count,
+                    const global wt_surface* surfaces, global wt_counters* counters) {
   const uint i = get_global_id(0);
   if (i >= node_count || (nodes[i] & WT_ROOT)) return;
   uint chain[WT_MAX_DEPTH], parents[WT_MAX_DEPTH];  // from the last surface back, with the node that each was added to
@@ -33,7 +34,8 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
     const global float* a = surfaces[chain[k]].normal;
     const global float* b = surfaces[chain[k + 1]].normal;
     if (fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) > WT_PERPENDICULAR) continue;
-    // A surface never follows itself: its image of an image is the thing itself, and rounding would see a path through it.
+    // A surface never follows itself: its image of an image is the thing itself, and rounding would see a path through
+    // it.
     if ((k + 2 < depth && chain[k + 2] == chain[k]) || (k > 0 && chain[k - 1] == chain[k + 1])) continue;
     uint node = wt_trie_insert(table, mask, parents[k + 1], chain[k]);
     if (node != WT_NONE) node = wt_trie_insert(table, mask, node, chain[k + 1]);
@@ -43,15 +45,16 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
 }
 
 // Inserts the nodes of one depth of the old table into the new one and notes where they went.
-kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, global uint* moved, global ulong* table, uint mask,
-                   global wt_counters* counters) {
+kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, global uint* moved, global ulong* table,
+                   uint mask, global wt_counters* counters) {
   const uint slot = get_global_id(0);
   if (slot >= old_slots || old_table[slot] == WT_EMPTY) return;
   const uint parent = wt_trie_parent(old_table[slot]);
   uint level = 1;
   for (uint p = parent; !(p & WT_ROOT); p = wt_trie_parent(old_table[p])) ++level;
   if (level != depth) return;
-  const uint node = wt_trie_insert(table, mask, parent & WT_ROOT ? parent : moved[parent], wt_trie_surface(old_table[slot]));
+  const uint node =
+      wt_trie_insert(table, mask, parent & WT_ROOT ? parent : moved[parent], wt_trie_surface(old_table[slot]));
   moved[slot] = node;
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
 }

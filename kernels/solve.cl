@@ -1,16 +1,18 @@
-// solve: the image method in double for every candidate; keeps those whose points lie inside their surfaces, on the lit sides.
-// Legs are not tested here (occlusion does that).
+// solve: the image method in double for every candidate; keeps those whose points lie inside their surfaces, on the lit
+// sides. Legs are not tested here (occlusion does that).
 #include "lib/images.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// Twice the signed area of (a, b, p), compared with -tolerance times the length of ab: is p left of ab, or at most 1e-9 of the
-// coordinates' size right of it? Inclusive, so that a point on the border of two surfaces is never lost; equal paths merge later.
+// Twice the signed area of (a, b, p), compared with -tolerance times the length of ab: is p left of ab, or at most 1e-9
+// of the coordinates' size right of it? Inclusive, so that a point on the border of two surfaces is never lost; equal
+// paths merge later.
 inline int left_of(double ax, double ay, double bx, double by, double px, double py, double tolerance) {
   const double ex = bx - ax, ey = by - ay;
   return ex * (py - ay) - ey * (px - ax) >= -tolerance * (fabs(ex) + fabs(ey));
 }
 
-// Is p, a point of the plane, inside one of the surface's triangles? Decided in the projection along the normal's largest axis.
+// Is p, a point of the plane, inside one of the surface's triangles? Decided in the projection along the normal's
+// largest axis.
 inline int inside(const global wt_exact_surface* s, const global double* triangles, double3 p) {
   const double ax = fabs(s->normal[0]), ay = fabs(s->normal[1]), az = fabs(s->normal[2]);
   const int drop = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
@@ -32,12 +34,14 @@ inline int inside(const global wt_exact_surface* s, const global double* triangl
 
 inline double rounding(double3 p) { return 1e-9 * (1.0 + fabs(p.x) + fabs(p.y) + fabs(p.z)); }
 
-inline int same_point(double3 p, double3 q) { return fabs(p.x - q.x) + fabs(p.y - q.y) + fabs(p.z - q.z) <= rounding(p); }
+inline int same_point(double3 p, double3 q) {
+  return fabs(p.x - q.x) + fabs(p.y - q.y) + fabs(p.z - q.z) <= rounding(p);
+}
 
 kernel void solve(const global ulong* table, const global double4* transmitters, const global double4* receivers,
-                  const global wt_exact_surface* surfaces, const global double* triangles, const global wt_candidate* candidates,
-                  uint candidate_count, uint max_depth, global wt_solved* solved, global double* vertices, global uint* sequences,
-                  uint capacity, global wt_counters* counters) {
+                  const global wt_exact_surface* surfaces, const global double* triangles,
+                  const global wt_candidate* candidates, uint candidate_count, uint max_depth, global wt_solved* solved,
+                  global double* vertices, global uint* sequences, uint capacity, global wt_counters* counters) {
   const uint i = get_global_id(0);
   if (i >= candidate_count) return;
   uint chain[WT_MAX_DEPTH], transmitter;
@@ -53,16 +57,17 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
     const double a = wt_above(s, images[k + 1]), b = wt_above(s, target);
     double3 p = target;
     if (k + 1 < depth && fabs(b) <= rounding(target)) {
-      // The point of the next surface is on this one as well. On an edge both reflect it there, with no leg between: whichever
-      // comes first, rounding must not decide that neither does; the equal paths of both orders merge later. Two surfaces in
-      // one plane, though, would undo each other's reflection, and let the leg through.
+      // The point of the next surface is on this one as well. On an edge both reflect it there, with no leg between:
+      // whichever comes first, rounding must not decide that neither does; the equal paths of both orders merge later.
+      // Two surfaces in one plane, though, would undo each other's reflection, and let the leg through.
       const double cosine = wt_dot(wt_normal(s), wt_normal(surfaces + chain[k + 1]));
       if (cosine * cosine > 1.0 - 1e-6) return;
     } else {
       if (!((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0))) return;
       const double u = a / (a - b);
       const double3 from = images[k + 1];
-      p = (double3)(from.x + u * (target.x - from.x), from.y + u * (target.y - from.y), from.z + u * (target.z - from.z));
+      p = (double3)(from.x + u * (target.x - from.x), from.y + u * (target.y - from.y),
+                    from.z + u * (target.z - from.z));
     }
     if (!inside(s, triangles, p)) return;
     points[k] = p;
@@ -74,7 +79,8 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
     while (before > 0 && same_point(points[before - 1], points[k])) --before;
     while (after < depth && same_point(points[after], points[k])) ++after;
     const double a = wt_above(surfaces + chain[k], before > 0 ? points[before - 1] : images[0]);
-    const double b = wt_above(surfaces + chain[k], after < depth ? points[after] : receivers[candidates[i].receiver].xyz);
+    const double b =
+        wt_above(surfaces + chain[k], after < depth ? points[after] : receivers[candidates[i].receiver].xyz);
     if (!((a < 0.0 && b < 0.0) || (a > 0.0 && b > 0.0))) return;
   }
   // A receiver at a transmitter has no line of sight.

@@ -1,5 +1,6 @@
-// trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for compaction).
-// One of three shapes by build option: WT_SHAPE_BVH2 (GPU), WT_SHAPE_BVH8 (CPU) and WT_SHAPE_PACKET16 (CPU, ordered rays).
+// trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
+// compaction). One of three shapes by build option: WT_SHAPE_BVH2 (GPU), WT_SHAPE_BVH8 (CPU) and WT_SHAPE_PACKET16
+// (CPU, ordered rays).
 #include "lib/bvh2.clh"
 #include "lib/bvh8.clh"
 #include "lib/packet16.clh"
@@ -13,15 +14,18 @@ inline void store_hit(global float* hits, uint capacity, uint i, float t, uint p
 
 #ifdef WT_SHAPE_BVH2
 // One ray a work-item, one block a work-group.
-__attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
-    const global float4* nodes, const global float4* triangles, uint triangle_slots, const global float* rays, uint capacity,
-    uint ray_count, global float* hits, global uint* block_hits) {
+__attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(const global float4* nodes,
+                                                                        const global float4* triangles,
+                                                                        uint triangle_slots, const global float* rays,
+                                                                        uint capacity, uint ray_count,
+                                                                        global float* hits, global uint* block_hits) {
   const uint i = get_global_id(0);
   local uint count;
   if (get_local_id(0) == 0) count = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (i < ray_count) {
-    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
+                 d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
     const wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, 0.0f, WT_NONE, INFINITY,
                                        wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
     store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
@@ -34,14 +38,15 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
 
 #ifdef WT_SHAPE_BVH8
 // One block a work-item, its rays in turn.
-kernel void trace(const global float* nodes, const global float* blocks, float extent_m, const global float* rays, uint capacity,
-                  uint ray_count, global float* hits, global uint* block_hits) {
+kernel void trace(const global float* nodes, const global float* blocks, float extent_m, const global float* rays,
+                  uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
   const uint block = get_global_id(0);
   const uint first = block * WT_BLOCK, end = min(first + WT_BLOCK, ray_count);
   if (first >= ray_count) return;
   uint count = 0;
   for (uint i = first; i < end; ++i) {
-    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
+                 d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
     const wt_hit hit = wt_nearest_bvh8(nodes, blocks, extent_m, o, d, 0.0f, WT_NONE, INFINITY,
                                        wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
     store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
@@ -57,11 +62,11 @@ kernel void trace(const global float* nodes, const global float* blocks, float e
 #define WT_PACKET_MIN_LANES 4
 #endif
 
-// One block of 16 rays a work-item: lanes that agree in the signs and the dominant axis of their directions go as a packet.
-// Queues are padded so that reading 16 rays never leaves a plane.
-kernel void trace(const global float* nodes, const global float4* triangles, uint triangle_slots, const global float* nodes8,
-                  const global float* blocks, float extent_m, const global float* rays, uint capacity, uint ray_count,
-                  global float* hits, global uint* block_hits) {
+// One block of 16 rays a work-item: lanes that agree in the signs and the dominant axis of their directions go as a
+// packet. Queues are padded so that reading 16 rays never leaves a plane.
+kernel void trace(const global float* nodes, const global float4* triangles, uint triangle_slots,
+                  const global float* nodes8, const global float* blocks, float extent_m, const global float* rays,
+                  uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
   const uint block = get_global_id(0);
   const uint first = block * 16;
   if (first >= ray_count) return;
@@ -82,7 +87,8 @@ kernel void trace(const global float* nodes, const global float4* triangles, uin
   p.iy = select(copysign((float16)1e18f, dy), 1.0f / dy, ay > 1e-18f);
   p.iz = select(copysign((float16)1e18f, dz), 1.0f / dz, az > 1e-18f);
   // The class of a lane: the signs and the dominant axis of its direction.
-  const int16 class = select((int16)-1, axis * 8 + ((p.ix < 0.0f) & 1) + ((p.iy < 0.0f) & 2) + ((p.iz < 0.0f) & 4), in_range);
+  const int16 class =
+      select((int16)-1, axis * 8 + ((p.ix < 0.0f) & 1) + ((p.iy < 0.0f) & 2) + ((p.iz < 0.0f) & 4), in_range);
   int classes[16];
   vstore16(class, 0, classes);
   const float16 delta = 2.5e-7f * (extent_m + wt_max16(fabs(ox), wt_max16(fabs(oy), fabs(oz))));

@@ -169,7 +169,7 @@ Table trace_table() {
           {.name = "rays",
            .slot = t(&TraceConfig::rays),
            .unit = "rays a transmitter",
-           .range = {1, 1e12},
+           .range = {1, 2147483648.0},
            .doc = "More rays find more of the weak paths; those found are exact in any case. A million finds more "
                   "than 99% of the paths of a city quarter at depth 5."},
           {.name = "max_depth",

@@ -1,5 +1,6 @@
-// The device layer's interface: choice of a device, buffers that know their length, programs, checked launches, profiling.
-// The only folder that names cl:: is this one; nothing of OpenCL's C++ bindings appears in this header's users.
+// The device layer's interface: choice of a device, buffers that know their length, programs, checked launches,
+// profiling. The only folder that names cl:: is this one; nothing of OpenCL's C++ bindings appears in this header's
+// users.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@
 namespace wavetracer::gpu {
 
 struct DeviceInfo {
-  size_t index = 0;                     // position in list_devices()
+  size_t index = 0;  // position in list_devices()
   std::string platform, name, driver, opencl_c, platform_version;
   bool gpu = false, cpu = false;
   uint32_t compute_units = 0;

@@ -7,14 +7,17 @@
 namespace wavetracer {
 
 Candidates::Candidates(gpu::Context& context)
-    : context_(context), kernel_(context.kernel("candidates", "candidates")), list_(context.buffer<wt_candidate>(1 << 16, "candidates")) {}
+    : context_(context),
+      kernel_(context.kernel("candidates", "candidates")),
+      list_(context.buffer<wt_candidate>(1 << 16, "candidates")) {}
 
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                                const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, gpu::Buffer<wt_counters>& counters) {
+                                const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
+                                gpu::Buffer<wt_counters>& counters) {
   for (;;) {
-    kernel_({size_t{node_count} * (ends.receiver_capacity / 16), 64}, "candidates", trie, nodes, node_count, ends.transmitters,
-            scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.receiver_count, ends.receiver_capacity, list_,
-            static_cast<uint32_t>(list_.size()), counters);
+    kernel_({size_t{node_count} * (ends.receiver_capacity / 16), 64}, "candidates", trie, nodes, node_count,
+            ends.transmitters, scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.receiver_count,
+            ends.receiver_capacity, list_, static_cast<uint32_t>(list_.size()), counters);
     wt_counters now = counters.read_one(0, "candidates");
     if (now.candidates <= list_.size()) return now.candidates;
     list_ = context_.buffer<wt_candidate>(size_t{now.candidates} + now.candidates / 4, "candidates");

@@ -18,8 +18,8 @@ namespace {
 std::string stack_size(uint32_t entries, uint32_t step) { return std::to_string((entries + step) / step * step); }
 
 // Pairs (minimum, maximum) to (centre, half size). The half size is padded by 16 units in the last place of the largest
-// distance: the slab test rounds four times, the sheared vertices of the triangle test three times, each by at most one unit
-// of a coordinate or of a distance of twice that size.
+// distance: the slab test rounds four times, the sheared vertices of the triangle test three times, each by at most one
+// unit of a coordinate or of a distance of twice that size.
 std::vector<float> centred(std::vector<float> nodes, float extent_m) {
   const double padding = 16.0 * 6e-8 * 2.0 * static_cast<double>(extent_m);
   for (size_t node = 0; node < nodes.size(); node += WT_BVH2_NODE_FLOATS)
@@ -28,10 +28,11 @@ std::vector<float> centred(std::vector<float> nodes, float extent_m) {
       const bool unused = !(lower <= upper);
       const float centre = unused ? 0.0f : static_cast<float>(0.5 * (lower + upper));
       nodes[pair] = centre;
-      nodes[pair + 1] =
-          unused ? -1.0f - static_cast<float>(padding)
-                 : std::nextafter(static_cast<float>(std::max(upper - static_cast<double>(centre), static_cast<double>(centre) - lower) + padding),
-                                  std::numeric_limits<float>::infinity());
+      nodes[pair + 1] = unused ? -1.0f - static_cast<float>(padding)
+                               : std::nextafter(static_cast<float>(std::max(upper - static_cast<double>(centre),
+                                                                            static_cast<double>(centre) - lower) +
+                                                                   padding),
+                                                std::numeric_limits<float>::infinity());
     }
   return nodes;
 }
@@ -71,7 +72,8 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
   DeviceScene out;
   out.extent_m = static_cast<float>(reach_m);
   for (int axis = 0; axis < 3; ++axis)
-    out.extent_m = std::max(out.extent_m, static_cast<float>(std::max(std::abs(scene.lower[axis]), std::abs(scene.upper[axis]))));
+    out.extent_m =
+        std::max(out.extent_m, static_cast<float>(std::max(std::abs(scene.lower[axis]), std::abs(scene.upper[axis]))));
   out.cpu = context.info().cpu;
   const std::vector<AccelTriangle> triangles = accel_triangles(scene);
 

@@ -1,5 +1,5 @@
-// The static scene on the device: acceleration structures in the shape this device traces best, and surfaces in float and double.
-// The choice of shape is a property of the device, made here and nowhere else.
+// The static scene on the device: acceleration structures in the shape this device traces best, and surfaces in float
+// and double. The choice of shape is a property of the device, made here and nowhere else.
 #pragma once
 #include <cstdint>
 
@@ -9,25 +9,26 @@
 
 namespace wavetracer {
 
-// How rays traverse: GPUs one ray a work-item through a BVH2; CPUs through a BVH8, or in packets of 16 through the BVH2.
+// How rays traverse: GPUs one ray a work-item through a BVH2; CPUs through a BVH8, or in packets of 16 through the
+// BVH2.
 enum class TraceShape { bvh2, bvh8, packet16 };
 
 struct DeviceScene {
-  gpu::Buffer<float> nodes2;              // BVH2, boxes as centre and padded half size (one ray a work-item)
-  gpu::Buffer<float> packet_nodes2;       // BVH2, boxes as minimum and maximum (CPUs only)
-  gpu::Buffer<float> triangles2;          // triangles of both
-  gpu::Buffer<float> nodes8, blocks8;     // BVH8 (CPUs only)
+  gpu::Buffer<float> nodes2;           // BVH2, boxes as centre and padded half size (one ray a work-item)
+  gpu::Buffer<float> packet_nodes2;    // BVH2, boxes as minimum and maximum (CPUs only)
+  gpu::Buffer<float> triangles2;       // triangles of both
+  gpu::Buffer<float> nodes8, blocks8;  // BVH8 (CPUs only)
   uint32_t triangle_slots = 0;
-  float extent_m = 0;                     // largest absolute coordinate of scene and rays, recentred
+  float extent_m = 0;  // largest absolute coordinate of scene and rays, recentred
   bool cpu = false;
   gpu::Buffer<wt_surface> surfaces;
   gpu::Buffer<wt_exact_surface> exact_surfaces;
-  gpu::Buffer<double> exact_triangles;    // nine doubles a triangle, grouped by surface
-  gpu::Definitions definitions;           // stack sizes that the trees need
+  gpu::Buffer<double> exact_triangles;  // nine doubles a triangle, grouped by surface
+  gpu::Definitions definitions;         // stack sizes that the trees need
 };
 
-// Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred coordinate
-// of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.
+// Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred
+// coordinate of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.
 DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m = 0);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Transmitters and receivers on the device: double4 positions, and receivers as float planes for the conservative rejection.
-// Positions are recentred metres.
+// Transmitters and receivers on the device: double4 positions, and receivers as float planes for the conservative
+// rejection. Positions are recentred metres.
 #pragma once
 #include <algorithm>
 #include <glm/vec3.hpp>

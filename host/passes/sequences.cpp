@@ -44,9 +44,11 @@ void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
 
 void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   for (;;) {
-    commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count, surfaces, counters_);
+    commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
+             surfaces, counters_);
     if (!overflowed()) return;
-    // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was full.
+    // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
+    // full.
     regrow(max_depth, node_count);
   }
 }
@@ -55,7 +57,8 @@ uint32_t Sequences::collect(uint32_t transmitter_count) {
   std::vector<uint32_t> roots(transmitter_count);
   std::iota(roots.begin(), roots.end(), WT_ROOT);
   for (;;) {
-    if (nodes_.size() < transmitter_count) nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
+    if (nodes_.size() < transmitter_count)
+      nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
     wt_counters counters = counters_.read_one(0, "sequences");
     counters.nodes = transmitter_count;
     counters_.write(std::vector{counters}, 0, "sequences");

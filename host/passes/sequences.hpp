@@ -18,8 +18,8 @@ class Sequences {
   // Moves every node of at most max_depth surfaces to a table four times as large. The first listed_count entries of
   // nodes() go on to name the nodes that they named.
   void regrow(uint32_t max_depth, uint32_t listed_count = 0);
-  // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged; grows when it must.
-  // Call collect() before, whose node_count it takes, and after.
+  // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged; grows when it
+  // must. Call collect() before, whose node_count it takes, and after.
   void commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth);
   // The roots of the transmitters, then every node. Returns the length of nodes().
   uint32_t collect(uint32_t transmitter_count);

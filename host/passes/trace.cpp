@@ -6,10 +6,13 @@
 
 namespace wavetracer {
 
-Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape) : shape_(shape), block_(block_size(context.info())) {
+Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape)
+    : shape_(shape), block_(block_size(context.info())) {
   gpu::Definitions definitions = scene.definitions;
   definitions["WT_BLOCK"] = std::to_string(block_);
-  definitions[shape == TraceShape::bvh2 ? "WT_SHAPE_BVH2" : shape == TraceShape::bvh8 ? "WT_SHAPE_BVH8" : "WT_SHAPE_PACKET16"] = "1";
+  definitions[shape == TraceShape::bvh2   ? "WT_SHAPE_BVH2"
+              : shape == TraceShape::bvh8 ? "WT_SHAPE_BVH8"
+                                          : "WT_SHAPE_PACKET16"] = "1";
   kernel_ = context.kernel("trace", "trace", definitions);
 }
 
@@ -21,12 +24,12 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
               rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::bvh8:
-      kernel_({blocks, 16}, "trace", scene.nodes8, scene.blocks8, scene.extent_m, rays.planes, rays.capacity, rays.count,
-              hits.planes, hits.block_hits);
+      kernel_({blocks, 16}, "trace", scene.nodes8, scene.blocks8, scene.extent_m, rays.planes, rays.capacity,
+              rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::packet16:
-      kernel_({blocks, 16}, "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots, scene.nodes8, scene.blocks8,
-              scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
+      kernel_({blocks, 16}, "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots, scene.nodes8,
+              scene.blocks8, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
   }
 }

@@ -1,5 +1,6 @@
 // The wavefront loop.
-// One host read a depth (the number of survivors); a batch whose sequences do not fit grows the set and is traced again.
+// One host read a depth (the number of survivors); a batch whose sequences do not fit grows the set and is traced
+// again.
 #include "simulation/discovery.hpp"
 
 #include <algorithm>
@@ -18,7 +19,8 @@ uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& config) 
   return std::clamp<uint64_t>(wanted, 256, std::max<uint64_t>(most, 256));
 }
 
-// Packets win as long as neighbours in the queue travel together, which they do to the last depth once they were born in order.
+// Packets win as long as neighbours in the queue travel together, which they do to the last depth once they were born
+// in order.
 TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& config) {
   if (!device.cpu) return TraceShape::bvh2;
   return config.directions == "random" ? TraceShape::bvh8 : TraceShape::packet16;
@@ -67,7 +69,8 @@ void Discovery::launch(const std::vector<glm::dvec3>& transmitters, Batch batch)
   for (uint64_t done = 0; done < batch.count;) {
     const uint64_t index = batch.first + done, transmitter = index / config_.rays, first = index % config_.rays;
     const uint64_t count = std::min(batch.count - done, config_.rays - first);
-    generate_(rays_, static_cast<uint32_t>(transmitter), transmitters[transmitter], first, static_cast<uint32_t>(count));
+    generate_(rays_, static_cast<uint32_t>(transmitter), transmitters[transmitter], first,
+              static_cast<uint32_t>(count));
     done += count;
   }
 }

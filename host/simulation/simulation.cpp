@@ -97,8 +97,8 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   node_count = sequences.collect(s.ends.transmitter_count);
   const uint32_t candidate_count =
       (*s.candidates)(s.device_scene, s.ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
-  SolvedList& solved =
-      (*s.solve)(s.device_scene, s.ends, sequences.table(), s.candidates->list(), candidate_count, sequences.counters());
+  SolvedList& solved = (*s.solve)(s.device_scene, s.ends, sequences.table(), s.candidates->list(), candidate_count,
+                                  sequences.counters());
   (*s.occlusion)(s.device_scene, s.ends, solved);
   const PathGeometry geometry = visible_paths(solved);
 

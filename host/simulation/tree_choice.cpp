@@ -1,5 +1,5 @@
-// Spatial splits gain up to a sixth of the tracing time in one city and lose in another, with costs by the surface area heuristic
-// that hardly differ: so both are traced.
+// Spatial splits gain up to a sixth of the tracing time in one city and lose in another, with costs by the surface area
+// heuristic that hardly differ: so both are traced.
 #include "simulation/tree_choice.hpp"
 
 #include <algorithm>
@@ -33,7 +33,9 @@ DeviceScene choose_tree(gpu::Context& context, const Scene& scene, const TraceCo
   DeviceScene split = make_device_scene(context, scene, true, reach_m);
   TraceConfig sample = config;
   sample.rays = std::max<uint64_t>(tree_choice_rays / 32 / transmitters.size(), 1);
-  return sample_seconds(context, split, sample, transmitters) < sample_seconds(context, plain, sample, transmitters) ? split : plain;
+  return sample_seconds(context, split, sample, transmitters) < sample_seconds(context, plain, sample, transmitters)
+             ? split
+             : plain;
 }
 
 }  // namespace wavetracer

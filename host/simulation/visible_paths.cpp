@@ -20,7 +20,8 @@ struct Row {
 };
 
 bool same_path(const Row& a, const Row& b) {
-  if (a.header.transmitter != b.header.transmitter || a.header.receiver != b.header.receiver || a.header.depth != b.header.depth)
+  if (a.header.transmitter != b.header.transmitter || a.header.receiver != b.header.receiver ||
+      a.header.depth != b.header.depth)
     return false;
   return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(),
                     [](double x, double y) { return std::abs(x - y) <= merge_distance_m; });
@@ -34,10 +35,12 @@ std::vector<Row> merged(std::vector<Row> rows) {
   const auto link = [&](size_t i) {
     return std::tuple(rows[i].header.transmitter, rows[i].header.receiver, rows[i].header.depth);
   };
-  std::sort(by_x.begin(), by_x.end(), [&](size_t i, size_t j) { return std::tuple(link(i), x(i), i) < std::tuple(link(j), x(j), j); });
+  std::sort(by_x.begin(), by_x.end(),
+            [&](size_t i, size_t j) { return std::tuple(link(i), x(i), i) < std::tuple(link(j), x(j), j); });
   std::vector<char> dropped(rows.size(), 0);
   for (size_t a = 0; a < by_x.size(); ++a)
-    for (size_t b = a + 1; b < by_x.size() && link(by_x[a]) == link(by_x[b]) && x(by_x[b]) - x(by_x[a]) <= merge_distance_m; ++b)
+    for (size_t b = a + 1;
+         b < by_x.size() && link(by_x[a]) == link(by_x[b]) && x(by_x[b]) - x(by_x[a]) <= merge_distance_m; ++b)
       if (same_path(rows[by_x[a]], rows[by_x[b]])) dropped[std::max(by_x[a], by_x[b])] = 1;
   std::vector<Row> out;
   for (size_t i = 0; i < rows.size(); ++i)

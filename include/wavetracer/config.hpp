@@ -11,46 +11,49 @@
 
 namespace wavetracer {
 
-struct MaterialConfig {             // [[material]]: overrides or adds a radio material by name
+struct MaterialConfig {  // [[material]]: overrides or adds a radio material by name
   std::string name;
-  std::optional<double> a, b, c, d;           // ITU-R P.2040 coefficients
+  std::optional<double> a, b, c, d;  // ITU-R P.2040 coefficients
   std::optional<double> permittivity, conductivity_s_m;
-  std::optional<double> thickness_m;          // infinity allowed: a half space
+  std::optional<double> thickness_m;  // infinity allowed: a half space
 };
 
 struct SceneConfig {
-  std::string file;                 // absolute after parsing (given relative to the config file)
-  std::string generate;             // arguments of `wavetracer scene city`, instead of a file
-  double scale = 1;                 // metres a file unit (OBJ, GLB, PLY)
-  std::string up = "auto";          // "auto" (z, but y for glTF), "y" or "z"
+  std::string file;                                   // absolute after parsing (given relative to the config file)
+  std::string generate;                               // arguments of `wavetracer scene city`, instead of a file
+  double scale = 1;                                   // metres a file unit (OBJ, GLB, PLY)
+  std::string up = "auto";                            // "auto" (z, but y for glTF), "y" or "z"
   std::map<std::string, std::string> material_alias;  // [scene.material_alias]: name in the file -> radio material
-  std::string default_material;     // for meshes without one; empty: a missing material is an error
+  std::string default_material;                       // for meshes without one; empty: a missing material is an error
 };
 
 struct RadioConfig {
   double frequency_hz = 5.9e9;
 };
 
-struct RadioEnd {                   // [[transmitter]] or [[receiver]]
+struct RadioEnd {  // [[transmitter]] or [[receiver]]
   std::string name;
-  std::array<double, 3> position_m{0, 0, 0};  // file coordinates
-  std::string antenna = "isotropic";          // isotropic, short-dipole, dipole, tr38901, or a pattern file
-  std::string polarization = "V";             // V, H, VH, cross
+  std::array<double, 3> position_m{0, 0, 0};       // file coordinates
+  std::string antenna = "isotropic";               // isotropic, short-dipole, dipole, tr38901, or a pattern file
+  std::string polarization = "V";                  // V, H, VH, cross
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
 };
 
 struct TraceConfig {
-  uint64_t rays = 1000000;          // a transmitter
+  uint64_t rays = 1000000;  // a transmitter
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
   std::string directions = "hilbert";  // hilbert, fibonacci, random
   std::string reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
-  uint64_t batch_rays = 0;          // rays in flight at once; 0: chosen from the device
+  uint64_t batch_rays = 0;  // rays in flight at once; 0: chosen from the device
 };
 
-struct OrderConfig { std::string method = "none"; bool each_depth = false; };
+struct OrderConfig {
+  std::string method = "none";
+  bool each_depth = false;
+};
 
 struct CacheConfig {
   std::string kind = "none";
@@ -63,11 +66,13 @@ struct CacheConfig {
   double residual_value = 0.01;
 };
 
-struct OutputConfig { std::string directory = "out"; };
+struct OutputConfig {
+  std::string directory = "out";
+};
 
 struct Config {
-  std::string file;                 // the TOML file, empty when built in code
-  std::string text;                 // its whole text with --set applied, echoed into the outputs
+  std::string file;  // the TOML file, empty when built in code
+  std::string text;  // its whole text with --set applied, echoed into the outputs
   SceneConfig scene;
   RadioConfig radio;
   std::vector<MaterialConfig> materials;

@@ -13,10 +13,10 @@ namespace wavetracer {
 // A radio material before a frequency is chosen: eps' = a f^b, sigma = c f^d (S/m), f in GHz (ITU-R P.2040-3, Table 3).
 // A material of fixed permittivity and conductivity has b = d = 0 and a range of 0 to infinity.
 struct Material {
-  std::string name;         // "concrete", or the user's own
+  std::string name;  // "concrete", or the user's own
   double a = 1, b = 0, c = 0, d = 0;
   double min_ghz = 0, max_ghz = std::numeric_limits<double>::infinity();
-  double thickness_m = 0.1; // infinity: a half space
+  double thickness_m = 0.1;  // infinity: a half space
   bool operator==(const Material&) const = default;
 };
 
@@ -54,15 +54,15 @@ struct Scene {
   glm::dvec3 origin_m{0};
   std::vector<glm::dvec3> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<uint32_t> triangle_surface;   // per triangle
-  std::vector<uint32_t> triangle_object;    // per triangle
+  std::vector<uint32_t> triangle_surface;  // per triangle
+  std::vector<uint32_t> triangle_object;   // per triangle
   std::vector<Surface> surfaces;
   std::vector<uint32_t> surface_triangles;  // triangle indices, grouped by surface
   std::vector<Edge> edges;
   std::vector<uint32_t> edge_faces;
   std::vector<Material> materials;
-  std::vector<std::string> objects;         // mesh names
-  glm::dvec3 lower{0}, upper{0};            // bounding box, recentred
+  std::vector<std::string> objects;  // mesh names
+  glm::dvec3 lower{0}, upper{0};     // bounding box, recentred
   LoadReport report;
 };
 

@@ -13,8 +13,8 @@ namespace wavetracer {
 
 // Counts of one frame. Every approximation and every loss is visible here.
 struct FrameCounts {
-  uint64_t rays = 0;        // launched
-  uint64_t segments = 0;    // rays traced, all depths
+  uint64_t rays = 0;      // launched
+  uint64_t segments = 0;  // rays traced, all depths
   uint64_t hits = 0;
   uint64_t sequences = 0;   // distinct prefixes, the empty one excluded
   uint64_t candidates = 0;  // sequence and receiver pairs that pass the conservative rejection

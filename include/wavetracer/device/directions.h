@@ -1,5 +1,6 @@
-// Launch index to direction as a pure function, bit for bit the same on the host, on CPUs and on GPUs: + - * / sqrt and fma only.
-// Compiled by C++ (one ray) and OpenCL C (one ray, or 16 at once with WT_DIRECTION_WIDTH 16). Assumes no contraction.
+// Launch index to direction as a pure function, bit for bit the same on the host, on CPUs and on GPUs: + - * / sqrt and
+// fma only. Compiled by C++ (one ray) and OpenCL C (one ray, or 16 at once with WT_DIRECTION_WIDTH 16). Assumes no
+// contraction.
 #ifndef WAVETRACER_DEVICE_DIRECTIONS_H
 #define WAVETRACER_DEVICE_DIRECTIONS_H
 
@@ -58,12 +59,12 @@ WT_DIRECTION_FUNCTION WT_U32 wt_parity_prefix(WT_U32 x) {
   return x ^ (x >> 1);
 }
 
-// Index along the 2D Hilbert curve of 2^16 x 2^16 cells to its cell. The orientation of a level is the parity of the swaps and
-// flips of the levels above it, so all levels are decoded at once by two parity prefixes (the log-depth form of the automaton of
-// C. Hamilton and A. Rau-Chaplin, "Compact Hilbert indices", IPL 105(5), 2008).
+// Index along the 2D Hilbert curve of 2^16 x 2^16 cells to its cell. The orientation of a level is the parity of the
+// swaps and flips of the levels above it, so all levels are decoded at once by two parity prefixes: the log-depth form
+// of "2D Hilbert curves in O(1)", threadlocalmutex.com, 2015.
 WT_DIRECTION_FUNCTION void wt_hilbert_cell(WT_U32 index, WT_U32* x, WT_U32* y) {
   const WT_U32 low = wt_even_bits(index), high = wt_even_bits(index >> 1);
-  const WT_U32 swaps = wt_parity_prefix((low | high) ^ 0xFFFFu) ;
+  const WT_U32 swaps = wt_parity_prefix((low | high) ^ 0xFFFFu);
   const WT_U32 flips = wt_parity_prefix(low & high);
   const WT_U32 a = ((low ^ 0xFFFFu) & flips) | (low & swaps);
   *x = (a ^ high) & 0xFFFFu;
@@ -101,7 +102,8 @@ WT_DIRECTION_FUNCTION wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 t
   return out;
 }
 
-// The mixing function of splitmix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+// The mixing function of splitmix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators",
+// OOPSLA 2014).
 WT_DIRECTION_FUNCTION WT_U64 wt_mix64(WT_U64 x) {
   x ^= x >> 30;
   x *= (WT_U64)(0xBF58476D1CE4E5B9ul);
@@ -118,11 +120,12 @@ WT_DIRECTION_FUNCTION WT_U32 wt_reverse16(WT_U32 x) {
   return ((x & 0x00FFu) << 8) | (x >> 8);
 }
 
-// Born in order. The equal-area cylinder (azimuth, z) is cut into `faces` rectangles side by side, each into 4^level cells along
-// a Hilbert curve; ray i of n takes cell floor((i + 1/2) cells / n), so index ranges are compact solid angles of equal share.
-// Inside cell (x, y) of its face a ray sits at (reverse(y), reverse(x)): the points of a face are a Hammersley net (J. Hammersley,
-// 1960), so azimuths and heights are each evenly spread. Walls are narrow in azimuth and tall: cell centres, all in one row,
-// would miss many of them. step = floor((2^64 - 1) / n); faces 4^level >= n, see wt_hilbert_faces.
+// Born in order. The equal-area cylinder (azimuth, z) is cut into `faces` rectangles side by side, each into 4^level
+// cells along a Hilbert curve; ray i of n takes cell floor((i + 1/2) cells / n), so index ranges are compact solid
+// angles of equal share. Inside cell (x, y) of its face a ray sits at (reverse(y), reverse(x)): the points of a face
+// are a Hammersley net (J. Hammersley, 1960), so azimuths and heights are each evenly spread. Walls are narrow in
+// azimuth and tall: cell centres, all in one row, would miss many of them. step = floor((2^64 - 1) / n); faces 4^level
+// >= n, chosen by host/passes/generate_rays.cpp.
 WT_DIRECTION_FUNCTION wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces) {
   const WT_U64 cell = ((i * step + (step >> 1)) >> 32) * (WT_U64)((unsigned long)faces << (2u * level)) >> 32;
   const WT_U32 face = WT_TO_U32(cell >> (2u * level));
@@ -141,7 +144,8 @@ WT_DIRECTION_FUNCTION wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, u
 // Fibonacci lattice: equal steps in z, golden-ratio turns. 2^64 / golden ratio = 0x9E3779B97F4A7C15.
 WT_DIRECTION_FUNCTION wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces) {
   (void)level, (void)faces;
-  return wt_cylinder_to_sphere(WT_TO_U32((i * step + (step >> 1)) >> 32), WT_TO_U32((i * (WT_U64)(0x9E3779B97F4A7C15ul)) >> 32));
+  return wt_cylinder_to_sphere(WT_TO_U32((i * step + (step >> 1)) >> 32),
+                               WT_TO_U32((i * (WT_U64)(0x9E3779B97F4A7C15ul)) >> 32));
 }
 
 // Independent uniform directions: a counter-based generator, so ray i of a seed is always the same.

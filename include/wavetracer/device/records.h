@@ -31,7 +31,8 @@ typedef uint64_t wt_ulong;
 #define WT_NONE 0xFFFFFFFFu
 #define WT_EMPTY 0xFFFFFFFFFFFFFFFFul
 
-// A trie node is its slot; its key is (parent << 32) | surface. The parent of a first surface is the root of a transmitter.
+// A trie node is its slot; its key is (parent << 32) | surface. The parent of a first surface is the root of a
+// transmitter.
 #define WT_ROOT 0x80000000u
 
 // What discovery needs of a surface (float32, recentred).
