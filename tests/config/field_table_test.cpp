@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <set>
 #include "config/config_file.hpp"
+#include "wavetracer/error.hpp"
 #include "config/fields.hpp"
 #include "config/spelling.hpp"
 
@@ -101,7 +102,7 @@ TEST_CASE("help names every key with its default") {
 TEST_CASE("the resolved config reads back the same, odd characters included") {
   const Config c = parse_config(
       "scene.file = \"a \\\"b\\\"\\\\ \\u0001\\u00e4.xml\"\nradio.frequency_hz = 5912345678.125\ntrace.rays = "
-      "12345678901\n"
+      "1234567890\n"
       "scene.material_alias.\"x.y\" = \"wood\"\n[[material]]\nname = \"m\"\nthickness_m = inf\nb = -0.1\n"
       "[[transmitter]]\nname = \"t\"\nposition_m = [691234.123456789, 5334567.1, -0.0]\n"
       "[[receiver]]\nname = \"r 1\"\nposition_m = [1e-300, 0, 0.1]\n",
@@ -130,4 +131,11 @@ TEST_CASE("a hint needs a near word") {
   CHECK(config::nearest("seed", known) == "trace.seed");
   CHECK(config::nearest("wavelength", known).empty());
   CHECK(config::hint("xyz", known).empty());
+}
+
+TEST_CASE("a transmitter launches at most 2^31 rays") {
+  const std::string ends =
+      "[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 0]\n[[receiver]]\nname = \"b\"\nposition_m = [1, 0, 0]\n";
+  CHECK(parse_config("scene.file = \"/s.xml\"\ntrace.rays = 2147483648\n" + ends, "a.toml").trace.rays == 2147483648);
+  CHECK_THROWS_AS(parse_config("scene.file = \"/s.xml\"\ntrace.rays = 2147483649\n" + ends, "a.toml"), ConfigError);
 }
