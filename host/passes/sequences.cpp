@@ -2,7 +2,7 @@
 // The table starts small: a million rays in a city leave a few thousand sequences.
 #include "passes/sequences.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <numeric>
 
 #include "wavetracer/error.hpp"
@@ -54,20 +54,23 @@ void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_c
 }
 
 uint32_t Sequences::collect(uint32_t transmitter_count) {
-  std::vector<uint32_t> roots(transmitter_count);
-  std::iota(roots.begin(), roots.end(), WT_ROOT);
   for (;;) {
-    if (nodes_.size() < transmitter_count)
-      nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
-    wt_counters counters = counters_.read_one(0, "sequences");
-    counters.nodes = transmitter_count;
-    counters_.write(std::vector{counters}, 0, "sequences");
-    nodes_.write(roots, 0, "sequences");
+    if (roots_ != transmitter_count) {
+      if (nodes_.size() < transmitter_count)
+        nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
+      std::vector<uint32_t> roots(transmitter_count);
+      std::iota(roots.begin(), roots.end(), WT_ROOT);
+      nodes_.write(roots, 0, "sequences");
+      roots_ = transmitter_count;
+    }
+    context_.fill(counters_, &transmitter_count, sizeof transmitter_count, offsetof(wt_counters, nodes),
+                  sizeof transmitter_count, "sequences");
     collect_({table_.size(), 64}, "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
              static_cast<uint32_t>(nodes_.size()), counters_);
     const uint32_t count = counters_.read_one(0, "sequences").nodes;
     if (count <= nodes_.size()) return count;
     nodes_ = context_.buffer<uint32_t>(size_t{count} + count / 4, "sequence list");
+    roots_ = 0;
   }
 }
 

@@ -30,6 +30,7 @@ class Sequences {
   gpu::Kernel collect_, commute_, regrow_, follow_;
   gpu::Buffer<uint64_t> table_;
   gpu::Buffer<uint32_t> nodes_;
+  uint32_t roots_ = 0;  // roots at the head of nodes_
   gpu::Buffer<wt_counters> counters_;
 };
 
