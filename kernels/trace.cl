@@ -58,9 +58,7 @@ kernel void trace(const global float* nodes, const global float* blocks, float e
 
 #ifdef WT_SHAPE_PACKET16
 // Fewer lanes than this that agree in signs and dominant axis are traced one by one.
-#ifndef WT_PACKET_MIN_LANES
 #define WT_PACKET_MIN_LANES 4
-#endif
 
 // One block of 16 rays a work-item: lanes that agree in the signs and the dominant axis of their directions go as a
 // packet. Queues are padded so that reading 16 rays never leaves a plane.

@@ -1,5 +1,5 @@
-// The static scene on the device: acceleration structures in the shape this device traces best, and surfaces in float
-// and double. The choice of shape is a property of the device, made here and nowhere else.
+// The static scene on the device: acceleration structures in every shape that this kind of device may trace, and
+// surfaces in float and double. Which shape traces is chosen in simulation/discovery.cpp.
 #pragma once
 #include <cstdint>
 

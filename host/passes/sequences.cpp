@@ -27,11 +27,12 @@ void Sequences::clear() {
 }
 
 void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
-  if (table_.size() >= uint64_t{1} << 30)
-    throw RuntimeError("the set of distinct sequences has outgrown 2^30 slots; lower trace.rays or trace.max_depth");
   const gpu::Buffer<uint64_t> old = table_;
   gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old.size(), "moved sequences");
   for (;;) {
+    // Checked at every step: a slot must leave the bit of WT_ROOT free.
+    if (table_.size() >= uint64_t{1} << 30)
+      throw RuntimeError("the set of distinct sequences has outgrown 2^30 slots; lower trace.rays or trace.max_depth");
     table_ = context_.buffer<uint64_t>(table_.size() * 4, "sequences");
     clear();
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
