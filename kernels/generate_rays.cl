@@ -2,21 +2,22 @@
 // WT_DIRECTIONS names the map (wt_direction_hilbert, _fibonacci, _random); parameter is its step or seed, level and
 // faces are those of hilbert.
 #ifdef WT_CPU
-#define WT_DIRECTION_WIDTH 16
+#define WT_LANES 16
 #endif
 #include "lib/hit.clh"
 #include "wavetracer/device/directions.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 #ifdef WT_CPU
-// 16 rays a work-item. Queues are padded, so the last item may write past the count.
-kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
-                          ulong parameter, uint level, uint faces, float x, float y, float z, uint root) {
-  const uint k = get_global_id(0) * 16;
-  if (k >= count) return;
-  const ulong16 lane = (ulong16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const wt_direction d = WT_DIRECTIONS(first_index + k + lane, (ulong16)parameter, level, faces);
-  global float* r = rays + first_slot + k;
+// 16 rays a work-item. Queues and lists are padded, so the last item may pass the count.
+#define WT_RAYS_PER_ITEM 16
+inline ulong16 after(ulong index) { return index + (ulong16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
+inline ulong16 listed(ulong index, const global uint* list) { return index + convert_ulong16(vload16(0, list)); }
+
+inline void store_rays(global float* rays, uint capacity, uint slot, ulong16 index, ulong parameter, uint level,
+                       uint faces, float x, float y, float z, uint root) {
+  const wt_direction d = WT_DIRECTIONS(index, (ulong16)parameter, level, faces);
+  global float* r = rays + slot;
   const size_t plane = capacity;
   vstore16((float16)x, 0, r);
   vstore16((float16)y, 0, r + plane);
@@ -28,15 +29,33 @@ kernel void generate_rays(global float* rays, uint capacity, uint first_slot, ui
   vstore16((float16)as_float(WT_NONE), 0, r + 7 * plane);
 }
 #else
-kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
-                          ulong parameter, uint level, uint faces, float x, float y, float z, uint root) {
-  const uint k = get_global_id(0);
-  if (k >= count) return;
-  const wt_direction d = WT_DIRECTIONS(first_index + k, parameter, level, faces);
-  const uint i = first_slot + k;
-  wt_store_float3(rays, capacity, WT_RAY_ORIGIN, i, (float3)(x, y, z));
-  wt_store_float3(rays, capacity, WT_RAY_DIRECTION, i, (float3)(d.x, d.y, d.z));
-  wt_store_word(rays, capacity, WT_RAY_NODE, i, root);
-  wt_store_word(rays, capacity, WT_RAY_SURFACE, i, WT_NONE);
+#define WT_RAYS_PER_ITEM 1
+inline ulong after(ulong index) { return index; }
+inline ulong listed(ulong index, const global uint* list) { return index + list[0]; }
+
+inline void store_rays(global float* rays, uint capacity, uint slot, ulong index, ulong parameter, uint level,
+                       uint faces, float x, float y, float z, uint root) {
+  const wt_direction d = WT_DIRECTIONS(index, parameter, level, faces);
+  wt_store_float3(rays, capacity, WT_RAY_ORIGIN, slot, (float3)(x, y, z));
+  wt_store_float3(rays, capacity, WT_RAY_DIRECTION, slot, (float3)(d.x, d.y, d.z));
+  wt_store_word(rays, capacity, WT_RAY_NODE, slot, root);
+  wt_store_word(rays, capacity, WT_RAY_SURFACE, slot, WT_NONE);
 }
 #endif
+
+// Launch indices first_index + k into slots first_slot + k.
+kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
+                          ulong parameter, uint level, uint faces, float x, float y, float z, uint root) {
+  const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
+  if (k >= count) return;
+  store_rays(rays, capacity, first_slot + k, after(first_index + k), parameter, level, faces, x, y, z, root);
+}
+
+// Launch indices first_index + order[k]: a launch in an order of its own costs no move of rays.
+kernel void generate_ordered(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
+                             const global uint* order, ulong parameter, uint level, uint faces, float x, float y,
+                             float z, uint root) {
+  const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
+  if (k >= count) return;
+  store_rays(rays, capacity, first_slot + k, listed(first_index, order + k), parameter, level, faces, x, y, z, root);
+}

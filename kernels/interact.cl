@@ -1,6 +1,7 @@
 // interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in
 // order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: only the trie is
 // wanted.
+#include "lib/block_rank.clh"
 #include "lib/mirror.clh"
 #include "lib/trie.clh"
 #pragma OPENCL FP_CONTRACT OFF
@@ -41,25 +42,20 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
   }
 }
 #else
-// One ray a work-item, one block a work-group; the rank of a ray inside its block comes from a bit mask in local
-// memory.
+// One ray a work-item, one block a work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
     const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
     const global wt_surface* surfaces, global ulong* table, uint mask, global wt_counters* counters, global float* next,
     uint last) {
-  local uint alive[WT_BLOCK / 32];
-  const uint i = get_global_id(0), lane = get_local_id(0);
-  if (lane < WT_BLOCK / 32) alive[lane] = 0;
-  barrier(CLK_LOCAL_MEM_FENCE);
+  local uint alive[WT_BLOCK_MASKS];
+  const uint i = get_global_id(0);
   const uint surface = i < ray_count ? wt_load_word(hits, capacity, WT_HIT_SURFACE, i) : WT_NONE;
-  if (surface != WT_NONE) atomic_or(&alive[lane / 32], 1u << (lane % 32));
-  barrier(CLK_LOCAL_MEM_FENCE);
+  wt_mark_block(alive, surface != WT_NONE);
   if (surface == WT_NONE) return;
   const uint node = wt_trie_insert(table, mask, wt_load_word(rays, capacity, WT_RAY_NODE, i), surface);
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
   if (last) return;
-  uint j = block_offsets[get_group_id(0)] + popcount(alive[lane / 32] & ((1u << (lane % 32)) - 1u));
-  for (uint w = 0; w < lane / 32; ++w) j += popcount(alive[w]);
+  const uint j = block_offsets[get_group_id(0)] + wt_block_rank(alive);
   go_on(surfaces, rays, hits, capacity, i, surface, node, next, j);
 }
 #endif

@@ -1,8 +1,9 @@
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
 // compaction). One of three shapes by build option: WT_SHAPE_BVH2 (GPU), WT_SHAPE_BVH8 (CPU) and WT_SHAPE_PACKET16
-// (CPU, ordered rays).
+// (CPU, ordered rays). Work-items find their ray or block by wt_launch_index.
 #include "lib/bvh2.clh"
 #include "lib/bvh8.clh"
+#include "lib/launch.clh"
 #include "lib/packet16.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -13,6 +14,17 @@ inline void store_hit(global float* hits, uint capacity, uint i, float t, uint p
 }
 
 #ifdef WT_SHAPE_BVH2
+inline bool trace_ray(const global float4* nodes, const global float4* triangles, uint triangle_slots,
+                      const global float* rays, uint capacity, uint i, global float* hits) {
+  const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
+               d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+  const wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, 0.0f, WT_NONE, INFINITY,
+                                     wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
+  store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
+  return hit.surface != WT_NONE;
+}
+
+#ifdef WT_COUNT_BLOCKS
 // One ray a work-item, one block a work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(const global float4* nodes,
                                                                         const global float4* triangles,
@@ -23,26 +35,28 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(const gl
   local uint count;
   if (get_local_id(0) == 0) count = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (i < ray_count) {
-    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
-                 d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
-    const wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, 0.0f, WT_NONE, INFINITY,
-                                       wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
-    store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
-    if (hit.surface != WT_NONE) atomic_inc(&count);
-  }
+  if (i < ray_count && trace_ray(nodes, triangles, triangle_slots, rays, capacity, i, hits)) atomic_inc(&count);
   barrier(CLK_LOCAL_MEM_FENCE);
   if (get_local_id(0) == 0) block_hits[get_group_id(0)] = count;
 }
+#else
+// One ray a work-item, in a launch of any shape; blocks are counted by a pass of their own (compact).
+kernel void trace(const global float4* nodes, const global float4* triangles, uint triangle_slots,
+                  const global float* rays, uint capacity, uint ray_count, global float* hits,
+                  global uint* block_hits) {
+  const uint i = wt_launch_index();
+  if (i < ray_count) trace_ray(nodes, triangles, triangle_slots, rays, capacity, i, hits);
+}
+#endif
 #endif
 
 #ifdef WT_SHAPE_BVH8
 // One block a work-item, its rays in turn.
 kernel void trace(const global float* nodes, const global float* blocks, float extent_m, const global float* rays,
                   uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
-  const uint block = get_global_id(0);
+  const uint block = wt_launch_index();
+  if (block >= (ray_count + WT_BLOCK - 1) / WT_BLOCK) return;
   const uint first = block * WT_BLOCK, end = min(first + WT_BLOCK, ray_count);
-  if (first >= ray_count) return;
   uint count = 0;
   for (uint i = first; i < end; ++i) {
     const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
@@ -65,9 +79,9 @@ kernel void trace(const global float* nodes, const global float* blocks, float e
 kernel void trace(const global float* nodes, const global float4* triangles, uint triangle_slots,
                   const global float* nodes8, const global float* blocks, float extent_m, const global float* rays,
                   uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
-  const uint block = get_global_id(0);
+  const uint block = wt_launch_index();
+  if (block >= (ray_count + 15) / 16) return;
   const uint first = block * 16;
-  if (first >= ray_count) return;
   const uint end = min(first + 16, ray_count);
   const uint16 lane = (uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const int16 in_range = lane < end - first;

@@ -1,23 +1,80 @@
-// `wavetracer bench RECIPE`: experiments that vary a key and report speed beside error.
-// This version has no recipe; the speed of its parts is measured by the programs of bench/.
+// `wavetracer bench RECIPE`: an experiment by name, written as a table, a plot and a paragraph.
+// The speed of single parts is measured by the programs of bench/ instead.
 #include <fmt/format.h>
+#include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/inputs.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "recipes/run.hpp"
 
 namespace wavetracer::app {
+namespace {
 
-void add_bench(CLI::App& program) {
-  struct Options {
-    std::string recipe, directory;
-  };
-  CLI::App* command = program.add_subcommand("bench", "Run an experiment by name");
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string recipe, file, directory, device, rays;
+  std::vector<std::string> sets;
+  uint32_t repeats = 5;
+};
+
+recipes::Request request(const Options& options, const recipes::Recipe& recipe, const std::string& command_line) {
+  recipes::Request out{.config = recipes::recipe_config(recipe, options.file, options.sets),
+                       .device = options.device,
+                       .rays = {},
+                       .repeats = options.repeats,
+                       .command_line = command_line};
+  if (!options.rays.empty()) out.rays = recipes::parse_ray_range(options.rays);
+  recipes::ray_counts(out.rays);  // says so where there are none
+  if (!options.directory.empty())
+    out.config.output.directory = fs::absolute(options.directory).lexically_normal().string();
+  return out;
+}
+
+void bench(const Options& options, Invocation& invocation) {
+  if (options.recipe.empty())
+    throw ConfigError("bench: no recipe given; there are\n" + recipes::recipe_list() +
+                      "and `./dev bench` measures the parts of the program");
+  const recipes::Recipe& recipe = recipes::find_recipe(options.recipe);
+  const recipes::Request asked = request(options, recipe, invocation.command_line);
+  check_inputs(asked.config);
+  check_output_folder(asked.config.output.directory);
+  catch_interrupts();
+  Progress progress;
+  const recipes::Report report =
+      run_recipe(recipe, asked, {[&progress](const std::string& text) { progress.line(text); }, interrupted});
+  if (interrupted()) {
+    invocation.code = ExitCode::interrupted;
+    progress.line(report.files.empty() ? "interrupted before the first point; nothing was written"
+                                       : fmt::format("interrupted; what is written is whole, after {} of {} ray counts",
+                                                     report.points, report.planned));
+  }
+  if (report.files.empty()) return;
+  std::cout << report.paragraph << "\n\nwritten    ";
+  for (size_t i = 0; i < report.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << report.files[i].string();
+  std::cout << std::endl;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("bench", "Run an experiment by name; without one, list them");
   const auto options = std::make_shared<Options>();
   command->add_option("recipe", options->recipe, "Name of the experiment");
-  command->add_option("-o,--output", options->directory, "Folder for the results");
-  command->callback([options] {
-    const std::string what = options->recipe.empty() ? "no recipe given" : "no recipe \"" + options->recipe + "\"";
-    throw ConfigError("bench: " + what + ": this version has none; `./dev bench` measures the parts of the program");
-  });
+  command->add_option("-c,--config", options->file,
+                      "Config file whose scene and ends are used, instead of a generated city; its rays, directions, "
+                      "order and launch shape are replaced");
+  command->add_option("-o,--output", options->directory, "Folder for the results, instead of output.directory");
+  command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
+  command->add_option("--device", options->device, "Index, or part of a platform's or device's name");
+  command->add_option("--rays", options->rays, "Fewest and most rays, A:B; default 1000:10000000");
+  command->add_option("--repeat", options->repeats, "Frames timed at each point, of which the median counts")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->footer([] { return "Experiments:\n" + recipes::recipe_list(); });
+  command->callback([options, &invocation] { bench(*options, invocation); });
 }
 
 }  // namespace wavetracer::app

@@ -17,6 +17,6 @@ void add_devices(CLI::App& program);
 void add_validate(CLI::App& program);
 void add_init(CLI::App& program);
 void add_scene(CLI::App& program);
-void add_bench(CLI::App& program);
+void add_bench(CLI::App& program, Invocation& invocation);
 
 }  // namespace wavetracer::app

@@ -42,7 +42,7 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_validate(program);
   wavetracer::app::add_init(program);
   wavetracer::app::add_scene(program);
-  wavetracer::app::add_bench(program);
+  wavetracer::app::add_bench(program, invocation);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

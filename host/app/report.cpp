@@ -73,6 +73,7 @@ std::string report(const RunData& run, const std::vector<std::filesystem::path>&
   out += fmt::format("scene      {}: {:.0f} x {:.0f} x {:.0f} m, {} triangles in {} surfaces\n",
                      run.config.scene.file.empty() ? "city " + run.config.scene.generate : run.config.scene.file,
                      extent.x, extent.y, extent.z, scene.triangles.size(), scene.surfaces.size());
+  if (!run.summary.order.reason.empty()) out += "order      " + run.summary.order.reason + "\n";
   out += frame_lines(run) + link_lines(run);
   out += "written    ";
   for (size_t i = 0; i < files.size(); ++i) out += (i == 0 ? "" : ", ") + files[i].string();

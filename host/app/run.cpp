@@ -85,6 +85,7 @@ void run(const Options& options, Invocation& invocation) {
 
   RunData data{config, simulation.scene(), {}, {}, 0, {}};
   data.summary.device = device;
+  data.summary.order = simulation.order();
   data.summary.setup_seconds = setup;
   data.summary.command_line = invocation.command_line;
   data.summary.warnings = simulation.scene().report.warnings;

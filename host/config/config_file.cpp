@@ -3,6 +3,7 @@
 #include "config/config_file.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <bit>
 #include <deque>
 #include <fstream>
 #include <map>
@@ -226,9 +227,7 @@ class Parser {
     if (a.field->later.empty()) return;
     Config defaults = prototype();
     const std::string given = literal(slot);
-    const auto& available = a.field->available;
-    if (given != literal(a.field->slot(defaults, 0)) &&
-        std::find(available.begin(), available.end(), given) == available.end())
+    if (given != literal(a.field->slot(defaults, 0)))
       fail(a.place, fmt::format("{} = {} is not available in this version: {}", a.key, given, a.field->later));
   }
 
@@ -250,6 +249,7 @@ class Parser {
             fail({places[i], 0}, fmt::format("[[{}]] has no {}: give it {}", table.name, field.name, accepted(field)));
     }
     check_scene();
+    check_launch();
     check_names("receiver", config_.receivers, check_names("transmitter", config_.transmitters, {}));
     check_names("material", config_.materials, {});
     for (size_t i = 0; i < config_.materials.size(); ++i) {
@@ -269,6 +269,22 @@ class Parser {
       fail(std::max(place_of("scene.generate"), place_of("scene.file")),
            "scene.file and scene.generate exclude each other: empty one of them");
     }
+  }
+
+  void check_launch() {
+    const uint32_t local = config_.launch.local_size;
+    if ((local & (local - 1)) != 0)
+      fail(place_of("launch.local_size"),
+           fmt::format("launch.local_size = {} is no power of two: give {}, or 0 for what suits the device", local,
+                       std::bit_floor(local)));
+    const std::string &method = config_.order.method, &shape = config_.launch.shape;
+    const bool plane = method == "H3DH2DH" || method == "hilbert3d-histogram-hilbert2d";
+    const bool space = method == "H3DH3DH" || method == "hilbert3d-histogram-hilbert3d";
+    if ((plane && shape != "auto" && shape != "2d") || (space && shape != "auto" && shape != "3d"))
+      fail(std::max(place_of("launch.shape"), place_of("order.method")),
+           fmt::format("order.method = \"{}\" is a launch of {} dimensions, launch.shape = \"{}\" is not: leave "
+                       "launch.shape out",
+                       method, plane ? 2 : 3, shape));
   }
 
   template <class Named>

@@ -217,21 +217,48 @@ Table trace_table() {
 }
 
 Table order_table() {
-  return {.name = "order",
-          .doc = "Sorting of the rays before they are traced.",
-          .fields = {
-              {.name = "method",
-               .slot = at(&Config::order, &OrderConfig::method),
-               .choices = {"none", "WS", "morton", "Z", "hilbert3d-histogram", "H3DH", "morton-histogram", "HZ",
-                           "hilbert3d-histogram-hilbert2d", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "H3DH3DH"},
-               .doc = "The plain name or the mnemonic of the method.",
-               .later = "use \"none\" with trace.directions = \"hilbert\", which launches rays already in order",
-               .available = {"\"none\"", "\"WS\""}},
-              {.name = "each_depth",
-               .slot = at(&Config::order, &OrderConfig::each_depth),
-               .doc = "Sort before every depth, not only the first.",
-               .later = "leave it false"},
-          }};
+  const auto o = [](auto member) { return at(&Config::order, member); };
+  return {
+      .name = "order",
+      .doc = "Sorting of the rays before they are traced. Paths do not depend on it, time does.",
+      .fields = {
+          {.name = "method",
+           .slot = o(&OrderConfig::method),
+           .choices = {"none", "WS", "morton", "Z", "hilbert3d-histogram", "H3DH", "morton-histogram", "HZ",
+                       "hilbert3d-histogram-hilbert2d", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "H3DH3DH",
+                       "direction-origin", "auto"},
+           .doc = "The plain name or the mnemonic of the method. none: with trace.directions = \"hilbert\" rays are "
+                  "born in order and need no sort. direction-origin: by direction first, then by where the ray starts, "
+                  "for each_depth. auto: the fastest, by a short measurement that is kept for the next run."},
+          {.name = "each_depth",
+           .slot = o(&OrderConfig::each_depth),
+           .doc = "Sort before every depth, not only the first. With method = \"auto\" it is chosen too."},
+          {.name = "bin_num",
+           .slot = o(&OrderConfig::bin_num),
+           .unit = "bins a direction component",
+           .range = {1, 1024},
+           .doc = "Of the histogram methods. 16, as in the thesis, sorts 12 bits; more bins, finer order, more passes "
+                  "of the sort."},
+      }};
+}
+
+Table launch_table() {
+  const auto l = [](auto member) { return at(&Config::launch, member); };
+  return {
+      .name = "launch",
+      .doc = "The shape in which the rays of a depth are handed to the device. Paths do not depend on it, time does.",
+      .fields = {
+          {.name = "shape",
+           .slot = l(&LaunchConfig::shape),
+           .choices = {"auto", "1d", "2d", "3d"},
+           .doc = "auto: 1d, but 2d and 3d for the two methods that map the sorted rays along a curve of that "
+                  "dimension, and those accept nothing else."},
+          {.name = "local_size",
+           .slot = l(&LaunchConfig::local_size),
+           .unit = "work-items a group",
+           .range = {0, 1024},
+           .doc = "A power of two, spread evenly over the dimensions. 0: what suits the device."},
+      }};
 }
 
 Table cache_table() {
@@ -292,6 +319,7 @@ const std::vector<Table>& tables() {
                           "from 1 to 100 GHz, most of them."}}},
       trace_table(),
       order_table(),
+      launch_table(),
       cache_table(),
       {.name = "trajectories",
        .doc = "Moving vehicles.",

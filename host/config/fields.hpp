@@ -43,10 +43,8 @@ struct Field {
   bool required = false;
   std::string doc = {};
   std::string example = {};  // TOML that `init` writes; empty: the default, or a comment where there is none
-  // Not empty: the feature is not in this version, and this says what to use. Only the default and the values of
-  // `available` are accepted then.
+  // Not empty: the feature is not in this version, and this says what to use. Only the default is accepted then.
   std::string later = {};
-  std::vector<std::string> available = {};
 };
 
 struct Table {

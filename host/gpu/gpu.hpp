@@ -2,11 +2,13 @@
 // profiling. The only folder that names cl:: is this one; nothing of OpenCL's C++ bindings appears in this header's
 // users.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,10 +35,14 @@ std::vector<DeviceInfo> list_devices();
 // platform or name (case-insensitive part). Throws DeviceError with the list of what there is and what to install.
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text);
 
-// Work-items a dimension and the fixed work-group size; global is padded up to a multiple of local
-// (PoCL has no non-uniform work-groups), so kernels check their range.
+// Work-items and the fixed work-group size, a number each or one a dimension; global is padded up to a multiple of
+// local (PoCL has no non-uniform work-groups), so kernels check their range.
 struct Range {
-  size_t global, local;
+  Range(size_t global_items, size_t local_items) : global{global_items, 1, 1}, local{local_items, 1, 1} {}
+  Range(const std::array<size_t, 3>& global_items, const std::array<size_t, 3>& local_items, unsigned dimension_count)
+      : global(global_items), local(local_items), dimensions(dimension_count) {}
+  std::array<size_t, 3> global, local;  // 1 beyond the dimensions
+  unsigned dimensions = 1;
 };
 
 // Preprocessor definitions of a program: name -> value. Part of the cache key.
@@ -153,6 +159,10 @@ class Context {
 
   // Kernel `kernel` of kernels/`program`.cl built with these definitions; compiled once a process, cached on disk.
   Kernel kernel(const std::string& program, const std::string& kernel, const Definitions& definitions = {});
+
+  // What was measured on this device, kept on disk beside its programs: the text last kept for this subject, if any.
+  std::optional<std::string> recall(const std::string& subject) const;
+  void keep(const std::string& subject, const std::string& text);
 
   void finish();
 

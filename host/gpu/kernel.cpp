@@ -1,6 +1,7 @@
 // The one checked launch: arguments against what the kernel wants, sizes padded, failures named.
 // A wrong argument is a fault of the calling code (std::logic_error); a refused launch is the device's (DeviceError).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <stdexcept>
 #include "gpu/state.hpp"
 #include "wavetracer/error.hpp"
@@ -61,15 +62,19 @@ void Kernel::set_memory(unsigned index, const Memory& memory) {
 
 void Kernel::enqueue(Range range, const char* stage) {
   State& s = *state_;
-  if (range.local == 0) throw std::logic_error(fmt::format("kernel {} was given work-groups of no items", s.name));
-  if (range.global == 0) return;
-  const size_t padded = (range.global + range.local - 1) / range.local * range.local;
+  std::array<size_t, 3> padded;
+  for (unsigned d = 0; d < 3; ++d) {
+    if (range.local[d] == 0) throw std::logic_error(fmt::format("kernel {} was given work-groups of no items", s.name));
+    if (range.global[d] == 0) return;
+    padded[d] = (range.global[d] + range.local[d] - 1) / range.local[d] * range.local[d];
+  }
   cl::Event event;
-  const cl_int code =
-      clEnqueueNDRangeKernel(s.context->queue(), s.kernel(), 1, nullptr, &padded, &range.local, 0, nullptr, &event());
+  const cl_int code = clEnqueueNDRangeKernel(s.context->queue(), s.kernel(), range.dimensions, nullptr, padded.data(),
+                                             range.local.data(), 0, nullptr, &event());
   if (code != CL_SUCCESS) {
-    s.context->fail(code, fmt::format("launching kernel {} over {} items in groups of {} (the device allows {})",
-                                      s.name, padded, range.local, s.context->info.max_work_group));
+    s.context->fail(
+        code, fmt::format("launching kernel {} over {} items in groups of {} (the device allows {})", s.name,
+                          fmt::join(padded, " x "), fmt::join(range.local, " x "), s.context->info.max_work_group));
   }
   s.context->profile.add(stage, std::move(event));
 }

@@ -119,6 +119,16 @@ const cl::Program& Context::State::program(const std::string& name, const std::s
   return programs.emplace(id, *built).first->second;
 }
 
+std::optional<std::string> Context::recall(const std::string& subject) const {
+  const DeviceInfo& d = state_->info;
+  return state_->cache.load({subject, "", d.platform, d.platform_version, d.name, d.driver});
+}
+
+void Context::keep(const std::string& subject, const std::string& text) {
+  const DeviceInfo& d = state_->info;
+  state_->cache.store({subject, "", d.platform, d.platform_version, d.name, d.driver}, text);
+}
+
 Kernel Context::kernel(const std::string& program, const std::string& kernel, const Definitions& definitions) {
   State& s = *state_;
   const std::string options = s.device_options + definition_options(program, definitions);

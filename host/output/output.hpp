@@ -16,6 +16,7 @@ namespace wavetracer {
 struct RunSummary {
   std::string version = WAVETRACER_VERSION;
   DeviceSummary device;
+  OrderSummary order;
   StageSeconds setup_seconds;  // stages outside the frames: load, build, compile, ...
   std::string command_line;
   uint32_t repeat_count = 1;          // how often each frame was solved; its seconds are medians

@@ -113,7 +113,12 @@ std::string encode_summary_json(const RunData& run, double write_seconds) {
   json["segments_per_depth"] = segments_per_depth(run.frames);
   json["seconds"] = stage_seconds(run, write_seconds);
   json["rays_per_second"] = rays_per_second(run.frames);
-  json["order"] = {{"method", run.config.order.method}};
+  json["order"] = {{"asked", run.config.order.method},
+                   {"method", summary.order.method},
+                   {"each_depth", summary.order.each_depth},
+                   {"launch_shape", summary.order.launch_shape},
+                   {"local_size", summary.order.local_size},
+                   {"reason", summary.order.reason}};
   json["cache"] = {{"kind", run.config.cache.kind}};
   json["warnings"] = warnings(run);
   // Names of files and devices need not be UTF-8; what is not is replaced rather than refused.

@@ -6,9 +6,14 @@
 
 namespace wavetracer {
 
-Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape)
-    : shape_(shape), block_(block_size(context.info())) {
+Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch)
+    : shape_(shape),
+      launch_(launch),
+      block_(block_size(context.info())),
+      counts_blocks_(shape != TraceShape::bvh2 || launch.plain()) {
   gpu::Definitions definitions = scene.definitions;
+  launch.define(definitions);
+  if (counts_blocks_) definitions["WT_COUNT_BLOCKS"] = "1";
   definitions["WT_BLOCK"] = std::to_string(block_);
   definitions[shape == TraceShape::bvh2   ? "WT_SHAPE_BVH2"
               : shape == TraceShape::bvh8 ? "WT_SHAPE_BVH8"
@@ -20,16 +25,17 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
   const uint32_t blocks = (rays.count + block_ - 1) / block_;
   switch (shape_) {
     case TraceShape::bvh2:
-      kernel_({rays.count, block_}, "trace", scene.nodes2, scene.triangles2, scene.triangle_slots, rays.planes,
-              rays.capacity, rays.count, hits.planes, hits.block_hits);
+      kernel_(launch_.range(rays.count, block_), "trace", scene.nodes2, scene.triangles2, scene.triangle_slots,
+              rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::bvh8:
-      kernel_({blocks, 16}, "trace", scene.nodes8, scene.blocks8, scene.extent_m, rays.planes, rays.capacity,
-              rays.count, hits.planes, hits.block_hits);
+      kernel_(launch_.range(blocks, 16), "trace", scene.nodes8, scene.blocks8, scene.extent_m, rays.planes,
+              rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::packet16:
-      kernel_({blocks, 16}, "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots, scene.nodes8,
-              scene.blocks8, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
+      kernel_(launch_.range(blocks, 16), "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots,
+              scene.nodes8, scene.blocks8, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes,
+              hits.block_hits);
       break;
   }
 }

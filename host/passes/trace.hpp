@@ -1,7 +1,8 @@
-// trace: nearest hits of a queue of rays, and the hits of every block of rays.
+// trace: nearest hits of a queue of rays, and the hits of every block of rays; in launches of any shape.
 // Equal distances go to the lower primitive, so shapes, devices and trees all give the same hits.
 #pragma once
 #include "passes/device_scene.hpp"
+#include "passes/launch_shape.hpp"
 #include "passes/ray_queue.hpp"
 
 namespace wavetracer {
@@ -11,13 +12,17 @@ class Trace {
   // Rays a block: the unit in which hits are counted and rays compacted.
   static uint32_t block_size(const gpu::DeviceInfo& device) { return device.cpu ? 16 : 128; }
 
-  Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape);
+  Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch = {});
+  // Does it count the hits of blocks? If not (launches of another shape on GPUs), Compact::count_blocks does.
+  bool counts_blocks() const { return counts_blocks_; }
   void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);
 
  private:
   gpu::Kernel kernel_;
   TraceShape shape_;
+  LaunchShape launch_;
   uint32_t block_;
+  bool counts_blocks_;
 };
 
 }  // namespace wavetracer

@@ -1,14 +1,16 @@
 // Discovery: rays from every transmitter leave the distinct sequences of surfaces that they lived through.
-// The wavefront loop generate, trace, interact, compact; batches bound the memory, whatever the number of rays.
+// The wavefront loop generate, order, trace, interact; batches bound the memory, whatever the number of rays.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "passes/compact.hpp"
 #include "passes/generate_rays.hpp"
 #include "passes/interact.hpp"
 #include "passes/scan.hpp"
 #include "passes/sequences.hpp"
 #include "passes/trace.hpp"
+#include "simulation/ray_order.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/simulation.hpp"
 
@@ -22,7 +24,7 @@ struct DiscoveryCounts {
 
 class Discovery {
  public:
-  Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config);
+  Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order = {});
   // Fills sequences() for these transmitters (recentred metres).
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<glm::dvec3>& transmitters);
   Sequences& sequences() { return sequences_; }
@@ -37,13 +39,17 @@ class Discovery {
 
   gpu::Context& context_;
   TraceConfig config_;
+  OrderPlan plan_;
   uint32_t max_depth_;
   uint64_t batch_rays_;
+  LaunchDirections directions_;
   GenerateRays generate_;
   Trace trace_;
+  Compact compact_;
   Scan scan_;
   Interact interact_;
   Sequences sequences_;
+  std::optional<RayOrder> order_;  // with the queues, if the plan has one
   RayQueue rays_, next_;
   HitList hits_;
 };

@@ -12,6 +12,7 @@
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
+#include "simulation/order_choice.hpp"
 #include "simulation/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
 #include "simulation/visible_paths.hpp"
@@ -51,6 +52,7 @@ struct Simulation::State {
   std::optional<Occlusion> occlusion;
   std::optional<FieldModel> fields;
   DeviceSummary device;
+  OrderSummary order;
 };
 
 Simulation::Simulation(const Config& config, const std::string& device) : state_(std::make_unique<State>()) {
@@ -68,7 +70,16 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.device_scene = choose_tree(*s.context, s.scene, config.trace, s.transmitters, reach_m({s.transmitters, receivers}));
   s.setup["build"] = watch.lap();
   s.ends = make_radio_ends(*s.context, s.transmitters, receivers);
-  s.discovery.emplace(*s.context, s.device_scene, config.trace);
+  OrderChoice order;
+  if (config.order.method == "auto") {
+    order = choose_order(*s.context, s.scene, s.device_scene, config, s.transmitters);
+    s.setup["order"] = watch.lap();
+  } else {
+    order.plan = plan_order(config.order, config.launch);
+  }
+  s.order = {order.plan.method, order.plan.each_depth, std::to_string(order.plan.launch.dimensions) + "d",
+             order.plan.launch.local_size, order.reason};
+  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan);
   s.candidates.emplace(*s.context);
   s.solve.emplace(*s.context, config.trace.max_depth);
   s.occlusion.emplace(*s.context, s.device_scene);
@@ -82,6 +93,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const Scene& Simulation::scene() const { return state_->scene; }
 const DeviceSummary& Simulation::device() const { return state_->device; }
+const OrderSummary& Simulation::order() const { return state_->order; }
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup; }
 
 FrameResult Simulation::run_frame(uint32_t frame) {

@@ -53,6 +53,12 @@ struct TraceConfig {
 struct OrderConfig {
   std::string method = "none";
   bool each_depth = false;
+  uint32_t bin_num = 16;  // bins a direction component, histogram methods
+};
+
+struct LaunchConfig {
+  std::string shape = "auto";  // auto, 1d, 2d, 3d
+  uint32_t local_size = 0;     // work-items a group; 0: chosen from the device
 };
 
 struct CacheConfig {
@@ -80,6 +86,7 @@ struct Config {
   std::string trajectories_file;
   TraceConfig trace;
   OrderConfig order;
+  LaunchConfig launch;
   CacheConfig cache;
   OutputConfig output;
 };

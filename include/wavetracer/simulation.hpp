@@ -38,6 +38,15 @@ struct DeviceSummary {
   bool gpu = false;
 };
 
+// How rays were ordered and launched.
+struct OrderSummary {
+  std::string method = "none";  // plain name; "none" too where order.method = "auto" found no sort that pays
+  bool each_depth = false;
+  std::string launch_shape = "1d";
+  uint32_t local_size = 0;  // 0: what suits the device
+  std::string reason;       // why, where order.method = "auto"
+};
+
 class Simulation {
  public:
   // Loads the scene, builds surfaces and acceleration structures, compiles the kernels.
@@ -51,6 +60,7 @@ class Simulation {
   FrameResult run_frame(uint32_t frame);
   const Scene& scene() const;
   const DeviceSummary& device() const;
+  const OrderSummary& order() const;
   // Stages outside the frame: load, surfaces, build, compile, ...
   const StageSeconds& setup_seconds() const;
 

@@ -173,10 +173,13 @@ TEST_CASE("all mistakes are reported at once, in the order of the file") {
 }
 
 TEST_CASE("keys of later versions name themselves and what to use; their defaults are fine") {
-  const std::vector<std::pair<std::string, std::string>> later = {
-      {"trajectories.file", "\"fcd.xml\""}, {"trace.diffraction", "true"},     {"trace.transmission", "true"},
-      {"trace.scattering", "true"},         {"trace.reception", "\"sphere\""}, {"trace.sphere_radius_m", "2.0"},
-      {"order.method", "\"HZ\""},           {"order.each_depth", "true"},      {"cache.kind", "\"open\""}};
+  const std::vector<std::pair<std::string, std::string>> later = {{"trajectories.file", "\"fcd.xml\""},
+                                                                  {"trace.diffraction", "true"},
+                                                                  {"trace.transmission", "true"},
+                                                                  {"trace.scattering", "true"},
+                                                                  {"trace.reception", "\"sphere\""},
+                                                                  {"trace.sphere_radius_m", "2.0"},
+                                                                  {"cache.kind", "\"open\""}};
   for (const auto& [key, value] : later) {
     const std::string message = error_of(scene + key + " = " + value + "\n" + ends);
     CAPTURE(message);
@@ -189,6 +192,22 @@ TEST_CASE("keys of later versions name themselves and what to use; their default
   CHECK(error_of(scene + "[cache]\nhash_method = 2\ndivision = 100\npurge = \"precision\"\n" + ends) == "no error");
   CHECK_CONTAINS(error_of(scene + "cache.hash_method = 4\n" + ends), "cache.hash_method = 4 is out of range");
   CHECK_CONTAINS(error_of(scene + "order.method = \"quicksort\"\n" + ends), "is not known");
+}
+
+TEST_CASE("orders by name or mnemonic; launch shapes that contradict them are refused") {
+  for (const std::string method : {"none", "WS", "Z", "HZ", "H3DH", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "auto"})
+    CHECK(error_of(scene + "order.method = \"" + method + "\"\norder.each_depth = true\n" + ends) == "no error");
+  const auto with = [](const std::string& keys) { return error_of(scene + keys + ends); };
+  CHECK(with("order.method = \"H3DH\"\nlaunch.shape = \"3d\"\nlaunch.local_size = 64\norder.bin_num = 20\n") ==
+        "no error");
+  CHECK(with("order.method = \"H3DH3DH\"\nlaunch.shape = \"3d\"\n") == "no error");
+  CHECK(with("order.method = \"H3DH2DH\"\nlaunch.shape = \"1d\"\n") ==
+        "a.toml:3:16: order.method = \"H3DH2DH\" is a launch of 2 dimensions, launch.shape = \"1d\" is not: leave "
+        "launch.shape out");
+  CHECK_CONTAINS(with("launch.local_size = 48\n"), "a.toml:2:21: launch.local_size = 48 is no power of two: give 32");
+  CHECK_CONTAINS(with("launch.local_size = 2048\n"), "out of range");
+  CHECK_CONTAINS(with("order.bin_num = 0\n"), "out of range");
+  CHECK_CONTAINS(with("launch.shape = \"4d\"\n"), "is not known");
 }
 
 TEST_CASE("--set overrides the file, as TOML or as a bare word") {
@@ -218,7 +237,7 @@ TEST_CASE("mistakes in --set are reported as --set") {
   CHECK_CONTAINS(of("receiver.name=x"), "write receiver.INDEX.KEY");
   CHECK_CONTAINS(of("receiver.0.position_m=[1, 2"), "--set receiver.0.position_m=[1, 2: ");
   CHECK_CONTAINS(of("trace.rays=5\ntrace.seed=1"), "trace.rays must be an integer");
-  CHECK_CONTAINS(of("order.method=HZ"), "--set order.method=HZ: order.method = \"HZ\" is not available");
+  CHECK_CONTAINS(of("cache.kind=open"), "--set cache.kind=open: cache.kind = \"open\" is not available");
 }
 
 TEST_CASE("a file that cannot be read is a config error") {

@@ -83,7 +83,7 @@ TEST_CASE("device directions are the host's, bit for bit") {
     for (const uint32_t n : {1u, 15u, 16u, 17u, 1000u}) {
       CAPTURE(map);
       CAPTURE(n);
-      GenerateRays generate(context(), map, n, seed);
+      GenerateRays generate(context(), LaunchDirections(map, n, seed));
       RayQueue queue = make_ray_queue(context(), n, "rays");
       generate(queue, 3, {1.5, -2.25, 0.125}, 0, n);
       REQUIRE(queue.count == n);
@@ -100,7 +100,7 @@ TEST_CASE("large launch indices: the last of 2^31 rays are the host's") {
   constexpr uint64_t n = uint64_t{1} << 31;
   for (const std::string map : maps) {
     CAPTURE(map);
-    GenerateRays generate(context(), map, n, seed);
+    GenerateRays generate(context(), LaunchDirections(map, n, seed));
     RayQueue queue = make_ray_queue(context(), 100, "rays");
     generate(queue, 0, {0, 0, 0}, n - 100, 100);
     const std::vector<Ray> rays = download(queue);
@@ -115,7 +115,7 @@ TEST_CASE("a launch in parts, and of several transmitters, gives the same rays")
   constexpr uint32_t n = 300;
   for (const std::string map : maps) {
     CAPTURE(map);
-    GenerateRays generate(context(), map, n, seed);
+    GenerateRays generate(context(), LaunchDirections(map, n, seed));
     RayQueue whole = make_ray_queue(context(), 2 * n, "whole"), parts = make_ray_queue(context(), 2 * n, "parts");
     generate(whole, 0, {1, 2, 3}, 0, n);
     generate(whole, 1, {-4, 5, 6}, 0, n);
@@ -128,7 +128,7 @@ TEST_CASE("a launch in parts, and of several transmitters, gives the same rays")
 }
 
 TEST_CASE("more rays than the queue holds are refused") {
-  GenerateRays generate(context(), "fibonacci", 5000, seed);
+  GenerateRays generate(context(), LaunchDirections("fibonacci", 5000, seed));
   RayQueue queue = make_ray_queue(context(), 100, "rays");
   CHECK_THROWS_AS(generate(queue, 0, {0, 0, 0}, 0, 5000), std::logic_error);
 }

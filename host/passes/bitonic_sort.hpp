@@ -1,0 +1,41 @@
+// bitonic_sort: a stable sort of any number of keys by Batcher's network; one launch where they fit one block.
+// For small n and as the baseline that the thesis' time had; above some blocks radix_sort is the faster one.
+#pragma once
+#include "gpu/gpu.hpp"
+#include "passes/payload.hpp"
+
+namespace wavetracer {
+
+// Key: uint32_t or uint64_t.
+template <class Key>
+class BitonicSort {
+ public:
+  // Who sorts a block: a work-group, or one work-item in vectors of 16 keys. device: vectors on CPUs, groups elsewhere.
+  enum class Form { device, groups, vectors };
+
+  // largest_block: blocks are the largest power of two that local memory holds, up to this; 16 at least.
+  BitonicSort(gpu::Context& context, Payload payload, Form form = Form::device, uint32_t largest_block = 8192);
+
+  // The most keys that one launch sorts.
+  uint32_t block() const { return block_; }
+  // Words of temporary memory that a sort of n keys needs. A buffer must be given even where it is zero.
+  size_t temporary_words(uint32_t n) const;
+  // Sorts keys[0 .. n - 1], ascending and stable, and values[0 .. n - 1] with them (see Payload). What temporary holds
+  // afterwards means nothing.
+  void operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
+                  const char* stage = "sort");
+  // The same for Payload::none.
+  void operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary, const char* stage = "sort");
+
+ private:
+  Payload payload_;
+  uint32_t block_, items_;
+  gpu::Kernel sort_blocks_, one_step_, merge_blocks_, gather_;
+  void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
+            const char* stage);
+};
+
+extern template class BitonicSort<uint32_t>;
+extern template class BitonicSort<uint64_t>;
+
+}  // namespace wavetracer

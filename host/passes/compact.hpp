@@ -1,0 +1,31 @@
+// compact: the indices of the words that are not WT_NONE, in order: those of rays that hit, of lanes that live.
+// Between its two operations the block counts are scanned (see scan), which also gives the number of indices.
+#pragma once
+#include "gpu/gpu.hpp"
+#include "wavetracer/device/records.h"
+
+namespace wavetracer {
+
+class Compact {
+ public:
+  // Who takes the words: a work-group a block, or a work-item many blocks. device: items on CPUs, groups elsewhere.
+  enum class Form { device, groups, items };
+
+  // block: words a block; for groups a multiple of 32 that a work-group can have.
+  Compact(gpu::Context& context, uint32_t block, Form form = Form::device);
+
+  // block_counts[b] becomes the number of words != WT_NONE (bit pattern) in block b of words[first .. first + count -
+  // 1], the last of which may be incomplete.
+  void count_blocks(const gpu::Buffer<float>& words, size_t first, uint32_t count, gpu::Buffer<uint32_t>& block_counts);
+  // Writes the indices, counted from `first`, of the words != WT_NONE, ascending. block_offsets: the scanned counts;
+  // indices has room for their total.
+  void operator()(const gpu::Buffer<float>& words, size_t first, uint32_t count,
+                  const gpu::Buffer<uint32_t>& block_offsets, gpu::Buffer<uint32_t>& indices);
+
+ private:
+  gpu::Kernel count_blocks_, compact_;
+  uint32_t block_, words_per_item_, local_;
+  void check(const gpu::Buffer<float>& words, size_t first, uint32_t count, const gpu::Buffer<uint32_t>& blocks) const;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,22 @@
+// The shape of a launch: one, two or three dimensions, row by row or along Hilbert curves (kernels/lib/launch.clh).
+// The thesis' experiment of section 3.1; what is computed does not depend on it.
+#pragma once
+#include <cstdint>
+
+#include "gpu/gpu.hpp"
+
+namespace wavetracer {
+
+struct LaunchShape {
+  unsigned dimensions = 1;
+  bool curve = false;       // 2D and 3D: squares or cubes walked along a Hilbert curve instead of rows
+  uint32_t local_size = 0;  // work-items a group, a power of two; 0: what the pass prefers
+
+  bool plain() const { return dimensions == 1 && local_size == 0; }
+  // A range of at least `count` work-items whose indices by wt_launch_index cover 0 .. count - 1.
+  gpu::Range range(size_t count, uint32_t preferred_local) const;
+  // Adds what wt_launch_index is built with.
+  void define(gpu::Definitions& definitions) const;
+};
+
+}  // namespace wavetracer

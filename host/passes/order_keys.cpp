@@ -1,0 +1,61 @@
+// Host side of kernels/order_keys.cl.
+// The stage of all its launches is "order".
+#include "passes/order_keys.hpp"
+
+#include <bit>
+#include <stdexcept>
+#include <string>
+
+namespace wavetracer {
+
+namespace {
+
+const char* function_of(OrderKey key) {
+  switch (key) {
+    case OrderKey::morton:
+      return "wt_key_morton";
+    case OrderKey::morton_bins:
+      return "wt_key_morton_bins";
+    case OrderKey::hilbert_bins:
+      return "wt_key_hilbert_bins";
+    case OrderKey::direction_origin:
+      return "wt_key_direction_origin";
+  }
+  throw std::invalid_argument("order_keys: no such key");
+}
+
+uint32_t bits_of(OrderKey key, uint32_t bins) {
+  if (key == OrderKey::morton) return 30;
+  if (key == OrderKey::direction_origin) return 24;
+  return 3 * static_cast<uint32_t>(std::bit_width(bins - 1));
+}
+
+}  // namespace
+
+OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions,
+                     float extent_m)
+    : directions_(directions),
+      bins_(bins),
+      bits_(bits_of(key, bins)),
+      rays_per_item_(context.info().cpu ? 16 : 1),
+      to_unit_(extent_m > 0 ? 1 / extent_m : 0) {
+  if (bins < 1 || bins > 1024) throw std::invalid_argument("order_keys: 1 to 1024 bins, not " + std::to_string(bins));
+  const gpu::Definitions definitions{
+      {"WT_LAUNCH_KEY", key == OrderKey::direction_origin ? "wt_key_direction" : function_of(key)},
+      {"WT_QUEUE_KEY", function_of(key)},
+      {"WT_DIRECTIONS", directions.map}};
+  launch_keys_ = context.kernel("order_keys", "launch_keys", definitions);
+  queue_keys_ = context.kernel("order_keys", "queue_keys", definitions);
+}
+
+void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys) {
+  launch_keys_({(count + rays_per_item_ - 1) / rays_per_item_, 64}, "order", keys, count, first, directions_.parameter,
+               directions_.level, directions_.faces, bins_);
+}
+
+void OrderKeys::operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys) {
+  queue_keys_({(rays.count + rays_per_item_ - 1) / rays_per_item_, 64}, "order", rays.planes, rays.capacity, rays.count,
+              to_unit_, keys, bins_);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,65 @@
+// radix_sort: stable sort of 32- or 64-bit keys by a range of their bits, with a 32-bit word a key or without.
+// Assumes one in-order queue: nothing is read back between the passes, and digits that are the same in all keys are
+// skipped on the device.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "gpu/gpu.hpp"
+#include "passes/payload.hpp"
+
+namespace wavetracer {
+
+// Which kernels sort: groups (kernels/radix_sort.cl) are work-groups that rank tiles in local memory; chunks
+// (kernels/radix_sort_cpu.cl) are single work-items, each over a long run of keys; lines are chunks that gather keys
+// into lines before they write them, whatever n (chunks does so where n is large); device takes chunks on CPUs, groups
+// elsewhere. The result is the same.
+enum class SortForm { device, groups, chunks, lines };
+
+// How a form is launched; radix_sort.cpp has the table.
+struct RadixLaunch {
+  uint32_t digit_bits;    // of the widest digit
+  uint32_t items;         // a work-group
+  uint32_t offset_items;  // that make offsets of the counts, in all
+  uint32_t tile;          // a chunk is a multiple of this many keys
+  uint32_t most_chunks;
+  bool moves_tiles;  // a work-group moves one tile, not a chunk, and each tile has counts in temporary memory
+};
+
+// Least significant digit first: a pass counts the digits of every chunk of keys, makes offsets of the counts, and
+// moves keys and values between the caller's buffers and the temporary one.
+template <class Key>
+class RadixSort {
+  static_assert(sizeof(Key) == 4 || sizeof(Key) == 8);
+
+ public:
+  static constexpr unsigned key_bits = 8 * sizeof(Key);
+
+  RadixSort(gpu::Context& context, Payload payload, SortForm form = SortForm::device);
+
+  // Words of temporary memory that n keys need.
+  size_t temporary_words(uint32_t n) const;
+
+  // Sorts keys[0 .. n - 1], and values with them, by bits first_bit .. end_bit - 1 of the keys; equal ones keep their
+  // order. What lies behind n stays. stage: the profiling sum that the time goes to. Throws std::invalid_argument if a
+  // buffer is too small or the bits are no range of the key's.
+  void operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
+                  unsigned first_bit = 0, unsigned end_bit = key_bits, const char* stage = "sort");
+  // The same for Payload::none; with any other it is a std::logic_error.
+  void operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary, unsigned first_bit = 0,
+                  unsigned end_bit = key_bits, const char* stage = "sort");
+
+ private:
+  uint32_t chunk_of(uint32_t n) const;
+  void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
+            unsigned first_bit, unsigned end_bit, const char* stage);
+
+  Payload payload_;
+  RadixLaunch launch_;
+  gpu::Kernel count_, offsets_, move_, settle_;
+};
+
+extern template class RadixSort<uint32_t>;
+extern template class RadixSort<uint64_t>;
+
+}  // namespace wavetracer

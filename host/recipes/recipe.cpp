@@ -1,0 +1,92 @@
+// The list of recipes, and the configs that they measure.
+// Assumes that a batch never holds more rays than trace.batch_rays (host/simulation/discovery.cpp).
+#include "recipes/recipe.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include "config/config_file.hpp"
+#include "config/spelling.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::recipes {
+namespace {
+
+// Scene and ends of configs/demo.toml.
+constexpr const char* built_in_city = R"([scene]
+generate = "--seed 1 --blocks 6x6"
+[[transmitter]]
+name = "rsu"
+position_m = [8.0, 8.0, 6.0]
+[[receiver]]
+name = "car-1"
+position_m = [60.0, -3.0, 1.5]
+[[receiver]]
+name = "car-2"
+position_m = [97.5, -20.0, 1.5]
+)";
+
+constexpr double step_m = 0.5;  // between frames: 54 km/h at 30 frames a second
+
+void reject_varied_keys(const Recipe& recipe, const std::vector<std::string>& sets) {
+  std::vector<std::string> varied = series_keys();
+  if (recipe.frames > 1) varied.push_back("trace.batch_rays");
+  for (const std::string& set : sets) {
+    std::string key = set.substr(0, set.find('='));
+    key.erase(std::remove(key.begin(), key.end(), ' '), key.end());
+    if (std::find(varied.begin(), varied.end(), key) != varied.end())
+      throw ConfigError(fmt::format("--set {}: {} gives {} its values itself{}", set, recipe.name, key,
+                                    key == "trace.rays" ? "; choose them with --rays A:B" : "; leave it out"));
+  }
+}
+
+// The largest batch within `most` that the rays of a transmitter are a multiple of.
+uint64_t even_batch(uint64_t rays, uint64_t most) {
+  uint64_t batches = (rays + most - 1) / most;
+  while (rays % batches != 0) ++batches;
+  return rays / batches;
+}
+
+}  // namespace
+
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> all = {figure_6_1(), figure_6_18()};
+  return all;
+}
+
+const Recipe& find_recipe(const std::string& name) {
+  std::vector<std::string> names;
+  std::string known;
+  for (const Recipe& recipe : recipes()) {
+    if (recipe.name == name) return recipe;
+    names.push_back(recipe.name);
+    known += (known.empty() ? "" : ", ") + recipe.name;
+  }
+  throw ConfigError(fmt::format("bench: no recipe \"{}\" among {}{}", name, known, config::hint(name, names)));
+}
+
+std::string recipe_list() {
+  std::string text;
+  for (const Recipe& recipe : recipes()) text += fmt::format("  {:<12} {}\n", recipe.name, recipe.doc);
+  return text;
+}
+
+Config recipe_config(const Recipe& recipe, const std::string& file, const std::vector<std::string>& sets) {
+  reject_varied_keys(recipe, sets);
+  return file.empty() ? parse_config(built_in_city, "built-in city", sets) : load_config(file, sets);
+}
+
+Config point_config(const Recipe& recipe, const Config& config, uint64_t rays, bool gpu) {
+  if (recipe.frames == 1) return config;
+  Config out = config;
+  out.transmitters.clear();
+  for (uint32_t frame = 0; frame < recipe.frames; ++frame) {
+    RadioEnd place = config.transmitters.front();
+    place.name += fmt::format(" at frame {}", frame);
+    place.position_m[0] += step_m * frame;
+    out.transmitters.push_back(place);
+  }
+  // As many rays as the device is given at once by default (choose_batch in host/simulation/discovery.cpp).
+  out.trace.batch_rays = even_batch(rays, gpu ? uint64_t{1} << 25 : uint64_t{1} << 18);
+  return out;
+}
+
+}  // namespace wavetracer::recipes

@@ -1,0 +1,98 @@
+// Points, then files. The table, the script and the report appear together; the plot follows if gnuplot is there.
+// Assumes a folder that can be written to: the program looks before it measures.
+#include "recipes/run.hpp"
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <ctime>
+#include <span>
+#include "output/pending_file.hpp"
+#include "recipes/plot.hpp"
+#include "recipes/table.hpp"
+#include "wavetracer/version.hpp"
+
+namespace wavetracer::recipes {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string point_line(const Recipe& recipe, const std::vector<Row>& rows) {
+  std::string text = fmt::format("{}: {} rays, tracing with the sort paid:", recipe.name, grouped(rows.front().rays));
+  for (const Row& row : rows)
+    text +=
+        fmt::format("{} {} {:.3g} ms", &row == &rows.front() ? "" : ",", label(row.series), 1e3 * row.times.paid_s());
+  return text;
+}
+
+std::string report_text(const Recipe& recipe, const Request& request, const DeviceSummary& device,
+                        const std::string& paragraph) {
+  const std::string& file = request.config.scene.file;
+  return fmt::format("# {0}\n\n{1}\n\n![Time a ray against the number of rays]({2}.svg)\n\n", recipe.title, paragraph,
+                     recipe.name) +
+         fmt::format("- device: {} ({}, driver {})\n", device.name, device.platform, device.driver) +
+         fmt::format("- scene: {}\n",
+                     file.empty() ? "city " + request.config.scene.generate : fs::path(file).filename().string()) +
+         fmt::format(
+             "- times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace, compact, "
+             "scan and interact, the sort is order and sort, all from profiling events\n",
+             request.repeats) +
+         fmt::format("- date: {:%Y-%m-%d}, wavetracer {}\n- command: `{}`\n", fmt::gmtime(std::time(nullptr)),
+                     WAVETRACER_VERSION, request.command_line);
+}
+
+std::vector<fs::path> write_files(const Recipe& recipe, const Request& request, const DeviceSummary& device,
+                                  const std::vector<Row>& rows, const std::string& report, const Host& host) {
+  PendingDirectory folder(request.config.output.directory);
+  const fs::path stem = folder.path() / recipe.name;
+  const auto named = [&stem](const char* ending) { return fs::path(stem.string() + ending); };
+  const std::string table = encode_table(rows),
+                    script = plot_script(recipe.name, recipe.title + ", " + device.name, recipe.series);
+  std::vector<PendingFile> files;
+  files.emplace_back(named(".csv"), std::as_bytes(std::span(table)));
+  files.emplace_back(named(".gp"), std::as_bytes(std::span(script)));
+  files.emplace_back(named(".md"), std::as_bytes(std::span(report)));
+  commit_together(files);
+  folder.keep();
+  std::vector<fs::path> written;
+  for (const PendingFile& file : files) written.push_back(file.path());
+  const fs::path plot = named(".svg");
+  std::error_code ignored;
+  fs::remove(plot, ignored);  // an earlier one would belie the new table
+  const std::string problem = run_gnuplot(folder.path(), recipe.name + ".gp");
+  if (problem.empty()) {
+    written.push_back(plot);
+  } else {
+    fs::remove(plot, ignored);  // half drawn
+    host.say(problem);
+  }
+  return written;
+}
+
+}  // namespace
+
+Report run_recipe(const Recipe& recipe, const Request& request, const Host& host) {
+  const std::vector<uint64_t> counts = ray_counts(request.rays);
+  Report report;
+  report.planned = counts.size();
+  // Finds mistakes in the device, the scene and the ends before anything is measured.
+  Config first = request.config;
+  apply(first, recipe.series.front(), counts.front());
+  const DeviceSummary device = Simulation(first, request.device).device();
+  host.say(fmt::format("{}: {} series at {} to {} rays on {}", recipe.name, recipe.series.size(),
+                       grouped(counts.front()), grouped(counts.back()), device.name));
+  std::vector<Row> rows;
+  for (const uint64_t rays : counts) {
+    if (host.interrupted()) break;
+    const std::vector<Row> point = measure(point_config(recipe, request.config, rays, device.gpu), recipe.series, rays,
+                                           recipe.frames, request.device, request.repeats);
+    host.say(point_line(recipe, point));
+    rows.insert(rows.end(), point.begin(), point.end());
+    ++report.points;
+  }
+  if (rows.empty()) return report;
+  report.paragraph = recipe.paragraph(rows, device.name);
+  const std::string text = report_text(recipe, request, device, report.paragraph);
+  report.files = write_files(recipe, request, device, rows, text, host);
+  return report;
+}
+
+}  // namespace wavetracer::recipes

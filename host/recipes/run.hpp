@@ -1,0 +1,36 @@
+// Carries a recipe out: measures point by point, then writes NAME.csv, NAME.gp, NAME.svg and NAME.md to a folder.
+// Assumes that nothing else keeps the device busy; what others do to the CPU hits all series alike.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+#include "recipes/ray_counts.hpp"
+#include "recipes/recipe.hpp"
+
+namespace wavetracer::recipes {
+
+struct Request {
+  Config config;       // see recipe_config; output.directory is where the files go
+  std::string device;  // as Simulation takes it
+  RayRange rays;
+  uint32_t repeats = 5;
+  std::string command_line;  // for the report
+};
+
+// What the program lends: a line of progress, and whether the user wants to stop.
+struct Host {
+  std::function<void(const std::string&)> say;
+  std::function<bool()> interrupted;
+};
+
+struct Report {
+  std::string paragraph;
+  std::vector<std::filesystem::path> files;  // empty: stopped before the first point
+  size_t points = 0, planned = 0;            // ray counts measured, and asked for
+};
+
+// A stop is heeded after the point in progress. Throws ConfigError, InputError, DeviceError or RuntimeError.
+Report run_recipe(const Recipe& recipe, const Request& request, const Host& host);
+
+}  // namespace wavetracer::recipes

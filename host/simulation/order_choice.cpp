@@ -1,0 +1,121 @@
+// A sample of the frame's own rays is traced in every order, sort paid; the best of two warm runs counts.
+// Ray counts are taken by powers of two: orders do not change places between a million rays and a million and a half.
+#include "simulation/order_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <ctime>
+#include <span>
+#include <sstream>
+
+#include "simulation/discovery.hpp"
+
+namespace wavetracer {
+
+namespace {
+
+// More would not change which is fastest, and a start should not cost more than a frame or two.
+constexpr uint64_t most_sample_rays = uint64_t{1} << 24;
+// An order that needs a sort must be this much faster than none: less is noise, and the next run would choose again.
+constexpr double least_gain = 1.03;
+
+struct Candidate {
+  OrderConfig order;
+  double seconds = 0;
+};
+
+std::vector<Candidate> candidates(const Config& config) {
+  std::vector<Candidate> all{{{"none", false, config.order.bin_num}}};
+  const std::string& shape = config.launch.shape;
+  for (const std::string& method : order_methods()) {
+    if (method == "hilbert3d-histogram-hilbert2d" && shape != "auto" && shape != "2d") continue;
+    if (method == "hilbert3d-histogram-hilbert3d" && shape != "auto" && shape != "3d") continue;
+    all.push_back({{method, false, config.order.bin_num}});
+  }
+  all.push_back({{"direction-origin", true, config.order.bin_num}});
+  return all;
+}
+
+// Seconds of the stages that carry rays.
+double ray_seconds(gpu::Context& context) {
+  double sum = 0;
+  for (const auto& [stage, seconds] : context.profile()) sum += seconds;
+  return sum;
+}
+
+double measure(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample, const OrderPlan& plan,
+               const glm::dvec3& transmitter) {
+  Discovery discovery(context, scene, sample, plan);
+  double best = 0;
+  for (int run = 0; run < 3; ++run) {
+    context.reset_profile();
+    discovery(scene, {transmitter});
+    const double seconds = ray_seconds(context);
+    if (run == 1 || (run > 1 && seconds < best)) best = seconds;  // the first is cold
+  }
+  return best;
+}
+
+// Everything that the choice depends on but the device, which the context adds.
+std::string subject_of(const Scene& scene, const Config& config, const TraceConfig& sample) {
+  const auto bytes = [](const auto& list) {
+    return std::string_view(reinterpret_cast<const char*>(list.data()), list.size() * sizeof list[0]);
+  };
+  std::string subject = fmt::format(
+      "order of rays, version 1\nrays 2^{} depth {} directions {} seed {} batch {} bins {} shape {} local {}\n",
+      std::bit_width(sample.rays), sample.max_depth, sample.directions, sample.seed, sample.batch_rays,
+      config.order.bin_num, config.launch.shape, config.launch.local_size);
+  for (const char* program : {"trace", "order_keys", "radix_sort", "radix_sort_cpu", "bitonic_sort", "interact"})
+    subject += gpu::program_source(program);
+  return subject + std::string(bytes(scene.vertices)) + std::string(bytes(scene.triangles));
+}
+
+std::string name_of(const OrderConfig& order) { return order.method + (order.each_depth ? " at each depth" : ""); }
+
+std::string reason_of(std::vector<Candidate> measured, const Candidate& best, uint64_t rays) {
+  std::sort(measured.begin(), measured.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  const std::time_t now = std::time(nullptr);
+  char date[32];
+  std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
+  std::string text = fmt::format(
+      "{} was chosen by tracing {} rays in every order, sort paid, on {}:", name_of(best.order), rays, date);
+  for (const Candidate& c : measured) text += fmt::format(" {} {:.3g} ms,", name_of(c.order), c.seconds * 1e3);
+  text.back() = '.';
+  return text;
+}
+
+}  // namespace
+
+OrderChoice choose_order(gpu::Context& context, const Scene& scene, const DeviceScene& device_scene,
+                         const Config& config, const std::vector<glm::dvec3>& transmitters) {
+  TraceConfig sample = config.trace;
+  sample.rays = std::min(sample.rays, most_sample_rays);
+  const std::string subject = subject_of(scene, config, sample);
+  const auto choice_of = [&](const std::string& method, bool each_depth, const std::string& reason) {
+    OrderConfig order = config.order;
+    order.method = method;
+    order.each_depth = each_depth;
+    return OrderChoice{plan_order(order, config.launch), reason};
+  };
+  if (const auto kept = context.recall(subject)) {
+    // method, each_depth, reason: a line each.
+    std::istringstream lines(*kept);
+    std::string method, each_depth, reason;
+    if (std::getline(lines, method) && std::getline(lines, each_depth) && std::getline(lines, reason))
+      return choice_of(method, each_depth == "1", reason + " (kept from an earlier run)");
+  }
+  std::vector<Candidate> all = candidates(config);
+  for (Candidate& c : all)
+    c.seconds = measure(context, device_scene, sample, plan_order(c.order, config.launch), transmitters.front());
+  const auto fastest =
+      std::min_element(all.begin() + 1, all.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  const Candidate& best = fastest->seconds * least_gain < all.front().seconds ? *fastest : all.front();
+  const std::string reason = reason_of(all, best, sample.rays);
+  context.keep(subject, fmt::format("{}\n{}\n{}\n", best.order.method, int{best.order.each_depth}, reason));
+  return choice_of(best.order.method, best.order.each_depth, reason);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,23 @@
+// The order of rays for order.method = "auto": the fastest on this device, for this scene, directions and ray count.
+// Paths do not depend on the order, so the choice changes time only.
+#pragma once
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "passes/device_scene.hpp"
+#include "simulation/ray_order.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer {
+
+struct OrderChoice {
+  OrderPlan plan;
+  std::string reason;  // for people: what was measured, and when
+};
+
+// Times one transmitter's rays with every order, or takes what an earlier run kept beside the program cache under the
+// same device, scene, directions, ray count and depth. transmitters: recentred metres, at least one.
+OrderChoice choose_order(gpu::Context& context, const Scene& scene, const DeviceScene& device_scene,
+                         const Config& config, const std::vector<glm::dvec3>& transmitters);
+
+}  // namespace wavetracer

@@ -1,0 +1,90 @@
+// Names of orders, and keys, sort, gather behind one call.
+// Launches are sorted before their rays exist: generate_rays then writes them in order, and nothing has to be moved.
+#include "simulation/ray_order.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+
+namespace {
+
+struct Method {
+  const char *name, *mnemonic;
+  std::optional<OrderKey> key;
+  unsigned curve_dimensions;  // of the launch that belongs to it; 0: any
+};
+
+const std::vector<Method>& known_methods() {
+  static const std::vector<Method> methods = {
+      {"none", "WS", {}, 0},
+      {"morton", "Z", OrderKey::morton, 0},
+      {"hilbert3d-histogram", "H3DH", OrderKey::hilbert_bins, 0},
+      {"morton-histogram", "HZ", OrderKey::morton_bins, 0},
+      {"hilbert3d-histogram-hilbert2d", "H3DH2DH", OrderKey::hilbert_bins, 2},
+      {"hilbert3d-histogram-hilbert3d", "H3DH3DH", OrderKey::hilbert_bins, 3},
+      {"direction-origin", "", OrderKey::direction_origin, 0},
+  };
+  return methods;
+}
+
+}  // namespace
+
+const std::vector<std::string>& order_methods() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Method& method : known_methods())
+      if (method.key) all.push_back(method.name);
+    return all;
+  }();
+  return names;
+}
+
+OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch) {
+  const auto& methods = known_methods();
+  const auto method = std::find_if(methods.begin(), methods.end(), [&](const Method& m) {
+    return order.method == m.name || (order.method == m.mnemonic && *m.mnemonic);
+  });
+  if (method == methods.end()) throw ConfigError(fmt::format("order.method = \"{}\" is not known", order.method));
+  const std::vector<std::string> shapes{"auto", "1d", "2d", "3d"};
+  const auto shape = std::find(shapes.begin(), shapes.end(), launch.shape);
+  if (shape == shapes.end()) throw ConfigError(fmt::format("launch.shape = \"{}\" is not known", launch.shape));
+  auto dimensions = static_cast<unsigned>(shape - shapes.begin());
+  if (dimensions == 0) dimensions = std::max(method->curve_dimensions, 1u);
+  if (method->curve_dimensions > 0 && dimensions != method->curve_dimensions)
+    throw ConfigError(
+        fmt::format("order.method = \"{}\" does not go with launch.shape = \"{}\"", order.method, launch.shape));
+  return {method->name,
+          method->key,
+          order.each_depth && method->key,
+          order.bin_num,
+          {dimensions, method->curve_dimensions > 0, launch.local_size}};
+}
+
+RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions,
+                   float extent_m, uint32_t most_rays)
+    : keys_of_(context, key, bins, directions, extent_m),
+      sort_(context),
+      gather_(context),
+      keys_(context.buffer<uint32_t>(size_t{most_rays} + 16, "order keys")),
+      order_(context.buffer<uint32_t>(size_t{most_rays} + 16, "order")),
+      temporary_(context.buffer<uint32_t>(sort_.temporary_words(most_rays), "sort")) {}
+
+const gpu::Buffer<uint32_t>& RayOrder::launch(uint64_t first, uint32_t count) {
+  keys_of_(first, count, keys_);
+  sort_(keys_, order_, count, temporary_, keys_of_.bits());
+  return order_;
+}
+
+void RayOrder::operator()(RayQueue& rays, RayQueue& spare) {
+  keys_of_(rays, keys_);
+  sort_(keys_, order_, rays.count, temporary_, keys_of_.bits());
+  gather_(rays, order_, spare);
+  std::swap(rays, spare);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,48 @@
+// Ray orders: what the configuration asks for, and the sorting that does it, at launch and before later depths.
+// The result of a frame does not depend on them; time does.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passes/gather_rays.hpp"
+#include "passes/launch_shape.hpp"
+#include "passes/order_keys.hpp"
+#include "passes/sort.hpp"
+#include "wavetracer/config.hpp"
+
+namespace wavetracer {
+
+// An order without names that need interpretation.
+struct OrderPlan {
+  std::string method = "none";  // plain name
+  std::optional<OrderKey> key;  // not set: rays stay as they were born
+  bool each_depth = false;
+  uint32_t bins = 16;
+  LaunchShape launch;
+};
+
+// The plain names of order.method that sort, in the order of the thesis, then ours.
+const std::vector<std::string>& order_methods();
+
+// Throws ConfigError for a method or a shape that is not known; "auto" is not a plan (see order_choice.hpp).
+OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch);
+
+class RayOrder {
+ public:
+  // extent_m: the largest absolute coordinate of scene and rays. most_rays: of a launch or a queue.
+  RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m,
+           uint32_t most_rays);
+  // The launch indices first .. first + count - 1 in their order, less first. Valid until the next call.
+  const gpu::Buffer<uint32_t>& launch(uint64_t first, uint32_t count);
+  // Sorts the queue; spare has the same capacity and is overwritten.
+  void operator()(RayQueue& rays, RayQueue& spare);
+
+ private:
+  OrderKeys keys_of_;
+  Sort sort_;
+  GatherRays gather_;
+  gpu::Buffer<uint32_t> keys_, order_, temporary_;
+};
+
+}  // namespace wavetracer

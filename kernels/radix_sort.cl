@@ -1,0 +1,192 @@
+// radix_sort: stable radix sort from the least significant digit, reduce then scan; the form for GPUs. Each pass is
+// count, offsets, move; settle follows the last. Nothing waits for another work-group, so no forward progress is
+// assumed. Build options besides those of lib/radix.clh: WT_ITEMS a work-group (at least WT_DIGITS), WT_TILE keys that
+// it moves, WT_COLUMNS of a tile. Chunks are whole tiles.
+#include "lib/group_scan.clh"
+#include "lib/radix.clh"
+
+#define WT_KEYS_AN_ITEM (WT_TILE / WT_ITEMS)
+#define WT_COLUMN_KEYS (WT_TILE / WT_COLUMNS)
+// Rows of counters and columns of digits are padded by one word, so that neither is met by all lanes in one bank.
+#define WT_ROW (WT_COLUMNS + 2)
+#define WT_DIGIT_STRIDE (WT_COLUMN_KEYS + 4)
+#define WT_MAX(a, b) ((a) > (b) ? (a) : (b))
+
+// How many keys of each chunk have each digit; and for every tile, how many of its chunk's earlier keys have it.
+__attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void count(const global WT_KEY* keys,
+                                                                        global uint* temporary, uint n, uint chunk,
+                                                                        uint pass, uint shift, uint digit_mask) {
+  local uint bins[WT_DIGITS];
+  const uint lane = get_local_id(0), group = get_group_id(0), chunks = get_num_groups(0);
+  if (get_global_id(0) == 0) wt_radix_constant(temporary)[pass] = 0;
+  const global WT_KEY* source =
+      wt_radix_moves(wt_radix_constant(temporary), pass) & 1 ? wt_radix_keys(temporary, chunks) : keys;
+  global uint* earlier = wt_radix_earlier(temporary, chunks, n);
+  if (lane < WT_DIGITS) bins[lane] = 0;
+  const uint chunk_first = group * chunk, chunk_end = chunk_first + min(chunk, n - chunk_first);
+  for (uint first = chunk_first, size; first < chunk_end; first += size) {
+    size = min((uint)WT_TILE, chunk_end - first);
+    WT_KEY key[WT_KEYS_AN_ITEM];  // all loads before the first count
+    for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k)
+      key[k] = k * WT_ITEMS + lane < size ? source[first + k * WT_ITEMS + lane] : 0;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (lane < WT_DIGITS) earlier[(size_t)(first / WT_TILE) * WT_DIGITS + lane] = bins[lane];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k)
+      if (k * WT_ITEMS + lane < size) atomic_inc(bins + wt_radix_digit(key[k], shift, digit_mask));
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (lane < WT_DIGITS) wt_radix_counts(temporary)[(size_t)lane * chunks + group] = bins[lane];
+}
+
+// One work-group a digit: its counts become the keys with that digit in earlier chunks.
+__attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void offsets(global uint* temporary, uint n, uint chunk,
+                                                                          uint pass) {
+  local uint sums[WT_ITEMS];
+  const uint lane = get_local_id(0), digit = get_group_id(0), chunks = (n - 1) / chunk + 1;
+  global uint* row = wt_radix_counts(temporary) + (size_t)digit * chunks;
+  const uint part = (chunks + WT_ITEMS - 1) / WT_ITEMS;
+  const uint first = min(lane * part, chunks), end = min(first + part, chunks);
+  uint sum = 0;
+  for (uint c = first; c < end; ++c) sum += row[c];
+  sums[lane] = sum;
+  uint running = wt_group_scan(sums, lane, WT_ITEMS);
+  for (uint c = first; c < end; ++c) {
+    const uint count = row[c];
+    row[c] = running;
+    running += count;
+  }
+  if (lane != WT_ITEMS - 1) return;
+  wt_radix_totals(temporary)[digit] = running;
+  if (running == n) wt_radix_constant(temporary)[pass] = 1;
+}
+
+// Moves every key of a tile, and its value, to where its digit says. The tile is ranked without atomics, because their
+// order would be chance: it is cut into columns of consecutive keys, one work-item counts each column's digits in turn,
+// and what earlier columns hold is added. A work-group takes one tile, so that groups which run together write next to
+// each other: groups that walked through chunks of their own would write to too many places for the cache.
+__attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT_KEY* keys, global uint* values,
+                                                                       global uint* temporary, uint n, uint chunk,
+                                                                       uint pass, uint shift, uint digit_mask) {
+  // Counters of the columns first, then the tile in its new order: keys, then values.
+  local ulong shared[WT_MAX(WT_DIGITS * WT_ROW * 2, WT_TILE * sizeof(WT_KEY)) / 8];
+  local uint digits_of_columns[WT_COLUMNS * WT_DIGIT_STRIDE / 4];  // bytes; ranks in the column later
+  local uint starts[WT_DIGITS];                                    // where a digit starts in the sorted tile
+  local uint targets[WT_DIGITS];                                   // where it starts in the output, less its start
+  local uint sums[WT_DIGITS];
+  local ushort* columns = (local ushort*)shared;
+  local uint* column_pairs = (local uint*)shared;
+  local WT_KEY* sorted_keys = (local WT_KEY*)shared;
+  local uint* sorted_values = (local uint*)shared;
+  local uchar* digits = (local uchar*)digits_of_columns;
+
+  if (wt_radix_constant(temporary)[pass]) return;
+  const uint lane = get_local_id(0), tile = get_group_id(0), first = tile * WT_TILE;
+  const uint size = min((uint)WT_TILE, n - first), chunks = (n - 1) / chunk + 1;
+  const uint moves = wt_radix_moves(wt_radix_constant(temporary), pass);
+  global WT_KEY* other_keys = wt_radix_keys(temporary, chunks);
+  global uint* other_values = wt_radix_values(temporary, chunks, n);
+  const global WT_KEY* source = moves & 1 ? other_keys : keys;
+  global WT_KEY* target = moves & 1 ? keys : other_keys;
+  const global uint* value_source = moves & 1 ? other_values : values;
+  global uint* value_target = moves & 1 ? values : other_values;
+
+  WT_KEY key[WT_KEYS_AN_ITEM];
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    // What lies behind the last key has the last digit, and being last stays behind it.
+    const uint p = k * WT_ITEMS + lane;
+    key[k] = p < size ? source[first + p] : ~(WT_KEY)0;
+  }
+  uint start_of_digit = 0;
+  if (lane < WT_DIGITS) {
+    sums[lane] = wt_radix_totals(temporary)[lane];
+    start_of_digit = wt_radix_counts(temporary)[(size_t)lane * chunks + first / chunk] +
+                     wt_radix_earlier(temporary, chunks, n)[(size_t)tile * WT_DIGITS + lane];
+  }
+  for (uint w = lane; w < WT_DIGITS * WT_ROW / 2; w += WT_ITEMS) column_pairs[w] = 0;
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    const uint p = k * WT_ITEMS + lane;
+    digits[p + p / WT_COLUMN_KEYS * 4] = (uchar)wt_radix_digit(key[k], shift, digit_mask);
+  }
+  start_of_digit += wt_group_scan(sums, lane, WT_DIGITS);
+
+  if (lane < WT_COLUMNS) {
+    local uint* four = digits_of_columns + lane * (WT_DIGIT_STRIDE / 4);
+    for (uint j = 0; j < WT_COLUMN_KEYS / 4; ++j) {
+      const uint d = four[j];
+      uint ranks = 0;
+      for (uint b = 0; b < 32; b += 8) {
+        local ushort* counter = columns + (d >> b & 255u) * WT_ROW + lane;
+        const uint rank = *counter;
+        *counter = (ushort)(rank + 1);
+        ranks |= rank << b;
+      }
+      four[j] = ranks;
+    }
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  if (lane < WT_DIGITS) {
+    local uint* row = column_pairs + lane * (WT_ROW / 2);
+    uint running = 0;
+    for (uint w = 0; w < WT_COLUMNS / 2; ++w) {
+      const uint pair = row[w], low = pair & 0xFFFFu;
+      row[w] = running | (running + low) << 16;
+      running += low + (pair >> 16);
+    }
+    sums[lane] = running;
+  }
+  const uint start = wt_group_scan(sums, lane, WT_DIGITS);
+  if (lane < WT_DIGITS) {
+    starts[lane] = start;
+    targets[lane] = start_of_digit - start;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  uint place[WT_KEYS_AN_ITEM];  // in the sorted tile
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    const uint p = k * WT_ITEMS + lane, d = wt_radix_digit(key[k], shift, digit_mask), column = p / WT_COLUMN_KEYS;
+    place[k] = starts[d] + columns[d * WT_ROW + column] + digits[p + column * 4];
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) sorted_keys[place[k]] = key[k];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint to[WT_KEYS_AN_ITEM];
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    const uint p = k * WT_ITEMS + lane;
+    const WT_KEY sorted = sorted_keys[p];
+    to[k] = targets[wt_radix_digit(sorted, shift, digit_mask)] + p;
+    if (p < size) target[to[k]] = sorted;
+  }
+#if WT_PAYLOAD
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    const uint p = k * WT_ITEMS + lane, i = first + p;
+    if (p < size) sorted_values[place[k]] = WT_PAYLOAD == 2 && moves == 0 ? i : value_source[i];
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    const uint p = k * WT_ITEMS + lane;
+    if (p < size) value_target[to[k]] = sorted_values[p];
+  }
+#endif
+}
+
+// After an odd number of moves, brings keys and values back to the caller's memory.
+__attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void settle(global WT_KEY* keys, global uint* values,
+                                                                         global uint* temporary, uint n, uint chunk,
+                                                                         uint passes) {
+  const uint chunks = (n - 1) / chunk + 1, moves = wt_radix_moves(wt_radix_constant(temporary), passes);
+  const global WT_KEY* other_keys = wt_radix_keys(temporary, chunks);
+  const global uint* other_values = wt_radix_values(temporary, chunks, n);
+  const uint items = get_global_size(0);
+  for (size_t i = get_global_id(0); i < n; i += items) {
+    if (moves & 1) keys[i] = other_keys[i];
+#if WT_PAYLOAD
+    if (moves & 1) values[i] = other_values[i];
+#endif
+#if WT_PAYLOAD == 2
+    if (moves == 0) values[i] = (uint)i;
+#endif
+  }
+}

@@ -1,0 +1,181 @@
+// `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Small ranges only.
+// What needs a device is skipped, saying so, where there is none.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+#include "app/program.hpp"
+
+namespace {
+
+const std::string street =
+    "scene.generate = \"--blocks 2\"\ntrace.max_depth = 2\n"
+    "[[transmitter]]\nname = \"mast\"\nposition_m = [0, 0, 6]\n"
+    "[[receiver]]\nname = \"car\"\nposition_m = [50, 0, 2]\n";
+
+bool device_present() {
+  const Outcome devices = run_program({"devices"});
+  if (devices.code != 0) MESSAGE("skipped, no OpenCL device: " << devices.err);
+  return devices.code == 0;
+}
+
+std::string contents(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+// The lines of a table as cells by column.
+std::vector<std::map<std::string, std::string>> table(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<std::string> columns;
+  std::vector<std::map<std::string, std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(cells, word, ',');) words.push_back(word);
+    if (columns.empty()) {
+      columns = words;
+      continue;
+    }
+    REQUIRE(words.size() == columns.size());
+    rows.emplace_back();
+    for (size_t i = 0; i < words.size(); ++i) rows.back()[columns[i]] = words[i];
+  }
+  return rows;
+}
+
+double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+size_t occurrences(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
+// Exit code, a part of the message, nothing on stdout.
+void check_error(const std::vector<std::string>& words, int code, const std::string& message) {
+  const Outcome outcome = run_program(words);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == code);
+  CHECK(contains(outcome.err, message));
+  CHECK(outcome.out.empty());
+}
+
+}  // namespace
+
+TEST_CASE("bench: errors say what is wrong before anything is measured") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street), out = folder.path("out");
+  check_error({"bench"}, 2, "no recipe given; there are\n  figure-6.1 ");
+  check_error({"bench", "figure-6.2", "-o", out}, 2, "among figure-6.1, figure-6.18; did you mean \"figure-6.1\"?");
+  check_error({"bench", "figure-6.1", "-o", out, "--rays", "2000:1000"}, 2, "--rays 2000:1000: not a range");
+  check_error({"bench", "figure-6.1", "-o", out, "--rays", "3000:4000"}, 2, "no ray count of the figure");
+  check_error({"bench", "figure-6.1", "-o", out, "--repeat", "0"}, 2, "--repeat");
+  check_error({"bench", "figure-6.1", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
+  check_error({"bench", "figure-6.1", "-o", out, "-c", file, "--set", "trace.ray=7"}, 2,
+              "did you mean \"trace.rays\"?");
+  check_error({"bench", "figure-6.1", "-o", out, "-c", folder.path("absent.toml")}, 2, "absent.toml: cannot be read");
+  check_error({"bench", "figure-6.1", "-o", file + "/out"}, 1, "cannot write there");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("bench: a device that is not there exits 4") {
+  if (!device_present()) return;
+  const Folder folder;
+  check_error({"bench", "figure-6.18", "-o", folder.path("out"), "--device", "no such device"}, 4, "no such device");
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("figure-6.1: table, plot and paragraph agree") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const Outcome run = run_program(
+      {"bench", "figure-6.1", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000", "--repeat", "2"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  const auto rows = table(folder.path("out/figure-6.1.csv"));
+  REQUIRE(rows.size() == 2 * 12);
+  const std::string report = contents(folder.path("out/figure-6.1.md"));
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
+    const auto& base = rows[i - i % 12];
+    CAPTURE(row.at("mnemonic"));
+    CHECK(row.at("rays") == (i < 12 ? "1000" : "2000"));
+    CHECK(base.at("mnemonic") == "WS");
+    CHECK(number(row.at("trace_s")) > 0);
+    CHECK(number(row.at("unpaid_s")) > number(row.at("trace_s")));
+    CHECK(number(row.at("frame_s")) > 0);
+    CHECK((number(row.at("order_s")) > 0) == (row.at("method") != "none"));
+    if (row.at("mnemonic") != "born ordered") {
+      CHECK(row.at("paths") == base.at("paths"));
+      CHECK(row.at("sequences") == base.at("sequences"));
+    }
+    for (const std::string which : {"unpaid", "paid"})
+      CHECK(number(row.at("gain_" + which)) ==
+            doctest::Approx(number(base.at(which + "_s")) / number(row.at(which + "_s"))).epsilon(1e-4));
+    if (row.at("mnemonic") == "H3DH" && row.at("shape") == "1d") {
+      CHECK(contains(report, fmt::format("at {},000 rays {:.2f} times as fast as WS (", i < 12 ? 1 : 2,
+                                         number(row.at("gain_unpaid")))));
+      CHECK(contains(report, fmt::format("with the sort not paid and {:.2f} times (", number(row.at("gain_paid")))));
+    }
+  }
+  CHECK(contains(report, "bench figure-6.1 -c "));
+  CHECK(contains(report, "- device: "));
+  CHECK(contains(report, "factor of 2.5 at 49,000 rays: not measured"));
+  // Standard output is the paragraph of the report, then the files.
+  CHECK(contains(report, run.out.substr(0, run.out.find("\n\nwritten"))));
+  if (contains(run.err, "gnuplot is not installed")) return;
+  const std::string plot = contents(folder.path("out/figure-6.1.svg"));
+  CHECK(contains(run.out, folder.path("out/figure-6.1.svg")));
+  CHECK(contains(plot, "<svg "));
+  CHECK(contains(plot, "</svg>"));
+  CHECK(occurrences(plot, "id=\"gnuplot_plot_") == 2 * 12);  // a line a series, sort not paid and paid
+}
+
+TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to install") {
+  if (!device_present()) return;
+  const Folder folder;
+  const Outcome run = run_program({"bench", "figure-6.18", "-o", folder.path("out"), "--rays", "1000:1000", "--repeat",
+                                   "2", "--set", "trace.max_depth=2"},
+                                  {"PATH=" + folder.path()});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(contains(run.err, "apt-get install gnuplot-nox"));
+  CHECK_FALSE(std::filesystem::exists(folder.path("out/figure-6.18.svg")));
+  CHECK(std::filesystem::exists(folder.path("out/figure-6.18.gp")));
+  const auto rows = table(folder.path("out/figure-6.18.csv"));
+  REQUIRE(rows.size() == 3);
+  for (const auto& row : rows) {
+    CHECK(row.at("frames") == "20");
+    CHECK(number(row.at("reduction_paid_percent")) ==
+          doctest::Approx(100 * (1 - 1 / number(row.at("gain_paid")))).epsilon(1e-3));
+  }
+  CHECK(rows[0].at("paths") == rows[1].at("paths"));
+  CHECK(contains(run.out, fmt::format("H3DH is at 1,000 rays {:.2f} times", number(rows[1].at("gain_unpaid")))));
+}
+
+TEST_CASE("an interrupt ends the measuring after the point in progress, with whole files and exit code 130") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  Program run({"bench", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"});
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 3000 && !contains(run.messages(), "2,000 rays, tracing"); ++i) std::this_thread::sleep_for(20ms);
+  run.signal(SIGINT);
+  const Outcome outcome = run.wait();
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(contains(outcome.err, "interrupted; what is written is whole, after "));
+  const auto rows = table(folder.path("out/figure-6.18.csv"));
+  CHECK(rows.size() >= 2 * 3);
+  CHECK(rows.size() < 14 * 3);
+  CHECK(rows.size() % 3 == 0);
+  CHECK(contains(contents(folder.path("out/figure-6.18.md")), "- command: `"));
+}
