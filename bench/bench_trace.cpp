@@ -51,7 +51,7 @@ std::vector<Ray> launch(gpu::Context& context, const std::string& directions, st
                         size_t count) {
   RayQueue queue = make_ray_queue(context, count, "launch rays");
   GenerateRays(context, LaunchDirections(directions, count, 1))(queue, 0, {origin[0], origin[1], origin[2]}, 0,
-                                              static_cast<uint32_t>(count));
+                                                                static_cast<uint32_t>(count));
   std::vector<Ray> rays(count, {origin, 0, {}, std::numeric_limits<float>::max()});
   for (size_t axis = 0; axis < 3; axis++) {
     const std::vector<float> plane = queue.planes.read((WT_RAY_DIRECTION + axis) * queue.capacity, count);
@@ -153,7 +153,7 @@ void run(const Options& options, const std::string& command) {
     device_scenes.push_back(std::make_unique<DeviceScene>(make_device_scene(context, place.scene, splits)));
     const auto add = [&](const char* name, TraceShape shape) {
       tracers.push_back({std::string(name) + (splits ? "-splits" : ""),
-                      std::make_unique<OurTracer>(context, *device_scenes.back(), shape, options.rays)});
+                         std::make_unique<OurTracer>(context, *device_scenes.back(), shape, options.rays)});
     };
     if (info.cpu) {
       add("bvh8", TraceShape::bvh8);

@@ -19,12 +19,20 @@ kernel void count_blocks(const global float* planes, ulong first, uint count, gl
 kernel void compact(const global float* planes, ulong first, uint count, const global uint* block_offsets,
                     global uint* indices) {
   const global float* words = planes + first;
-  const ulong block = get_global_id(0) * WT_BLOCKS_PER_ITEM, start = block * WT_BLOCK;
+  const ulong first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM, start = first_block * WT_BLOCK;
   if (start >= count) return;
-  const uint end = (uint)min(start + WT_BLOCKS_PER_ITEM * WT_BLOCK, (ulong)count);
-  uint j = block_offsets[block];
-  for (uint i = (uint)start; i < end; ++i)
-    if (as_uint(words[i]) != WT_NONE) indices[j++] = i;
+  uint j = block_offsets[first_block];
+  for (uint b = 0; b < WT_BLOCKS_PER_ITEM && start + b * WT_BLOCK < count; ++b) {
+    // Listed without branches, which would be guessed wrong for half of the words.
+    const uint block_start = (uint)start + b * WT_BLOCK, size = min((uint)WT_BLOCK, count - block_start);
+    uint list[WT_BLOCK], alive = 0;
+    for (uint k = 0; k < size; ++k) {
+      list[alive] = block_start + k;
+      alive += as_uint(words[block_start + k]) != WT_NONE;
+    }
+    for (uint k = 0; k < alive; ++k) indices[j + k] = list[k];
+    j += alive;
+  }
 }
 #else
 #include "lib/block_rank.clh"

@@ -1,11 +1,12 @@
 // gather_rays: the rays of a queue into another, in the order of a permutation: slot i takes ray order[i].
-// Both queues have the same capacity.
+// Both queues have the same capacity. WT_RAYS_PER_ITEM rays a work-item, plane by plane (1 on GPUs).
 #include "wavetracer/device/records.h"
 
 kernel void gather_rays(const global float* rays, uint capacity, uint count, const global uint* order,
                         global float* next) {
-  const uint i = get_global_id(0);
-  if (i >= count) return;
-  const uint from = order[i];
-  for (size_t plane = 0; plane < WT_RAY_PLANES; ++plane) next[plane * capacity + i] = rays[plane * capacity + from];
+  const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
+  if (first >= count) return;
+  const uint end = first + min((uint)WT_RAYS_PER_ITEM, count - first);
+  for (size_t plane = 0; plane < WT_RAY_PLANES; ++plane)
+    for (uint i = first; i < end; ++i) next[plane * capacity + i] = rays[plane * capacity + order[i]];
 }

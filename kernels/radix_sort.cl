@@ -1,7 +1,8 @@
 // radix_sort: stable radix sort from the least significant digit, reduce then scan; the form for GPUs. Each pass is
 // count, offsets, move; settle follows the last. Nothing waits for another work-group, so no forward progress is
-// assumed. Build options besides those of lib/radix.clh: WT_ITEMS a work-group (at least WT_DIGITS), WT_TILE keys that
-// it moves, WT_COLUMNS of a tile. Chunks are whole tiles.
+// assumed. Build options besides those of lib/radix.clh: WT_ITEMS a work-group (at least WT_DIGITS), WT_OFFSET_ITEMS
+// one of offsets, WT_TILE keys that a group moves, WT_COLUMNS of a tile. Chunks are whole tiles;
+// an item has an even number of keys of a tile.
 #include "lib/group_scan.clh"
 #include "lib/radix.clh"
 
@@ -10,6 +11,9 @@
 // Rows of counters and columns of digits are padded by one word, so that neither is met by all lanes in one bank.
 #define WT_ROW (WT_COLUMNS + 2)
 #define WT_DIGIT_STRIDE (WT_COLUMN_KEYS + 4)
+#define WT_KEY_PAIR WT_JOIN(WT_KEY, 2)
+#define WT_JOIN(a, b) WT_JOIN_(a, b)
+#define WT_JOIN_(a, b) a##b
 #define WT_MAX(a, b) ((a) > (b) ? (a) : (b))
 
 // How many keys of each chunk have each digit; and for every tile, how many of its chunk's earlier keys have it.
@@ -26,37 +30,48 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void count(const gl
   const uint chunk_first = group * chunk, chunk_end = chunk_first + min(chunk, n - chunk_first);
   for (uint first = chunk_first, size; first < chunk_end; first += size) {
     size = min((uint)WT_TILE, chunk_end - first);
-    WT_KEY key[WT_KEYS_AN_ITEM];  // all loads before the first count
-    for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k)
-      key[k] = k * WT_ITEMS + lane < size ? source[first + k * WT_ITEMS + lane] : 0;
+    // All loads before the first count; pairs of neighbours in whole tiles, whose order does not matter here.
+    WT_KEY key[WT_KEYS_AN_ITEM];
+    const bool whole = size == WT_TILE;
+    for (uint k = 0; k < WT_KEYS_AN_ITEM; k += 2) {
+      const uint p = k * WT_ITEMS + lane;
+      if (whole) {
+        const WT_KEY_PAIR pair = ((const global WT_KEY_PAIR*)(source + first + k * WT_ITEMS))[lane];
+        key[k] = pair.x;
+        key[k + 1] = pair.y;
+      } else {
+        key[k] = p < size ? source[first + p] : 0;
+        key[k + 1] = p + WT_ITEMS < size ? source[first + p + WT_ITEMS] : 0;
+      }
+    }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane < WT_DIGITS) earlier[(size_t)(first / WT_TILE) * WT_DIGITS + lane] = bins[lane];
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k)
-      if (k * WT_ITEMS + lane < size) atomic_inc(bins + wt_radix_digit(key[k], shift, digit_mask));
+      if (whole || k * WT_ITEMS + lane < size) atomic_inc(bins + wt_radix_digit(key[k], shift, digit_mask));
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (lane < WT_DIGITS) wt_radix_counts(temporary)[(size_t)lane * chunks + group] = bins[lane];
 }
 
 // One work-group a digit: its counts become the keys with that digit in earlier chunks.
-__attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void offsets(global uint* temporary, uint n, uint chunk,
-                                                                          uint pass) {
-  local uint sums[WT_ITEMS];
+__attribute__((reqd_work_group_size(WT_OFFSET_ITEMS, 1, 1))) kernel void offsets(global uint* temporary, uint n,
+                                                                                 uint chunk, uint pass) {
+  local uint sums[WT_OFFSET_ITEMS];
   const uint lane = get_local_id(0), digit = get_group_id(0), chunks = (n - 1) / chunk + 1;
   global uint* row = wt_radix_counts(temporary) + (size_t)digit * chunks;
-  const uint part = (chunks + WT_ITEMS - 1) / WT_ITEMS;
+  const uint part = (chunks + WT_OFFSET_ITEMS - 1) / WT_OFFSET_ITEMS;
   const uint first = min(lane * part, chunks), end = min(first + part, chunks);
   uint sum = 0;
   for (uint c = first; c < end; ++c) sum += row[c];
   sums[lane] = sum;
-  uint running = wt_group_scan(sums, lane, WT_ITEMS);
+  uint running = wt_group_scan(sums, lane, WT_OFFSET_ITEMS);
   for (uint c = first; c < end; ++c) {
     const uint count = row[c];
     row[c] = running;
     running += count;
   }
-  if (lane != WT_ITEMS - 1) return;
+  if (lane != WT_OFFSET_ITEMS - 1) return;
   wt_radix_totals(temporary)[digit] = running;
   if (running == n) wt_radix_constant(temporary)[pass] = 1;
 }
@@ -71,8 +86,7 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
   // Counters of the columns first, then the tile in its new order: keys, then values.
   local ulong shared[WT_MAX(WT_DIGITS * WT_ROW * 2, WT_TILE * sizeof(WT_KEY)) / 8];
   local uint digits_of_columns[WT_COLUMNS * WT_DIGIT_STRIDE / 4];  // bytes; ranks in the column later
-  local uint starts[WT_DIGITS];                                    // where a digit starts in the sorted tile
-  local uint targets[WT_DIGITS];                                   // where it starts in the output, less its start
+  local uint targets[WT_DIGITS];  // where a digit starts in the output, less where in the sorted tile
   local uint sums[WT_DIGITS];
   local ushort* columns = (local ushort*)shared;
   local uint* column_pairs = (local uint*)shared;
@@ -127,26 +141,28 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
   barrier(CLK_LOCAL_MEM_FENCE);
 
   if (lane < WT_DIGITS) {
+    const local uint* row = column_pairs + lane * (WT_ROW / 2);
+    uint total = 0;
+    for (uint w = 0; w < WT_COLUMNS / 2; ++w) total += row[w];
+    sums[lane] = (total & 0xFFFFu) + (total >> 16);
+  }
+  const uint start = wt_group_scan(sums, lane, WT_DIGITS);
+  if (lane < WT_DIGITS) {  // counts of a column become the place of its first key with that digit
+    targets[lane] = start_of_digit - start;
     local uint* row = column_pairs + lane * (WT_ROW / 2);
-    uint running = 0;
+    uint running = start;
     for (uint w = 0; w < WT_COLUMNS / 2; ++w) {
       const uint pair = row[w], low = pair & 0xFFFFu;
       row[w] = running | (running + low) << 16;
       running += low + (pair >> 16);
     }
-    sums[lane] = running;
-  }
-  const uint start = wt_group_scan(sums, lane, WT_DIGITS);
-  if (lane < WT_DIGITS) {
-    starts[lane] = start;
-    targets[lane] = start_of_digit - start;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
   uint place[WT_KEYS_AN_ITEM];  // in the sorted tile
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
     const uint p = k * WT_ITEMS + lane, d = wt_radix_digit(key[k], shift, digit_mask), column = p / WT_COLUMN_KEYS;
-    place[k] = starts[d] + columns[d * WT_ROW + column] + digits[p + column * 4];
+    place[k] = columns[d * WT_ROW + column] + digits[p + column * 4];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) sorted_keys[place[k]] = key[k];

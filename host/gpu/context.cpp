@@ -58,6 +58,16 @@ std::map<std::string, double> Context::profile() {
   }
 }
 
+void Context::set_profiling(bool on) {
+  profile();  // what is pending belongs to the old queue
+  try {
+    state_->queue = cl::CommandQueue(state_->context, state_->device, on ? CL_QUEUE_PROFILING_ENABLE : 0);
+    state_->profile.on = on;
+  } catch (const cl::Error& error) {
+    state_->fail(error.err(), "opening a queue");
+  }
+}
+
 void Context::reset_profile() { state_->profile.reset(); }
 
 void Context::State::fail(cl_int code, const std::string& action) const {

@@ -6,6 +6,7 @@
 namespace wavetracer::gpu {
 
 void Profile::add(std::string_view stage, cl::Event event) {
+  if (!on) return;
   auto entry = sums_.find(stage);
   if (entry == sums_.end()) entry = sums_.emplace(stage, 0.0).first;
   pending_.push_back({std::move(event), &entry->second});

@@ -12,6 +12,8 @@ namespace wavetracer::gpu {
 
 class Profile {
  public:
+  // Off, it takes no events and sums stay empty.
+  bool on = true;
   // Keeps the event until its time can be read; waits for old ones where more than max_pending are kept.
   void add(std::string_view stage, cl::Event event);
   // Waits for what is pending. Throws cl::Error where a command failed.

@@ -33,7 +33,8 @@ uint32_t lanes_for(const gpu::DeviceInfo& device) { return device.cpu ? 16 : 1; 
 Curve::Curve(gpu::Context& context, const std::string& name, uint32_t lanes)
     : dimensions_(shape_of(name).dimensions),
       bits_(shape_of(name).bits),
-      lanes_(lanes == 0 ? lanes_for(context.info()) : lanes) {
+      lanes_(lanes == 0 ? lanes_for(context.info()) : lanes),
+      local_(context.info().simple_local_size()) {
   if (lanes_ != 1 && lanes_ != 16) throw std::invalid_argument(fmt::format("curves: {} lanes, not 1 or 16", lanes_));
   const gpu::Definitions definitions{{"WT_ENCODE", "wt_encode_" + name},
                                      {"WT_DECODE", "wt_decode_" + name},
@@ -68,6 +69,6 @@ uint32_t Curve::checked(uint32_t level, size_t words, uint32_t stride, uint32_t 
   return level == 0 ? bits_ : level;
 }
 
-gpu::Range Curve::range(uint32_t count) const { return {(size_t{count} + lanes_ - 1) / lanes_, 64}; }
+gpu::Range Curve::range(uint32_t count) const { return {(size_t{count} + lanes_ - 1) / lanes_, local_}; }
 
 }  // namespace wavetracer

@@ -28,7 +28,7 @@ class Curve {
  private:
   gpu::Kernel encode_, decode_;
   uint32_t dimensions_ = 0, bits_ = 0;
-  uint32_t lanes_;
+  uint32_t lanes_, local_;
   uint32_t checked(uint32_t level, size_t words, uint32_t stride, uint32_t count, size_t codes) const;
   gpu::Range range(uint32_t count) const;
 };

@@ -7,15 +7,13 @@ namespace wavetracer {
 
 class GatherRays {
  public:
-  explicit GatherRays(gpu::Context& context) : kernel_(context.kernel("gather_rays", "gather_rays")) {}
+  explicit GatherRays(gpu::Context& context);
   // next becomes rays[order[0]], rays[order[1]], ...
-  void operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, RayQueue& next) {
-    kernel_({rays.count, 64}, "order", rays.planes, rays.capacity, rays.count, order, next.planes);
-    next.count = rays.count;
-  }
+  void operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, RayQueue& next);
 
  private:
   gpu::Kernel kernel_;
+  uint32_t rays_per_item_, local_;
 };
 
 }  // namespace wavetracer

@@ -20,7 +20,7 @@ class GenerateRays {
  private:
   gpu::Kernel generate_, generate_ordered_;
   LaunchDirections directions_;
-  uint32_t rays_per_item_;
+  uint32_t rays_per_item_, local_;
 };
 
 }  // namespace wavetracer

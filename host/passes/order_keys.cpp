@@ -38,6 +38,7 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
       bins_(bins),
       bits_(bits_of(key, bins)),
       rays_per_item_(context.info().cpu ? 16 : 1),
+      local_(context.info().simple_local_size()),
       to_unit_(extent_m > 0 ? 1 / extent_m : 0) {
   if (bins < 1 || bins > 1024) throw std::invalid_argument("order_keys: 1 to 1024 bins, not " + std::to_string(bins));
   const gpu::Definitions definitions{
@@ -49,13 +50,13 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
 }
 
 void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys) {
-  launch_keys_({(count + rays_per_item_ - 1) / rays_per_item_, 64}, "order", keys, count, first, directions_.parameter,
-               directions_.level, directions_.faces, bins_);
+  launch_keys_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "order", keys, count, first,
+               directions_.parameter, directions_.level, directions_.faces, bins_);
 }
 
 void OrderKeys::operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys) {
-  queue_keys_({(rays.count + rays_per_item_ - 1) / rays_per_item_, 64}, "order", rays.planes, rays.capacity, rays.count,
-              to_unit_, keys, bins_);
+  queue_keys_({(rays.count + rays_per_item_ - 1) / rays_per_item_, local_}, "order", rays.planes, rays.capacity,
+              rays.count, to_unit_, keys, bins_);
 }
 
 }  // namespace wavetracer

@@ -25,7 +25,7 @@ class OrderKeys {
  private:
   gpu::Kernel launch_keys_, queue_keys_;
   LaunchDirections directions_;
-  uint32_t bins_, bits_, rays_per_item_;
+  uint32_t bins_, bits_, rays_per_item_, local_;
   float to_unit_;
 };
 

@@ -22,18 +22,21 @@ struct Form {
 };
 
 // Tile and columns: what 48 KiB of local memory hold, the fastest of some twenty on an H200; or 32 KiB.
-Form groups_form(const gpu::DeviceInfo& device, size_t key_bytes) {
+Form groups_form(const gpu::DeviceInfo& device) {
   const bool large = device.local_memory >= 48 << 10;
-  const uint32_t items = 256, columns = !large ? 32 : key_bytes == 4 ? 72 : 76, tile = 64 * columns;
+  const uint32_t items = 256, columns = large ? 72 : 32, tile = 64 * columns;
+  const uint32_t offset_items = large ? 256 : 32;
   return {.program = "radix_sort",
           .launch = {.digit_bits = 8,
                      .items = items,
-                     .offset_items = 256 * items,  // a work-group a digit
+                     .offset_items = offset_items,
+                     .offset_groups = 256,  // a work-group a digit
                      .tile = tile,
                      .most_chunks = 1024,
                      .moves_tiles = true},
           .definitions = {{"WT_ITEMS", std::to_string(items)},
                           {"WT_TILE", std::to_string(tile)},
+                          {"WT_OFFSET_ITEMS", std::to_string(offset_items)},
                           {"WT_COLUMNS", std::to_string(columns)}}};
 }
 
@@ -46,6 +49,7 @@ Form chunks_form(size_t pair_bytes, uint32_t cores, bool always_lines) {
           .launch = {.digit_bits = 8,
                      .items = 1,
                      .offset_items = 1,
+                     .offset_groups = 1,
                      .tile = 1024,
                      .most_chunks = 8 * cores,
                      .moves_tiles = false},
@@ -65,7 +69,7 @@ void require(const char* what, size_t has, size_t needs, uint32_t n) {
 template <class Key>
 RadixSort<Key>::RadixSort(gpu::Context& context, Payload payload, SortForm form) : payload_(payload) {
   if (form == SortForm::device) form = context.info().cpu ? SortForm::chunks : SortForm::groups;
-  Form f = form == SortForm::groups ? groups_form(context.info(), sizeof(Key))
+  Form f = form == SortForm::groups ? groups_form(context.info())
                                     : chunks_form(sizeof(Key) + (payload == Payload::none ? 0 : 4),
                                                   std::max(1u, context.info().compute_units), form == SortForm::lines);
   launch_ = f.launch;
@@ -131,7 +135,8 @@ void RadixSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values,
     const uint32_t width = bits / passes + (pass < bits % passes);
     const uint32_t mask = (1u << width) - 1;
     count_(chunks, stage, keys, temporary, n, chunk, pass, shift, mask);
-    offsets_({launch_.offset_items, items}, stage, temporary, n, chunk, pass);
+    offsets_({size_t{launch_.offset_groups} * launch_.offset_items, launch_.offset_items}, stage, temporary, n, chunk,
+             pass);
     move_(moves, stage, keys, values, temporary, n, chunk, pass, shift, mask);
     shift += width;
   }

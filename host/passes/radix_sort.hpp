@@ -18,10 +18,10 @@ enum class SortForm { device, groups, chunks, lines };
 
 // How a form is launched; radix_sort.cpp has the table.
 struct RadixLaunch {
-  uint32_t digit_bits;    // of the widest digit
-  uint32_t items;         // a work-group
-  uint32_t offset_items;  // that make offsets of the counts, in all
-  uint32_t tile;          // a chunk is a multiple of this many keys
+  uint32_t digit_bits;                   // of the widest digit
+  uint32_t items;                        // a work-group
+  uint32_t offset_items, offset_groups;  // of the kernel that makes offsets of the counts
+  uint32_t tile;                         // a chunk is a multiple of this many keys
   uint32_t most_chunks;
   bool moves_tiles;  // a work-group moves one tile, not a chunk, and each tile has counts in temporary memory
 };

@@ -1,0 +1,247 @@
+// bench_sort: our sorts over random keys, beside those of C++, TBB, Highway and Boost.Compute in the same run, and
+// those of CUDA where --cub names a program for them. Assumes a quiet machine. The value is wall time, launches
+// included; "error" counts keys and values that are not where std::stable_sort puts them.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <bit>
+#include <random>
+
+#ifdef WAVETRACER_BOOST
+#include "boost_peer.hpp"
+#endif
+#include "device_sort.hpp"
+#include "json_line.hpp"
+#include "sort_peers.hpp"
+#include "timing.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::bench {
+namespace {
+
+constexpr uint32_t most_for_bitonic = 1u << 22;
+constexpr uint32_t most_for_slow_peers = 1u << 22;  // on CPUs; beyond, a run takes a second and more
+
+struct Options {
+  std::string device, cub;
+  size_t runs = 7;
+  unsigned largest = 0;  // a power of two; 0: what suits the device
+  bool peers = true;
+};
+
+struct Case {
+  SortShape shape;
+  bool crossover = false;  // few keys: our two sorts alone
+};
+
+// 12 bits are the keys of the thesis' histogram, 24 those of direction-origin, 40 a key packed beside an index of 24.
+std::vector<Case> all_cases(unsigned largest) {
+  std::vector<Case> cases;
+  for (unsigned power = 8; power <= std::min(16u, largest); power++)
+    cases.push_back({{32, true, 1u << power, 32}, true});
+  for (const unsigned power : {17u, 18u, 20u, 22u, 24u, 26u}) {
+    if (power > largest) break;
+    const uint32_t n = 1u << power;
+    for (const unsigned key_bits : {32u, 64u})
+      for (const bool payload : {true, false}) cases.push_back({{key_bits, payload, n, key_bits}});
+    cases.push_back({{32, true, n, 12}});
+    cases.push_back({{32, true, n, 24}});
+    cases.push_back({{64, true, n, 40}});
+  }
+  return cases;
+}
+
+// The same keys in every run and on every machine.
+template <class Key>
+std::vector<Key> random_keys(const SortShape& shape) {
+  std::mt19937_64 generator(1);
+  std::vector<Key> keys(shape.n);
+  for (Key& key : keys) key = static_cast<Key>(generator() >> (64 - shape.bits));
+  return keys;
+}
+
+std::string label(const SortShape& shape, Payload payload) {
+  std::string text = fmt::format("u{}", shape.key_bits);
+  if (shape.bits < shape.key_bits) text += fmt::format(" of {} bits", shape.bits);
+  if (payload != Payload::none) text += payload == Payload::words ? " + u32" : " to permutation";
+  return fmt::format("{}, n = 2^{}", text, std::countr_zero(shape.n));
+}
+
+bool full_width(const SortShape& shape) { return shape.bits == shape.key_bits; }
+
+// label: how the case says it, the same in every run.
+struct Baseline {
+  std::string name;
+  double seconds = 0;
+  std::string label = {};
+};
+using Baselines = std::vector<Baseline>;
+
+class Bench {
+ public:
+  Bench(const Options& options, std::string command)
+      : options_(options),
+        command_(std::move(command)),
+        context_(options.device),
+        copy_(copy_bandwidth(context_, options.runs)) {}
+
+  void run() {
+    const std::vector<Case> cases = all_cases(options_.largest ? options_.largest : context_.info().cpu ? 24 : 26);
+    if (!options_.cub.empty()) {
+      std::vector<SortShape> shapes;
+      for (const Case& c : cases)
+        if (!c.crossover) shapes.push_back(c.shape);
+      cub_ = run_program(options_.cub, shapes, options_.runs);
+    }
+    for (const Case& c : cases) {
+      if (c.shape.key_bits == 32)
+        measure<uint32_t>(c);
+      else
+        measure<uint64_t>(c);
+    }
+  }
+
+ private:
+  const Options& options_;
+  std::string command_;
+  gpu::Context context_;
+  double copy_;  // bytes a second
+  ProgramTimes cub_;
+
+  struct Measured {
+    std::string name;
+    SortShape shape;
+    double model_bytes;
+    SortSeconds seconds;
+    size_t wrong;
+  };
+
+  // Peers that could do one run, which is not counted.
+  template <class Key>
+  std::vector<SortPeer> warm_peers(const SortShape& shape, const std::vector<Key>& keys) const {
+    if (!options_.peers) return {};
+    const bool cpu = context_.info().cpu;
+    const bool slow = full_width(shape) && (!cpu || shape.n <= most_for_slow_peers);
+    std::vector<SortPeer> peers;
+    if (cpu) peers = host_peers(keys, shape.payload, slow);
+#ifdef WAVETRACER_BOOST
+    if (slow) peers.push_back(boost_peer(context_.info(), keys, shape.payload));
+#endif
+    std::erase_if(peers, [](SortPeer& peer) {
+      try {
+        peer.run();
+        return false;
+      } catch (const RuntimeError& error) {
+        fmt::print(stderr, "bench_sort: {}; there is no such baseline here\n", error.what());
+        return true;
+      }
+    });
+    return peers;
+  }
+
+  template <class Key>
+  void measure(const Case& c) {
+    using Sort = typename DeviceKeys<Key>::Sort;
+    DeviceKeys<Key> keys(context_, random_keys<Key>(c.shape), c.shape.bits);
+    std::vector<Sort> sorts;
+    if (c.shape.payload) sorts.push_back(keys.radix(Payload::index));  // first: what bitonic is compared with
+    if (!c.crossover) sorts.push_back(keys.radix(c.shape.payload ? Payload::words : Payload::none));
+    if (c.shape.payload && full_width(c.shape) && c.shape.n <= most_for_bitonic)
+      sorts.push_back(keys.bitonic(Payload::index));
+    std::vector<SortPeer> peers;
+    if (!c.crossover) peers = warm_peers(c.shape, keys.keys());
+
+    std::vector<size_t> wrong;
+    for (const Sort& sort : sorts) {
+      keys.run(sort);  // warm-up
+      wrong.push_back(keys.wrong(sort));
+    }
+    // Rounds over all of them, so that a machine that slows down for a while slows them all.
+    std::vector<std::vector<double>> wall(sorts.size()), device(sorts.size()), theirs(peers.size());
+    for (size_t run = 0; run < options_.runs; run++) {
+      for (size_t i = 0; i < sorts.size(); i++) {
+        const SortSeconds seconds = keys.run(sorts[i]);
+        wall[i].push_back(seconds.wall);
+        device[i].push_back(seconds.device);
+      }
+      for (size_t i = 0; i < peers.size(); i++) theirs[i].push_back(peers[i].run());
+    }
+
+    Baselines baselines;
+    if (const auto found = cub_.find(c.shape); found != cub_.end())
+      for (const auto& [name, seconds] : found->second) baselines.push_back({name, seconds});
+    for (size_t i = 0; i < peers.size(); i++) baselines.push_back({peers[i].name, median(theirs[i])});
+    for (Baseline& baseline : baselines) baseline.label = baseline.name;
+    Baselines fastest;
+    if (!baselines.empty())
+      fastest = {*std::min_element(baselines.begin(), baselines.end(),
+                                   [](const Baseline& a, const Baseline& b) { return a.seconds < b.seconds; })};
+    for (Baseline& baseline : fastest) baseline.label = "the fastest peer";
+    const Baselines radix{{"our radix sort", median(wall[0]), "our radix sort"}};
+    for (size_t i = 0; i < sorts.size(); i++) {
+      const Sort& sort = sorts[i];
+      const bool every_peer = full_width(c.shape) && sort.payload != Payload::index;
+      print_case({label(c.shape, sort.payload) + ": " + sort.name,
+                  c.shape,
+                  sort.model_bytes,
+                  {median(wall[i]), median(device[i])},
+                  wrong[i]},
+                 sort.model_bytes == 0 ? radix
+                 : every_peer          ? baselines
+                                       : fastest);
+    }
+  }
+
+  // One line a baseline; one without where there is none.
+  void print_case(const Measured& m, const Baselines& baselines) const {
+    const double n = m.shape.n, bytes_a_second = m.model_bytes * n / m.seconds.device;
+    Result result;
+    result.bench = "sort";
+    result.name = m.name;
+    result.device = context_.info().name;
+    result.value = n / m.seconds.wall * 1e-9;
+    result.unit = "Gkeys/s";
+    result.error = static_cast<double>(m.wrong);
+    result.detail = fmt::format("{:.4g} us, {:.4g} us in kernels", m.seconds.wall * 1e6, m.seconds.device * 1e6);
+    result.extra = {{"n", m.shape.n},           {"key_bits", m.shape.key_bits},  {"sorted_bits", m.shape.bits},
+                    {"wall_s", m.seconds.wall}, {"kernels_s", m.seconds.device}, {"copy_gb_s", copy_ * 1e-9}};
+    if (m.model_bytes > 0) {
+      result.detail +=
+          fmt::format("; {:.0f} B a key, {:.0f}% of the copy", m.model_bytes, 100 * bytes_a_second / copy_);
+      result.extra.update({{"model_bytes", m.model_bytes},
+                           {"model_gb_s", bytes_a_second * 1e-9},
+                           {"copy_fraction", bytes_a_second / copy_}});
+    }
+    if (baselines.empty()) print(result, command_);
+    for (const Baseline& baseline : baselines) {
+      result.name = m.name + ", against " + baseline.label;
+      result.baseline = baseline.name;
+      result.baseline_value = n / baseline.seconds * 1e-9;
+      result.extra["kernels_ratio"] = baseline.seconds / m.seconds.device;
+      print(result, command_);
+    }
+  }
+};
+
+}  // namespace
+}  // namespace wavetracer::bench
+
+int main(int argc, char** argv) {
+  using namespace wavetracer;
+  CLI::App app("Our sorts over random keys, beside those of C++, TBB, Highway, Boost.Compute and CUDA");
+  bench::Options options;
+  app.add_option("--device", options.device, "as for wavetracer run");
+  app.add_option("--runs", options.runs, "timed runs of which the median counts")->check(CLI::Range(7, 1000));
+  app.add_option("--largest", options.largest, "most keys, as a power of two; default: 24 on CPUs, 26 elsewhere")
+      ->check(CLI::Range(8, 28));
+  app.add_option("--cub", options.cub, "the program built of bench/peers/cub_sort.cu");
+  app.add_flag("!--no-peers", options.peers, "leave out all peers but that of --cub");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bench::Bench(options, bench::command_line(argc, argv)).run();
+  } catch (const Error& error) {
+    fmt::print(stderr, "bench_sort: {}\n", error.what());
+    return static_cast<int>(error.code());
+  }
+  return 0;
+}

@@ -1,0 +1,56 @@
+// Our sorts as the sort benchmark runs them: over one array of keys, restored on the device before each run, and
+// checked on the host. Assumes keys of which only the lowest `bits` bits differ.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu.hpp"
+#include "passes/payload.hpp"
+
+namespace wavetracer::bench {
+
+struct SortSeconds {
+  double wall = 0;    // from the first launch until all is done, as a user waits, without profiling
+  double device = 0;  // the kernels alone, by the device's clock, in a run of its own
+};
+
+template <class Key>
+class DeviceKeys {
+ public:
+  DeviceKeys(gpu::Context& context, std::vector<Key> keys, unsigned bits);
+
+  // One of our sorts, ready to run. model_bytes: what it moves by a key; 0: there is no model of it.
+  struct Sort {
+    std::string name;
+    Payload payload;
+    double model_bytes;
+    std::function<void()> launch;
+  };
+  Sort radix(Payload payload);
+  Sort bitonic(Payload payload);
+
+  SortSeconds run(const Sort& sort);
+  // Of the last run: keys and values that differ from those of std::stable_sort. Above 2^22 keys, keys out of order,
+  // values that do not belong to their keys or are not stable, and one more if the sum of the keys changed.
+  size_t wrong(const Sort& sort) const;
+
+  const std::vector<Key>& keys() const { return keys_; }
+
+ private:
+  gpu::Context& context_;
+  std::vector<Key> keys_;
+  unsigned bits_;
+  gpu::Buffer<Key> given_, sorted_;
+  gpu::Buffer<uint32_t> given_values_, values_;
+
+  uint32_t count() const { return static_cast<uint32_t>(keys_.size()); }
+  size_t wrong_by_stable_sort(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;
+  size_t wrong_by_rules(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;
+};
+
+extern template class DeviceKeys<uint32_t>;
+extern template class DeviceKeys<uint64_t>;
+
+}  // namespace wavetracer::bench

@@ -1,0 +1,21 @@
+// Host side of kernels/gather_rays.cl.
+// On CPUs a work-item takes a page of each plane in turn, on GPUs one ray.
+#include "passes/gather_rays.hpp"
+
+#include <string>
+
+namespace wavetracer {
+
+GatherRays::GatherRays(gpu::Context& context)
+    : rays_per_item_(context.info().cpu ? 1024 : 1),
+      local_(context.info().cpu ? 1 : context.info().simple_local_size()) {
+  kernel_ = context.kernel("gather_rays", "gather_rays", {{"WT_RAYS_PER_ITEM", std::to_string(rays_per_item_) + "u"}});
+}
+
+void GatherRays::operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, RayQueue& next) {
+  const size_t items = (size_t{rays.count} + rays_per_item_ - 1) / rays_per_item_;
+  kernel_({items, local_}, "order", rays.planes, rays.capacity, rays.count, order, next.planes);
+  next.count = rays.count;
+}
+
+}  // namespace wavetracer
