@@ -179,6 +179,9 @@ void print_place(const Place& place, uint64_t rays, const std::vector<Subject>& 
       result.baseline_value = median(unordered.paid);
       result.extra["ratio_unpaid"] = median(unordered.unpaid) / unpaid;
       result.extra["ratio_trace"] = median(unordered.trace) / trace;
+      result.extra["ratio_trace_paid"] = median(unordered.trace) / (trace + order);
+      result.detail +=
+          fmt::format("; tracing alone, sort paid: {:.2f} times", median(unordered.trace) / (trace + order));
       result.extra["median_ratio"] = median_ratio(unordered.paid, s.paid);
     }
     print(result, command);

@@ -36,7 +36,8 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
                      float extent_m)
     : directions_(directions),
       bins_(bins),
-      bits_(bits_of(key, bins)),
+      launch_bits_(key == OrderKey::direction_origin ? 16 : bits_of(key, bins)),
+      queue_bits_(bits_of(key, bins)),
       rays_per_item_(context.info().cpu ? 16 : 1),
       local_(context.info().simple_local_size()),
       to_unit_(extent_m > 0 ? 1 / extent_m : 0) {

@@ -1,5 +1,5 @@
 // order_keys: sort keys of rays, by the direction alone or by direction and origin; 32 bits, of which the lowest
-// bits() count. Keys of launch rays need no rays: they come from the launch indices.
+// launch_bits() or queue_bits() count. Keys of launch rays need no rays: they come from the launch indices.
 #pragma once
 #include "passes/launch_directions.hpp"
 #include "passes/ray_queue.hpp"
@@ -8,7 +8,7 @@ namespace wavetracer {
 
 // morton: Z-order of the direction's cells, 1,024 a component. morton_bins, hilbert_bins: a histogram of directions,
 // its bins visited along a Morton or a 3D Hilbert curve (A. Zhdanov, 2014, algorithm 1). direction_origin: 4,096 cells
-// of directions, in each 16^3 cells of the scene; at launch, where origins are one, 2^24 cells of directions.
+// of directions, in each 16^3 cells of the scene; at launch, where origins are one, 2^16 cells of directions.
 enum class OrderKey { morton, morton_bins, hilbert_bins, direction_origin };
 
 class OrderKeys {
@@ -16,7 +16,9 @@ class OrderKeys {
   // bins: of a direction component, 1 .. 1024, for the histograms. extent_m: the largest absolute coordinate of
   // origins.
   OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m);
-  uint32_t bits() const { return bits_; }
+  // Bits of the keys of launches, and of queues.
+  uint32_t launch_bits() const { return launch_bits_; }
+  uint32_t queue_bits() const { return queue_bits_; }
   // Keys of the launch indices first .. first + count - 1. keys has 16 elements more, which may be overwritten.
   void operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys);
   // Keys of the rays of a queue, likewise.
@@ -25,7 +27,7 @@ class OrderKeys {
  private:
   gpu::Kernel launch_keys_, queue_keys_;
   LaunchDirections directions_;
-  uint32_t bins_, bits_, rays_per_item_, local_;
+  uint32_t bins_, launch_bits_, queue_bits_, rays_per_item_, local_;
   float to_unit_;
 };
 

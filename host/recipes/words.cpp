@@ -50,6 +50,19 @@ std::string verdict_words(const std::vector<Row>& rows, const Series& series, ui
                      reached_words(row->gain_unpaid, claimed_gain), reached_words(row->gain_paid, claimed_gain));
 }
 
+std::string reason_words(const std::vector<Row>& rows) {
+  const Row *few = find_row(rows, unordered(), claimed_few), *many = find_row(rows, unordered(), claimed_many);
+  if (!few || !many) return "";
+  const double fixed = 100 * few->times.unpaid_s / many->times.unpaid_s;
+  const std::string start = fmt::format(" The reason: WS takes {:.0f}% of its time at {} rays at {} already, ", fixed,
+                                        grouped(claimed_many), grouped(claimed_few));
+  if (fixed >= 50)
+    return start +
+           "which is what launching and the longest single rays cost this device, however few there are; an order can "
+           "change the rest alone, and its own launches come on top.";
+  return start + "so most of the time at the larger count is that of its rays, which an order can change.";
+}
+
 std::string ranking_words(const std::vector<Row>& rows, uint64_t rays, double Row::*gain) {
   std::vector<Row> found;
   for (const Row& row : rows)

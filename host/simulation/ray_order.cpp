@@ -76,13 +76,13 @@ RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const Lau
 
 const gpu::Buffer<uint32_t>& RayOrder::launch(uint64_t first, uint32_t count) {
   keys_of_(first, count, keys_);
-  sort_(keys_, order_, count, temporary_, keys_of_.bits());
+  sort_(keys_, order_, count, temporary_, keys_of_.launch_bits());
   return order_;
 }
 
 void RayOrder::operator()(RayQueue& rays, RayQueue& spare) {
   keys_of_(rays, keys_);
-  sort_(keys_, order_, rays.count, temporary_, keys_of_.bits());
+  sort_(keys_, order_, rays.count, temporary_, keys_of_.queue_bits());
   gather_(rays, order_, spare);
   std::swap(rays, spare);
 }

@@ -45,7 +45,7 @@ std::vector<uint32_t> order_of(OrderKey key, uint32_t bins, const LaunchDirectio
   gpu::Buffer<uint32_t> order = context().buffer<uint32_t>(queue.count + 16, "order");
   gpu::Buffer<uint32_t> temporary = context().buffer<uint32_t>(sort.temporary_words(queue.count), "temporary");
   order_keys(queue, keys);
-  sort(keys, order, queue.count, temporary, order_keys.bits());
+  sort(keys, order, queue.count, temporary, order_keys.queue_bits());
   return order.read(0, queue.count);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("every bin that the sphere meets is used, up to the outermost") {
   const LaunchDirections directions("fibonacci", 4096, 1);
   const RayQueue queue = launched(directions, 4096);
   OrderKeys order_keys(context(), OrderKey::morton_bins, 8, directions, 10);
-  CHECK(order_keys.bits() == 9);
+  CHECK(order_keys.queue_bits() == 9);
   std::set<uint32_t> used[3];
   for (const uint32_t key : keys_of(order_keys, queue))
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -152,7 +152,7 @@ TEST_CASE("direction-origin: directions lead, origins decide among equal ones") 
     for (const float x : {-9.0f, 0.0f, 9.0f}) rays.push_back({{x, 1, 2}, d});
   OrderKeys order_keys(context(), OrderKey::direction_origin, 16, directions, 10);
   const std::vector<uint32_t> keys = keys_of(order_keys, upload(rays));
-  for (size_t i = 0; i < keys.size(); ++i) CHECK((keys[i] >> order_keys.bits()) == 0);
+  for (size_t i = 0; i < keys.size(); ++i) CHECK((keys[i] >> order_keys.queue_bits()) == 0);
   for (size_t d = 0; d < 9; d += 3) {
     CHECK(keys[d] < keys[d + 1]);
     CHECK(keys[d + 1] < keys[d + 2]);
@@ -161,8 +161,7 @@ TEST_CASE("direction-origin: directions lead, origins decide among equal ones") 
   CHECK((keys[0] >> 12) != (keys[6] >> 12));
 }
 
-TEST_CASE(
-    "direction-origin at launch: the finest cells of directions, neighbours in key are neighbours on the sphere") {
+TEST_CASE("direction-origin at launch: cells of directions, neighbours in key are neighbours on the sphere") {
   const LaunchDirections directions("random", 4000, 3);
   const std::vector<Ray> rays = download(launched(directions, 4000));
   OrderKeys order_keys(context(), OrderKey::direction_origin, 16, directions, 10);
@@ -177,7 +176,9 @@ TEST_CASE(
     sum += glm::length(to_double(rays[order[i]].direction) - to_double(rays[order[i - 1]].direction));
   // Neighbours of a square lattice of 4,000 are 0.056 apart; random ones 1.33.
   CHECK(sum / 3999 < 0.12);
-  CHECK(std::set<uint32_t>(keys.begin(), keys.end()).size() > 3990);
+  // 4,000 thrown into 65,536 cells of about equal size meet some 120 times.
+  CHECK(std::set<uint32_t>(keys.begin(), keys.end()).size() > 3750);
+  CHECK(*std::max_element(keys.begin(), keys.end()) < 65536);
 }
 
 TEST_CASE("keys stay within their bits, and bins outside 1 to 1024 are refused") {
@@ -185,7 +186,7 @@ TEST_CASE("keys stay within their bits, and bins outside 1 to 1024 are refused")
   const RayQueue queue = launched(directions, 400);
   for (const OrderKey key : all_keys) {
     OrderKeys order_keys(context(), key, 33, directions, 10);
-    for (const uint32_t k : keys_of(order_keys, queue)) REQUIRE((uint64_t{k} >> order_keys.bits()) == 0);
+    for (const uint32_t k : keys_of(order_keys, queue)) REQUIRE((uint64_t{k} >> order_keys.queue_bits()) == 0);
   }
   CHECK_THROWS_AS(OrderKeys(context(), OrderKey::morton_bins, 0, directions, 10), std::invalid_argument);
   CHECK_THROWS_AS(OrderKeys(context(), OrderKey::hilbert_bins, 1025, directions, 10), std::invalid_argument);

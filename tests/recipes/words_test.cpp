@@ -78,3 +78,16 @@ TEST_CASE("a row that is not there is not found") {
   CHECK(find_row(rows, unordered(), 2000) == nullptr);
   CHECK(find_row(rows, ordered("morton"), 1000) == nullptr);
 }
+
+TEST_CASE("the reason: what the device takes for a few rays already") {
+  const Recipe& recipe = find_recipe("figure-6.18");
+  const auto with = [&](double few, double many) {
+    const auto rows = made_rows(recipe, {1000, 49000}, [&](const Series&, uint64_t rays) {
+      return std::pair{rays == 1000 ? few : many, 0.0};
+    });
+    return recipe.paragraph(rows, "the device");
+  };
+  CHECK(contains(with(220e-6, 245e-6), "WS takes 90% of its time at 49,000 rays at 1,000 already, which is what"));
+  CHECK(contains(with(30e-6, 300e-6), "WS takes 10% of its time at 49,000 rays at 1,000 already, so most"));
+  CHECK(reason_words(made_rows(recipe, {1000, 2000}, costs(2, 2))).empty());
+}

@@ -89,7 +89,8 @@ inline WT_U32 wt_cube_cell(WT_F32 component, unsigned bins) {
 // The cell of a direction among 2^level x 2^level, level <= 16; any length but zero, which gives cell (0, 0).
 inline void wt_octahedron_encode(wt_direction d, unsigned level, WT_U32* x, WT_U32* y) {
   const WT_F32 length = fabs(d.x) + fabs(d.y) + fabs(d.z);
-  const WT_F32 u = d.x / length, v = d.y / length;
+  const WT_F32 inverse = 1.0f / length;
+  const WT_F32 u = d.x * inverse, v = d.y * inverse;
   const WT_F32 folded_u = u < 0.0f ? fabs(v) - 1.0f : 1.0f - fabs(v);
   const WT_F32 folded_v = v < 0.0f ? fabs(u) - 1.0f : 1.0f - fabs(u);
   *x = wt_cube_cell(d.z < 0.0f ? folded_u : u, 1u << level);
