@@ -91,7 +91,9 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
   local ushort* columns = (local ushort*)shared;
   local uint* column_pairs = (local uint*)shared;
   local WT_KEY* sorted_keys = (local WT_KEY*)shared;
-  local uint* sorted_values = (local uint*)shared;
+  // Values beside the keys where both fit, else after them.
+  const bool together = WT_PAYLOAD ? WT_TILE * (sizeof(WT_KEY) + sizeof(uint)) <= sizeof shared : false;
+  local uint* sorted_values = together ? (local uint*)(sorted_keys + WT_TILE) : (local uint*)shared;
   local uchar* digits = (local uchar*)digits_of_columns;
 
   if (wt_radix_constant(temporary)[pass]) return;
@@ -110,6 +112,13 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
     // What lies behind the last key has the last digit, and being last stays behind it.
     const uint p = k * WT_ITEMS + lane;
     key[k] = p < size ? source[first + p] : ~(WT_KEY)0;
+  }
+  // Before the first move of an index there are no values yet.
+  const bool has_values = WT_PAYLOAD == 2 ? moves > 0 : WT_PAYLOAD == 1;
+  uint value[WT_KEYS_AN_ITEM];
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    const uint i = first + k * WT_ITEMS + lane;
+    value[k] = has_values && i < n ? value_source[i] : i;
   }
   uint start_of_digit = 0;
   if (lane < WT_DIGITS) {
@@ -165,7 +174,10 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
     place[k] = columns[d * WT_ROW + column] + digits[p + column * 4];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) sorted_keys[place[k]] = key[k];
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+    sorted_keys[place[k]] = key[k];
+    if (together) sorted_values[place[k]] = value[k];
+  }
   barrier(CLK_LOCAL_MEM_FENCE);
   uint to[WT_KEYS_AN_ITEM];
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
@@ -173,19 +185,16 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
     const WT_KEY sorted = sorted_keys[p];
     to[k] = targets[wt_radix_digit(sorted, shift, digit_mask)] + p;
     if (p < size) target[to[k]] = sorted;
+    if (together && p < size) value_target[to[k]] = sorted_values[p];
   }
-#if WT_PAYLOAD
+  if (WT_PAYLOAD ? together : true) return;
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
-    const uint p = k * WT_ITEMS + lane, i = first + p;
-    if (p < size) sorted_values[place[k]] = WT_PAYLOAD == 2 && moves == 0 ? i : value_source[i];
-  }
+  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) sorted_values[place[k]] = value[k];
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
     const uint p = k * WT_ITEMS + lane;
     if (p < size) value_target[to[k]] = sorted_values[p];
   }
-#endif
 }
 
 // After an odd number of moves, brings keys and values back to the caller's memory.
@@ -194,12 +203,11 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void settle(global 
                                                                          uint passes) {
   const uint chunks = (n - 1) / chunk + 1, moves = wt_radix_moves(wt_radix_constant(temporary), passes);
   const global WT_KEY* other_keys = wt_radix_keys(temporary, chunks);
-  const global uint* other_values = wt_radix_values(temporary, chunks, n);
   const uint items = get_global_size(0);
   for (size_t i = get_global_id(0); i < n; i += items) {
     if (moves & 1) keys[i] = other_keys[i];
 #if WT_PAYLOAD
-    if (moves & 1) values[i] = other_values[i];
+    if (moves & 1) values[i] = wt_radix_values(temporary, chunks, n)[i];
 #endif
 #if WT_PAYLOAD == 2
     if (moves == 0) values[i] = (uint)i;
