@@ -16,7 +16,7 @@ struct OrderChoice {
 };
 
 // Times one transmitter's rays with every order, or takes what an earlier run kept beside the program cache under the
-// same device, scene, directions, ray count and depth. transmitters: recentred metres, at least one.
+// same device, scene, directions, ray count and depth. transmitters: recentred metres.
 OrderChoice choose_order(gpu::Context& context, const Scene& scene, const DeviceScene& device_scene,
                          const Config& config, const std::vector<glm::dvec3>& transmitters);
 
