@@ -154,6 +154,10 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
                .slot = e(&RadioEnd::orientation_deg),
                .unit = "degrees",
                .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
+              {.name = "velocity_m_s",
+               .slot = e(&RadioEnd::velocity_m_s),
+               .unit = "m/s",
+               .doc = "Along x, y, z. Gives the Doppler shift of each path; the end stays where it is."},
           },
       .append = append<List>,
       .count = count<List>};

@@ -190,6 +190,7 @@ void write_ends(hdf5::File& file, const std::string& path, const std::string& de
   text("polarization", "V, H, VH (two ports: V, H) or cross (two ports: +45 deg, -45 deg)", &RadioEnd::polarization);
   triple("orientation_deg", {"deg", "(yaw, pitch, roll), intrinsic rotations about z, y, x"},
          &RadioEnd::orientation_deg);
+  triple("velocity_m_s", {"m/s", "velocity along the axes of the scene file, (x, y, z)"}, &RadioEnd::velocity_m_s);
 }
 
 void write_root(hdf5::File& file, const RunData& run) {

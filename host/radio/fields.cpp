@@ -20,7 +20,7 @@
 namespace wavetracer {
 
 struct FieldModel::Row {
-  double delay_s, gain_db;
+  double delay_s, gain_db, doppler_hz;
   Matrix2 a;
   Angles aod, aoa;
 };
@@ -104,7 +104,8 @@ FieldModel::FieldModel(const Scene& scene, const Config& config)
   const auto make_ends = [&](const std::vector<RadioEnd>& ends) {
     std::vector<End> made;
     for (const RadioEnd& end : ends)
-      made.push_back({end.name, to_vector(end.position_m) - scene.origin_m, make_antenna(end)});
+      made.push_back(
+          {end.name, to_vector(end.position_m) - scene.origin_m, to_vector(end.velocity_m_s), make_antenna(end)});
     return made;
   };
   transmitters_ = make_ends(config.transmitters);
@@ -146,6 +147,8 @@ FieldModel::Row FieldModel::solve(const PathGeometry& geometry, size_t path) con
 
   Row row{.delay_s = legs.length_m / speed_of_light_m_s,
           .gain_db = 0,
+          // Plus zero: ends that stand still give 0, not -0.
+          .doppler_hz = (glm::dot(tx.velocity, departure) + glm::dot(rx.velocity, arrival)) / wavelength_m_ + 0.0,
           .a = {},
           .aod = angles_of(departure),
           .aoa = angles_of(arrival)};
@@ -193,7 +196,7 @@ Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry) const {
     paths.aod_phi_rad.push_back(row.aod.phi_rad);
     paths.aoa_theta_rad.push_back(row.aoa.theta_rad);
     paths.aoa_phi_rad.push_back(row.aoa.phi_rad);
-    paths.doppler_hz.push_back(0);  // ends and surfaces stand still
+    paths.doppler_hz.push_back(row.doppler_hz);
     for (uint64_t i = geometry.first[path]; i < geometry.first[path + 1]; ++i) {
       paths.vertex_position_m.push_back(geometry.vertex[i] + scene_.origin_m);
       paths.vertex_interaction.push_back(geometry.interaction[i]);

@@ -26,6 +26,8 @@ class FieldModel {
   //   a[r tx_ports + t]: rx port r, tx port t; lambda / (4 pi L) times both antennas' fields and every interaction.
   //     Ports that an antenna does not have are 0.
   //   aod: the direction in which the wave leaves tx; aoa: from rx towards where the wave comes from.
+  //   doppler_hz: -1/lambda times the rate at which the path gets longer, from the velocities of its ends. Surfaces
+  //     stand still, and by Fermat's principle the points on them need not be followed.
   //   gain_db: over all pairs of ports, -inf if an antenna is blind in that direction.
   // Throws RuntimeError for another interaction and for ends that stand in the same point.
   Paths compute(uint32_t frame, const PathGeometry& geometry) const;
@@ -34,6 +36,7 @@ class FieldModel {
   struct End {
     std::string name;
     glm::dvec3 position;  // recentred
+    glm::dvec3 velocity;  // m/s
     Antenna antenna;
   };
   struct Row;

@@ -37,6 +37,7 @@ struct RadioEnd {  // [[transmitter]] or [[receiver]]
   std::string antenna = "isotropic";               // isotropic, short-dipole, dipole, tr38901, or a pattern file
   std::string polarization = "V";                  // V, H, VH, cross
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
+  std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; shifts frequencies, moves nothing
 };
 
 struct TraceConfig {

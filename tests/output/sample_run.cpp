@@ -42,7 +42,7 @@ SampleRun::SampleRun() {
   config.file = "/configs/sample.toml";
   config.text = "scene.file = \"scene.xml\"  # \xC3\xA9\n";
   config.transmitters = {{.name = "rsu, north", .position_m = {1, 2, 3}},
-                         {.name = "rsu", .position_m = {4, 5, 6}, .orientation_deg = {90, 10, 0}}};
+                         {.name = "rsu", .position_m = {4, 5, 6}, .orientation_deg = {90, 10, 0}, .velocity_m_s = {0, -3, 0.5}}};
   config.receivers = {{.name = "car", .position_m = {7, 8, 9}, .antenna = "dipole", .polarization = "VH"},
                       {.name = ""}};
   scene.file = "/scenes/scene.xml";

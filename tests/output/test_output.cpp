@@ -106,6 +106,7 @@ TEST_CASE("paths.h5 holds every column of every frame, in order") {
   CHECK(h5.numbers("/frames/path_offset") == Values{0, 3, 5});
   CHECK(h5.numbers("/transmitters/position_m") == Values{1, 2, 3, 4, 5, 6});
   CHECK(h5.numbers("/transmitters/orientation_deg") == Values{0, 0, 0, 90, 10, 0});
+  CHECK(h5.numbers("/transmitters/velocity_m_s") == Values{0, 0, 0, 0, -3, 0.5});
   CHECK(h5.shape("/receivers/name") == Shape{2});
 
   CHECK(h5.attribute("/", "config") == sample.config.text);
