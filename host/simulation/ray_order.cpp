@@ -58,6 +58,8 @@ OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch) {
   if (method->curve_dimensions > 0 && dimensions != method->curve_dimensions)
     throw ConfigError(
         fmt::format("order.method = \"{}\" does not go with launch.shape = \"{}\"", order.method, launch.shape));
+  if (launch.local_size > 1024 || (launch.local_size & (launch.local_size - 1)) != 0)
+    throw ConfigError(fmt::format("launch.local_size = {} is no power of two up to 1024", launch.local_size));
   return {method->name,
           method->key,
           order.each_depth && method->key,

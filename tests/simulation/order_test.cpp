@@ -117,4 +117,6 @@ TEST_CASE("configurations built in code are checked too") {
   config.order.method = "H3DH2DH";
   config.launch.shape = "1d";
   CHECK_THROWS_AS(Simulation{config}, ConfigError);
+  config.launch = {"2d", 48};
+  CHECK_THROWS_AS(Simulation{config}, ConfigError);
 }
