@@ -14,8 +14,8 @@ DATASETS = {
              "doppler_hz vertex_offset",
     "vertices": "position_m interaction surface instance",
     "frames": "frame time_s path_offset",
-    "transmitters": "name position_m antenna polarization orientation_deg",
-    "receivers": "name position_m antenna polarization orientation_deg",
+    "transmitters": "name position_m antenna polarization orientation_deg velocity_m_s",
+    "receivers": "name position_m antenna polarization orientation_deg velocity_m_s",
 }
 
 with h5py.File(sys.argv[1] + "/paths.h5", "r") as file:
