@@ -1,0 +1,68 @@
+// Chunks through zlib, whose gz functions hand plain files through unchanged.
+// Assumes nothing about the content; the length of a gzip stream and its checksum are verified by zlib.
+#include "motion/byte_stream.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr unsigned chunk_bytes = 1u << 18;
+
+}  // namespace
+
+struct ByteStream::Handle {
+  gzFile stream;
+  ~Handle() { gzclose(stream); }
+};
+
+ByteStream::ByteStream(const std::filesystem::path& path) : file_(path.string()), chunk_(chunk_bytes, '\0') {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    throw InputError(fmt::format("{}: no such file; paths are relative to the file that names them", file_));
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw InputError(fmt::format("{}: is a folder; name the trajectory file inside it", file_));
+  }
+  errno = 0;
+  const gzFile stream = gzopen(path.c_str(), "rb");
+  if (!stream) throw InputError(fmt::format("{}: cannot be opened: {}", file_, std::strerror(errno)));
+  handle_ = std::make_unique<Handle>(stream);
+}
+
+ByteStream::~ByteStream() = default;
+
+std::string_view ByteStream::peek() {
+  const std::string_view chunk = next();
+  peeked_ = true;
+  return chunk;
+}
+
+std::string_view ByteStream::next() {
+  if (!peeked_) {
+    const int count = gzread(handle_->stream, chunk_.data(), chunk_bytes);
+    size_ = count > 0 ? static_cast<size_t>(count) : 0;
+    int error = Z_OK;
+    const char* const reason = gzerror(handle_->stream, &error);
+    if (error == Z_BUF_ERROR) {
+      throw InputError(fmt::format(
+          "{}: the gzip stream ends too early, after {} bytes of text: copy the file again, or let its writer finish",
+          file_, gztell(handle_->stream)));
+    }
+    if (count < 0 || (error != Z_OK && error != Z_STREAM_END)) {
+      throw InputError(fmt::format("{}: cannot be read after {} bytes of text: {}; copy the file again", file_,
+                                   gztell(handle_->stream), error == Z_ERRNO ? std::strerror(errno) : reason));
+    }
+  }
+  peeked_ = false;
+  return {chunk_.data(), size_};
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,11 @@
+// Trajectories as comma-separated values, with a header that names the columns (RFC 4180, no line breaks in quotes).
+// Assumes what read.hpp says of CSV files; holds one chunk of the file, one line, and the samples.
+#pragma once
+#include "motion/byte_stream.hpp"
+#include "motion/read.hpp"
+
+namespace wavetracer {
+
+Trajectories read_csv(ByteStream& stream, const TrajectoryOptions& options);
+
+}  // namespace wavetracer

@@ -1,0 +1,254 @@
+// FCD through expat, chunk by chunk (SUMO: "FCDOutput" of its documentation, fcd_file.xsd).
+// Assumes that exceptions must not cross expat, which is C: a callback keeps its own and stops the parser.
+#include "motion/fcd.hpp"
+
+#include <expat.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <numbers>
+#include <set>
+
+#include "motion/input_text.hpp"
+#include "motion/track_builder.hpp"
+#include "motion/track_motion.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+constexpr std::string_view geo_advice =
+    "the coordinates are longitude and latitude (--fcd-output.geo); run sumo without that option, it then writes "
+    "metres, or convert them to the scene's projection";
+
+class FcdReader {
+ public:
+  FcdReader(ByteStream& stream, const TrajectoryOptions& options)
+      : stream_(stream), options_(options), tracks_(stream.file(), options), parser_(XML_ParserCreate(nullptr)) {
+    if (!parser_) throw RuntimeError("no memory for an XML parser");
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), &on_start, &on_end);
+    XML_SetCommentHandler(parser_.get(), &on_comment);
+  }
+
+  Trajectories read() {
+    for (std::string_view chunk = stream_.next(); !chunk.empty(); chunk = stream_.next()) parse(chunk, false);
+    parse({}, true);
+    if (!has_timestep_) throw InputError(fmt::format("{}: has no <timestep> in it; nothing would move", file()));
+    refuse_degrees();
+    if (skipped_ > 0) {
+      tracks_.warn(fmt::format("{}: {} samples of persons and containers were left out; they can be read, by option",
+                               file(), skipped_));
+    }
+    if (riders_ > 0) {
+      tracks_.warn(fmt::format("{}: {} samples of riders were left out: their vehicles carry them", file(), riders_));
+    }
+    if (decimals_ == 2) {
+      tracks_.warn(
+          fmt::format("{}: positions have 2 decimals, and 5 mm are 35 degrees of phase at 5.9 GHz: run sumo "
+                      "with --precision 6 where phases or Doppler matter",
+                      file()));
+    }
+    return tracks_.finish(ReferencePoint::front_bumper);
+  }
+
+ private:
+  enum class Level { document, root, timestep, vehicle };
+  using Attributes = const XML_Char**;
+
+  const std::string& file() const { return stream_.file(); }
+  uint64_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
+  [[noreturn]] void fail(std::string_view what) const { fail_at(file(), line(), what); }
+
+  void parse(std::string_view chunk, bool last) {
+    if (XML_Parse(parser_.get(), chunk.data(), static_cast<int>(chunk.size()), last) == XML_STATUS_OK) return;
+    if (error_) std::rethrow_exception(error_);
+    const XML_Error code = XML_GetErrorCode(parser_.get());
+    if (last) {
+      fail("the file ends before </fcd-export>: let sumo finish, or cut off the last <timestep> and close the element");
+    }
+    throw InputError(fmt::format("{}:{}:{}: not well-formed XML: {}", file(), line(),
+                                 XML_GetCurrentColumnNumber(parser_.get()) + 1, XML_ErrorString(code)));
+  }
+
+  template <class Function>
+  static void guarded(void* self, const Function& function) {
+    FcdReader& reader = *static_cast<FcdReader*>(self);
+    if (reader.error_) return;  // expat may go on for a few events after it was stopped
+    try {
+      function(reader);
+    } catch (...) {
+      reader.error_ = std::current_exception();
+      XML_StopParser(reader.parser_.get(), XML_FALSE);
+    }
+  }
+  static void on_start(void* self, const XML_Char* name, Attributes attributes) {
+    guarded(self, [&](FcdReader& reader) { reader.start(name, attributes); });
+  }
+  static void on_end(void* self, const XML_Char*) {
+    guarded(self, [](FcdReader& reader) { --reader.depth_; });
+  }
+  static void on_comment(void* self, const XML_Char* text) {
+    guarded(self, [&](FcdReader& reader) { reader.comment(text); });
+  }
+
+  void start(std::string_view name, Attributes attributes) {
+    switch (static_cast<Level>(std::min(depth_++, 3))) {
+      case Level::document:
+        if (name == "fcd-export") return;
+        fail(
+            fmt::format("the root element is <{}>, a file of trajectories has <fcd-export>: run sumo with "
+                        "--fcd-output FILE",
+                        name));
+      case Level::root:
+        if (name != "timestep") fail(fmt::format("<{}> stands outside of a <timestep>", name));
+        return start_timestep(attributes);
+      case Level::timestep:
+        if (name == "vehicle") return add_sample(name, attributes, "", "DEFAULT_VEHTYPE");
+        if (name == "person") return add_optional(options_.persons, name, attributes, "DEFAULT_PEDTYPE");
+        if (name == "container") return add_optional(options_.containers, name, attributes, "DEFAULT_CONTAINERTYPE");
+        if (unknown_.emplace(name).second) {
+          tracks_.warn(fmt::format("{}:{}: <{}> is not known and was skipped", file(), line(), name));
+        }
+        return;
+      case Level::vehicle:
+        if (name == "person" || name == "container") ++riders_;
+    }
+  }
+
+  // SUMO begins a file with its configuration in a comment, options at their defaults left out.
+  void comment(std::string_view text) const {
+    constexpr std::string_view key = "<fcd-output.geo value=\"";
+    const size_t at = text.find(key);
+    if (at == text.npos) return;
+    text.remove_prefix(at + key.size());
+    const std::string value = lower_case(text.substr(0, text.find('"')));
+    // The words for true of SUMO's options.
+    if (value == "true" || value == "1" || value == "yes" || value == "on" || value == "t" || value == "x") {
+      fail(geo_advice);
+    }
+  }
+
+  static const XML_Char* find(Attributes attributes, std::string_view name) {
+    for (; *attributes; attributes += 2) {
+      if (*attributes == name) return attributes[1];
+    }
+    return nullptr;
+  }
+
+  void start_timestep(Attributes attributes) {
+    const XML_Char* const text = find(attributes, "time");
+    if (!text) fail("<timestep> has no attribute 'time'");
+    const std::optional<double> time_s = seconds(text);
+    if (!time_s) fail(fmt::format("<timestep>: time = '{}' is neither a number of seconds nor [d:]hh:mm:ss", text));
+    if (has_timestep_ && *time_s <= time_s_) {
+      fail(fmt::format("time {}, from {} s in line {} to {} s; timesteps must be in order, and one run a file",
+                       *time_s == time_s_ ? "stands still" : "goes backwards", time_s_, timestep_line_, *time_s));
+    }
+    time_s_ = *time_s;
+    timestep_line_ = line();
+    has_timestep_ = true;
+  }
+
+  void add_optional(bool wanted, std::string_view name, Attributes attributes, std::string_view type) {
+    if (!wanted) {
+      ++skipped_;
+      return;
+    }
+    add_sample(name, attributes, fmt::format("{}:", name), type);
+  }
+
+  void add_sample(std::string_view name, Attributes attributes, std::string_view prefix, std::string_view no_type) {
+    const XML_Char* const id = find(attributes, "id");
+    if (!id) fail(fmt::format("<{}> has no attribute 'id'", name));
+    const std::string what = fmt::format("<{} id=\"{}\">", name, id);
+    const auto optional_number = [&](std::string_view attribute, double otherwise) {
+      const XML_Char* const text = find(attributes, attribute);
+      if (!text) return otherwise;
+      const std::optional<double> value = finite_number(text);
+      if (!value) fail(fmt::format("{}: {} = '{}' is not a finite number", what, attribute, text));
+      constexpr double sumo_invalid = -1073741824;  // INVALID_DOUBLE_VALUE of SUMO
+      if (*value == sumo_invalid) {
+        fail(fmt::format("{}: {} = '{}' is what SUMO writes for an unknown value; leave this element out", what,
+                         attribute, text));
+      }
+      return *value;
+    };
+    const auto coordinate = [&](std::string_view attribute) {
+      const double value = optional_number(attribute, not_given);
+      if (!std::isnan(value)) {
+        decimals_ = std::max(decimals_, decimals(find(attributes, attribute)));
+        return value;
+      }
+      fail(fmt::format("{} has no attribute '{}'; if --fcd-output.attributes was given to sumo, it must name x and y",
+                       what, attribute));
+    };
+    Sample sample;
+    sample.time_s = time_s_;
+    sample.position_m = {coordinate("x"), coordinate("y"), optional_number("z", 0)};
+    sample.yaw_rad = std::remainder((90 - optional_number("angle", not_given)), 360.0) * degree;
+    const double slope_deg = optional_number("slope", not_given);
+    if (std::abs(slope_deg) >= 90) fail(fmt::format("{}: slope = {} is not within -90 to 90", what, slope_deg));
+    sample.pitch_rad = slope_deg * degree;
+    sample.speed_m_s = optional_number("speed", not_given);
+    const XML_Char* const type = find(attributes, "type");
+    tracks_.add(fmt::format("{}{}", prefix, id), type ? std::string_view(type) : no_type, sample, line(), what);
+  }
+
+  static size_t decimals(std::string_view text) {
+    const size_t point = text.find('.');
+    return point == text.npos ? 0 : text.size() - point - 1;
+  }
+
+  // A file may have lost the comment that tells its options. Degrees betray themselves: all within the globe, and
+  // vehicles that drive by their speeds but hardly move: a metre is 1e-5 degrees, and 1e-4 of longitude at 85 degrees.
+  void refuse_degrees() const {
+    for (const Track& track : tracks_.tracks()) {
+      for (const Sample& s : track.samples) {
+        if (std::abs(s.position_m.x) > 180 || std::abs(s.position_m.y) > 90) return;
+      }
+    }
+    const double longest_s = 1.5 * median_step(tracks_.tracks());  // not across gaps
+    double driven_m = 0, moved = 0;
+    for (const Track& track : tracks_.tracks()) {
+      for (size_t k = 1; k < track.samples.size(); ++k) {
+        const Sample &a = track.samples[k - 1], &b = track.samples[k];
+        const double least_m_s = std::min(std::abs(a.speed_m_s), std::abs(b.speed_m_s));
+        if (!(least_m_s > 0) || b.time_s - a.time_s > longest_s) continue;
+        driven_m += least_m_s * (b.time_s - a.time_s);
+        moved += std::hypot(b.position_m.x - a.position_m.x, b.position_m.y - a.position_m.y);
+      }
+    }
+    if (driven_m > 1 && moved < 1e-3 * driven_m) throw InputError(fmt::format("{}: {}", file(), geo_advice));
+  }
+
+  struct FreeParser {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+  };
+
+  ByteStream& stream_;
+  const TrajectoryOptions& options_;
+  TrackBuilder tracks_;
+  std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
+  std::exception_ptr error_;  // thrown in a callback
+  int depth_ = 0;             // of open elements
+  bool has_timestep_ = false;
+  double time_s_ = 0;
+  uint64_t timestep_line_ = 0;
+  size_t decimals_ = 0;  // the most of any coordinate
+  uint64_t skipped_ = 0, riders_ = 0;
+  std::set<std::string, std::less<>> unknown_;
+};
+
+}  // namespace
+
+Trajectories read_fcd(ByteStream& stream, const TrajectoryOptions& options) {
+  return FcdReader(stream, options).read();
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,61 @@
+// Trajectories from files (SUMO FCD, CSV) and from waypoints, complete and in a fixed order.
+// Throws InputError with file, line and what to do; what is left out or made up is told in Trajectories::warnings.
+#pragma once
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "motion/trajectories.hpp"
+
+namespace wavetracer {
+
+struct TrajectoryOptions {
+  // Scene coordinate = scale * file coordinate + offset_m. SUMO's network coordinates are those of its projection plus
+  // the netOffset of <location>: a scene in the projection's coordinates needs offset_m = -netOffset. Sizes and speeds
+  // are in metres already and are not scaled.
+  glm::dvec3 offset_m{0};
+  double scale = 1;
+  // FCD: <person> and <container> are read like vehicles, with "person:" and "container:" before their ids, since SUMO
+  // numbers them apart. Riders, written inside of their <vehicle>, are never read: the vehicle carries them.
+  bool persons = false, containers = false;
+  std::vector<VehicleType> types;  // sizes by the name of the type; they go before those of SUMO's classes
+  // For types that neither `types` nor SUMO's classes name. Absent: such a type is an error.
+  std::optional<VehicleType> default_type = VehicleType{"", 5.0, 1.8, 1.5};
+  // The speed that a vehicle without a reported one may have between two samples; farther is a teleport.
+  double max_speed_m_s = 100;
+};
+
+// FCD (`.xml`) or CSV, either of them plain or gzip, told apart by content.
+//
+// FCD, as SUMO writes it with --fcd-output: time, id, x, y are needed; angle, speed, z, slope and type are used where
+// they are, other attributes are not. angle is in degrees clockwise from north; (x, y, z) is the centre of the front
+// bumper, from which the centre of the vehicle follows by its length.
+//
+// CSV: a header names the columns, in any order: time (s), id, x, y (m) are needed; z (m), yaw (degrees
+// counter-clockwise from +x), speed (m/s) and type are optional, also cell by cell. (x, y, z) is the centre of the
+// footprint. Rows may be sorted by time or by vehicle. Lines that begin with # are comments.
+//
+// A heading that is not given is that of the motion, and stays while the vehicle stands. A track falls into segments
+// where it has a gap of more than 1.5 steps or a jump farther than 1.5 times the higher speed of both ends allows,
+// and 5 m (a change of lanes in one step) and 5 m/s^2 t^2 (braking and starting) on top.
+Trajectories read_trajectories(const std::filesystem::path& path, const TrajectoryOptions& options = {});
+
+struct Waypoint {
+  double time_s;
+  glm::dvec3 position_m;
+};
+
+struct WaypointTrack {
+  std::string id;
+  VehicleType type;
+  std::vector<Waypoint> waypoints;
+};
+
+// Waypoints in scene coordinates, smoothly connected however far apart they are: one segment a track. Two equal
+// positions one after the other are a stop.
+Trajectories connect_waypoints(std::span<const WaypointTrack> tracks);
+
+}  // namespace wavetracer

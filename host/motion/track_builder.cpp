@@ -1,0 +1,121 @@
+// Samples into tracks, tracks into their final order.
+// Assumes that samples which agree in id are of one vehicle, whatever else the file says of them.
+#include "motion/track_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/input_text.hpp"
+#include "motion/track_motion.hpp"
+#include "motion/vehicle_types.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+// The first of the names, for messages.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr size_t shown = 5;
+  std::string out;
+  for (size_t i = 0; i < std::min(names.size(), shown); ++i) out += fmt::format("{}'{}'", i > 0 ? ", " : "", names[i]);
+  return names.size() > shown ? fmt::format("{} and {} more", out, names.size() - shown) : out;
+}
+
+}  // namespace
+
+TrackBuilder::TrackBuilder(std::string file, const TrajectoryOptions& options)
+    : file_(std::move(file)), options_(options) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+    throw ConfigError(fmt::format("the scale of trajectories is {}; it must be positive", options.scale));
+  }
+  for (const VehicleType& type : options.types) check_type(type);
+  if (options.default_type) check_type(*options.default_type);
+}
+
+void TrackBuilder::add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line,
+                       std::string_view what) {
+  const auto found = track_of_.find(id);
+  if (found == track_of_.end()) {
+    track_of_.emplace(id, static_cast<uint32_t>(out_.tracks.size()));
+    out_.tracks.push_back({std::string(id), type_index(type, line), {sample}, {}});
+    last_line_.push_back(line);
+    return;
+  }
+  Track& track = out_.tracks[found->second];
+  uint64_t& last_line = last_line_[found->second];
+  const double last_s = track.samples.back().time_s;
+  if (sample.time_s == last_s) {
+    fail_at(file_, line,
+            fmt::format("{} has a second sample at {} s, the first one is in line {}; ids must be unique", what, last_s,
+                        last_line));
+  }
+  if (sample.time_s < last_s) {
+    fail_at(file_, line,
+            fmt::format("{}: time goes backwards, from {} s in line {} to {} s; sort by time", what, last_s, last_line,
+                        sample.time_s));
+  }
+  if (out_.types[track.type].name != type) ++changed_types_;
+  track.samples.push_back(sample);
+  last_line = line;
+}
+
+uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
+  const auto known = type_of_.find(name);
+  if (known != type_of_.end()) return known->second;
+  // SUMO names the type of a vehicle that was changed at run time TYPE@VEHICLE.
+  const std::string_view base = name.substr(0, name.find('@'));
+  const auto given = std::find_if(options_.types.begin(), options_.types.end(),
+                                  [&](const VehicleType& t) { return t.name == name || t.name == base; });
+  std::optional<VehicleType> type = given != options_.types.end() ? *given : sumo_type(base);
+  if (!type) {
+    if (!options_.default_type) {
+      fail_at(file_, line, fmt::format("the vehicle type '{}' is not known: give its length, width and height", name));
+    }
+    type = options_.default_type;
+    unknown_types_.emplace_back(name);
+  }
+  type->name = name;
+  const uint32_t index = static_cast<uint32_t>(out_.types.size());
+  out_.types.push_back(*type);
+  type_of_.emplace(name, index);
+  return index;
+}
+
+Trajectories TrackBuilder::finish(ReferencePoint reference) {
+  if (out_.tracks.empty()) throw InputError(fmt::format("{}: has no vehicle in it; nothing would move", file_));
+  set_order(out_);
+  std::vector<std::string> cut, without_heading;
+  double first_cut_s = 0;
+  for (Track& track : out_.tracks) {
+    for (Sample& s : track.samples) s.position_m = options_.scale * s.position_m + options_.offset_m;
+    if (const auto time_s = split_segments(track, out_.step_s, options_.max_speed_m_s)) {
+      if (cut.empty()) first_cut_s = *time_s;
+      cut.push_back(track.id);
+    }
+    if (complete_headings(track)) without_heading.push_back(track.id);
+    if (reference == ReferencePoint::front_bumper) shift_to_centre(track, out_.types[track.type].length_m);
+    complete_velocities(track);
+  }
+  if (!unknown_types_.empty()) {
+    warn(fmt::format("{}: no size is known for the vehicle types {}: {} x {} x {} m is used", file_,
+                     listed(unknown_types_), options_.default_type->length_m, options_.default_type->width_m,
+                     options_.default_type->height_m));
+  }
+  if (changed_types_ > 0) {
+    warn(fmt::format("{}: {} samples change the type of their vehicle, which keeps its first one", file_,
+                     changed_types_));
+  }
+  if (!cut.empty()) {
+    warn(fmt::format("{}: gaps or teleports in {} tracks ({}), the first one after {} s: the vehicle is absent there",
+                     file_, cut.size(), listed(cut), first_cut_s));
+  }
+  if (!without_heading.empty()) {
+    warn(fmt::format("{}: the heading of {} is neither given nor told by motion: they look along +x", file_,
+                     listed(without_heading)));
+  }
+  return std::move(out_);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,89 @@
+// Small trajectory files for the tests of motion/: a folder that goes away with the test, gzip, and FCD around samples.
+// Assumes a writable folder for temporary files.
+#pragma once
+#include <doctest/doctest.h>
+#include <zlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+#include "motion/read.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::test {
+
+inline constexpr double pi = std::numbers::pi;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static int count = 0;
+    do {
+      path_ = std::filesystem::temp_directory_path() / ("wavetracer_test_motion_" + std::to_string(++count));
+    } while (!std::filesystem::create_directory(path_));
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path write(const std::string& name, std::string_view content) const {
+    std::ofstream(path_ / name, std::ios::binary) << content;
+    return path_ / name;
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string gzip(const std::string& text) {
+  z_stream stream{};
+  REQUIRE(deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK);
+  std::string out(deflateBound(&stream, text.size()), '\0');
+  std::string in = text;
+  stream.next_in = reinterpret_cast<Bytef*>(in.data());
+  stream.avail_in = static_cast<uInt>(in.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  REQUIRE(deflate(&stream, Z_FINISH) == Z_STREAM_END);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+// The content in a file of this name, read.
+inline Trajectories read_text(std::string_view content, const TrajectoryOptions& options = {},
+                              const std::string& name = "drive.xml") {
+  const TemporaryFolder folder;
+  return read_trajectories(folder.write(name, content), options);
+}
+
+inline std::string fcd(const std::string& timesteps) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fcd-export>\n" + timesteps + "</fcd-export>\n";
+}
+
+// One line of an FCD file.
+inline std::string timestep(const std::string& time, const std::string& elements) {
+  return "<timestep time=\"" + time + "\">" + elements + "</timestep>\n";
+}
+
+inline void check_contains(const std::string& text, const std::string& part) {
+  CAPTURE(text);
+  CAPTURE(part);
+  CHECK(text.find(part) != text.npos);
+}
+
+inline void check_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
+  for (int i = 0; i < 3; ++i) {
+    CAPTURE(i);
+    CHECK(std::abs(a[i] - b[i]) <= tolerance);
+  }
+}
+
+}  // namespace wavetracer::test
