@@ -20,6 +20,7 @@
 #include "scene/city.hpp"
 #include "scene/load.hpp"
 #include "segments.hpp"
+#include "timing.hpp"
 #include "tracers.hpp"
 #include "wavetracer/error.hpp"
 
@@ -40,11 +41,6 @@ struct Sample {
 
 using Segments = std::vector<std::vector<Ray>>;
 using Truth = std::vector<std::vector<Hit>>;
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 // The program's own launch rays: "random", or "hilbert", its default, in which neighbours go the same way.
 std::vector<Ray> launch(gpu::Context& context, const std::string& directions, std::array<float, 3> origin,
