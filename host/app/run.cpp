@@ -11,6 +11,7 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "config/config_file.hpp"
+#include "output/median.hpp"
 #include "output/output.hpp"
 #include "wavetracer/simulation.hpp"
 
@@ -25,12 +26,6 @@ struct Options {
   uint32_t repeat = 1;
   bool resume = false;
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 // The result of the last repeat with the median time of each stage; `repeated` is how many there were.
 // An interrupt ends it after the repeat in progress.

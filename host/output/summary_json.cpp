@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
+#include "output/median.hpp"
 
 namespace wavetracer {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 StageSeconds frame_medians(const std::vector<FrameResult>& frames) {
   std::map<std::string, std::vector<double>> samples;

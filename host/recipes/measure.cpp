@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <initializer_list>
 #include <map>
+#include "output/median.hpp"
 #include "recipes/ray_counts.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::recipes {
 namespace {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 // A stage that a frame has no use for is not in the list.
 double sum(const StageSeconds& seconds, std::initializer_list<const char*> stages) {

@@ -37,10 +37,11 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
       directions_(config.directions, config.rays, config.seed),
       generate_(context, directions_),
       trace_(context, scene, choose_shape(context.info(), config, order), order.launch),
-      compact_(context, Trace::block_size(context.info())),
       scan_(context),
       interact_(context),
-      sequences_(context, initial_slots) {}
+      sequences_(context, initial_slots) {
+  if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
+}
 
 DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<glm::dvec3>& transmitters) {
   DiscoveryCounts counts;
@@ -88,8 +89,8 @@ void Discovery::trace_batch(const DeviceScene& scene, DiscoveryCounts& counts) {
   for (uint32_t depth = 1; depth <= max_depth_ && rays_.count > 0; ++depth) {
     if (plan_.each_depth && depth > 1) (*order_)(rays_, next_);
     trace_(scene, rays_, hits_);
-    if (!trace_.counts_blocks())
-      compact_.count_blocks(hits_.planes, size_t{WT_HIT_SURFACE} * hits_.capacity, rays_.count, hits_.block_hits);
+    if (compact_)
+      compact_->count_blocks(hits_.planes, size_t{WT_HIT_SURFACE} * hits_.capacity, rays_.count, hits_.block_hits);
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
     interact_(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), next_, depth == max_depth_);
     counts.segments_per_depth[depth - 1] += rays_.count;

@@ -2,6 +2,7 @@
 // The wavefront loop generate, order, trace, interact; batches bound the memory, whatever the number of rays.
 #pragma once
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "passes/compact.hpp"
@@ -45,7 +46,7 @@ class Discovery {
   LaunchDirections directions_;
   GenerateRays generate_;
   Trace trace_;
-  Compact compact_;
+  std::optional<Compact> compact_;  // where trace does not count the hits of blocks
   Scan scan_;
   Interact interact_;
   Sequences sequences_;

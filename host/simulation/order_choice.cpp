@@ -11,7 +11,7 @@
 #include <span>
 #include <sstream>
 
-#include "simulation/discovery.hpp"
+#include "simulation/warm_sample.hpp"
 
 namespace wavetracer {
 
@@ -39,24 +39,14 @@ std::vector<Candidate> candidates(const Config& config) {
   return all;
 }
 
-// Seconds of the stages that carry rays.
-double ray_seconds(gpu::Context& context) {
-  double sum = 0;
-  for (const auto& [stage, seconds] : context.profile()) sum += seconds;
-  return sum;
-}
-
+// All stages count, so that a sort is paid.
 double measure(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample, const OrderPlan& plan,
                const glm::dvec3& transmitter) {
-  Discovery discovery(context, scene, sample, plan);
-  double best = 0;
-  for (int run = 0; run < 3; ++run) {
-    context.reset_profile();
-    discovery(scene, {transmitter});
-    const double seconds = ray_seconds(context);
-    if (run == 1 || (run > 1 && seconds < best)) best = seconds;  // the first is cold
-  }
-  return best;
+  return warm_seconds(context, scene, sample, plan, {transmitter}, [](const auto& stages) {
+    double sum = 0;
+    for (const auto& [stage, seconds] : stages) sum += seconds;
+    return sum;
+  });
 }
 
 // Everything that the choice depends on but the device, which the context adds.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "simulation/discovery.hpp"
+#include "simulation/warm_sample.hpp"
 
 namespace wavetracer {
 
@@ -13,15 +13,10 @@ namespace {
 // Seconds that the sample's rays take on the device, warm.
 double sample_seconds(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample,
                       const std::vector<glm::dvec3>& transmitters) {
-  Discovery discovery(context, scene, sample);
-  double best = 0;
-  for (int run = 0; run < 3; ++run) {
-    context.reset_profile();
-    discovery(scene, transmitters);
-    const double seconds = context.profile()["trace"];
-    if (run == 1 || (run > 1 && seconds < best)) best = seconds;  // the first is cold
-  }
-  return best;
+  return warm_seconds(context, scene, sample, {}, transmitters, [](const auto& stages) {
+    const auto trace = stages.find("trace");
+    return trace == stages.end() ? 0.0 : trace->second;
+  });
 }
 
 }  // namespace

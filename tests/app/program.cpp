@@ -1,6 +1,7 @@
 // posix_spawn with stdout and stderr in files, so that nothing can block on a full pipe.
 // It assumes POSIX.
 #include "program.hpp"
+#include <doctest/doctest.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
@@ -92,4 +93,10 @@ std::string Program::messages() const { return contents(folder_.path("err")); }
 
 Outcome run_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
   return Program(arguments, environment).wait();
+}
+
+bool device_present() {
+  const Outcome devices = run_program({"devices"});
+  if (devices.code != 0) MESSAGE("skipped, no OpenCL device: " << devices.err);
+  return devices.code == 0;
 }

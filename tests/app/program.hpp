@@ -43,4 +43,7 @@ class Program {
 
 Outcome run_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
+// Whether the program finds an OpenCL device; says in the test's output that what needs one is skipped.
+bool device_present();
+
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

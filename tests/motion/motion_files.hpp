@@ -1,4 +1,4 @@
-// Small trajectory files for the tests of motion/: a folder that goes away with the test, gzip, and FCD around samples.
+// Small trajectory files for the tests of motion/: gzip, and FCD around samples.
 // Assumes a writable folder for temporary files.
 #pragma once
 #include <doctest/doctest.h>
@@ -11,36 +11,12 @@
 #include <string_view>
 
 #include "motion/read.hpp"
+#include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::test {
 
 inline constexpr double pi = std::numbers::pi;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static int count = 0;
-    do {
-      path_ = std::filesystem::temp_directory_path() / ("wavetracer_test_motion_" + std::to_string(++count));
-    } while (!std::filesystem::create_directory(path_));
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path write(const std::string& name, std::string_view content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline std::string gzip(const std::string& text) {
   z_stream stream{};

@@ -18,12 +18,6 @@ const std::string street =
     "[[transmitter]]\nname = \"mast\"\nposition_m = [0, 0, 6]\n"
     "[[receiver]]\nname = \"car\"\nposition_m = [50, 0, 2]\n";
 
-bool device_present() {
-  const Outcome devices = run_program({"devices"});
-  if (devices.code != 0) MESSAGE("skipped, no OpenCL device: " << devices.err);
-  return devices.code == 0;
-}
-
 std::string contents(const std::string& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();

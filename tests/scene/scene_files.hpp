@@ -1,4 +1,4 @@
-// Small scene files for the tests of scene/: a folder that goes away with the test, and meshes in it.
+// Small scene files for the tests of scene/: meshes as text.
 // Assumes a writable folder for temporary files.
 #pragma once
 #include <filesystem>
@@ -7,33 +7,9 @@
 #include <string_view>
 
 #include "scene/load.hpp"
+#include "temporary_folder.hpp"
 
 namespace wavetracer::test {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static int count = 0;
-    do {
-      path_ = std::filesystem::temp_directory_path() / ("wavetracer_test_scene_" + std::to_string(++count));
-    } while (!std::filesystem::create_directory(path_));
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path write(const std::string& name, std::string_view content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // An ascii PLY file with the corners of a unit square on z = 0 (vertices) and these faces.
 inline std::string square_ply(std::string_view faces, int face_count) {

@@ -1,0 +1,16 @@
+// The median of repeated timings, as every report of this program gives it.
+// Assumes at least one value.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace wavetracer {
+
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace wavetracer
