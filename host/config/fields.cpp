@@ -328,7 +328,7 @@ const std::vector<Table>& tables() {
       {.name = "trajectories",
        .doc = "Moving vehicles.",
        .fields = {{.name = "file",
-                   .slot = at(&Config::trajectories_file),
+                   .slot = at(&Config::trajectories, &TrajectoriesConfig::file),
                    .form = Form::input_file,
                    .doc = "Positions over time.",
                    .later = "leave it out and give each end its position_m; a run is one frame"}}},

@@ -16,24 +16,16 @@
 #include "simulation/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
 #include "simulation/visible_paths.hpp"
+#include "simulation/world.hpp"
 
 namespace wavetracer {
 
 namespace {
 
-std::vector<glm::dvec3> recentred(const std::vector<RadioEnd>& ends, const Scene& scene) {
+std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
   std::vector<glm::dvec3> out;
-  for (const RadioEnd& end : ends)
-    out.push_back(glm::dvec3(end.position_m[0], end.position_m[1], end.position_m[2]) - scene.origin_m);
+  for (const EndState& end : ends) out.push_back(end.position_m);
   return out;
-}
-
-// The largest absolute coordinate of any end.
-double reach_m(std::initializer_list<std::vector<glm::dvec3>> ends) {
-  double reach = 0;
-  for (const auto& points : ends)
-    for (const glm::dvec3& p : points) reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return reach;
 }
 
 }  // namespace
@@ -44,8 +36,7 @@ struct Simulation::State {
   std::optional<gpu::Context> context;
   Scene scene;
   DeviceScene device_scene;
-  std::vector<glm::dvec3> transmitters;
-  RadioEnds ends;
+  std::optional<World> world;
   std::optional<Discovery> discovery;
   std::optional<Candidates> candidates;
   std::optional<Solve> solve;
@@ -65,14 +56,15 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.setup["device"] = watch.lap();
   s.scene = load_scene(config);
   s.setup["load"] = watch.lap();
-  s.transmitters = recentred(config.transmitters, s.scene);
-  const std::vector<glm::dvec3> receivers = recentred(config.receivers, s.scene);
-  s.device_scene = choose_tree(*s.context, s.scene, config.trace, s.transmitters, reach_m({s.transmitters, receivers}));
+  s.world.emplace(config, s.scene);
+  s.config.transmitters = s.world->transmitters();
+  s.config.receivers = s.world->receivers();
+  const std::vector<glm::dvec3> transmitters = positions(s.world->state(0).transmitters);
+  s.device_scene = choose_tree(*s.context, s.scene, config.trace, transmitters, s.world->reach_m());
   s.setup["build"] = watch.lap();
-  s.ends = make_radio_ends(*s.context, s.transmitters, receivers);
   OrderChoice order;
   if (config.order.method == "auto") {
-    order = choose_order(*s.context, s.scene, s.device_scene, config, s.transmitters);
+    order = choose_order(*s.context, s.scene, s.device_scene, config, transmitters);
     s.setup["order"] = watch.lap();
   } else {
     order.plan = plan_order(config.order, config.launch);
@@ -91,6 +83,12 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
+void Simulation::forget() {}
+uint64_t Simulation::frame_count() const { return state_->world->frame_count(); }
+double Simulation::time_s(uint32_t frame) const { return state_->world->time_s(frame); }
+const Config& Simulation::config() const { return state_->config; }
+const std::vector<Instance>& Simulation::instances() const { return state_->world->instances(); }
+const std::vector<Scene>& Simulation::models() const { return state_->world->models(); }
 const Scene& Simulation::scene() const { return state_->scene; }
 const DeviceSummary& Simulation::device() const { return state_->device; }
 const OrderSummary& Simulation::order() const { return state_->order; }
@@ -99,19 +97,23 @@ const StageSeconds& Simulation::setup_seconds() const { return state_->setup; }
 FrameResult Simulation::run_frame(uint32_t frame) {
   State& s = *state_;
   FrameResult out;
+  out.frame = frame;
+  out.world = s.world->state(frame);
   s.context->reset_profile();
   Stopwatch watch;
 
-  const DiscoveryCounts found = (*s.discovery)(s.device_scene, s.transmitters);
+  const std::vector<glm::dvec3> transmitters = positions(out.world.transmitters);
+  const RadioEnds ends = make_radio_ends(*s.context, transmitters, positions(out.world.receivers));
+  const DiscoveryCounts found = (*s.discovery)(s.device_scene, transmitters);
   Sequences& sequences = s.discovery->sequences();
-  uint32_t node_count = sequences.collect(s.ends.transmitter_count);
+  uint32_t node_count = sequences.collect(ends.transmitter_count);
   sequences.commute(s.device_scene.surfaces, node_count, s.config.trace.max_depth);
-  node_count = sequences.collect(s.ends.transmitter_count);
+  node_count = sequences.collect(ends.transmitter_count);
   const uint32_t candidate_count =
-      (*s.candidates)(s.device_scene, s.ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
-  SolvedList& solved = (*s.solve)(s.device_scene, s.ends, sequences.table(), s.candidates->list(), candidate_count,
+      (*s.candidates)(s.device_scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
+  SolvedList& solved = (*s.solve)(s.device_scene, ends, sequences.table(), s.candidates->list(), candidate_count,
                                   sequences.counters());
-  (*s.occlusion)(s.device_scene, s.ends, solved);
+  (*s.occlusion)(s.device_scene, ends, solved);
   const PathGeometry geometry = visible_paths(solved);
 
   Stopwatch fields_watch;
@@ -125,7 +127,7 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   out.counts.rays = found.rays;
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
-  out.counts.sequences = node_count - s.ends.transmitter_count;
+  out.counts.sequences = node_count - ends.transmitter_count;
   out.counts.candidates = candidate_count;
   out.counts.solved = solved.count;
   out.counts.paths = out.paths.size();

@@ -40,8 +40,59 @@ struct RadioEnd {  // [[transmitter]] or [[receiver]]
   std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; shifts frequencies, moves nothing
 };
 
+// [trajectories]: how vehicles move. Give either file or generate, or [[track]] tables, or nothing: no vehicles.
+struct TrajectoriesConfig {
+  std::string file;                       // SUMO FCD or CSV, plain or gzip
+  std::string generate;                   // arguments of `wavetracer scene city` about vehicles, instead of a file
+  std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of the trajectories + this
+  double scale = 1;
+  bool persons = false, containers = false;
+  std::string default_type;  // vehicle type of vehicles whose type is unknown; empty: such a vehicle is an error
+};
+
+struct TrackConfig {  // [[track]]: a vehicle on waypoints
+  std::string id;
+  std::string type = "passenger";
+  std::vector<std::array<double, 4>> waypoints;  // time_s, x, y, z; file coordinates of the scene
+};
+
+struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories looks like
+  std::string name;
+  std::string model = "auto";  // auto, car, van, truck, none, or a mesh file (x ahead, z up, origin on the ground)
+  double length_m = 0, width_m = 0, height_m = 0;  // 0: that of SUMO's vehicle class of this name
+  std::string material = "metal";                  // of a mesh without one
+};
+
+struct MountConfig {  // [[mount]]: an antenna on vehicles
+  std::string name;         // the end is called VEHICLE/NAME
+  std::string on = "*";     // ids or types of vehicles, * and ? as in shells
+  std::string role = "both";  // transmitter, receiver, both
+  std::array<double, 3> offset_m{0, 0, 0};  // from the centre of the footprint: ahead, left, up
+  std::string antenna = "isotropic";
+  std::string polarization = "V";
+  std::array<double, 3> orientation_deg{0, 0, 0};  // in the vehicle's axes
+};
+
+struct LinksConfig {  // [links]: which pairs are computed
+  double max_distance_m = std::numeric_limits<double>::infinity();
+  std::vector<std::string> transmitters{"*"}, receivers{"*"};  // names of ends, * and ? as in shells
+  bool v2v = true, v2i = true, i2i = true;  // vehicle to vehicle; vehicle and infrastructure, either way; ...
+  bool same_vehicle = false;                // between two antennas of one vehicle
+};
+
+struct TimeConfig {  // [time]: frames of a drive
+  std::optional<double> start_s, end_s;  // not given: those of the trajectories
+  double step_s = 0;                     // 0: that of the trajectories
+};
+
 struct TraceConfig {
-  uint64_t rays = 1000000;  // a transmitter
+  uint64_t rays = 1000000;  // a transmitter; 0 ("auto"): as many as recall asks for, at most max_rays
+  double recall = 0.99;     // of rays = "auto": wanted share of the paths
+  uint64_t max_rays = 10000000;  // of rays = "auto"
+  bool reuse = true;             // sequences of earlier frames of a drive are kept and solved again
+  uint64_t refresh_rays = 0;     // rays a transmitter of a frame that reuses; 0: a tenth of rays
+  uint32_t forget_frames = 50;   // a sequence that no ray has met for so many frames is dropped
+  bool join = false;             // ends that send and receive: prefixes of both are joined in the middle
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
   std::string directions = "hilbert";  // hilbert, fibonacci, random
@@ -75,6 +126,7 @@ struct CacheConfig {
 
 struct OutputConfig {
   std::string directory = "out";
+  uint32_t shard_frames = 100;  // frames a file of a drive; the first of each is cold where frames reuse sequences
 };
 
 struct Config {
@@ -84,7 +136,12 @@ struct Config {
   RadioConfig radio;
   std::vector<MaterialConfig> materials;
   std::vector<RadioEnd> transmitters, receivers;
-  std::string trajectories_file;
+  TrajectoriesConfig trajectories;
+  std::vector<TrackConfig> tracks;
+  std::vector<VehicleTypeConfig> vehicle_types;
+  std::vector<MountConfig> mounts;
+  LinksConfig links;
+  TimeConfig time;
   TraceConfig trace;
   OrderConfig order;
   LaunchConfig launch;

@@ -8,6 +8,7 @@
 #include "wavetracer/config.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/scene.hpp"
+#include "wavetracer/world.hpp"
 
 namespace wavetracer {
 
@@ -26,6 +27,8 @@ struct FrameCounts {
 using StageSeconds = std::map<std::string, double>;
 
 struct FrameResult {
+  uint32_t frame = 0;
+  WorldState world;
   Paths paths;
   FrameCounts counts;
   StageSeconds seconds;
@@ -57,8 +60,18 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
+  // Frames of one drive may be asked for in any order; with trace.reuse, what a frame finds depends on the frames since
+  // the last forget(). Throws ConfigError for a frame that the world does not have.
   FrameResult run_frame(uint32_t frame);
+  // Drops all sequences of earlier frames: the next frame is cold.
+  void forget();
+  uint64_t frame_count() const;
+  double time_s(uint32_t frame) const;
   const Scene& scene() const;
+  // The configuration with the ends that are mounted on vehicles among its transmitters and receivers.
+  const Config& config() const;
+  const std::vector<Instance>& instances() const;
+  const std::vector<Scene>& models() const;
   const DeviceSummary& device() const;
   const OrderSummary& order() const;
   // Stages outside the frame: load, surfaces, build, compile, ...

@@ -1,0 +1,41 @@
+// What moves: vehicle models, instances, radio ends and links of every frame, from configuration and trajectories.
+// A world without trajectories has one frame, at 0 s.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wavetracer/config.hpp"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/world.hpp"
+
+namespace wavetracer {
+
+class World {
+ public:
+  // scene: the static one; only its origin, extent and number of surfaces are used. Throws ConfigError or InputError.
+  World(const Config& config, const Scene& scene);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  // Vehicle models: recentred like any Scene; Placement takes their origin into account.
+  const std::vector<Scene>& models() const;
+  const std::vector<Instance>& instances() const;
+  // All radio ends of all frames: those of the configuration, then those mounted on vehicles, by track, then by mount.
+  const std::vector<RadioEnd>& transmitters() const;
+  const std::vector<RadioEnd>& receivers() const;
+
+  uint64_t frame_count() const;
+  double time_s(uint64_t frame) const;
+  WorldState state(uint64_t frame) const;
+  // The largest absolute coordinate, recentred, that an end or a corner of an instance has in any frame.
+  double reach_m() const;
+  const std::vector<std::string>& warnings() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,53 @@
+// The moving part of a world at one instant: vehicles as instances of models, and radio ends.
+// Positions are recentred as the scene is (file coordinate = Scene::origin_m + position), in double.
+#pragma once
+#include <compare>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "wavetracer/paths.hpp"
+
+namespace wavetracer {
+
+// A placed model: p in the coordinates of the model's Scene is at position_m + rotation * p, and moves with
+// velocity_m_s + cross(angular_velocity_rad_s, rotation * p).
+struct Placement {
+  glm::dvec3 position_m{0};
+  glm::dmat3 rotation{1.0};
+  glm::dvec3 velocity_m_s{0};
+  glm::dvec3 angular_velocity_rad_s{0};  // scene axes
+  bool present = true;
+};
+
+struct EndState {
+  glm::dvec3 position_m{0};
+  glm::dmat3 rotation{1.0};  // antenna axes to scene axes
+  glm::dvec3 velocity_m_s{0};
+  uint32_t instance = no_instance;  // the vehicle that carries it, which does not hide it
+  bool present = true;
+};
+
+// A transmitter and a receiver between which paths are wanted.
+struct Link {
+  uint32_t tx, rx;
+  auto operator<=>(const Link&) const = default;
+};
+
+struct WorldState {
+  double time_s = 0;
+  std::vector<Placement> instances;
+  std::vector<EndState> transmitters, receivers;
+  std::vector<Link> links;  // of ends that are present, sorted, each once
+};
+
+// What an instance is, whatever the time.
+struct Instance {
+  std::string id, type;      // of the vehicle, as in its trajectory
+  uint32_t model = 0;        // index into the models of the world
+  uint32_t first_surface = 0;  // its surfaces are those of its model, numbered from here on; static surfaces come first
+};
+
+}  // namespace wavetracer
