@@ -31,7 +31,7 @@ struct Place {
   std::array<double, 3> transmitter_m, receiver_m;
 };
 
-// Munich with the transmitter of bench_trace and a car of configs/munich.toml; the city, antennas of configs/demo.toml.
+// Munich with the transmitter of bench_trace and a car of configs/munich.toml; the city, antennas of configs/city.toml.
 std::vector<Place> places(const std::string& scene) {
   std::vector<Place> result;
   const std::string munich = WAVETRACER_SHARED "/scenes/munich/munich.xml";

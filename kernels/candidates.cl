@@ -6,18 +6,20 @@
 
 // One sequence and 16 receivers a work-item. nodes[] holds the roots first, then the trie's nodes.
 // receivers: three planes of receiver_capacity floats, padded to a multiple of 16 with copies of the last one.
+// links: a mask of the wanted receivers for each transmitter and 16 receivers.
 kernel void candidates(const global ulong* table, const global uint* nodes, uint node_count,
                        const global double4* transmitters, const global wt_exact_surface* exact,
-                       const global wt_surface* surfaces, const global float* receivers, uint receiver_count,
+                       const global wt_surface* surfaces, const global float* receivers, const global ushort* links,
                        uint receiver_capacity, global wt_candidate* out, uint capacity, global wt_counters* counters) {
   const uint groups = receiver_capacity / 16;
-  const uint i = get_global_id(0) / groups, first = get_global_id(0) % groups * 16;
+  const uint i = get_global_id(0) / groups, group = get_global_id(0) % groups, first = group * 16;
   if (i >= node_count) return;
   const uint node = nodes[i];
-  uint keep = (1u << min(16u, receiver_count - first)) - 1u;
-  if (!(node & WT_ROOT)) {
-    uint chain[WT_MAX_DEPTH], transmitter;
-    const uint depth = wt_chain(table, node, chain, &transmitter);
+  uint chain[WT_MAX_DEPTH], transmitter;
+  const uint depth = wt_chain(table, node, chain, &transmitter);
+  uint keep = links[(size_t)transmitter * groups + group];
+  if (keep == 0) return;
+  if (depth > 0) {
     double3 image = transmitters[transmitter].xyz;
     for (uint k = 0; k < depth; ++k) image = wt_reflected(exact + chain[k], image);
 

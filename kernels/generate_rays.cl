@@ -11,11 +11,13 @@
 #ifdef WT_CPU
 // 16 rays a work-item. Queues and lists are padded, so the last item may pass the count.
 #define WT_RAYS_PER_ITEM 16
-inline ulong16 after(ulong index) { return index + (ulong16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
+inline ulong16 after(ulong index, ulong stride) {
+  return index + stride * (ulong16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
 inline ulong16 listed(ulong index, const global uint* list) { return index + convert_ulong16(vload16(0, list)); }
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong16 index, ulong parameter, uint level,
-                       uint faces, float x, float y, float z, uint root) {
+                       uint faces, float x, float y, float z, uint root, uint source) {
   const wt_direction d = WT_DIRECTIONS(index, (ulong16)parameter, level, faces);
   global float* r = rays + slot;
   const size_t plane = capacity;
@@ -26,36 +28,74 @@ inline void store_rays(global float* rays, uint capacity, uint slot, ulong16 ind
   vstore16(d.y, 0, r + 4 * plane);
   vstore16(d.z, 0, r + 5 * plane);
   vstore16((float16)as_float(root), 0, r + 6 * plane);
-  vstore16((float16)as_float(WT_NONE), 0, r + 7 * plane);
+  vstore16((float16)as_float(source), 0, r + 7 * plane);
 }
 #else
 #define WT_RAYS_PER_ITEM 1
-inline ulong after(ulong index) { return index; }
+inline ulong after(ulong index, ulong stride) { return index; }
 inline ulong listed(ulong index, const global uint* list) { return index + list[0]; }
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong index, ulong parameter, uint level,
-                       uint faces, float x, float y, float z, uint root) {
+                       uint faces, float x, float y, float z, uint root, uint source) {
   const wt_direction d = WT_DIRECTIONS(index, parameter, level, faces);
   wt_store_float3(rays, capacity, WT_RAY_ORIGIN, slot, (float3)(x, y, z));
   wt_store_float3(rays, capacity, WT_RAY_DIRECTION, slot, (float3)(d.x, d.y, d.z));
   wt_store_word(rays, capacity, WT_RAY_NODE, slot, root);
-  wt_store_word(rays, capacity, WT_RAY_SURFACE, slot, WT_NONE);
+  wt_store_word(rays, capacity, WT_RAY_SURFACE, slot, source);
 }
 #endif
 
-// Launch indices first_index + k into slots first_slot + k.
+// Launch indices first_index + stride * k into slots first_slot + k. source: what the rays leave, WT_OWN and the instance
+// that carries the antenna, or WT_NONE.
 kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
-                          ulong parameter, uint level, uint faces, float x, float y, float z, uint root) {
+                          ulong stride, ulong parameter, uint level, uint faces, float x, float y, float z, uint root,
+                          uint source) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
-  store_rays(rays, capacity, first_slot + k, after(first_index + k), parameter, level, faces, x, y, z, root);
+  store_rays(rays, capacity, first_slot + k, after(first_index + stride * k, stride), parameter, level, faces, x,
+             y, z, root, source);
 }
 
 // Launch indices first_index + order[k]: a launch in an order of its own costs no move of rays.
 kernel void generate_ordered(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
                              const global uint* order, ulong parameter, uint level, uint faces, float x, float y,
-                             float z, uint root) {
+                             float z, uint root, uint source) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
-  store_rays(rays, capacity, first_slot + k, listed(first_index, order + k), parameter, level, faces, x, y, z, root);
+  store_rays(rays, capacity, first_slot + k, listed(first_index, order + k), parameter, level, faces, x, y, z, root,
+             source);
 }
+
+#ifdef WT_SAMPLES
+// Samples first .. first + count - 1 of a list into the slots of an empty queue. A sample is a cell of the launch
+// directions (samples[i]) and a launcher (samples[sample_capacity + i]); launchers: origin and, as words, root and source
+// (two float4 each). ends[i] becomes the root: no ray of the sample has hit anything yet.
+kernel void generate_samples(global float* rays, uint capacity, uint first, uint count, const global uint* samples,
+                             uint sample_capacity, const global float4* launchers, ulong parameter, uint level,
+                             uint faces, global uint* ends) {
+  const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
+  if (k >= count) return;
+  const wt_direction d = WT_DIRECTIONS(listed(0, samples + first + k), parameter, level, faces);
+#ifdef WT_CPU
+  float x[16], y[16], z[16];
+  vstore16(d.x, 0, x);
+  vstore16(d.y, 0, y);
+  vstore16(d.z, 0, z);
+#endif
+  for (uint j = 0; j < WT_RAYS_PER_ITEM && k + j < count; ++j) {
+    const uint sample = first + k + j;
+    const global float4* launcher = launchers + 2 * samples[sample_capacity + sample];
+    const uint root = as_uint(launcher[1].x);
+    wt_store_float3(rays, capacity, WT_RAY_ORIGIN, k + j, launcher[0].xyz);
+#ifdef WT_CPU
+    wt_store_float3(rays, capacity, WT_RAY_DIRECTION, k + j, (float3)(x[j], y[j], z[j]));
+#else
+    wt_store_float3(rays, capacity, WT_RAY_DIRECTION, k + j, (float3)(d.x, d.y, d.z));
+#endif
+    wt_store_word(rays, capacity, WT_RAY_NODE, k + j, root);
+    wt_store_word(rays, capacity, WT_RAY_SURFACE, k + j, as_uint(launcher[1].y));
+    wt_store_word(rays, capacity, WT_RAY_SAMPLE, k + j, sample);
+    ends[sample] = root;
+  }
+}
+#endif

@@ -1,10 +1,18 @@
 // interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in
 // order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: only the trie is
-// wanted.
+// wanted. With WT_AGES, ages[node] becomes `now` for every node that a ray reaches.
+// With WT_SAMPLES, ends[sample] becomes the node.
 #include "lib/block_rank.clh"
 #include "lib/mirror.clh"
 #include "lib/trie.clh"
 #pragma OPENCL FP_CONTRACT OFF
+
+// The end of a sample so far: the sequence that its ray has lived through.
+inline void note_end(const global float* rays, uint capacity, uint i, uint node, global uint* ends) {
+#ifdef WT_SAMPLES
+  ends[wt_load_word(rays, capacity, WT_RAY_SAMPLE, i)] = node;
+#endif
+}
 
 inline void go_on(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity,
                   uint i, uint surface, uint node, global float* next, uint j) {
@@ -14,6 +22,9 @@ inline void go_on(const global wt_surface* surfaces, const global float* rays, c
   wt_store_float3(next, capacity, WT_RAY_DIRECTION, j, d);
   wt_store_word(next, capacity, WT_RAY_NODE, j, node);
   wt_store_word(next, capacity, WT_RAY_SURFACE, j, surface);
+#ifdef WT_SAMPLES
+  wt_store_word(next, capacity, WT_RAY_SAMPLE, j, wt_load_word(rays, capacity, WT_RAY_SAMPLE, i));
+#endif
 }
 
 #ifdef WT_CPU
@@ -21,7 +32,8 @@ inline void go_on(const global wt_surface* surfaces, const global float* rays, c
 // is kept.
 kernel void interact(const global float* rays, const global float* hits, uint capacity, uint ray_count,
                      const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table,
-                     uint mask, global wt_counters* counters, global float* next, uint last) {
+                     uint mask, global wt_counters* counters, global float* next, uint last, global uint* ages,
+                     uint now, global uint* ends) {
   const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
   const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, ray_count);
   if (first >= ray_count) return;
@@ -36,7 +48,11 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
       last_parent = parent;
       last_surface = surface;
       if (last_node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
+#ifdef WT_AGES
+      if (last_node != WT_NONE) ages[last_node] = now;
+#endif
     }
+    note_end(rays, capacity, i, last_node, ends);
     if (!last) go_on(surfaces, rays, hits, capacity, i, surface, last_node, next, j);
     ++j;
   }
@@ -46,7 +62,7 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
     const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
     const global wt_surface* surfaces, global ulong* table, uint mask, global wt_counters* counters, global float* next,
-    uint last) {
+    uint last, global uint* ages, uint now, global uint* ends) {
   local uint alive[WT_BLOCK_MASKS];
   const uint i = get_global_id(0);
   const uint surface = i < ray_count ? wt_load_word(hits, capacity, WT_HIT_SURFACE, i) : WT_NONE;
@@ -54,6 +70,10 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
   if (surface == WT_NONE) return;
   const uint node = wt_trie_insert(table, mask, wt_load_word(rays, capacity, WT_RAY_NODE, i), surface);
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
+#ifdef WT_AGES
+  if (node != WT_NONE) ages[node] = now;
+#endif
+  note_end(rays, capacity, i, node, ends);
   if (last) return;
   const uint j = block_offsets[get_group_id(0)] + wt_block_rank(alive);
   go_on(surfaces, rays, hits, capacity, i, surface, node, next, j);

@@ -4,15 +4,16 @@
 #include "lib/bvh2.clh"
 #include "lib/bvh8.clh"
 #include "lib/images.clh"
+#include "lib/moving.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
 #ifdef WT_SHAPE_BVH2
 #define WT_NODE float4
-#define WT_NEXT_HIT(o, d, t_min, after, t_max) \
+#define WT_NEXT_STATIC(o, d, t_min, after, t_max) \
   wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, t_min, after, t_max, WT_NONE)
 #else
 #define WT_NODE float
-#define WT_NEXT_HIT(o, d, t_min, after, t_max) \
+#define WT_NEXT_STATIC(o, d, t_min, after, t_max) \
   wt_nearest_bvh8(nodes, triangles, extent_m, o, d, t_min, after, t_max, WT_NONE)
 #endif
 
@@ -26,7 +27,7 @@ inline int blocks(const global wt_exact_surface* s, double3 from, double3 to) {
 }
 
 kernel void occlusion(const global WT_NODE* nodes, const global WT_NODE* triangles, uint triangle_slots, float extent_m,
-                      const global double4* transmitters, const global double4* receivers,
+                      const global float4* moving, const global double4* transmitters, const global double4* receivers,
                       const global wt_exact_surface* surfaces, uint solved_count, uint max_depth,
                       global wt_solved* solved, const global double* vertices, const global uint* sequences) {
   const uint i = get_global_id(0) / (max_depth + 1), leg = get_global_id(0) % (max_depth + 1);
@@ -44,10 +45,16 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_NODE* triangl
   const float3 d =
       (float3)((float)((to.x - from.x) / length), (float)((to.y - from.y) / length), (float)((to.z - from.z) / length));
   const float t_max = (float)length;
+  // The vehicles that carry the antennas hide nothing from them.
+  const uint own_from = leg == 0 ? wt_end_instance(transmitters[solved[i].transmitter]) : WT_NONE;
+  const uint own_to = leg == depth ? wt_end_instance(receivers[solved[i].receiver]) : WT_NONE;
   float t = 0.0f;
   uint after = WT_NONE;
   for (;;) {
-    const wt_hit hit = WT_NEXT_HIT(o, d, t, after, t_max);
+    wt_hit hit = WT_NEXT_STATIC(o, d, t, after, t_max);
+#ifdef WT_INSTANCES
+    wt_visit_moving(moving, extent_m, o, d, t, after, WT_NONE, own_from, own_to, &hit);
+#endif
     if (hit.primitive == WT_NONE) return;
     if (hit.surface != source && hit.surface != goal && blocks(surfaces + hit.surface, from, to)) {
       atomic_or(&solved[i].blocked, 1u);

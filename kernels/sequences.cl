@@ -1,6 +1,8 @@
-// sequences: the trie as a list (collect), its neighbours (commute), and a larger trie filled from a smaller one
-// (regrow, follow). A node is its slot, so a parent must be in the new table before its children: regrow runs once a
-// depth.
+// sequences: the trie as a list (collect), its neighbours (commute), and a trie filled from another one, larger or
+// without what is old (regrow, follow). A node is its slot, so a parent must be in the new table before its children:
+// regrow runs once a depth.
+// With WT_AGES, ages[slot] is the last frame in which a ray met the sequence, or a path followed it; a node is never
+// older than its children.
 #include "lib/trie.clh"
 
 // Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number.
@@ -12,6 +14,14 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
   if (i < capacity) nodes[i] = slot;
 }
 
+inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* ages, uint now) {
+  const uint node = wt_trie_insert(table, mask, parent, surface);
+#ifdef WT_AGES
+  if (node != WT_NONE) ages[node] = now;
+#endif
+  return node;
+}
+
 // Surfaces count as perpendicular below this cosine: what is tried in vain only costs a candidate.
 #define WT_PERPENDICULAR 0.02f
 
@@ -20,9 +30,12 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
 // may miss the other (nearly all missed paths of street scenes are such), so both are entered: for every listed node,
 // every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always.
 kernel void commute(global ulong* table, uint mask, const global uint* nodes, uint node_count,
-                    const global wt_surface* surfaces, global wt_counters* counters) {
+                    const global wt_surface* surfaces, global wt_counters* counters, global uint* ages, uint now) {
   const uint i = get_global_id(0);
   if (i >= node_count || (nodes[i] & WT_ROOT)) return;
+#ifdef WT_AGES
+  if (ages[nodes[i]] != now) return;  // no ray met it in this frame: its neighbours are as old as it is
+#endif
   uint chain[WT_MAX_DEPTH], parents[WT_MAX_DEPTH];  // from the last surface back, with the node that each was added to
   uint depth = 0;
   for (uint n = nodes[i]; !(n & WT_ROOT) && depth < WT_MAX_DEPTH; n = parents[depth - 1]) {
@@ -33,30 +46,46 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
   for (uint k = 0; k + 1 < depth; ++k) {
     const global float* a = surfaces[chain[k]].normal;
     const global float* b = surfaces[chain[k + 1]].normal;
-    if (fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) > WT_PERPENDICULAR) continue;
+    if (!(fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) <= WT_PERPENDICULAR)) continue;  // also of absent instances
     // A surface never follows itself: its image of an image is the thing itself, and rounding would see a path through
     // it.
     if ((k + 2 < depth && chain[k + 2] == chain[k]) || (k > 0 && chain[k - 1] == chain[k + 1])) continue;
-    uint node = wt_trie_insert(table, mask, parents[k + 1], chain[k]);
-    if (node != WT_NONE) node = wt_trie_insert(table, mask, node, chain[k + 1]);
-    for (uint j = k; j-- > 0 && node != WT_NONE;) node = wt_trie_insert(table, mask, node, chain[j]);
+    uint node = enter(table, mask, parents[k + 1], chain[k], ages, now);
+    node = enter(table, mask, node, chain[k + 1], ages, now);
+    for (uint j = k; j-- > 0;) node = enter(table, mask, node, chain[j], ages, now);
     if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
   }
 }
 
-// Inserts the nodes of one depth of the old table into the new one and notes where they went.
+// Inserts the nodes of one depth of the old table into the new one, but those older than `oldest`, and notes where they
+// went.
 kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, global uint* moved, global ulong* table,
-                   uint mask, global wt_counters* counters) {
+                   uint mask, global wt_counters* counters, const global uint* old_ages, global uint* ages,
+                   uint oldest) {
   const uint slot = get_global_id(0);
   if (slot >= old_slots || old_table[slot] == WT_EMPTY) return;
   const uint parent = wt_trie_parent(old_table[slot]);
   uint level = 1;
   for (uint p = parent; !(p & WT_ROOT); p = wt_trie_parent(old_table[p])) ++level;
   if (level != depth) return;
+#ifdef WT_AGES
+  if (old_ages[slot] < oldest) return;
+#endif
   const uint node =
       wt_trie_insert(table, mask, parent & WT_ROOT ? parent : moved[parent], wt_trie_surface(old_table[slot]));
   moved[slot] = node;
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
+#ifdef WT_AGES
+  if (node != WT_NONE) ages[node] = old_ages[slot];
+#endif
+}
+
+// The sequences of visible paths are as young as the frame, and so are their prefixes.
+kernel void keep(const global ulong* table, const global wt_solved* solved, uint solved_count, global uint* ages,
+                 uint now) {
+  const uint i = get_global_id(0);
+  if (i >= solved_count || solved[i].blocked) return;
+  for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(table[n])) ages[n] = now;
 }
 
 // After regrow: listed nodes by their new ids.

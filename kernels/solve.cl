@@ -11,10 +11,10 @@ inline int left_of(double ax, double ay, double bx, double by, double px, double
   return ex * (py - ay) - ey * (px - ax) >= -tolerance * (fabs(ex) + fabs(ey));
 }
 
-// Is p, a point of the plane, inside one of the surface's triangles? Decided in the projection along the normal's
-// largest axis.
-inline int inside(const global wt_exact_surface* s, const global double* triangles, double3 p) {
-  const double ax = fabs(s->normal[0]), ay = fabs(s->normal[1]), az = fabs(s->normal[2]);
+// Is p, a point of the plane, inside one of the surface's triangles? p and the normal n are in the coordinates of the
+// triangles; decided in the projection along the normal's largest axis.
+inline int inside(const global wt_exact_surface* s, const global double* triangles, double3 n, double3 p) {
+  const double ax = fabs(n.x), ay = fabs(n.y), az = fabs(n.z);
   const int drop = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
   const int x = drop == 0 ? 1 : 0, y = drop == 2 ? 1 : 2;
   const double px = drop == 0 ? p.y : p.x, py = drop == 2 ? p.y : p.z;
@@ -32,7 +32,22 @@ inline int inside(const global wt_exact_surface* s, const global double* triangl
   return 0;
 }
 
+// A vector in the axes of an instance's model: the inverse of a rotation is its transpose.
+inline double3 unturned(const global wt_exact_instance* instance, double3 v) {
+  const global double* r = instance->rotation;
+  return (double3)(r[0] * v.x + r[3] * v.y + r[6] * v.z, r[1] * v.x + r[4] * v.y + r[7] * v.z,
+                   r[2] * v.x + r[5] * v.y + r[8] * v.z);
+}
+
 inline double rounding(double3 p) { return 1e-9 * (1.0 + fabs(p.x) + fabs(p.y) + fabs(p.z)); }
+
+inline int inside_surface(const global wt_exact_surface* s, const global double* triangles,
+                          const global wt_exact_instance* instances, double3 p) {
+  if (s->instance == WT_NONE) return inside(s, triangles, wt_normal(s), p);
+  const global wt_exact_instance* i = instances + s->instance;
+  const double3 q = (double3)(p.x - i->position[0], p.y - i->position[1], p.z - i->position[2]);
+  return inside(s, triangles, unturned(i, wt_normal(s)), unturned(i, q));
+}
 
 inline int same_point(double3 p, double3 q) {
   return fabs(p.x - q.x) + fabs(p.y - q.y) + fabs(p.z - q.z) <= rounding(p);
@@ -40,12 +55,20 @@ inline int same_point(double3 p, double3 q) {
 
 kernel void solve(const global ulong* table, const global double4* transmitters, const global double4* receivers,
                   const global wt_exact_surface* surfaces, const global double* triangles,
+                  const global wt_exact_instance* instances,
                   const global wt_candidate* candidates, uint candidate_count, uint max_depth, global wt_solved* solved,
                   global double* vertices, global uint* sequences, uint capacity, global wt_counters* counters) {
   const uint i = get_global_id(0);
   if (i >= candidate_count) return;
   uint chain[WT_MAX_DEPTH], transmitter;
   const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
+  // The vehicle that carries an antenna is no mirror to it, as it hides nothing from it.
+  if (depth > 0) {
+    const uint first = surfaces[chain[0]].instance, last = surfaces[chain[depth - 1]].instance;
+    if ((first != WT_NONE && first == wt_end_instance(transmitters[transmitter])) ||
+        (last != WT_NONE && last == wt_end_instance(receivers[candidates[i].receiver])))
+      return;
+  }
   double3 images[WT_MAX_DEPTH + 1], points[WT_MAX_DEPTH + 1];
   images[0] = transmitters[transmitter].xyz;
   for (uint k = 0; k < depth; ++k) images[k + 1] = wt_reflected(surfaces + chain[k], images[k]);
@@ -69,7 +92,7 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
       p = (double3)(from.x + u * (target.x - from.x), from.y + u * (target.y - from.y),
                     from.z + u * (target.z - from.z));
     }
-    if (!inside(s, triangles, p)) return;
+    if (!inside_surface(s, triangles, instances, p)) return;
     points[k] = p;
     target = p;
   }
@@ -91,6 +114,7 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
   solved[slot].receiver = candidates[i].receiver;
   solved[slot].depth = depth;
   solved[slot].blocked = 0;
+  solved[slot].node = candidates[i].node;
   for (uint k = 0; k < depth; ++k) {
     const size_t at = (size_t)slot * max_depth + k;
     vertices[3 * at] = points[k].x;

@@ -1,9 +1,10 @@
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
 // compaction). One of three shapes by build option: WT_SHAPE_BVH2 (GPU), WT_SHAPE_BVH8 (CPU) and WT_SHAPE_PACKET16
-// (CPU, ordered rays). Work-items find their ray or block by wt_launch_index.
+// (CPU, ordered rays). Work-items find their ray or block by wt_launch_index. With WT_INSTANCES, `moving` is traced too.
 #include "lib/bvh2.clh"
 #include "lib/bvh8.clh"
 #include "lib/launch.clh"
+#include "lib/moving16.clh"
 #include "lib/packet16.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -15,11 +16,15 @@ inline void store_hit(global float* hits, uint capacity, uint i, float t, uint p
 
 #ifdef WT_SHAPE_BVH2
 inline bool trace_ray(const global float4* nodes, const global float4* triangles, uint triangle_slots,
-                      const global float* rays, uint capacity, uint i, global float* hits) {
+                      const global float4* moving, float extent_m, const global float* rays, uint capacity, uint i,
+                      global float* hits) {
   const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
                d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
-  const wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, 0.0f, WT_NONE, INFINITY,
-                                     wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
+  const uint source = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
+  wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, 0.0f, WT_NONE, INFINITY, source);
+#ifdef WT_INSTANCES
+  wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, &hit);
+#endif
   store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
   return hit.surface != WT_NONE;
 }
@@ -28,32 +33,36 @@ inline bool trace_ray(const global float4* nodes, const global float4* triangles
 // One ray a work-item, one block a work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(const global float4* nodes,
                                                                         const global float4* triangles,
-                                                                        uint triangle_slots, const global float* rays,
+                                                                        uint triangle_slots,
+                                                                        const global float4* moving, float extent_m,
+                                                                        const global float* rays,
                                                                         uint capacity, uint ray_count,
                                                                         global float* hits, global uint* block_hits) {
   const uint i = get_global_id(0);
   local uint count;
   if (get_local_id(0) == 0) count = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (i < ray_count && trace_ray(nodes, triangles, triangle_slots, rays, capacity, i, hits)) atomic_inc(&count);
+  if (i < ray_count && trace_ray(nodes, triangles, triangle_slots, moving, extent_m, rays, capacity, i, hits))
+    atomic_inc(&count);
   barrier(CLK_LOCAL_MEM_FENCE);
   if (get_local_id(0) == 0) block_hits[get_group_id(0)] = count;
 }
 #else
 // One ray a work-item, in a launch of any shape; blocks are counted by a pass of their own (compact).
 kernel void trace(const global float4* nodes, const global float4* triangles, uint triangle_slots,
-                  const global float* rays, uint capacity, uint ray_count, global float* hits,
-                  global uint* block_hits) {
+                  const global float4* moving, float extent_m, const global float* rays, uint capacity, uint ray_count,
+                  global float* hits, global uint* block_hits) {
   const uint i = wt_launch_index();
-  if (i < ray_count) trace_ray(nodes, triangles, triangle_slots, rays, capacity, i, hits);
+  if (i < ray_count) trace_ray(nodes, triangles, triangle_slots, moving, extent_m, rays, capacity, i, hits);
 }
 #endif
 #endif
 
 #ifdef WT_SHAPE_BVH8
 // One block a work-item, its rays in turn.
-kernel void trace(const global float* nodes, const global float* blocks, float extent_m, const global float* rays,
-                  uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
+kernel void trace(const global float* nodes, const global float* blocks, const global float4* moving, float extent_m,
+                  const global float* rays, uint capacity, uint ray_count, global float* hits,
+                  global uint* block_hits) {
   const uint block = wt_launch_index();
   if (block >= (ray_count + WT_BLOCK - 1) / WT_BLOCK) return;
   const uint first = block * WT_BLOCK, end = min(first + WT_BLOCK, ray_count);
@@ -61,8 +70,11 @@ kernel void trace(const global float* nodes, const global float* blocks, float e
   for (uint i = first; i < end; ++i) {
     const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
                  d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
-    const wt_hit hit = wt_nearest_bvh8(nodes, blocks, extent_m, o, d, 0.0f, WT_NONE, INFINITY,
-                                       wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
+    const uint source = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
+    wt_hit hit = wt_nearest_bvh8(nodes, blocks, extent_m, o, d, 0.0f, WT_NONE, INFINITY, source);
+#ifdef WT_INSTANCES
+    wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, &hit);
+#endif
     store_hit(hits, capacity, i, hit.t, hit.primitive, hit.surface);
     count += hit.surface != WT_NONE;
   }
@@ -77,8 +89,8 @@ kernel void trace(const global float* nodes, const global float* blocks, float e
 // One block of 16 rays a work-item: lanes that agree in the signs and the dominant axis of their directions go as a
 // packet. Queues are padded so that reading 16 rays never leaves a plane.
 kernel void trace(const global float* nodes, const global float4* triangles, uint triangle_slots,
-                  const global float* nodes8, const global float* blocks, float extent_m, const global float* rays,
-                  uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
+                  const global float* nodes8, const global float* blocks, const global float4* moving, float extent_m,
+                  const global float* rays, uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
   const uint block = wt_launch_index();
   if (block >= (ray_count + 15) / 16) return;
   const uint first = block * 16;
@@ -112,6 +124,18 @@ kernel void trace(const global float* nodes, const global float4* triangles, uin
   p.fz = -oz * p.iz + delta * fabs(p.iz);
   p.source = source;
 
+#ifdef WT_INSTANCES
+  float origins[48], directions[48];  // as rows
+  uint sources[16];
+  vstore16(ox, 0, origins);
+  vstore16(oy, 1, origins);
+  vstore16(oz, 2, origins);
+  vstore16(dx, 0, directions);
+  vstore16(dy, 1, directions);
+  vstore16(dz, 2, directions);
+  vstore16(source, 0, sources);
+#endif
+
   float16 t = INFINITY;
   uint16 primitive = WT_NONE, surface = WT_NONE;
   uint remaining = (1u << (end - first)) - 1;
@@ -125,9 +149,14 @@ kernel void trace(const global float* nodes, const global float4* triangles, uin
     if (popcount(mask) < WT_PACKET_MIN_LANES) {
       for (uint m = mask; m; m &= m - 1) {
         const uint i = first + popcount((m & (~m + 1)) - 1u);
-        const wt_hit hit = wt_nearest_bvh8(nodes8, blocks, extent_m, wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
-                                           wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i), 0.0f, WT_NONE, INFINITY,
-                                           wt_load_word(rays, capacity, WT_RAY_SURFACE, i));
+        const float3 ray_o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
+                     ray_d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+        const uint ray_source = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
+        wt_hit hit = wt_nearest_bvh8(nodes8, blocks, extent_m, ray_o, ray_d, 0.0f, WT_NONE, INFINITY, ray_source);
+#ifdef WT_INSTANCES
+        wt_visit_moving(moving, extent_m, ray_o, ray_d, 0.0f, WT_NONE, ray_source, wt_own_instance(ray_source), WT_NONE,
+                        &hit);
+#endif
         const int16 here = lane == i - first;
         t = select(t, (float16)hit.t, here);
         primitive = select(primitive, (uint16)hit.primitive, here);
@@ -146,6 +175,9 @@ kernel void trace(const global float* nodes, const global float4* triangles, uin
     p.primitive = WT_NONE;
     p.surface = WT_NONE;
     wt_nearest_packet16(nodes, triangles, triangle_slots, c & 1, (c >> 1) & 1, (c >> 2) & 1, axis_last, &p);
+#ifdef WT_INSTANCES
+    wt_visit_moving16(moving, extent_m, c & 1, (c >> 1) & 1, (c >> 2) & 1, origins, directions, sources, &p);
+#endif
     t = select(t, p.t, active);
     primitive = select(primitive, p.primitive, active);
     surface = select(surface, p.surface, active);

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "accel/layout.hpp"
@@ -102,6 +104,26 @@ Bvh2 make_bvh2(const BinaryTree& tree, std::span<const AccelTriangle> triangles)
     }
   });
   return out;
+}
+
+// Pairs (minimum, maximum) to (centre, half size). The half size is padded by 16 units in the last place of the largest
+// distance: the slab test rounds four times, the sheared vertices of the triangle test three times, each by at most one
+// unit of a coordinate or of a distance of twice that size.
+std::vector<float> centred_boxes(std::vector<float> nodes, float extent_m) {
+  const double padding = 16.0 * 6e-8 * 2.0 * static_cast<double>(extent_m);
+  for (size_t node = 0; node < nodes.size(); node += WT_BVH2_NODE_FLOATS)
+    for (size_t pair = node; pair < node + 12; pair += 2) {
+      const double lower = static_cast<double>(nodes[pair]), upper = static_cast<double>(nodes[pair + 1]);
+      const bool unused = !(lower <= upper);
+      const float centre = unused ? 0.0f : static_cast<float>(0.5 * (lower + upper));
+      nodes[pair] = centre;
+      nodes[pair + 1] = unused ? -1.0f - static_cast<float>(padding)
+                               : std::nextafter(static_cast<float>(std::max(upper - static_cast<double>(centre),
+                                                                            static_cast<double>(centre) - lower) +
+                                                                   padding),
+                                                std::numeric_limits<float>::infinity());
+    }
+  return nodes;
 }
 
 }  // namespace wavetracer

@@ -22,6 +22,10 @@ struct Bvh2 {
 // triangles than a reference can count; build with max_leaf <= 15.
 Bvh2 make_bvh2(const BinaryTree& tree, std::span<const AccelTriangle> triangles);
 
+// BVH2 nodes as one ray a work-item reads them: pairs (minimum, maximum) become (centre, half size), padded for the
+// rounding of rays whose origins and hits have coordinates of at most extent_m.
+std::vector<float> centred_boxes(std::vector<float> nodes, float extent_m);
+
 struct Bvh8 {
   std::vector<float> nodes;   // WT_BVH8_NODE_FLOATS each
   std::vector<float> blocks;  // WT_BLOCK_FLOATS each, four triangles

@@ -23,9 +23,11 @@ void add_validate(CLI::App& program) {
     check_inputs(config);
     const std::string scene =
         config.scene.file.empty() ? "city \"" + config.scene.generate + "\"" : "scene " + config.scene.file;
-    std::cout << fmt::format("{}: ok\n{}; transmitters: {}, receivers: {}; {} rays each, depth {}, {:g} GHz\n",
-                             options->file, scene, config.transmitters.size(), config.receivers.size(),
-                             config.trace.rays, config.trace.max_depth, config.radio.frequency_hz / 1e9);
+    const std::string mounted =
+        config.mounts.empty() ? "" : fmt::format(", antennas a vehicle: {}", config.mounts.size());
+    std::cout << fmt::format("{}: ok\n{}; standing transmitters: {}, receivers: {}{}; {} rays each, depth {}, {:g} GHz\n",
+                             options->file, scene, config.transmitters.size(), config.receivers.size(), mounted,
+                             rays_in_words(config.trace), config.trace.max_depth, config.radio.frequency_hz / 1e9);
   });
 }
 

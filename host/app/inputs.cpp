@@ -8,6 +8,7 @@
 #include <cstring>
 #include "config/fields.hpp"
 #include "scene/city.hpp"
+#include "scene/city_traffic.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
@@ -43,7 +44,10 @@ void check_inputs(const Config& config) {
     }
   }
   if (!config.scene.generate.empty()) parse_city_options(config.scene.generate);
+  if (!config.trajectories.generate.empty()) parse_traffic_options(config.trajectories.generate);
 }
+
+std::string rays_in_words(const TraceConfig& trace) { return trace.rays == 0 ? "auto" : std::to_string(trace.rays); }
 
 void check_output_folder(const fs::path& folder) {
   fs::path there = fs::absolute(folder).lexically_normal();

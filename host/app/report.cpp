@@ -1,10 +1,9 @@
-// Words and numbers of the closing report. Links are sorted by gain, the strongest first.
-// It assumes at least one frame; where there are more, the links are those of the first.
+// Words and numbers of the closing report.
+// Counts are sums over the frames; links are those of the last one.
 #include "app/report.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include "radio/links.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -22,36 +21,52 @@ std::string duration(double seconds) {
   return seconds < 1 ? fmt::format("{:.3g} ms", seconds * 1e3) : fmt::format("{:.3g} s", seconds);
 }
 
-std::string frame_lines(const RunData& run) {
-  const FrameResult& frame = run.frames.front();
-  const FrameCounts& n = frame.counts;
-  const double whole = frame.seconds.at("frame");
-  const auto trace = frame.seconds.find("trace");
+// Of one frame, how it was timed; of many, how they follow each other.
+std::string frame_line(const Run& run, const Totals& totals) {
+  const double median_s = median_seconds(totals, "frame"), sum_s = sum_seconds(totals, "frame");
+  const uint32_t repeats = run.summary.repeat_count;
+  if (totals.frames == 1)
+    return fmt::format("frame      {} ({})\n", duration(median_s),
+                       repeats > 1 ? fmt::format("median of {}", repeats)
+                                   : "the first, so not warm: --repeat 5 gives the median of five");
+  const double span_s = totals.end_s - totals.start_s;
+  std::string line = fmt::format("frames     {} from {:g} to {:g} s in steps of {:.6g} s; median {}", totals.frames,
+                                 totals.start_s, totals.end_s, span_s / static_cast<double>(totals.frames - 1),
+                                 duration(median_s));
+  if (sum_s > 0) line += fmt::format(", {:.3g} frames/s", static_cast<double>(totals.frames) / sum_s);
+  if (repeats > 1)
+    line += fmt::format("; each {} times{}", repeats, run.config.trace.reuse ? ", reusing nothing" : "");
+  return line + "\n";
+}
+
+std::string count_lines(const Run& run, const Totals& totals) {
+  const FrameCounts& n = totals.counts;
   std::string rate;
-  if (trace != frame.seconds.end() && trace->second > 0)
-    rate = fmt::format(", {}rays/s while tracing", scaled(static_cast<double>(n.segments) / trace->second));
-  const std::string timing = run.summary.repeat_count > 1
-                                 ? fmt::format("median of {}", run.summary.repeat_count)
-                                 : "the first, so not warm: --repeat 5 gives the median of five";
+  if (const double trace_s = sum_seconds(totals, "trace"); trace_s > 0)
+    rate = fmt::format(", {}rays/s while tracing", scaled(static_cast<double>(n.segments) / trace_s));
   return fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", n.rays, n.segments, n.hits,
                      rate) +
          fmt::format("sequences  {} distinct, {} candidates, {} solved\n", n.sequences, n.candidates, n.solved) +
-         fmt::format("paths      {}\n", n.paths) + fmt::format("frame      {} ({})\n", duration(whole), timing);
+         fmt::format("paths      {}\n", n.paths) + frame_line(run, totals);
 }
 
-std::string link_lines(const RunData& run) {
-  const auto& transmitters = run.config.transmitters;
-  const auto& receivers = run.config.receivers;
-  std::vector<LinkFigures> links =
-      link_figures(run.frames.front().paths, run.first_frame, static_cast<uint32_t>(transmitters.size()),
-                   static_cast<uint32_t>(receivers.size()));
+std::string link_lines(const Run& run, const Results& results) {
+  const bool many = results.totals.frames > 1;
+  std::vector<LinkFigures> links = results.last_links;
+  if (links.empty()) return fmt::format("links      {}, see links.csv\n", results.totals.links);
   std::stable_sort(links.begin(), links.end(),
                    [](const LinkFigures& a, const LinkFigures& b) { return a.path_gain_db > b.path_gain_db; });
+  const size_t shown = std::min(links.size(), shown_links);
+  const auto name = [&](const LinkFigures& l) {
+    return run.config.transmitters[l.tx].name + " -> " + run.config.receivers[l.rx].name;
+  };
   size_t width = 0;
-  const auto name = [&](const LinkFigures& l) { return transmitters[l.tx].name + " -> " + receivers[l.rx].name; };
-  for (size_t i = 0; i < std::min(links.size(), shown_links); ++i) width = std::max(width, name(links[i]).size());
-  std::string out;
-  for (size_t i = 0; i < std::min(links.size(), shown_links); ++i) {
+  for (size_t i = 0; i < shown; ++i) width = std::max(width, name(links[i]).size());
+  std::string out =
+      many ? fmt::format("links      {} in all frames; the strongest of the {} in frame {}:\n", results.totals.links,
+                         links.size(), results.last_frame)
+           : fmt::format("links      {}, the strongest first:\n", links.size());
+  for (size_t i = 0; i < shown; ++i) {
     const LinkFigures& l = links[i];
     out += fmt::format("  {:<{}}  {:>5} paths", name(l), width, l.paths);
     if (l.paths > 0)
@@ -59,13 +74,13 @@ std::string link_lines(const RunData& run) {
                          l.rms_delay_spread_s * 1e9, l.los ? "yes" : "no");
     out += "\n";
   }
-  if (links.size() > shown_links) out += fmt::format("  ... and {} more in links.csv\n", links.size() - shown_links);
-  return fmt::format("links      {}, the strongest first:\n", links.size()) + out;
+  if (links.size() > shown) out += fmt::format("  ... and {} more in links.csv\n", links.size() - shown);
+  return out;
 }
 
 }  // namespace
 
-std::string report(const RunData& run, const std::vector<std::filesystem::path>& files) {
+std::string report(const Run& run, const Results& results) {
   const Scene& scene = run.scene;
   const DeviceSummary& device = run.summary.device;
   const glm::dvec3 extent = scene.upper - scene.lower;
@@ -73,10 +88,12 @@ std::string report(const RunData& run, const std::vector<std::filesystem::path>&
   out += fmt::format("scene      {}: {:.0f} x {:.0f} x {:.0f} m, {} triangles in {} surfaces\n",
                      run.config.scene.file.empty() ? "city " + run.config.scene.generate : run.config.scene.file,
                      extent.x, extent.y, extent.z, scene.triangles.size(), scene.surfaces.size());
+  if (!run.instances.empty())
+    out += fmt::format("vehicles   {} of {} models\n", run.instances.size(), run.models.size());
   if (!run.summary.order.reason.empty()) out += "order      " + run.summary.order.reason + "\n";
-  out += frame_lines(run) + link_lines(run);
+  out += count_lines(run, results.totals) + link_lines(run, results);
   out += "written    ";
-  for (size_t i = 0; i < files.size(); ++i) out += (i == 0 ? "" : ", ") + files[i].string();
+  for (size_t i = 0; i < results.files.size(); ++i) out += (i == 0 ? "" : ", ") + results.files[i].string();
   return out + "\n";
 }
 

@@ -5,9 +5,19 @@
 #include <string>
 #include <vector>
 #include "output/output.hpp"
+#include "output/totals.hpp"
+#include "radio/links.hpp"
 
 namespace wavetracer::app {
 
-std::string report(const RunData& run, const std::vector<std::filesystem::path>& files);
+struct Results {
+  Totals totals;
+  uint32_t last_frame = 0;
+  std::vector<LinkFigures> last_links;  // of last_frame; empty where it was computed by an earlier run
+  std::vector<std::filesystem::path> files;
+};
+
+// At least one frame. Links are sorted by gain, the strongest first.
+std::string report(const Run& run, const Results& results);
 
 }  // namespace wavetracer::app

@@ -1,13 +1,16 @@
 // `wavetracer scene info` and `wavetracer scene city`.
 // Neither needs a device.
 #include <fmt/format.h>
+#include <filesystem>
 #include <iostream>
 #include <memory>
-#include <utility>
 #include "app/commands.hpp"
 #include "app/inputs.hpp"
 #include "config/config_file.hpp"
+#include "motion/fcd_writer.hpp"
 #include "scene/city.hpp"
+#include "scene/city_traffic.hpp"
+#include "scene/file.hpp"
 #include "scene/info.hpp"
 #include "scene/load.hpp"
 
@@ -35,30 +38,89 @@ void add_info(CLI::App& scene) {
   });
 }
 
+// The configuration beside drive.fcd.xml; {} are the road-side unit's x, y and z.
+constexpr const char* drive_config = R"(# Every vehicle of drive.fcd.xml to every other within 300 m, and to a road-side unit.
+# Run it with `wavetracer run -c drive.toml`; `wavetracer init` prints every key there is.
+
+[scene]
+file = "city.xml"
+
+[trajectories]
+file = "drive.fcd.xml"  # as SUMO writes it (--fcd-output, --precision 6)
+
+# An antenna above the middle of the roof of a passenger car. Vans and trucks are higher; a table of its own for each,
+# with on = "delivery" or on = "truck", puts it on their roofs.
+[[mount]]
+name = "roof"
+on = "*"                    # ids or types of vehicles
+role = "both"               # sends and receives
+offset_m = [0.0, 0.0, 1.6]  # ahead, left, up from the middle of the vehicle, on the ground
+
+# The road-side unit on its mast sends, and receives under a second name.
+[[transmitter]]
+name = "rsu-tx"
+position_m = [{0:.1f}, {1:.1f}, {2:.1f}]
+
+[[receiver]]
+name = "rsu-rx"
+position_m = [{0:.1f}, {1:.1f}, {2:.1f}]
+
+[links]
+max_distance_m = 300  # pairs farther apart are not computed
+
+[trace]
+rays = 200000  # a transmitter
+max_depth = 5  # reflections
+)";
+
+void write_drive(const CityOptions& city, const TrafficOptions& options, const std::filesystem::path& folder) {
+  const Trajectories drive = generate_traffic(options);
+  write_city(city, folder);
+  write_file(folder / "drive.fcd.xml", format_fcd(drive));
+  const auto& rsu = example_positions(city).front().position_m;
+  write_file(folder / "drive.toml", fmt::format(drive_config, rsu[0], rsu[1], rsu[2]));
+  std::cout << fmt::format("{0}/drive.fcd.xml: written, {1} vehicles for {2:g} s\n", folder.string(),
+                           drive.tracks.size(), drive.last_time_s)
+            << fmt::format("{}/drive.toml: written, a configuration to trace it\n", folder.string());
+}
+
 void add_city(CLI::App& scene) {
+  struct Option {
+    const char *key, *doc;
+    bool traffic;
+    std::string value = {};
+  };
   struct Options {
     std::string directory = "city";
-    // Each is handed on as it is: parse_city_options, which scene.generate uses too, is the one parser of them.
-    std::vector<std::pair<std::string, std::string>> values = {{"--seed", ""},     {"--blocks", ""}, {"--block-m", ""},
-                                                               {"--street-m", ""}, {"--floors", ""}, {"--ground", ""}};
+    // Each is handed on as it is: city_options.cpp, which serves the configuration too, is the one parser of them.
+    std::vector<Option> given = {{"--seed", "Random choices; the same seed gives the same city and drive", false},
+                                 {"--blocks", "Blocks in x and y, such as 6x6", false},
+                                 {"--block-m", "Side of a block in metres", false},
+                                 {"--street-m", "Width of the streets in metres", false},
+                                 {"--floors", "Storeys, such as 3:9", false},
+                                 {"--ground", "ITU material of the ground", false},
+                                 {"--vehicles", "Vehicles of a drive through its streets, written too", true},
+                                 {"--seconds", "How long they drive", true},
+                                 {"--step", "Seconds between their positions", true}};
   };
-  CLI::App* command = scene.add_subcommand("city", "Write a generated city as Mitsuba XML with PLY meshes");
+  CLI::App* command =
+      scene.add_subcommand("city", "Write a generated city as Mitsuba XML with PLY meshes, and a drive through it");
   const auto options = std::make_shared<Options>();
   command->add_option("-o,--output", options->directory, "Folder to write to")->capture_default_str();
-  const std::vector<std::string> docs = {"Random choices; the same seed gives the same city",
-                                         "Blocks in x and y, such as 6x6",
-                                         "Side of a block in metres",
-                                         "Width of the streets in metres",
-                                         "Storeys, such as 3:9",
-                                         "ITU material of the ground"};
-  for (size_t i = 0; i < docs.size(); ++i)
-    command->add_option(options->values[i].first, options->values[i].second, docs[i]);
+  for (Option& option : options->given) command->add_option(option.key, option.value, option.doc);
   command->callback([options] {
     std::string text;
-    for (const auto& [key, value] : options->values)
-      if (!value.empty()) text += key + "=" + value + " ";
+    bool drive = false;
+    for (const Option& option : options->given) {
+      if (option.value.empty()) continue;
+      text += fmt::format("{}={} ", option.key, option.value);
+      drive |= option.traffic;
+    }
     const CityOptions city = parse_city_options(text);
-    write_city(city, options->directory);
+    if (drive)
+      write_drive(city, parse_traffic_options(text), options->directory);
+    else
+      write_city(city, options->directory);
     std::cout << fmt::format("{}/city.xml: written. Places for antennas, in metres:\n", options->directory);
     for (const CityPosition& place : example_positions(city))
       std::cout << fmt::format("  {:<46} [{:g}, {:g}, {:g}]\n", place.name, place.position_m[0], place.position_m[1],

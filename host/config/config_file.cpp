@@ -3,13 +3,12 @@
 #include "config/config_file.hpp"
 #include <fmt/format.h>
 #include <algorithm>
-#include <bit>
 #include <deque>
 #include <fstream>
 #include <map>
-#include <set>
 #include <sstream>
 #include <tuple>
+#include "config/contradictions.hpp"
 #include "config/fields.hpp"
 #include "config/spelling.hpp"
 #include "config/values.hpp"
@@ -226,75 +225,39 @@ class Parser {
     if (!problem.empty()) return fail(a.place, problem);
     if (a.field->later.empty()) return;
     Config defaults = prototype();
-    const std::string given = literal(slot);
-    if (given != literal(a.field->slot(defaults, 0)))
+    const std::string given = literal(*a.field, slot);
+    if (given != literal(*a.field, a.field->slot(defaults, 0)))
       fail(a.place, fmt::format("{} = {} is not available in this version: {}", a.key, given, a.field->later));
   }
 
+  // Of a key, transmitter.0.name; else of what holds it, transmitter.0; else the head of the file.
   Place place_of(const std::string& path) const {
     const auto found = assignments_.find(path);
-    return found == assignments_.end() ? Place{} : found->second.place;
+    if (found != assignments_.end()) return found->second.place;
+    const size_t dot = path.find('.');
+    const std::string table = path.substr(0, dot);
+    if (const auto places = elements_.find(table); places != elements_.end() && dot != std::string::npos)
+      return {places->second[std::stoul(path.substr(dot + 1))], 0};
+    const toml::node* node = document_.get(table);
+    return node && node->is_table() ? place(node->source()) : Place{};
   }
 
   // What only the whole shows: keys that are missing, or that exclude each other.
   void check_whole() {
     for (const Table& table : tables()) {
-      if (!table.append) continue;
-      const auto& places = elements_[table.name];
-      if (places.empty() && !table.optional)
-        fail({}, fmt::format("no [[{0}]]: add at least one, with name and position_m", table.name));
-      for (size_t i = 0; i < places.size(); ++i)
+      const auto places = elements_.find(table.name);
+      if (places == elements_.end()) continue;
+      for (size_t i = 0; i < places->second.size(); ++i)
         for (const Field& field : table.fields)
           if (field.required && !assignments_.contains(fmt::format("{}.{}.{}", table.name, i, field.name)))
-            fail({places[i], 0}, fmt::format("[[{}]] has no {}: give it {}", table.name, field.name, accepted(field)));
+            fail({places->second[i], 0},
+                 fmt::format("[[{}]] has no {}: give it {}", table.name, field.name, accepted(field)));
     }
-    check_scene();
-    check_launch();
-    check_names("receiver", config_.receivers, check_names("transmitter", config_.transmitters, {}));
-    check_names("material", config_.materials, {});
-    for (size_t i = 0; i < config_.materials.size(); ++i) {
-      const MaterialConfig& m = config_.materials[i];
-      if ((m.a || m.b || m.c || m.d) && (m.permittivity || m.conductivity_s_m))
-        fail({elements_["material"][i], 0},
-             "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: give one kind");
+    for (const Contradiction& found : contradictions(config_)) {
+      Place where;
+      for (const std::string& key : found.keys) where = std::max(where, place_of(key));
+      fail(where, found.what);
     }
-  }
-
-  void check_scene() {
-    if (config_.scene.file.empty() && config_.scene.generate.empty()) {
-      const toml::node* table = document_.get("scene");
-      fail(table ? place(table->source()) : Place{},
-           "no scene: give scene.file = \"FILE\", or scene.generate = \"--seed 1\" for a city made on the spot");
-    } else if (!config_.scene.file.empty() && !config_.scene.generate.empty()) {
-      fail(std::max(place_of("scene.generate"), place_of("scene.file")),
-           "scene.file and scene.generate exclude each other: empty one of them");
-    }
-  }
-
-  void check_launch() {
-    const uint32_t local = config_.launch.local_size;
-    if ((local & (local - 1)) != 0)
-      fail(place_of("launch.local_size"),
-           fmt::format("launch.local_size = {} is no power of two: give {}, or 0 for what suits the device", local,
-                       std::bit_floor(local)));
-    const std::string &method = config_.order.method, &shape = config_.launch.shape;
-    const bool plane = method == "H3DH2DH" || method == "hilbert3d-histogram-hilbert2d";
-    const bool space = method == "H3DH3DH" || method == "hilbert3d-histogram-hilbert3d";
-    if ((plane && shape != "auto" && shape != "2d") || (space && shape != "auto" && shape != "3d"))
-      fail(std::max(place_of("launch.shape"), place_of("order.method")),
-           fmt::format("order.method = \"{}\" is a launch of {} dimensions, launch.shape = \"{}\" is not: leave "
-                       "launch.shape out",
-                       method, plane ? 2 : 3, shape));
-  }
-
-  template <class Named>
-  std::set<std::string> check_names(const std::string& table, const std::vector<Named>& all,
-                                    std::set<std::string> seen) {
-    for (size_t i = 0; i < all.size(); ++i)
-      if (!all[i].name.empty() && !seen.insert(all[i].name).second)
-        fail(place_of(fmt::format("{}.{}.name", table, i)),
-             fmt::format("{}.name = {} is taken: names are unique, choose another", table, toml_string(all[i].name)));
-    return seen;
   }
 };
 

@@ -31,7 +31,7 @@ std::string wrapped(const std::string& text, const std::string& lead) {
 // Type, range, default and availability, in one sentence.
 std::string facts(const Field& field) {
   Config defaults = prototype();
-  const std::string value = literal(field.slot(defaults, 0));
+  const std::string value = literal(field, field.slot(defaults, 0));
   std::string out = accepted(field);
   out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
   out += field.required                                      ? "; required."
@@ -53,12 +53,10 @@ std::string commented_config() {
     out += "\n" + wrapped(table.doc, "# ") + off + header(table) + "\n";
     for (const Field& field : table.fields) {
       out += wrapped(field.doc, "# ") + wrapped(facts(field), "# ");
-      const std::string value = literal(field.slot(defaults, 0));
-      // An example that is not needed to run, or nothing to write: a comment.
-      const bool example_only = !field.example.empty() && value == "{}";
-      const bool empty = field.example.empty() && (value.empty() || value == "\"\"");
+      const std::string value = literal(field, field.slot(defaults, 0));
+      const bool active = field.example.empty() ? !value.empty() && value != "\"\"" : field.required || field.needed;
       const std::string& shown = field.example.empty() ? value : field.example;
-      out += (off.empty() && (empty || example_only) ? "# " : off) + field.name + " = " + shown + "\n";
+      out += (off.empty() && !active ? "# " : off) + field.name + " = " + shown + "\n";
     }
   }
   return out;
@@ -81,7 +79,7 @@ std::string resolved_config(const Config& config) {
   const auto write = [&](const Table& table, size_t element) {
     out += (out.empty() ? "" : "\n") + header(table) + "\n";
     for (const Field& field : table.fields) {
-      const std::string value = literal(field.slot(values, element));
+      const std::string value = literal(field, field.slot(values, element));
       if (!value.empty()) out += field.name + " = " + value + "\n";
     }
   };

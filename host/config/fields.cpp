@@ -1,167 +1,11 @@
 // The rows of the field table, one a key of the config file, in the order in which `init` writes them.
 // The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
 #include "config/fields.hpp"
-#include <utility>
+
+#include "config/field_rows.hpp"
 
 namespace wavetracer::config {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// Accessors: a member, a member of a sub-struct of Config, a member of an element of a vector of Config.
-template <class M>
-auto at(M Config::*member) {
-  return [member](Config& c, size_t) -> Slot { return &(c.*member); };
-}
-template <class S, class M>
-auto at(S Config::*part, M S::*member) {
-  return [part, member](Config& c, size_t) -> Slot { return &(c.*part.*member); };
-}
-template <class E, class M>
-auto at(std::vector<E> Config::*list, M E::*member) {
-  return [list, member](Config& c, size_t i) -> Slot { return &((c.*list)[i].*member); };
-}
-template <auto List>
-size_t append(Config& c) {
-  (c.*List).emplace_back();
-  return (c.*List).size() - 1;
-}
-template <auto List>
-size_t count(const Config& c) {
-  return (c.*List).size();
-}
-
-Table scene_table() {
-  const auto s = [](auto member) { return at(&Config::scene, member); };
-  return {.name = "scene",
-          .doc = "The static world. Give either file or generate.",
-          .fields = {
-              {.name = "file",
-               .slot = s(&SceneConfig::file),
-               .form = Form::input_file,
-               .doc = "Mitsuba XML with PLY or OBJ meshes, or one OBJ, GLB, glTF or PLY file."},
-              {.name = "generate",
-               .slot = s(&SceneConfig::generate),
-               .doc = "A city made on the spot instead of a file: the arguments of `wavetracer scene city`.",
-               .example = "\"--seed 1 --blocks 4\""},
-              {.name = "scale",
-               .slot = s(&SceneConfig::scale),
-               .unit = "m a file unit",
-               .range = {0, 1e6, true},
-               .doc = "For OBJ, GLB and PLY. OBJ and PLY state no unit; 1 reads them as metres, as glTF is."},
-              {.name = "up",
-               .slot = s(&SceneConfig::up),
-               .choices = {"auto", "y", "z"},
-               .doc = "The axis of the file that points to the sky; auto is z, but y for glTF as its standard says."},
-              {.name = "default_material",
-               .slot = s(&SceneConfig::default_material),
-               .doc = "Radio material of meshes that name none. Left empty, such a mesh is an error, because a guess "
-                      "would be wrong in silence."},
-              {.name = "material_alias",
-               .slot = s(&SceneConfig::material_alias),
-               .doc = "Material name in the scene file = radio material, for names that are not ITU-R P.2040 ones.",
-               .example = "{ \"my wall\" = \"concrete\" }"},
-          }};
-}
-
-Table material_table() {
-  const auto m = [](auto member) { return at(&Config::materials, member); };
-  return {.name = "material",
-          .doc =
-              "A radio material: overrides one of ITU-R P.2040 or adds one. Either a, b, c, d or permittivity and "
-              "conductivity_s_m.",
-          .fields =
-              {
-                  {.name = "name",
-                   .slot = m(&MaterialConfig::name),
-                   .required = true,
-                   .doc = "The name that the scene uses, or that scene.material_alias maps to.",
-                   .example = "\"concrete\""},
-                  {.name = "a",
-                   .slot = m(&MaterialConfig::a),
-                   .range = {0, 1e6, true},
-                   .doc = "Relative permittivity a f^b, f in GHz (ITU-R P.2040-3, Table 3).",
-                   .example = "5.24"},
-                  {.name = "b",
-                   .slot = m(&MaterialConfig::b),
-                   .range = {-10, 10},
-                   .doc = "Exponent of the permittivity.",
-                   .example = "0.0"},
-                  {.name = "c",
-                   .slot = m(&MaterialConfig::c),
-                   .unit = "S/m",
-                   .range = {0, 1e12},
-                   .doc = "Conductivity c f^d, f in GHz (ITU-R P.2040-3, Table 3).",
-                   .example = "0.0462"},
-                  {.name = "d",
-                   .slot = m(&MaterialConfig::d),
-                   .range = {-10, 10},
-                   .doc = "Exponent of the conductivity.",
-                   .example = "0.7822"},
-                  {.name = "permittivity",
-                   .slot = m(&MaterialConfig::permittivity),
-                   .range = {1, 1e6},
-                   .doc = "Relative permittivity at every frequency, instead of a and b.",
-                   .example = "5.24"},
-                  {.name = "conductivity_s_m",
-                   .slot = m(&MaterialConfig::conductivity_s_m),
-                   .unit = "S/m",
-                   .range = {0, 1e12},
-                   .doc = "Conductivity at every frequency, instead of c and d.",
-                   .example = "0.185"},
-                  {.name = "thickness_m",
-                   .slot = m(&MaterialConfig::thickness_m),
-                   .unit = "m",
-                   .range = {0, infinity, true},
-                   .doc = "Of the slab; inf is a half space. Not given: that of the scene file, else 0.1 m.",
-                   .example = "0.3"},
-              },
-          .append = append<&Config::materials>,
-          .count = count<&Config::materials>,
-          .optional = true};
-}
-
-template <auto List>
-Table ends_table(std::string name, std::string doc, std::string example_name, std::string example_position) {
-  const auto e = [](auto member) { return at(List, member); };
-  return {
-      .name = std::move(name),
-      .doc = std::move(doc),
-      .fields =
-          {
-              {.name = "name",
-               .slot = e(&RadioEnd::name),
-               .required = true,
-               .doc = "Unique among all transmitters and receivers.",
-               .example = std::move(example_name)},
-              {.name = "position_m",
-               .slot = e(&RadioEnd::position_m),
-               .unit = "m",
-               .required = true,
-               .doc = "x, y, z in the coordinates of the scene file.",
-               .example = std::move(example_position)},
-              {.name = "antenna",
-               .slot = e(&RadioEnd::antenna),
-               .choices = {"isotropic", "short-dipole", "dipole", "tr38901"},
-               .form = Form::choice_or_file,
-               .doc = "Named, or a pattern file (CSV: theta_deg,phi_deg,v_re,v_im,h_re,h_im). isotropic leaves gains "
-                      "that are those of the channel alone."},
-              {.name = "polarization",
-               .slot = e(&RadioEnd::polarization),
-               .choices = {"V", "H", "VH", "cross"},
-               .doc = "VH (V and H) and cross (+45 and -45 degrees) have two ports. V, as vehicle antennas are."},
-              {.name = "orientation_deg",
-               .slot = e(&RadioEnd::orientation_deg),
-               .unit = "degrees",
-               .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
-              {.name = "velocity_m_s",
-               .slot = e(&RadioEnd::velocity_m_s),
-               .unit = "m/s",
-               .doc = "Along x, y, z. Gives the Doppler shift of each path; the end stays where it is."},
-          },
-      .append = append<List>,
-      .count = count<List>};
-}
 
 Table trace_table() {
   const auto t = [](auto member) { return at(&Config::trace, member); };
@@ -174,8 +18,37 @@ Table trace_table() {
            .slot = t(&TraceConfig::rays),
            .unit = "rays a transmitter",
            .range = {1, 2147483648.0},
+           .choices = {"auto"},
            .doc = "More rays find more of the weak paths; those found are exact in any case. A million finds more "
-                  "than 99% of the paths of a city quarter at depth 5."},
+                  "than 99% of the paths of a city quarter at depth 5. auto: as many as recall asks for."},
+          {.name = "recall",
+           .slot = t(&TraceConfig::recall),
+           .range = {0, 1, true},
+           .doc = "Of rays = \"auto\": the share of the paths that is to be found. The last percent costs more rays "
+                  "than all before it."},
+          {.name = "max_rays",
+           .slot = t(&TraceConfig::max_rays),
+           .unit = "rays a transmitter",
+           .range = {1, 2147483648.0},
+           .doc = "Of rays = \"auto\": never more than this, whatever recall asks for."},
+          {.name = "reuse",
+           .slot = t(&TraceConfig::reuse),
+           .doc = "Keep what rays of earlier frames of a drive have found. Its paths are solved anew in every frame, "
+                  "so they are exact, and more are found with fewer rays."},
+          {.name = "refresh_rays",
+           .slot = t(&TraceConfig::refresh_rays),
+           .unit = "rays a transmitter",
+           .range = {0, 2147483648.0},
+           .doc = "Of a frame that reuses. 0: a tenth of rays, since little is new from one frame to the next."},
+          {.name = "forget_frames",
+           .slot = t(&TraceConfig::forget_frames),
+           .unit = "frames",
+           .range = {1, 4294967295.0},
+           .doc = "Surfaces that no ray has met in this order for so long are dropped; 50 frames are 5 s at 10 Hz."},
+          {.name = "join",
+           .slot = t(&TraceConfig::join),
+           .doc = "Ends that send and receive meet halfway: what rays of both have found is joined in the middle. "
+                  "Finds deep paths with few rays, and solves many more candidates."},
           {.name = "max_depth",
            .slot = t(&TraceConfig::max_depth),
            .unit = "interactions",
@@ -313,6 +186,9 @@ Table cache_table() {
 const std::vector<Table>& tables() {
   static const std::vector<Table> all = {
       scene_table(),
+      trajectories_table(),
+      time_table(),
+      links_table(),
       {.name = "radio",
        .doc = "The carrier.",
        .fields = {{.name = "frequency_hz",
@@ -325,24 +201,25 @@ const std::vector<Table>& tables() {
       order_table(),
       launch_table(),
       cache_table(),
-      {.name = "trajectories",
-       .doc = "Moving vehicles.",
-       .fields = {{.name = "file",
-                   .slot = at(&Config::trajectories, &TrajectoriesConfig::file),
-                   .form = Form::input_file,
-                   .doc = "Positions over time.",
-                   .later = "leave it out and give each end its position_m; a run is one frame"}}},
       {.name = "output",
        .doc = "What is written.",
        .fields = {{.name = "directory",
                    .slot = at(&Config::output, &OutputConfig::directory),
                    .form = Form::output_folder,
-                   .doc = "Folder for paths.h5, links.csv and summary.json; `run -o` overrides it."}}},
+                   .doc = "Folder for paths.h5, links.csv and summary.json; `run -o` overrides it."},
+                  {.name = "shard_frames",
+                   .slot = at(&Config::output, &OutputConfig::shard_frames),
+                   .unit = "frames a file",
+                   .range = {1, 1e9},
+                   .doc = "Of a drive. An interrupted run goes on after the last file that is whole; the first frame "
+                          "of each is cold where frames reuse sequences, so fewer frames cost time, more cost "
+                          "memory."}}},
       material_table(),
-      ends_table<&Config::transmitters>("transmitter", "A radio end that launches rays; one table each, at least one.",
-                                        "\"rsu\"", "[0.0, 0.0, 6.0]"),
-      ends_table<&Config::receivers>("receiver", "A radio end that paths lead to; one table each, at least one.",
-                                     "\"car\"", "[40.0, 0.0, 1.5]"),
+      transmitter_table(),
+      receiver_table(),
+      mount_table(),
+      vehicle_type_table(),
+      track_table(),
   };
   return all;
 }

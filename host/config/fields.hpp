@@ -17,7 +17,8 @@ namespace wavetracer::config {
 using Aliases = std::map<std::string, std::string>;
 // Where the value of a field lives. The alternative held is the type of the field.
 using Slot = std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<double>*,
-                          std::array<double, 3>*, Aliases*>;
+                          std::array<double, 3>*, Aliases*, std::vector<std::string>*,
+                          std::vector<std::array<double, 4>>*>;
 
 // Numbers allowed, both ends included unless lower_open.
 struct Range {
@@ -38,11 +39,12 @@ struct Field {
   std::function<Slot(Config&, size_t)> slot;  // the index is that of the element of an array of tables
   std::string unit = {};
   Range range = {};
-  std::vector<std::string> choices = {};
+  std::vector<std::string> choices = {};  // of a string; or one word that stands for the integer 0
   Form form = Form::plain;
   bool required = false;
   std::string doc = {};
-  std::string example = {};  // TOML that `init` writes; empty: the default, or a comment where there is none
+  std::string example = {};  // TOML that `init` writes instead of the default: a comment, unless required or needed
+  bool needed = false;       // not required, but the config of `init` would not run without its example
   // Not empty: the feature is not in this version, and this says what to use. Only the default is accepted then.
   std::string later = {};
 };
@@ -54,7 +56,7 @@ struct Table {
   // Set for an array of tables: adds an element and returns its index; the number of elements.
   size_t (*append)(Config&) = nullptr;
   size_t (*count)(const Config&) = nullptr;
-  bool optional = false;  // an array of tables that may be empty
+  bool optional = false;  // an array of tables that `init` writes as a comment
 };
 
 const std::vector<Table>& tables();
@@ -62,8 +64,8 @@ const std::vector<Table>& tables();
 // A Config of defaults with one element in each array of tables, so that every slot exists at index 0.
 Config prototype();
 
-// The value as TOML; empty for an optional number that is not set.
-std::string literal(const Slot& slot);
+// The value of the field as TOML; empty for an optional number that is not set.
+std::string literal(const Field& field, const Slot& slot);
 // What a field accepts, in words: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
 std::string accepted(const Field& field);
 

@@ -70,6 +70,10 @@ std::string out_of_range(const Field& field, const std::string& key, const toml:
 
 template <class T>
 std::string assign_integer(const Field& field, const std::string& key, T& to, const toml::node& value) {
+  if (const auto* word = value.as_string(); word && field.choices == std::vector{word->get()}) {
+    to = 0;
+    return {};
+  }
   if (const auto* i = value.as_integer()) {
     if (!inside(static_cast<double>(i->get()), field.range)) return out_of_range(field, key, value);
     to = static_cast<T>(i->get());
@@ -112,12 +116,13 @@ std::string assign_text(const Field& field, const std::string& key, std::string&
                      hint(given, field.choices));
 }
 
-std::string assign_vector(const Field& field, const std::string& key, std::array<double, 3>& to,
-                          const toml::node& value) {
+template <size_t N>
+std::string assign_vector(const Field& field, const std::string& key, std::array<double, N>& to,
+                          const toml::node& value, std::string_view wanted) {
   const auto* array = value.as_array();
-  if (!array) return wrong_type(field, key, value);
-  if (array->size() != to.size()) return fmt::format("{} must be {}, not {}", key, accepted(field), array->size());
-  for (size_t i = 0; i < to.size(); ++i) {
+  if (!array) return fmt::format("{} must be {}, not {}", key, wanted, kind_of(value));
+  if (array->size() != N) return fmt::format("{} must be {}, not {}", key, wanted, array->size());
+  for (size_t i = 0; i < N; ++i) {
     const std::string element = fmt::format("{}[{}]", key, i);
     const toml::node& node = (*array)[i];
     if (!node.is_number()) return fmt::format("{} must be a number, not {}", element, kind_of(node));
@@ -126,6 +131,36 @@ std::string assign_vector(const Field& field, const std::string& key, std::array
       return fmt::format("{} = {} is out of range: it must be a finite number", element, unquoted(node));
   }
   return {};
+}
+
+std::string assign_words(const Field& field, const std::string& key, std::vector<std::string>& to,
+                         const toml::node& value) {
+  to.clear();
+  if (const auto* word = value.as_string()) {
+    to.push_back(word->get());
+  } else if (const auto* array = value.as_array()) {
+    for (const toml::node& node : *array) {
+      if (!node.is_string())
+        return fmt::format("{}[{}] must be a string, not {}", key, to.size(), kind_of(node));
+      to.push_back(node.as_string()->get());
+    }
+  } else {
+    return wrong_type(field, key, value);
+  }
+  return to.empty() ? key + " is empty: give one at least" : "";
+}
+
+std::string assign_waypoints(const Field& field, const std::string& key, std::vector<std::array<double, 4>>& to,
+                             const toml::node& value) {
+  const auto* array = value.as_array();
+  if (!array) return wrong_type(field, key, value);
+  to.resize(array->size());
+  for (size_t i = 0; i < to.size(); ++i) {
+    const std::string problem = assign_vector(field, fmt::format("{}[{}]", key, i), to[i], (*array)[i],
+                                              "four numbers (" + field.unit + ")");
+    if (!problem.empty()) return problem;
+  }
+  return to.empty() ? key + " is empty: give one waypoint at least" : "";
 }
 
 }  // namespace
@@ -158,7 +193,13 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
                           *to = value.as_boolean()->get();
                           return std::string();
                         },
-                        [&](std::array<double, 3>* to) { return assign_vector(field, key, *to, value); },
+                        [&](std::array<double, 3>* to) {
+                          return assign_vector(field, key, *to, value, accepted(field));
+                        },
+                        [&](std::vector<std::string>* to) { return assign_words(field, key, *to, value); },
+                        [&](std::vector<std::array<double, 4>>* to) {
+                          return assign_waypoints(field, key, *to, value);
+                        },
                         [&](Aliases* to) {  // key is that of one entry: table.field.NAME
                           if (!value.is_string())
                             return fmt::format("{} must be a string, not {}", key, kind_of(value));
@@ -176,16 +217,26 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
                     slot);
 }
 
-std::string literal(const Slot& slot) {
+std::string literal(const Field& field, const Slot& slot) {
+  const auto integer = [&](uint64_t i) {
+    return i == 0 && !field.choices.empty() ? toml_string(field.choices.front()) : fmt::format("{}", i);
+  };
+  const auto list = [](const auto& elements, const auto& text) {
+    std::string out = "[";
+    for (const auto& element : elements) out += (out.size() > 1 ? ", " : "") + text(element);
+    return out + "]";
+  };
   return std::visit(Overload{
                         [](const std::string* s) { return toml_string(*s); },
                         [](const bool* b) { return std::string(*b ? "true" : "false"); },
-                        [](const uint32_t* i) { return fmt::format("{}", *i); },
-                        [](const uint64_t* i) { return fmt::format("{}", *i); },
+                        [&](const uint32_t* i) { return integer(*i); },
+                        [&](const uint64_t* i) { return integer(*i); },
                         [](const double* x) { return number(*x); },
                         [](const std::optional<double>* x) { return *x ? number(**x) : std::string(); },
-                        [](const std::array<double, 3>* v) {
-                          return fmt::format("[{}, {}, {}]", number((*v)[0]), number((*v)[1]), number((*v)[2]));
+                        [&](const std::array<double, 3>* v) { return list(*v, number); },
+                        [&](const std::vector<std::string>* words) { return list(*words, toml_string); },
+                        [&](const std::vector<std::array<double, 4>>* rows) {
+                          return list(*rows, [&](const auto& row) { return list(row, number); });
                         },
                         [](const Aliases* aliases) {
                           std::string out;
@@ -222,7 +273,13 @@ std::string accepted(const Field& field) {
           [&](const bool*) -> std::string { return "true or false"; },
           [&](const std::array<double, 3>*) -> std::string { return "three numbers" + unit; },
           [&](const Aliases*) -> std::string { return "a table of strings"; },
-          [&]<class T>(const T*) -> std::string { return range(is_integer<T> ? "an integer" : "a number"); },
+          [&](const std::vector<std::string>*) -> std::string { return "a string or an array of strings"; },
+          [&](const std::vector<std::array<double, 4>>*) -> std::string {
+            return "an array of [time, x, y, z]" + unit;
+          },
+          [&]<class T>(const T*) -> std::string {
+            return range(is_integer<T> ? "an integer" : "a number") + (choices.empty() ? "" : " or " + choices);
+          },
       },
       field.slot(sample, 0));
 }

@@ -51,7 +51,7 @@ hid_t checked(hid_t result, const std::string& doing) {
   if (result >= 0) return result;
   std::string reason = "no reason given";
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, innermost, &reason);
-  throw RuntimeError(fmt::format("HDF5 cannot {}: {}; is there memory left?", doing, reason));
+  throw RuntimeError(fmt::format("HDF5 cannot {}: {}", doing, reason));
 }
 
 Silence::Silence() {
@@ -78,13 +78,28 @@ void write_attribute(hid_t object, const std::string& name, uint32_t value) {
   write_attribute(object, name, Type<uint32_t>::file(), Type<uint32_t>::memory(), space, &value);
 }
 
+std::string text_attribute(hid_t object, const std::string& name) {
+  const Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "find attribute " + name);
+  char* value = nullptr;
+  checked(H5Aread(attribute, string_type(), &value), "read attribute " + name);
+  const std::string text = value == nullptr ? "" : value;
+  H5free_memory(value);
+  return text;
+}
+
 File::File()
     : access_(memory_access()),
       id_(H5Fcreate("wavetracer-in-memory.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access_), H5Fclose,
           "create a file in memory") {}
 
+File::File(const std::filesystem::path& path, unsigned mode)
+    : access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up a file"),
+      id_(H5Fopen(path.c_str(), mode, access_), H5Fclose, "open " + path.string()) {}
+
+void File::flush() { checked(H5Fflush(id_, H5F_SCOPE_LOCAL), "write a file"); }
+
 std::span<const std::byte> File::image() {
-  checked(H5Fflush(id_, H5F_SCOPE_LOCAL), "finish a file in memory");
+  flush();
   const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
   checked(size, "measure a file in memory");
   // The handle of the core driver is the address of its pointer to the bytes: no copy of the whole file is needed.
@@ -93,13 +108,25 @@ std::span<const std::byte> File::image() {
   return {*static_cast<const std::byte* const*>(handle), static_cast<size_t>(size)};
 }
 
-Id File::make_group(const std::string& path, const std::string& description) {
+Id File::make_group(const std::string& path, const std::string& description) const {
   Id group(H5Gcreate2(id_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group " + path);
   write_attribute(group, "description", description);
   return group;
 }
 
-void File::write_strings(const std::string& path, const Meaning& meaning, const std::vector<std::string>& values) {
+std::vector<std::string> File::members(const std::string& group) const {
+  const Id id(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose, "find group " + group);
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* out) {
+    static_cast<std::vector<std::string>*>(out)->push_back(name);
+    return herr_t{0};
+  };
+  checked(H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names), "list group " + group);
+  return names;
+}
+
+void File::write_strings(const std::string& path, const Meaning& meaning,
+                         const std::vector<std::string>& values) const {
   const Id type = string_type();
   const Id dataset = make_dataset(id_, path, meaning, type, simple_space({values.size()}));
   std::vector<const char*> pointers;
@@ -117,15 +144,40 @@ Table::Table(const File& file, const std::string& path, const Meaning& meaning, 
   for (size_t i = 1; i < shape_.size(); ++i) row_values_ *= shape_[i];
 }
 
-void Table::append(hid_t memory_type, const void* values, size_t count) {
-  if (count == 0) return;
+void Table::append_rows(hid_t memory_type, const void* values, hsize_t rows) {
   std::vector<hsize_t> start(shape_.size(), 0), block = shape_;
   start[0] = next_row_;
-  block[0] = count / row_values_;
+  block[0] = rows;
   checked(H5Sselect_hyperslab(space_, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
           "select rows of " + path_);
   checked(H5Dwrite(dataset_, memory_type, simple_space(block), space_, H5P_DEFAULT, values), "write dataset " + path_);
-  next_row_ += block[0];
+  next_row_ += rows;
+}
+
+Column::Column(const File& file, const std::string& path)
+    : path_(path),
+      dataset_(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path),
+      type_(H5Dget_type(dataset_), H5Tclose, "find the type of " + path),
+      space_(H5Dget_space(dataset_), H5Sclose, "measure dataset " + path),
+      meaning_{text_attribute(dataset_, "units"), text_attribute(dataset_, "description")},
+      shape_(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space_), "measure dataset " + path))) {
+  checked(H5Sget_simple_extent_dims(space_, shape_.data(), nullptr), "measure dataset " + path);
+}
+
+size_t Column::row_bytes() const {
+  size_t bytes = H5Tget_size(type_);
+  for (size_t i = 1; i < shape_.size(); ++i) bytes *= shape_[i];
+  return bytes;
+}
+
+void Column::read(hsize_t first, hsize_t rows, void* values) const {
+  if (rows == 0 || row_bytes() == 0) return;
+  std::vector<hsize_t> start(shape_.size(), 0), block = shape_;
+  start[0] = first;
+  block[0] = rows;
+  checked(H5Sselect_hyperslab(space_, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
+          "select rows of " + path_);
+  checked(H5Dread(dataset_, type_, simple_space(block), space_, H5P_DEFAULT, values), "read dataset " + path_);
 }
 
 }  // namespace wavetracer::hdf5

@@ -1,9 +1,10 @@
 // The HDF5 C library with C++ lifetimes and exceptions; the only header that includes hdf5.h.
-// Files are built in memory: HDF5 1.10 may crash when a file that it writes itself meets a full disk.
+// Files are built in memory, or on disk in room reserved before: HDF5 1.10 may crash when it meets a full disk.
 #pragma once
 #include <hdf5.h>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <utility>
@@ -77,17 +78,28 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
 void write_attribute(hid_t object, const std::string& name, std::span<const double> values);
 void write_attribute(hid_t object, const std::string& name, uint32_t value);
 
-// A file in memory. Its image is what the file on disk must hold.
+std::string text_attribute(hid_t object, const std::string& name);
+
 class File {
  public:
+  // An empty file in memory; its image() is what the file on disk must hold.
   File();
+  // A file on disk. Data that is not flushed may be lost without a word.
+  static File open_to_read(const std::filesystem::path& path) { return File(path, H5F_ACC_RDONLY); }
+  static File open_to_write(const std::filesystem::path& path) { return File(path, H5F_ACC_RDWR); }
+
   hid_t id() const { return id_; }
-  // The bytes of the file, valid until the file changes or goes.
+  // The bytes of a file in memory, valid until the file changes or goes.
   std::span<const std::byte> image();
-  Id make_group(const std::string& path, const std::string& description);
-  void write_strings(const std::string& path, const Meaning& meaning, const std::vector<std::string>& values);
+  void flush();
+  Id make_group(const std::string& path, const std::string& description) const;
+  // Names of the members of a group, sorted.
+  std::vector<std::string> members(const std::string& group) const;
+  void write_strings(const std::string& path, const Meaning& meaning, const std::vector<std::string>& values) const;
 
  private:
+  File(const std::filesystem::path& path, unsigned mode);
+
   Silence silence_;
   Id access_;
   Id id_;
@@ -98,15 +110,35 @@ class File {
 class Table {
  public:
   Table(const File& file, const std::string& path, const Meaning& meaning, hid_t file_type, std::vector<hsize_t> shape);
-  void append(hid_t memory_type, const void* values, size_t count);
+  void append_rows(hid_t memory_type, const void* values, hsize_t rows);
+  // Values in one row.
+  hsize_t row_values() const { return row_values_; }
 
  private:
   std::string path_;
   std::vector<hsize_t> shape_;
-  hsize_t row_values_ = 1;  // values in one row
+  hsize_t row_values_ = 1;
   hsize_t next_row_ = 0;
   Id space_;
   Id dataset_;
+};
+
+// A dataset of rows that is there to be read.
+class Column {
+ public:
+  Column(const File& file, const std::string& path);
+  hid_t type() const { return type_; }  // that of the file
+  const Meaning& meaning() const { return meaning_; }
+  const std::vector<hsize_t>& shape() const { return shape_; }
+  size_t row_bytes() const;
+  // Whole rows in the file's type.
+  void read(hsize_t first, hsize_t rows, void* values) const;
+
+ private:
+  std::string path_;
+  Id dataset_, type_, space_;
+  Meaning meaning_;
+  std::vector<hsize_t> shape_;
 };
 
 template <typename T>
@@ -115,7 +147,9 @@ class Rows {
   Rows(const File& file, const std::string& path, const Meaning& meaning, std::vector<hsize_t> shape)
       : table_(file, path, meaning, Type<T>::file(), std::move(shape)) {}
   // Whole rows.
-  void append(std::span<const T> values) { table_.append(Type<T>::memory(), values.data(), values.size()); }
+  void append(std::span<const T> values) {
+    if (!values.empty()) table_.append_rows(Type<T>::memory(), values.data(), values.size() / table_.row_values());
+  }
 
  private:
   Table table_;

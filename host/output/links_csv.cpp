@@ -1,12 +1,21 @@
 // Writes the figures of radio/links.hpp as comma-separated text, sorted by frame, transmitter, receiver.
-// Assumes that link_figures() answers for every pair of ends.
+// Text is made and written a frame at a time, files are joined a block at a time, so memory stays small.
 #include "output/links_csv.hpp"
 #include <fmt/format.h>
+#include <fstream>
 #include <iterator>
+#include <string>
+#include <string_view>
 #include "radio/links.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
+
+constexpr std::string_view header =
+    "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los\n";
+
+std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
 // A field as RFC 4180, section 2, wants it: quoted where it holds a comma, a quote or a line end.
 std::string quoted(const std::string& text) {
@@ -25,16 +34,30 @@ std::vector<std::string> labels(const std::vector<RadioEnd>& ends) {
 
 }  // namespace
 
-std::string encode_links_csv(const RunData& run) {
+void write_links_csv(const Run& run, Frames frames, PendingFile& file) {
   const auto tx = labels(run.config.transmitters), rx = labels(run.config.receivers);
-  std::string text = "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los\n";
-  for (uint32_t i = 0; i < run.frames.size(); ++i)
-    for (const LinkFigures& link : link_figures(run.frames[i].paths, run.first_frame + i,
-                                                static_cast<uint32_t>(tx.size()), static_cast<uint32_t>(rx.size())))
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:d}\n", run.time_s(i), tx[link.tx],
+  file.write(bytes(header));
+  std::string text;
+  for (const FrameResult& frame : frames) {
+    text.clear();
+    for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:d}\n", frame.world.time_s, tx[link.tx],
                      rx[link.rx], link.paths, link.path_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
                      link.doppler_spread_hz, link.los);
-  return text;
+    file.write(bytes(text));
+  }
+}
+
+void join_links_csv(std::span<const std::filesystem::path> parts, PendingFile& file) {
+  file.write(bytes(header));
+  std::string block(size_t{1} << 20, '\0');
+  for (const std::filesystem::path& part : parts) {
+    std::ifstream in(part, std::ios::binary);
+    in.seekg(static_cast<std::streamoff>(header.size()));
+    while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
+      file.write(bytes({block.data(), static_cast<size_t>(in.gcount())}));
+    if (!in.eof()) throw RuntimeError("cannot read " + part.string() + "; remove it and run again with --resume");
+  }
 }
 
 }  // namespace wavetracer

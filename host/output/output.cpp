@@ -2,31 +2,33 @@
 // Assumes room in memory for one more copy of the paths.
 #include "output/output.hpp"
 #include <chrono>
-#include <span>
 #include <string>
 #include "output/links_csv.hpp"
 #include "output/paths_h5.hpp"
 #include "output/pending_file.hpp"
+#include "output/shards.hpp"
 #include "output/summary_json.hpp"
 
 namespace wavetracer {
 
-std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& directory, const RunData& run) {
+std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& directory, const Run& run,
+                                                 Frames frames) {
   const auto start = std::chrono::steady_clock::now();
   PendingDirectory folder(directory);
   std::vector<PendingFile> files;
   {
     hdf5::File paths;
-    encode_paths_h5(run, paths);
+    encode_paths_h5(run, frames, paths);
     files.emplace_back(folder.path() / "paths.h5", paths.image());
   }
-  const std::string links = encode_links_csv(run);
-  files.emplace_back(folder.path() / "links.csv", std::as_bytes(std::span(links)));
+  write_links_csv(run, frames, files.emplace_back(folder.path() / "links.csv"));
+  files.back().sync();
   const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string summary = encode_summary_json(run, write_seconds);
+  const std::string summary = encode_summary_json(run, totals_of(frames), write_seconds, 0);
   files.emplace_back(folder.path() / "summary.json", std::as_bytes(std::span(summary)));
   commit_together(files);
   folder.keep();
+  remove_shards(folder.path());
   std::vector<std::filesystem::path> written;
   for (const PendingFile& file : files) written.push_back(file.path());
   return written;

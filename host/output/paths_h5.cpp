@@ -1,10 +1,11 @@
-// paths.h5: /paths (one row a path), /vertices (compressed rows), /frames, /transmitters and /receivers.
+// paths.h5: /paths (one row a path) and /vertices (compressed rows); the world around them is in world_h5.cpp.
 // Every dataset says its units and meaning in attributes; the root has the conventions, the config and the versions.
 #include "output/paths_h5.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <glm/vec3.hpp>
+#include "output/world_h5.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -12,15 +13,14 @@ namespace {
 
 using hdf5::Meaning;
 using hdf5::Rows;
-using Frames = std::vector<FrameResult>;
 
-uint64_t path_count(const Frames& frames) {
+uint64_t path_count(Frames frames) {
   uint64_t count = 0;
   for (const FrameResult& frame : frames) count += frame.paths.size();
   return count;
 }
 
-uint64_t vertex_count(const Frames& frames) {
+uint64_t vertex_count(Frames frames) {
   uint64_t count = 0;
   for (const FrameResult& frame : frames) count += frame.paths.vertex_position_m.size();
   return count;
@@ -40,7 +40,7 @@ bool is_rectangular(const Paths& paths) {
 }
 
 // Receiver and transmitter ports of all frames; a frame without paths may not know them.
-std::array<uint32_t, 2> port_counts(const Frames& frames) {
+std::array<uint32_t, 2> port_counts(Frames frames) {
   std::array<uint32_t, 2> ports{1, 1};
   for (const FrameResult& frame : frames)
     ports = {std::max(ports[0], frame.paths.rx_ports), std::max(ports[1], frame.paths.tx_ports)};
@@ -54,31 +54,38 @@ bool names_known_ends(const Paths& paths, const Config& config) {
   return below(paths.tx, config.transmitters.size()) && below(paths.rx, config.receivers.size());
 }
 
-void check(const RunData& run) {
-  if (!run.frame_time_s.empty() && run.frame_time_s.size() != run.frames.size())
-    throw RuntimeError(
-        fmt::format("the results have {} frames but {} frame times; this is a fault of wavetracer, report it",
-                    run.frames.size(), run.frame_time_s.size()));
-  for (size_t i = 0; i < run.frames.size(); ++i) {
-    const Paths& paths = run.frames[i].paths;
-    if (!is_rectangular(paths) || !names_known_ends(paths, run.config) ||
-        (paths.size() > 0 && std::array{paths.rx_ports, paths.tx_ports} != port_counts(run.frames)))
+// Every end and instance has a state, and links and paths name ends that there are.
+bool fits(const FrameResult& frame, const Run& run) {
+  const WorldState& world = frame.world;
+  const auto named = [&](const Link& link) {
+    return link.tx < run.config.transmitters.size() && link.rx < run.config.receivers.size();
+  };
+  return world.transmitters.size() == run.config.transmitters.size() &&
+         world.receivers.size() == run.config.receivers.size() && world.instances.size() == run.instances.size() &&
+         std::all_of(world.links.begin(), world.links.end(), named) && names_known_ends(frame.paths, run.config);
+}
+
+void check(const Run& run, Frames frames) {
+  for (const FrameResult& frame : frames) {
+    const Paths& paths = frame.paths;
+    if (!is_rectangular(paths) || !fits(frame, run) ||
+        (paths.size() > 0 && std::array{paths.rx_ports, paths.tx_ports} != port_counts(frames)))
       throw RuntimeError(
-          fmt::format("the paths of frame {} have columns of unequal length, ends that the config lacks or "
+          fmt::format("the paths of frame {} have columns of unequal length, ends or vehicles that the run lacks or "
                       "ports unlike the other frames'; this is a fault of wavetracer, report it",
-                      run.first_frame + i));
+                      frame.frame));
   }
 }
 
 template <typename T>
-void write_column(const hdf5::File& file, const Frames& frames, uint64_t rows, const std::string& path,
+void write_column(const hdf5::File& file, Frames frames, uint64_t rows, const std::string& path,
                   const Meaning& meaning, std::vector<T> Paths::*column) {
   Rows<T> table(file, path, meaning, {rows});
   for (const FrameResult& frame : frames) table.append(frame.paths.*column);
 }
 
 // One part of the coefficients, (path, rx port, tx port), packed from the four slots of Paths::a.
-void write_coefficients(const hdf5::File& file, const Frames& frames, uint64_t rows, const std::string& path,
+void write_coefficients(const hdf5::File& file, Frames frames, uint64_t rows, const std::string& path,
                         const Meaning& meaning, double (*part)(const std::complex<double>&)) {
   const auto [rx_ports, tx_ports] = port_counts(frames);
   const size_t ports = size_t{rx_ports} * tx_ports;
@@ -93,7 +100,7 @@ void write_coefficients(const hdf5::File& file, const Frames& frames, uint64_t r
   }
 }
 
-void write_paths(hdf5::File& file, const Frames& frames) {
+void write_paths(hdf5::File& file, Frames frames) {
   const auto group = file.make_group("/paths", "one row a path, sorted by frame, tx, rx, delay");
   const uint64_t rows = path_count(frames);
   const auto column = [&](const char* name, const char* units, const char* description, auto member) {
@@ -134,7 +141,7 @@ void write_paths(hdf5::File& file, const Frames& frames) {
   offsets.append({&base, 1});
 }
 
-void write_vertices(hdf5::File& file, const Frames& frames) {
+void write_vertices(hdf5::File& file, Frames frames) {
   const auto group =
       file.make_group("/vertices", "the interactions of all paths, each path's from tx to rx, ends excluded");
   const uint64_t rows = vertex_count(frames);
@@ -148,52 +155,15 @@ void write_vertices(hdf5::File& file, const Frames& frames) {
   write_column(file, frames, rows, "/vertices/interaction",
                {"1", "1 reflection, 2 diffuse scattering, 4 transmission, 8 diffraction"}, &Paths::vertex_interaction);
   write_column(file, frames, rows, "/vertices/surface",
-               {"1", "surface of the scene, or edge for a diffraction; numbers hold for one scene file"},
+               {"1", "surface of the scene, or of the model of the instance that was hit, or edge for a diffraction; "
+                     "numbers hold for one file"},
                &Paths::vertex_surface);
   write_column(file, frames, rows, "/vertices/instance",
-               {"1", "placed model that was hit, 4294967295 for the static scene"}, &Paths::vertex_instance);
+               {"1", "row of /instances, the vehicle that was hit; 4294967295 for the static scene"},
+               &Paths::vertex_instance);
 }
 
-void write_frames(hdf5::File& file, const RunData& run) {
-  const auto group = file.make_group("/frames", "one row a frame");
-  std::vector<uint32_t> numbers;
-  std::vector<double> times;
-  std::vector<uint64_t> offsets{0};
-  for (size_t i = 0; i < run.frames.size(); ++i) {
-    numbers.push_back(run.first_frame + static_cast<uint32_t>(i));
-    times.push_back(run.time_s(i));
-    offsets.push_back(offsets.back() + run.frames[i].paths.size());
-  }
-  Rows<uint32_t>(file, "/frames/frame", {"1", "number of the frame"}, {numbers.size()}).append(numbers);
-  Rows<double>(file, "/frames/time_s", {"s", "time of the frame"}, {numbers.size()}).append(times);
-  Rows<uint64_t>(file, "/frames/path_offset",
-                 {"1", "the paths of frame row i are rows path_offset[i] to path_offset[i + 1] - 1 of /paths"},
-                 {offsets.size()})
-      .append(offsets);
-}
-
-void write_ends(hdf5::File& file, const std::string& path, const std::string& description,
-                const std::vector<RadioEnd>& ends) {
-  const auto group = file.make_group(path, description);
-  const auto text = [&](const char* name, const char* meaning, std::string RadioEnd::*field) {
-    std::vector<std::string> values;
-    for (const RadioEnd& end : ends) values.push_back(end.*field);
-    file.write_strings(path + "/" + name, {"1", meaning}, values);
-  };
-  const auto triple = [&](const char* name, const Meaning& meaning, std::array<double, 3> RadioEnd::*field) {
-    Rows<double> table(file, path + "/" + name, meaning, {ends.size(), 3});
-    for (const RadioEnd& end : ends) table.append(end.*field);
-  };
-  text("name", "name given in the config", &RadioEnd::name);
-  triple("position_m", {"m", "position in the coordinates of the scene file, (x, y, z)"}, &RadioEnd::position_m);
-  text("antenna", "antenna pattern, or the file that holds it", &RadioEnd::antenna);
-  text("polarization", "V, H, VH (two ports: V, H) or cross (two ports: +45 deg, -45 deg)", &RadioEnd::polarization);
-  triple("orientation_deg", {"deg", "(yaw, pitch, roll), intrinsic rotations about z, y, x"},
-         &RadioEnd::orientation_deg);
-  triple("velocity_m_s", {"m/s", "velocity along the axes of the scene file, (x, y, z)"}, &RadioEnd::velocity_m_s);
-}
-
-void write_root(hdf5::File& file, const RunData& run) {
+void write_root(hdf5::File& file, const Run& run) {
   const auto text = [&](const char* name, const std::string& value) { hdf5::write_attribute(file.id(), name, value); };
   text("format", "wavetracer paths");
   hdf5::write_attribute(file.id(), "format_version", uint32_t{1});
@@ -218,14 +188,24 @@ void write_root(hdf5::File& file, const RunData& run) {
 
 }  // namespace
 
-void encode_paths_h5(const RunData& run, hdf5::File& file) {
-  check(run);
+void encode_head_h5(const Run& run, hdf5::File& file) {
   write_root(file, run);
-  write_paths(file, run.frames);
-  write_vertices(file, run.frames);
-  write_frames(file, run);
-  write_ends(file, "/transmitters", "one row a transmitter, in the order of the config", run.config.transmitters);
-  write_ends(file, "/receivers", "one row a receiver, in the order of the config", run.config.receivers);
+  write_instances(file, run);
+  write_ends(file, run);
+}
+
+void encode_frames_h5(const Run& run, Frames frames, hdf5::File& file) {
+  check(run, frames);
+  write_paths(file, frames);
+  write_vertices(file, frames);
+  write_frames(file, run, frames);
+  write_poses(file, run, frames);
+  write_links(file, frames);
+}
+
+void encode_paths_h5(const Run& run, Frames frames, hdf5::File& file) {
+  encode_head_h5(run, file);
+  encode_frames_h5(run, frames, file);
 }
 
 }  // namespace wavetracer

@@ -35,44 +35,23 @@ std::string advice(int error) {
   throw RuntimeError(fmt::format("cannot {} {}: {}; {}", doing, path.string(), std::strerror(error), advice(error)));
 }
 
-// A file descriptor that is closed on every way out.
-class Descriptor {
- public:
-  explicit Descriptor(int id) : id_(id) {}
-  ~Descriptor() {
-    if (id_ >= 0) ::close(id_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int id() const { return id_; }
-  // close() is where network file systems report what they could not write.
-  int close() { return ::close(std::exchange(id_, -1)); }
-
- private:
-  int id_;
-};
-
 // 0, or the errno of the call that failed.
-int write_and_sync(const fs::path& path, std::span<const std::byte> bytes) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.id() < 0) return errno;
+int write_all(int descriptor, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(file.id(), bytes.data(), std::min<size_t>(bytes.size(), size_t{1} << 30));
+    const ssize_t written = ::write(descriptor, bytes.data(), std::min<size_t>(bytes.size(), size_t{1} << 30));
     if (written < 0) {
       if (errno == EINTR) continue;
       return errno;
     }
     bytes = bytes.subspan(static_cast<size_t>(written));
   }
-  if (::fsync(file.id()) != 0) return errno;
-  return file.close() == 0 ? 0 : errno;
+  return 0;
 }
 
-int sync_folder(const fs::path& folder) {
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.id() < 0) return errno;
-  // EINVAL: this file system does not sync folders, so there is nothing to wait for.
-  return ::fsync(descriptor.id()) == 0 || errno == EINVAL ? 0 : errno;
+// close() is where network file systems report what they could not write.
+int sync_and_close(int descriptor) {
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  return ::close(descriptor) == 0 || error != 0 ? error : errno;
 }
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
@@ -109,29 +88,49 @@ void PendingDirectory::remove_created() noexcept {
   for (auto p = created_.rbegin(); p != created_.rend(); ++p) fs::remove(*p, ignored);
 }
 
-PendingFile::PendingFile(fs::path path, std::span<const std::byte> bytes) : path_(std::move(path)) {
+PendingFile::PendingFile(fs::path path) : path_(std::move(path)) {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored)) fail(path_, "write", EISDIR);
   temporary_ = path_;
   temporary_ += fmt::format(".{}.tmp", ::getpid());
-  if (const int error = write_and_sync(temporary_, bytes)) {
-    fs::remove(temporary_, ignored);
-    fail(path_, "write", error);
-  }
+  descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail(path_, "write", errno);
+}
+
+PendingFile::PendingFile(fs::path path, std::span<const std::byte> bytes) : PendingFile(std::move(path)) {
+  write(bytes);  // the object lives since the other constructor is done: a throw destroys it
+  sync();
 }
 
 PendingFile::PendingFile(PendingFile&& other) noexcept
-    : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, fs::path())) {}
+    : path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, fs::path())),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 PendingFile::~PendingFile() {
   std::error_code ignored;
+  if (descriptor_ >= 0) ::close(descriptor_);
   if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void PendingFile::write(std::span<const std::byte> bytes) {
+  if (const int error = write_all(descriptor_, bytes)) fail(path_, "write", error);
+}
+
+void PendingFile::reserve(uint64_t size) {
+  int error = EINTR;
+  while (error == EINTR) error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(size));
+  if (error != 0) fail(path_, "write", error);
+}
+
+void PendingFile::sync() {
+  if (const int error = sync_and_close(std::exchange(descriptor_, -1))) fail(path_, "write", error);
 }
 
 void PendingFile::commit() {
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "write", errno);
   temporary_.clear();
-  if (const int error = sync_folder(folder_of(path_))) fail(folder_of(path_), "sync the folder", error);
+  sync_folder(folder_of(path_));
 }
 
 void commit_together(std::vector<PendingFile>& files) {
@@ -143,6 +142,22 @@ void commit_together(std::vector<PendingFile>& files) {
     for (size_t i = 0; i < committed; ++i) fs::remove(files[i].path(), ignored);
     throw;
   }
+}
+
+void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor < 0) fail(path, "write", errno);
+  const int written = write_all(descriptor, bytes), synced = sync_and_close(descriptor);
+  if (written != 0 || synced != 0) fail(path, "write", written != 0 ? written : synced);
+}
+
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) fail(folder, "sync the folder", errno);
+  // EINVAL: this file system does not sync folders, so there is nothing to wait for.
+  const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0) fail(folder, "sync the folder", error);
 }
 
 }  // namespace wavetracer

@@ -2,6 +2,7 @@
 // POSIX only: rename() replaces atomically within one folder.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
@@ -30,22 +31,38 @@ class PendingDirectory {
 // One file on its way to its place. Every failure is a RuntimeError that names the file.
 class PendingFile {
  public:
-  // Writes the bytes to a temporary file in the same folder and syncs it; leaves nothing if that fails.
+  // An empty temporary file in the same folder, which goes away unless it is committed.
+  explicit PendingFile(std::filesystem::path path);
+  // The same with these bytes in it, synced; leaves nothing if that fails.
   PendingFile(std::filesystem::path path, std::span<const std::byte> bytes);
   ~PendingFile();
   PendingFile(PendingFile&& other) noexcept;
   PendingFile& operator=(PendingFile&&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  // Renames the temporary file to its name and syncs the folder.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  // Appends.
+  void write(std::span<const std::byte> bytes);
+  // Makes the file so long, on the disk too: who writes into it afterwards meets no full disk.
+  void reserve(uint64_t size);
+  // Waits for the disk; nothing is written after it.
+  void sync();
+  // Renames the synced temporary file to its name and syncs the folder.
   void commit();
 
  private:
   std::filesystem::path path_;
   std::filesystem::path temporary_;  // empty once committed or moved from
+  int descriptor_ = -1;              // closed by sync()
 };
 
 // Commits all or none: if one fails, those already in place are removed and the error goes on.
 void commit_together(std::vector<PendingFile>& files);
+
+// Appends to a file that is there and waits for the disk. Throws RuntimeError.
+void append_to_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+// Waits until names that appeared in the folder or went are on the disk. Throws RuntimeError.
+void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace wavetracer

@@ -2,11 +2,11 @@
 // Counts are sums over the frames; seconds of a frame's stages are medians over the frames.
 #pragma once
 #include <string>
-#include "output/output.hpp"
+#include "output/totals.hpp"
 
 namespace wavetracer {
 
-// write_seconds: the time that encoding and writing the other files took.
-std::string encode_summary_json(const RunData& run, double write_seconds);
+// write_seconds: the time that encoding and writing the other files took. shards: their number, 0 without.
+std::string encode_summary_json(const Run& run, const Totals& totals, double write_seconds, size_t shards);
 
 }  // namespace wavetracer

@@ -16,7 +16,7 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
                                 gpu::Buffer<wt_counters>& counters) {
   for (;;) {
     kernel_({size_t{node_count} * (ends.receiver_capacity / 16), 64}, "candidates", trie, nodes, node_count,
-            ends.transmitters, scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.receiver_count,
+            ends.transmitters, scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.links,
             ends.receiver_capacity, list_, static_cast<uint32_t>(list_.size()), counters);
     wt_counters now = counters.read_one(0, "candidates");
     if (now.candidates <= list_.size()) return now.candidates;

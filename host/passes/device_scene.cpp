@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,28 +13,6 @@
 namespace wavetracer {
 
 namespace {
-
-std::string stack_size(uint32_t entries, uint32_t step) { return std::to_string((entries + step) / step * step); }
-
-// Pairs (minimum, maximum) to (centre, half size). The half size is padded by 16 units in the last place of the largest
-// distance: the slab test rounds four times, the sheared vertices of the triangle test three times, each by at most one
-// unit of a coordinate or of a distance of twice that size.
-std::vector<float> centred(std::vector<float> nodes, float extent_m) {
-  const double padding = 16.0 * 6e-8 * 2.0 * static_cast<double>(extent_m);
-  for (size_t node = 0; node < nodes.size(); node += WT_BVH2_NODE_FLOATS)
-    for (size_t pair = node; pair < node + 12; pair += 2) {
-      const double lower = static_cast<double>(nodes[pair]), upper = static_cast<double>(nodes[pair + 1]);
-      const bool unused = !(lower <= upper);
-      const float centre = unused ? 0.0f : static_cast<float>(0.5 * (lower + upper));
-      nodes[pair] = centre;
-      nodes[pair + 1] = unused ? -1.0f - static_cast<float>(padding)
-                               : std::nextafter(static_cast<float>(std::max(upper - static_cast<double>(centre),
-                                                                            static_cast<double>(centre) - lower) +
-                                                                   padding),
-                                                std::numeric_limits<float>::infinity());
-    }
-  return nodes;
-}
 
 void upload_surfaces(gpu::Context& context, const Scene& scene, DeviceScene& out) {
   std::vector<wt_surface> surfaces;
@@ -53,20 +30,34 @@ void upload_surfaces(gpu::Context& context, const Scene& scene, DeviceScene& out
     exact_record.offset = s.offset_m;
     exact_record.first_triangle = s.first_triangle;
     exact_record.triangle_count = s.triangle_count;
+    exact_record.instance = WT_NONE;
     surfaces.push_back(record);
     exact.push_back(exact_record);
   }
+  out.surfaces = context.buffer(surfaces, "surfaces");
+  out.exact_surfaces = context.buffer(exact, "exact surfaces");
+  out.exact_triangles = context.buffer(surface_corners(scene), "surface triangles");
+  out.exact_instances = context.buffer<wt_exact_instance>(1, "instances");
+  out.moving = context.buffer<float>(4, "moving");
+}
+
+}  // namespace
+
+std::vector<double> surface_corners(const Scene& scene) {
   std::vector<double> corners;
   corners.reserve(9 * scene.surface_triangles.size());
   for (const uint32_t triangle : scene.surface_triangles)
     for (const uint32_t vertex : scene.triangles[triangle])
       for (int axis = 0; axis < 3; ++axis) corners.push_back(scene.vertices[vertex][axis]);
-  out.surfaces = context.buffer(surfaces, "surfaces");
-  out.exact_surfaces = context.buffer(exact, "exact surfaces");
-  out.exact_triangles = context.buffer(corners, "surface triangles");
+  return corners;
 }
 
-}  // namespace
+void DeviceScene::require_stack(const std::string& name, uint32_t entries) {
+  const uint32_t step = name == "WT_BVH8_STACK" ? 64 : 32;
+  std::string& size = definitions[name];
+  size = std::to_string(std::max((entries + step) / step * step,
+                                 size.empty() ? 0u : static_cast<uint32_t>(std::stoul(size))));
+}
 
 DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m) {
   DeviceScene out;
@@ -81,9 +72,10 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
   options.spatial_splits = spatial_splits;
   const Bvh2 two = make_bvh2(build_binary(triangles, options), triangles);
   out.triangle_slots = two.triangle_slots;
-  out.nodes2 = context.buffer(centred(two.nodes, out.extent_m), "BVH2 nodes");
+  out.nodes2 = context.buffer(centred_boxes(two.nodes, out.extent_m), "BVH2 nodes");
   out.triangles2 = context.buffer(two.triangles, "BVH2 triangles");
-  out.definitions["WT_BVH2_STACK"] = out.definitions["WT_PACKET_STACK"] = stack_size(two.max_depth, 32);
+  out.require_stack("WT_BVH2_STACK", two.max_depth);
+  out.require_stack("WT_PACKET_STACK", two.max_depth);
   if (out.cpu) {
     out.packet_nodes2 = context.buffer(two.nodes, "BVH2 packet nodes");
     options = BuildOptions::for_bvh8();
@@ -91,9 +83,10 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
     const Bvh8 eight = make_bvh8(build_binary(triangles, options), triangles);
     out.nodes8 = context.buffer(eight.nodes, "BVH8 nodes");
     out.blocks8 = context.buffer(eight.blocks, "BVH8 blocks");
-    out.definitions["WT_BVH8_STACK"] = stack_size(7 * eight.max_depth + 1, 64);
+    out.require_stack("WT_BVH8_STACK", 7 * eight.max_depth + 1);
   }
   upload_surfaces(context, scene, out);
+  out.primitive_count = static_cast<uint32_t>(scene.triangles.size());
   return out;
 }
 

@@ -1,7 +1,9 @@
-// The static scene on the device: acceleration structures in every shape that this kind of device may trace, and
-// surfaces in float and double. Which shape traces is chosen in simulation/discovery.cpp.
+// The scene on the device: acceleration structures in every shape that this kind of device may trace, and surfaces in
+// float and double; to the static ones place adds those of instances. Which shape traces is chosen in simulation/discovery.cpp.
 #pragma once
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "gpu/gpu.hpp"
 #include "wavetracer/device/records.h"
@@ -24,8 +26,18 @@ struct DeviceScene {
   gpu::Buffer<wt_surface> surfaces;
   gpu::Buffer<wt_exact_surface> exact_surfaces;
   gpu::Buffer<double> exact_triangles;  // nine doubles a triangle, grouped by surface
+  uint32_t primitive_count = 0;         // triangles of the static scene
+  // What moves, by passes/place.hpp; placeholders where nothing does.
+  gpu::Buffer<float> moving;  // wavetracer/device/moving.h
+  gpu::Buffer<wt_exact_instance> exact_instances;
   gpu::Definitions definitions;         // stack sizes that the trees need
+
+  // Makes the stack called `name` at least so large; sizes go in steps, so that scenes of like size share kernels.
+  void require_stack(const std::string& name, uint32_t entries);
 };
+
+// The corners of the triangles of all surfaces, grouped by surface, nine doubles each.
+std::vector<double> surface_corners(const Scene& scene);
 
 // Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred
 // coordinate of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.

@@ -15,26 +15,40 @@ void check_room(const RayQueue& queue, uint32_t count) {
 GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& directions)
     : generate_(context.kernel("generate_rays", "generate_rays", {{"WT_DIRECTIONS", directions.map}})),
       generate_ordered_(context.kernel("generate_rays", "generate_ordered", {{"WT_DIRECTIONS", directions.map}})),
+      generate_samples_(context.kernel("generate_rays", "generate_samples",
+                                       {{"WT_DIRECTIONS", directions.map}, {"WT_SAMPLES", "1"}})),
       directions_(directions),
       rays_per_item_(context.info().cpu ? 16 : 1),
       local_(context.info().simple_local_size()) {}
 
-void GenerateRays::operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin, uint64_t first, uint32_t count) {
+void GenerateRays::operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin, uint64_t first, uint32_t count,
+                              uint64_t stride, uint32_t source) {
   check_room(queue, count);
   generate_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes, queue.capacity,
-            queue.count, count, first, directions_.parameter, directions_.level, directions_.faces,
-            static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z), WT_ROOT | index);
+            queue.count, count, first, stride, directions_.parameter, directions_.level, directions_.faces,
+            static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z), WT_ROOT | index,
+            source);
   queue.count += count;
 }
 
 void GenerateRays::operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin, uint64_t first, uint32_t count,
-                              const gpu::Buffer<uint32_t>& order) {
+                              const gpu::Buffer<uint32_t>& order, uint32_t source) {
   check_room(queue, count);
   generate_ordered_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes,
                     queue.capacity, queue.count, count, first, order, directions_.parameter, directions_.level,
                     directions_.faces, static_cast<float>(origin.x), static_cast<float>(origin.y),
-                    static_cast<float>(origin.z), WT_ROOT | index);
+                    static_cast<float>(origin.z), WT_ROOT | index, source);
   queue.count += count;
+}
+
+void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, uint32_t count,
+                           const gpu::Buffer<float>& launchers, const LaunchDirections& directions) {
+  queue.count = 0;
+  check_room(queue, count);
+  generate_samples_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes,
+                    queue.capacity, first, count, list.samples, list.capacity, launchers, directions.parameter,
+                    directions.level, directions.faces, list.ends);
+  queue.count = count;
 }
 
 }  // namespace wavetracer

@@ -8,10 +8,13 @@ namespace wavetracer {
 
 class Interact {
  public:
-  explicit Interact(gpu::Context& context);
-  // next.count becomes hit_count, unless this is the last depth, when next is left alone.
+  // keep_ages: as the set of sequences was made. samples: rays carry the number of their sample, and note its end.
+  explicit Interact(gpu::Context& context, bool keep_ages = false, bool samples = false);
+  // next.count becomes hit_count, unless this is the last depth, when next is left alone. Sequences that rays
+  // reach get the age `now`, where ages are kept. ends: one a sample, needed where samples are followed.
   void operator()(const DeviceScene& scene, const RayQueue& rays, const HitList& hits, uint32_t hit_count,
-                  gpu::Buffer<uint64_t>& trie, gpu::Buffer<wt_counters>& counters, RayQueue& next, bool last);
+                  gpu::Buffer<uint64_t>& trie, gpu::Buffer<wt_counters>& counters, gpu::Buffer<uint32_t>& ages,
+                  uint32_t now, RayQueue& next, bool last, const gpu::Buffer<uint32_t>* ends = nullptr);
 
  private:
   gpu::Kernel kernel_;

@@ -1,25 +1,29 @@
-// Transmitters and receivers on the device: double4 positions, and receivers as float planes for the conservative
-// rejection. Positions are recentred metres.
+// Transmitters and receivers on the device: double4 records (position, instance), and receivers as float planes for the
+// conservative rejection. Positions are recentred metres; the instance is that of the vehicle that carries the end, -1
+// where none does.
 #pragma once
 #include <algorithm>
-#include <glm/vec3.hpp>
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "wavetracer/world.hpp"
 
 namespace wavetracer {
 
 struct RadioEnds {
   gpu::Buffer<double> transmitters, receivers;  // four doubles each
   gpu::Buffer<float> receiver_planes;           // three planes of receiver_capacity
+  gpu::Buffer<uint16_t> links;                  // bit b of word tx * (receiver_capacity / 16) + g: receiver 16 g + b
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
 };
 
-inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<glm::dvec3>& transmitters,
-                                 const std::vector<glm::dvec3>& receivers) {
-  const auto quadruples = [](const std::vector<glm::dvec3>& points) {
+inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndState>& transmitters,
+                                 const std::vector<EndState>& receivers, const std::vector<Link>& links) {
+  const auto quadruples = [](const std::vector<EndState>& ends) {
     std::vector<double> out;
-    for (const glm::dvec3& p : points) out.insert(out.end(), {p.x, p.y, p.z, 0.0});
+    for (const EndState& end : ends)
+      out.insert(out.end(), {end.position_m.x, end.position_m.y, end.position_m.z,
+                             end.instance == no_instance ? -1.0 : static_cast<double>(end.instance)});
     return out;
   };
   RadioEnds ends;
@@ -29,10 +33,15 @@ inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<glm::d
   std::vector<float> planes;
   for (int axis = 0; axis < 3; ++axis)
     for (uint32_t i = 0; i < ends.receiver_capacity; ++i)
-      planes.push_back(static_cast<float>(receivers[std::min(i, ends.receiver_count - 1)][axis]));
+      planes.push_back(static_cast<float>(receivers[std::min(i, ends.receiver_count - 1)].position_m[axis]));
+  const uint32_t groups = ends.receiver_capacity / 16;
+  std::vector<uint16_t> mask(size_t{ends.transmitter_count} * groups, 0);
+  for (const Link& link : links)
+    mask[size_t{link.tx} * groups + link.rx / 16] |= static_cast<uint16_t>(1u << link.rx % 16);
   ends.transmitters = context.buffer(quadruples(transmitters), "transmitters");
   ends.receivers = context.buffer(quadruples(receivers), "receivers");
   ends.receiver_planes = context.buffer(planes, "receiver planes");
+  ends.links = context.buffer(mask, "links");
   return ends;
 }
 

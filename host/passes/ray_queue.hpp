@@ -22,9 +22,10 @@ struct HitList {
   gpu::Buffer<uint32_t> block_hits;  // hits a block of rays; after scan, hits of all blocks before
 };
 
-inline RayQueue make_ray_queue(gpu::Context& context, uint64_t rays, const char* name) {
+// samples: with the plane WT_RAY_SAMPLE.
+inline RayQueue make_ray_queue(gpu::Context& context, uint64_t rays, const char* name, bool samples = false) {
   const uint32_t capacity = padded_capacity(rays);
-  return {context.buffer<float>(size_t{capacity} * WT_RAY_PLANES, name), capacity, 0};
+  return {context.buffer<float>(size_t{capacity} * (WT_RAY_PLANES + samples), name), capacity, 0};
 }
 
 inline HitList make_hit_list(gpu::Context& context, uint64_t rays, uint32_t block) {

@@ -9,15 +9,24 @@
 
 namespace wavetracer {
 
-Sequences::Sequences(gpu::Context& context, uint64_t slots)
+Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
     : context_(context),
-      collect_(context.kernel("sequences", "collect")),
-      commute_(context.kernel("sequences", "commute")),
-      regrow_(context.kernel("sequences", "regrow")),
-      follow_(context.kernel("sequences", "follow")),
-      table_(context.buffer<uint64_t>(slots, "sequences")),
+      keep_ages_(keep_ages),
       nodes_(context.buffer<uint32_t>(4096, "sequence list")),
       counters_(context.buffer<wt_counters>(1, "counters")) {
+  gpu::Definitions definitions;
+  if (keep_ages) definitions["WT_AGES"] = "1";
+  collect_ = context.kernel("sequences", "collect", definitions);
+  commute_ = context.kernel("sequences", "commute", definitions);
+  regrow_ = context.kernel("sequences", "regrow", definitions);
+  follow_ = context.kernel("sequences", "follow", definitions);
+  keep_ = context.kernel("sequences", "keep", definitions);
+  resize(slots);
+}
+
+void Sequences::resize(uint64_t slots) {
+  table_ = context_.buffer<uint64_t>(slots, "sequences");
+  ages_ = context_.buffer<uint32_t>(keep_ages_ ? slots : 1, "ages of sequences");
   clear();
 }
 
@@ -26,27 +35,53 @@ void Sequences::clear() {
   counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
 }
 
+void Sequences::begin_frame() {
+  ++now_;
+  counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
+}
+
+void Sequences::move(const gpu::Buffer<uint64_t>& old_table, const gpu::Buffer<uint32_t>& old_ages, uint32_t max_depth,
+                     uint32_t oldest, gpu::Buffer<uint32_t>& moved) {
+  for (uint32_t depth = 1; depth <= max_depth; ++depth)
+    regrow_({old_table.size(), 64}, "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth, moved,
+            table_, static_cast<uint32_t>(table_.size() - 1), counters_, old_ages, ages_, oldest);
+}
+
 void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
-  const gpu::Buffer<uint64_t> old = table_;
-  gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old.size(), "moved sequences");
+  const gpu::Buffer<uint64_t> old_table = table_;
+  const gpu::Buffer<uint32_t> old_ages = ages_;
+  gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old_table.size(), "moved sequences");
   for (;;) {
     // Checked at every step: a slot must leave the bit of WT_ROOT free.
     if (table_.size() >= uint64_t{1} << 30)
       throw RuntimeError("the set of distinct sequences has outgrown 2^30 slots; lower trace.rays or trace.max_depth");
-    table_ = context_.buffer<uint64_t>(table_.size() * 4, "sequences");
-    clear();
-    for (uint32_t depth = 1; depth <= max_depth; ++depth)
-      regrow_({old.size(), 64}, "sequences", old, static_cast<uint32_t>(old.size()), depth, moved, table_,
-              static_cast<uint32_t>(table_.size() - 1), counters_);
+    resize(table_.size() * 4);
+    move(old_table, old_ages, max_depth, 0, moved);
     if (!overflowed()) break;
   }
   if (listed_count > 0) follow_({listed_count, 64}, "sequences", nodes_, listed_count, moved);
 }
 
+void Sequences::forget(uint32_t frames, uint32_t max_depth) {
+  if (!keep_ages_ || now_ <= frames) return;
+  const gpu::Buffer<uint64_t> old_table = table_;
+  const gpu::Buffer<uint32_t> old_ages = ages_;
+  gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old_table.size(), "moved sequences");
+  resize(old_table.size());
+  move(old_table, old_ages, max_depth, now_ - frames, moved);
+  // Fewer than before in a table of the same size, in another order: a run of 64 taken slots is next to impossible.
+  if (overflowed()) throw RuntimeError("the set of distinct sequences could not be rebuilt; lower trace.forget_frames");
+}
+
+void Sequences::keep(const SolvedList& solved) {
+  if (keep_ages_ && solved.count > 0)
+    keep_({solved.count, 64}, "sequences", table_, solved.headers, solved.count, ages_, now_);
+}
+
 void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   for (;;) {
     commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
-             surfaces, counters_);
+             surfaces, counters_, ages_, now_);
     if (!overflowed()) return;
     // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
     // full.

@@ -2,33 +2,52 @@
 // A node's id is its slot, so ids change when the table grows: nothing but nodes() may hold one across regrow().
 #pragma once
 #include "gpu/gpu.hpp"
+#include "passes/solved_list.hpp"
 #include "wavetracer/device/records.h"
 
 namespace wavetracer {
 
 class Sequences {
  public:
-  Sequences(gpu::Context& context, uint64_t slots);
+  // keep_ages: sequences live on from frame to frame, and their ages say which are still met.
+  Sequences(gpu::Context& context, uint64_t slots, bool keep_ages = false);
   // Empties the set and the counters.
   void clear();
   gpu::Buffer<uint64_t>& table() { return table_; }
   gpu::Buffer<wt_counters>& counters() { return counters_; }
+  // Of the slots: the last frame, counted by begin_frame, in which a ray or a path was there. One element if not kept.
+  gpu::Buffer<uint32_t>& ages() { return ages_; }
+  uint32_t now() const { return now_; }
+  // The next frame: what is entered from now on is younger than anything before, and the counters start at zero.
+  void begin_frame();
+  // The visible paths' sequences get the age of this frame.
+  void keep(const SolvedList& solved);
+  // Drops the sequences that no ray and no path has met for `frames` frames.
+  void forget(uint32_t frames, uint32_t max_depth);
   // Did an insertion fail since the last clear() or regrow()?
   bool overflowed() const { return counters_.read_one(0, "sequences").trie_overflow != 0; }
   // Moves every node of at most max_depth surfaces to a table four times as large. The first listed_count entries of
   // nodes() go on to name the nodes that they named.
   void regrow(uint32_t max_depth, uint32_t listed_count = 0);
   // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged; grows when it
-  // must. Call collect() before, whose node_count it takes, and after.
+  // must. Where ages are kept, known means met by a ray in this frame. Call collect() before, whose node_count it takes,
+  // and after.
   void commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth);
   // The roots of the transmitters, then every node. Returns the length of nodes().
   uint32_t collect(uint32_t transmitter_count);
   const gpu::Buffer<uint32_t>& nodes() const { return nodes_; }
 
  private:
+  void resize(uint64_t slots);
+  void move(const gpu::Buffer<uint64_t>& old_table, const gpu::Buffer<uint32_t>& old_ages, uint32_t max_depth,
+            uint32_t oldest, gpu::Buffer<uint32_t>& moved);
+
   gpu::Context& context_;
-  gpu::Kernel collect_, commute_, regrow_, follow_;
+  bool keep_ages_;
+  gpu::Kernel collect_, commute_, regrow_, follow_, keep_;
   gpu::Buffer<uint64_t> table_;
+  gpu::Buffer<uint32_t> ages_;
+  uint32_t now_ = 1;
   gpu::Buffer<uint32_t> nodes_;
   uint32_t roots_ = 0;  // roots at the head of nodes_
   gpu::Buffer<wt_counters> counters_;

@@ -26,16 +26,16 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
   switch (shape_) {
     case TraceShape::bvh2:
       kernel_(launch_.range(rays.count, block_), "trace", scene.nodes2, scene.triangles2, scene.triangle_slots,
-              rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
+              scene.moving, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::bvh8:
-      kernel_(launch_.range(blocks, 16), "trace", scene.nodes8, scene.blocks8, scene.extent_m, rays.planes,
-              rays.capacity, rays.count, hits.planes, hits.block_hits);
+      kernel_(launch_.range(blocks, 16), "trace", scene.nodes8, scene.blocks8, scene.moving,
+              scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::packet16:
       kernel_(launch_.range(blocks, 16), "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots,
-              scene.nodes8, scene.blocks8, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes,
-              hits.block_hits);
+              scene.nodes8, scene.blocks8, scene.moving, scene.extent_m, rays.planes, rays.capacity, rays.count,
+              hits.planes, hits.block_hits);
       break;
   }
 }

@@ -50,19 +50,27 @@ glm::dmat3 rotation_of(const std::array<double, 3>& orientation_deg) {
 }
 
 Antenna::Antenna(Pattern pattern, const std::vector<double>& slants_rad, const glm::dmat3& rotation)
-    : pattern_(std::move(pattern)), slants_rad_(slants_rad), to_global_(rotation) {}
+    : pattern_(std::move(pattern)), to_global_(rotation) {
+  const auto* function = pattern_.target<FieldPair (*)(const Angles&)>();
+  isotropic_ = function && *function == isotropic_pattern;
+  for (const double slant : slants_rad) slants_.push_back({std::cos(slant), std::sin(slant)});
+}
 
-FieldPair Antenna::field(uint32_t port, const glm::dvec3& direction) const {
-  const glm::dvec3 local = glm::transpose(to_global_) * direction;
-  const FieldPair own = pattern_(angles_of(local));
-  const double cosine = std::cos(slants_rad_[port]), sine = std::sin(slants_rad_[port]);
-  const std::complex<double> along_theta = cosine * own.theta - sine * own.phi;
-  const std::complex<double> along_phi = sine * own.theta + cosine * own.phi;
-
-  const SphericalBasis from = basis_of(local), to = basis_of(direction);
-  const glm::dvec3 theta = to_global_ * from.theta, phi = to_global_ * from.phi;
-  return {along_theta * glm::dot(theta, to.theta) + along_phi * glm::dot(phi, to.theta),
-          along_theta * glm::dot(theta, to.phi) + along_phi * glm::dot(phi, to.phi)};
+PortFields Antenna::fields(const glm::dvec3& direction, const SphericalBasis& basis, const glm::dmat3& rotation) const {
+  const glm::dvec3 local = glm::transpose(rotation) * direction;
+  const FieldPair own = pattern_(isotropic_ ? Angles{0, 0} : angles_of(local));
+  const SphericalBasis from = basis_of(local);
+  const glm::dvec3 theta = rotation * from.theta, phi = rotation * from.phi;
+  const double theta_theta = glm::dot(theta, basis.theta), phi_theta = glm::dot(phi, basis.theta);
+  const double theta_phi = glm::dot(theta, basis.phi), phi_phi = glm::dot(phi, basis.phi);
+  PortFields out{};
+  for (uint32_t port = 0; port < ports(); ++port) {
+    const auto [cosine, sine] = slants_[port];
+    const std::complex<double> along_theta = cosine * own.theta - sine * own.phi;
+    const std::complex<double> along_phi = sine * own.theta + cosine * own.phi;
+    out[port] = {along_theta * theta_theta + along_phi * phi_theta, along_theta * theta_phi + along_phi * phi_phi};
+  }
+  return out;
 }
 
 Antenna make_antenna(const RadioEnd& end) {

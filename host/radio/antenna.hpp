@@ -15,6 +15,8 @@ namespace wavetracer {
 // new x, in degrees (3GPP TR 38.901, eq. 7.1-2). A positive pitch turns the boresight +x down.
 glm::dmat3 rotation_of(const std::array<double, 3>& orientation_deg);
 
+using PortFields = std::array<FieldPair, 2>;
+
 class Antenna {
  public:
   // slants_rad: one a port, the angle by which the pattern's field is turned about the direction of travel, from
@@ -22,15 +24,27 @@ class Antenna {
   // pattern stays; to lay a dipole down, use the orientation.
   Antenna(Pattern pattern, const std::vector<double>& slants_rad, const glm::dmat3& rotation);
 
-  uint32_t ports() const { return static_cast<uint32_t>(slants_rad_.size()); }
+  uint32_t ports() const { return static_cast<uint32_t>(slants_.size()); }
+  // That of its own orientation.
+  const glm::dmat3& rotation() const { return to_global_; }
 
-  // The field pattern of a port in a global direction (unit length, away from the antenna) along the vectors of
-  // basis_of(direction). Squared length: gain over isotropic. By reciprocity it serves sending and receiving alike.
-  FieldPair field(uint32_t port, const glm::dvec3& direction) const;
+  // The field pattern of each port (0 for one that it does not have) in a global direction, of unit length and away
+  // from the antenna, along the vectors of basis, which is basis_of(direction). Squared length: gain over isotropic. By
+  // reciprocity it serves sending and receiving alike. rotation: from the antenna's axes to global ones.
+  PortFields fields(const glm::dvec3& direction, const SphericalBasis& basis, const glm::dmat3& rotation) const;
+  // That of one port, in the antenna's own orientation.
+  FieldPair field(uint32_t port, const glm::dvec3& direction) const {
+    return fields(direction, basis_of(direction), to_global_)[port];
+  }
 
  private:
+  struct Slant {
+    double cosine, sine;
+  };
+
   Pattern pattern_;
-  std::vector<double> slants_rad_;
+  bool isotropic_;             // the pattern does not look at its angles
+  std::vector<Slant> slants_;  // one a port
   glm::dmat3 to_global_;
 };
 

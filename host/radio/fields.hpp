@@ -2,55 +2,65 @@
 // Each row depends on its own path alone, so results do not depend on device, thread count or order of discovery.
 #pragma once
 #include <complex>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "radio/antenna.hpp"
+#include "radio/legs.hpp"
+#include "radio/surface_table.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/path_geometry.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/scene.hpp"
+#include "wavetracer/world.hpp"
 
 namespace wavetracer {
 
-// What fields need to know about a scene and its radio ends; made once, then used for every frame.
-// Keeps a reference to the scene.
+// What fields need to know about a world and its radio ends; made once, then used for every frame.
+// Keeps references to the scene and the models.
 class FieldModel {
  public:
-  // Throws ConfigError or InputError for an antenna that cannot be made, and ConfigError for a material that some
-  // surface uses and that is not known at radio.frequency_hz.
-  FieldModel(const Scene& scene, const Config& config);
+  // config: its transmitters and receivers are all of the world's. Throws ConfigError or InputError for an antenna that
+  // cannot be made, and ConfigError for a material that some surface uses and that is not known at radio.frequency_hz.
+  FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models = {},
+             std::span<const Instance> instances = {});
 
   // geometry: specular reflections and straight transmissions, in any order of rows, in the recentred frame of the
-  // scene. Rows of the result are sorted by tx, rx, delay, surfaces, interactions and vertices.
+  // scene, its surfaces numbered through the world. Rows of the result are sorted by tx, rx, delay, surfaces (the
+  // world's numbers), interactions and vertices.
   //   a[r tx_ports + t]: rx port r, tx port t; lambda / (4 pi L) times both antennas' fields and every interaction.
   //     Ports that an antenna does not have are 0.
   //   aod: the direction in which the wave leaves tx; aoa: from rx towards where the wave comes from.
-  //   doppler_hz: -1/lambda times the rate at which the path gets longer, from the velocities of its ends. Surfaces
-  //     stand still, and by Fermat's principle the points on them need not be followed.
+  //   doppler_hz: -1/lambda times the rate at which the path gets longer, from the velocities of its ends and of the
+  //     surfaces that reflect it.
   //   gain_db: over all pairs of ports, -inf if an antenna is blind in that direction.
+  //   vertex_surface: its number in the static scene, or in the model of the instance in vertex_instance.
   // Throws RuntimeError for another interaction and for ends that stand in the same point.
-  Paths compute(uint32_t frame, const PathGeometry& geometry) const;
+  Paths compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state) const;
+  // The same with every end where the configuration has it, and no instances.
+  Paths compute(uint32_t frame, const PathGeometry& geometry) const { return compute(frame, geometry, still_); }
 
  private:
   struct End {
     std::string name;
-    glm::dvec3 position;  // recentred
-    glm::dvec3 velocity;  // m/s
     Antenna antenna;
   };
-  struct Row;
 
-  Row solve(const PathGeometry& geometry, size_t path) const;
+  // Writes row `row` of the result.
+  void evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs, Paths& paths,
+                size_t row) const;
 
-  const Scene& scene_;
+  SurfaceTable surfaces_;
   double wavelength_m_;
-  std::vector<std::complex<double>> permittivity_;  // one a material; 0 where no surface uses it
+  // By part of the surface table, then by material; 0 where no surface uses it.
+  std::vector<std::vector<std::complex<double>>> permittivity_;
   std::vector<End> transmitters_, receivers_;
   uint32_t tx_ports_, rx_ports_;  // the most that any end of that side has
+  WorldState still_;
 };
 
-// The same for a single frame.
+// The same for a single frame of a world in which no surface moves.
 Paths compute_paths(const Scene& scene, const Config& config, uint32_t frame, const PathGeometry& geometry);
 
 }  // namespace wavetracer

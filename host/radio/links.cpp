@@ -1,5 +1,5 @@
 // Figures of a link from its paths, in two passes so that spreads keep their digits beside long delays.
-// Assumes that every row has tx < tx_count and rx < rx_count.
+// Assumes sorted rows and sorted links, which are walked once, side by side.
 #include "radio/links.hpp"
 
 #include <algorithm>
@@ -19,19 +19,26 @@ struct Moments {
   double mean, rms;  // rms about the mean
 };
 
-Moments moments(const Paths& paths, const std::vector<size_t>& rows, const std::vector<double>& values, double power) {
+struct RowRange {
+  size_t begin, end;
+};
+
+Moments moments(const Paths& paths, RowRange rows, const std::vector<double>& values, double power) {
   double mean = 0, square = 0;
-  for (const size_t row : rows) mean += power_of(paths, row) / power * values[row];
-  for (const size_t row : rows) square += power_of(paths, row) / power * std::pow(values[row] - mean, 2);
+  for (size_t row = rows.begin; row < rows.end; ++row) mean += power_of(paths, row) / power * values[row];
+  for (size_t row = rows.begin; row < rows.end; ++row)
+    square += power_of(paths, row) / power * std::pow(values[row] - mean, 2);
   return {mean, std::sqrt(square)};
 }
 
-LinkFigures figures(const Paths& paths, const std::vector<size_t>& rows) {
+LinkFigures figures(const Paths& paths, RowRange rows) {
   LinkFigures link;
-  link.paths = static_cast<uint32_t>(rows.size());
-  link.los = std::any_of(rows.begin(), rows.end(), [&](size_t row) { return paths.depth[row] == 0; });
+  link.paths = static_cast<uint32_t>(rows.end - rows.begin);
   double power = 0;
-  for (const size_t row : rows) power += power_of(paths, row);
+  for (size_t row = rows.begin; row < rows.end; ++row) {
+    power += power_of(paths, row);
+    link.los |= paths.depth[row] == 0;
+  }
   link.path_gain_db = 10 * std::log10(power);
   if (power > 0) {
     const Moments delay = moments(paths, rows, paths.delay_s, power);
@@ -46,21 +53,24 @@ LinkFigures figures(const Paths& paths, const std::vector<size_t>& rows) {
 
 }  // namespace
 
-std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, uint32_t tx_count, uint32_t rx_count) {
-  std::vector<std::vector<size_t>> rows(size_t{tx_count} * rx_count);
-  for (size_t row = 0; row < paths.size(); ++row) {
-    if (paths.frame[row] == frame) rows[size_t{paths.tx[row]} * rx_count + paths.rx[row]].push_back(row);
+std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, std::span<const Link> links) {
+  const auto link_of = [&paths](size_t row) { return Link{paths.tx[row], paths.rx[row]}; };
+  const auto [first, last] = std::equal_range(paths.frame.begin(), paths.frame.end(), frame);
+  size_t row = static_cast<size_t>(first - paths.frame.begin());
+  const size_t end = static_cast<size_t>(last - paths.frame.begin());
+  std::vector<LinkFigures> out;
+  out.reserve(links.size());
+  for (const Link& link : links) {
+    while (row < end && link_of(row) < link) ++row;
+    RowRange rows{row, row};
+    while (rows.end < end && link_of(rows.end) == link) ++rows.end;
+    row = rows.end;
+    out.push_back(figures(paths, rows));
+    out.back().frame = frame;
+    out.back().tx = link.tx;
+    out.back().rx = link.rx;
   }
-  std::vector<LinkFigures> links;
-  links.reserve(rows.size());
-  for (const std::vector<size_t>& of_link : rows) {
-    LinkFigures link = figures(paths, of_link);
-    link.frame = frame;
-    link.tx = static_cast<uint32_t>(links.size() / rx_count);
-    link.rx = static_cast<uint32_t>(links.size() % rx_count);
-    links.push_back(link);
-  }
-  return links;
+  return out;
 }
 
 }  // namespace wavetracer

@@ -2,9 +2,11 @@
 // Powers are |a|^2 summed over ports and added over paths without their phases.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "wavetracer/paths.hpp"
+#include "wavetracer/world.hpp"
 
 namespace wavetracer {
 
@@ -19,8 +21,8 @@ struct LinkFigures {
   bool los = false;              // one of the paths has no interaction
 };
 
-// All tx_count * rx_count links of one frame, sorted by tx, then rx; a link without a path is there with paths = 0.
-// paths: may hold other frames as well, which are passed over.
-std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, uint32_t tx_count, uint32_t rx_count);
+// One entry for each of the frame's links, in their order; a link without a path is there with paths = 0.
+// links: sorted, as in WorldState. paths: sorted as Paths says; rows of other frames and other links are passed over.
+std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, std::span<const Link> links);
 
 }  // namespace wavetracer

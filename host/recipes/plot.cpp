@@ -8,18 +8,12 @@
 #include <cerrno>
 #include <cstring>
 #include <set>
-#include <string_view>
 #include "recipes/table.hpp"
 
 extern char** environ;
 
 namespace wavetracer::recipes {
 namespace {
-
-// Eight colours that stay apart for colour-blind readers: M. Okabe, K. Ito, "Color Universal Design", 2008, but for its
-// yellow, which is too pale for a line on white.
-constexpr std::array<std::string_view, 8> colours = {"#000000", "#e69f00", "#56b4e9", "#009e73",
-                                                     "#999999", "#0072b2", "#d55e00", "#cc79a7"};
 
 // One colour a mnemonic; launch shapes of one method differ in their dashes.
 std::string_view colour(const std::vector<Series>& series, size_t index) {
@@ -29,13 +23,6 @@ std::string_view colour(const std::vector<Series>& series, size_t index) {
     earlier.insert(other.mnemonic);
   }
   return colours[earlier.size() % colours.size()];
-}
-
-// As gnuplot writes a quote within single quotes.
-std::string quoted(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out;
 }
 
 std::string line(const std::string& name, const std::vector<Series>& series, size_t index, const std::string& column) {
@@ -60,6 +47,12 @@ std::string panel(const std::string& name, const std::vector<Series>& series, co
 }
 
 }  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
+  return out;
+}
 
 std::string plot_script(const std::string& name, const std::string& title, const std::vector<Series>& series) {
   std::string text = fmt::format(

@@ -9,6 +9,8 @@ namespace wavetracer::recipes {
 
 // The ray counts at which the thesis states what reordering gains.
 constexpr uint64_t claimed_few = 1000, claimed_many = 49000;
+// Rays of experiments that do not vary them.
+constexpr uint64_t experiment_rays = claimed_many;
 
 struct RayRange {
   uint64_t first = 1000, last = 10000000;

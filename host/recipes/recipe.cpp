@@ -10,18 +10,25 @@
 namespace wavetracer::recipes {
 namespace {
 
-// Scene and ends of configs/demo.toml.
+// Scene and receivers of configs/city.toml, and its transmitter.
 constexpr const char* built_in_city = R"([scene]
 generate = "--seed 1 --blocks 6x6"
-[[transmitter]]
-name = "rsu"
-position_m = [8.0, 8.0, 6.0]
 [[receiver]]
 name = "car-1"
 position_m = [60.0, -3.0, 1.5]
 [[receiver]]
 name = "car-2"
 position_m = [97.5, -20.0, 1.5]
+)";
+constexpr const char* mast = R"([[transmitter]]
+name = "rsu"
+position_m = [8.0, 8.0, 6.0]
+)";
+// 50 km/h on the right-hand lane of a street.
+constexpr const char* car = R"([[transmitter]]
+name = "car"
+position_m = [10.0, -3.0, 1.5]
+velocity_m_s = [13.9, 0.0, 0.0]
 )";
 
 constexpr double step_m = 0.5;  // between frames: 54 km/h at 30 frames a second
@@ -33,8 +40,9 @@ void reject_varied_keys(const Recipe& recipe, const std::vector<std::string>& se
     std::string key = set.substr(0, set.find('='));
     key.erase(std::remove(key.begin(), key.end(), ' '), key.end());
     if (std::find(varied.begin(), varied.end(), key) != varied.end())
-      throw ConfigError(fmt::format("--set {}: {} gives {} its values itself{}", set, recipe.name, key,
-                                    key == "trace.rays" ? "; choose them with --rays A:B" : "; leave it out"));
+      throw ConfigError(fmt::format(
+          "--set {}: {} gives {} its values itself{}", set, recipe.name, key,
+          key == "trace.rays" && !recipe.experiment ? "; choose them with --rays A:B" : "; leave it out"));
   }
 }
 
@@ -48,7 +56,7 @@ uint64_t even_batch(uint64_t rays, uint64_t most) {
 }  // namespace
 
 const std::vector<Recipe>& recipes() {
-  static const std::vector<Recipe> all = {figure_6_1(), figure_6_18()};
+  static const std::vector<Recipe> all = {figure_6_1(), figure_6_18(), coherence_frames(), coherence_rays()};
   return all;
 }
 
@@ -65,13 +73,14 @@ const Recipe& find_recipe(const std::string& name) {
 
 std::string recipe_list() {
   std::string text;
-  for (const Recipe& recipe : recipes()) text += fmt::format("  {:<12} {}\n", recipe.name, recipe.doc);
+  for (const Recipe& recipe : recipes()) text += fmt::format("  {:<16} {}\n", recipe.name, recipe.doc);
   return text;
 }
 
 Config recipe_config(const Recipe& recipe, const std::string& file, const std::vector<std::string>& sets) {
   reject_varied_keys(recipe, sets);
-  return file.empty() ? parse_config(built_in_city, "built-in city", sets) : load_config(file, sets);
+  if (!file.empty()) return load_config(file, sets);
+  return parse_config(built_in_city + std::string(recipe.drive ? car : mast), "built-in city", sets);
 }
 
 Config point_config(const Recipe& recipe, const Config& config, uint64_t rays, bool gpu) {

@@ -1,5 +1,5 @@
 // The recipes: experiments that have a name, as data. host/recipes/run.hpp carries one out.
-// Each belongs to a figure of A. Zhdanov's thesis (TU Munich, 2014), whose number is its name.
+// Each belongs to a figure of A. Zhdanov's thesis (TU Munich, 2014), whose number is its name, or to a measure of it.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -9,17 +9,27 @@
 
 namespace wavetracer::recipes {
 
+struct Request;   // run.hpp
+struct Host;
+struct Findings;
+
+// Either series, timed and compared, or an experiment of its own with a fixed number of rays.
 struct Recipe {
   std::string name;            // on the command line, and of the files
   std::string doc;             // one line for the list
   std::string title;           // of the plot
   std::vector<Series> series;  // the first is what gains are against
   uint32_t frames = 1;         // places along the way of a moving transmitter; 1: the transmitters of the config
-  std::string (*paragraph)(const std::vector<Row>& rows, const std::string& device);  // claim beside measurement
+  // Claim beside measurement.
+  std::string (*paragraph)(const std::vector<Row>& rows, const std::string& device) = nullptr;
+  Findings (*experiment)(const Recipe& recipe, const Request& request, const Host& host) = nullptr;
+  bool drive = false;  // the transmitter of the built-in city is a car in its street, not a mast
 };
 
 Recipe figure_6_1();
 Recipe figure_6_18();
+Recipe coherence_frames();
+Recipe coherence_rays();
 
 const std::vector<Recipe>& recipes();
 // Throws ConfigError with the known names and the nearest of them.

@@ -8,6 +8,7 @@
 #include "output/pending_file.hpp"
 #include "recipes/plot.hpp"
 #include "recipes/table.hpp"
+#include "wavetracer/error.hpp"
 #include "wavetracer/version.hpp"
 
 namespace wavetracer::recipes {
@@ -23,32 +24,27 @@ std::string point_line(const Recipe& recipe, const std::vector<Row>& rows) {
   return text;
 }
 
-std::string report_text(const Recipe& recipe, const Request& request, const DeviceSummary& device,
-                        const std::string& paragraph) {
+std::string report_text(const Recipe& recipe, const Request& request, const Findings& found) {
   const std::string& file = request.config.scene.file;
-  return fmt::format("# {0}\n\n{1}\n\n![Time a ray against the number of rays]({2}.svg)\n\n", recipe.title, paragraph,
-                     recipe.name) +
-         fmt::format("- device: {} ({}, driver {})\n", device.name, device.platform, device.driver) +
-         fmt::format("- scene: {}\n",
-                     file.empty() ? "city " + request.config.scene.generate : fs::path(file).filename().string()) +
-         fmt::format(
-             "- times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace, compact, "
-             "scan and interact, the sort is order and sort, all from profiling events\n",
-             request.repeats) +
-         fmt::format("- date: {:%Y-%m-%d}, wavetracer {}\n- command: `{}`\n", fmt::gmtime(std::time(nullptr)),
-                     WAVETRACER_VERSION, request.command_line);
+  std::string text =
+      fmt::format("# {0}\n\n{1}\n\n![{2}]({3}.svg)\n\n", recipe.title, found.paragraph, found.caption, recipe.name) +
+      fmt::format("- device: {} ({}, driver {})\n", found.device.name, found.device.platform, found.device.driver) +
+      fmt::format("- scene: {}\n",
+                  file.empty() ? "city " + request.config.scene.generate : fs::path(file).filename().string());
+  for (const std::string& note : found.notes) text += "- " + note + "\n";
+  return text + fmt::format("- date: {:%Y-%m-%d}, wavetracer {}\n- command: `{}`\n", fmt::gmtime(std::time(nullptr)),
+                            WAVETRACER_VERSION, request.command_line);
 }
 
-std::vector<fs::path> write_files(const Recipe& recipe, const Request& request, const DeviceSummary& device,
-                                  const std::vector<Row>& rows, const std::string& report, const Host& host) {
+std::vector<fs::path> write_files(const Recipe& recipe, const Request& request, const Findings& found,
+                                  const Host& host) {
   PendingDirectory folder(request.config.output.directory);
   const fs::path stem = folder.path() / recipe.name;
   const auto named = [&stem](const char* ending) { return fs::path(stem.string() + ending); };
-  const std::string table = encode_table(rows),
-                    script = plot_script(recipe.name, recipe.title + ", " + device.name, recipe.series);
+  const std::string report = report_text(recipe, request, found);
   std::vector<PendingFile> files;
-  files.emplace_back(named(".csv"), std::as_bytes(std::span(table)));
-  files.emplace_back(named(".gp"), std::as_bytes(std::span(script)));
+  files.emplace_back(named(".csv"), std::as_bytes(std::span(found.table)));
+  files.emplace_back(named(".gp"), std::as_bytes(std::span(found.script)));
   files.emplace_back(named(".md"), std::as_bytes(std::span(report)));
   commit_together(files);
   folder.keep();
@@ -67,31 +63,60 @@ std::vector<fs::path> write_files(const Recipe& recipe, const Request& request, 
   return written;
 }
 
-}  // namespace
-
-Report run_recipe(const Recipe& recipe, const Request& request, const Host& host) {
+Findings time_series(const Recipe& recipe, const Request& request, const Host& host) {
   const std::vector<uint64_t> counts = ray_counts(request.rays);
-  Report report;
-  report.planned = counts.size();
+  Findings found;
+  found.planned = counts.size();
   // Finds mistakes in the device, the scene and the ends before anything is measured.
   Config first = request.config;
   apply(first, recipe.series.front(), counts.front());
-  const DeviceSummary device = Simulation(first, request.device).device();
+  found.device = Simulation(first, request.device).device();
   host.say(fmt::format("{}: {} series at {} to {} rays on {}", recipe.name, recipe.series.size(),
-                       grouped(counts.front()), grouped(counts.back()), device.name));
+                       grouped(counts.front()), grouped(counts.back()), found.device.name));
   std::vector<Row> rows;
   for (const uint64_t rays : counts) {
     if (host.interrupted()) break;
-    const std::vector<Row> point = measure(point_config(recipe, request.config, rays, device.gpu), recipe.series, rays,
-                                           recipe.frames, request.device, request.repeats);
+    const std::vector<Row> point = measure(point_config(recipe, request.config, rays, found.device.gpu), recipe.series,
+                                           rays, recipe.frames, request.device, request.repeats);
     host.say(point_line(recipe, point));
     rows.insert(rows.end(), point.begin(), point.end());
-    ++report.points;
+    ++found.points;
   }
-  if (rows.empty()) return report;
-  report.paragraph = recipe.paragraph(rows, device.name);
-  const std::string text = report_text(recipe, request, device, report.paragraph);
-  report.files = write_files(recipe, request, device, rows, text, host);
+  if (rows.empty()) return found;
+  found.table = encode_table(rows);
+  found.script = plot_script(recipe.name, recipe.title + ", " + found.device.name, recipe.series);
+  found.paragraph = recipe.paragraph(rows, found.device.name);
+  found.caption = "Time a ray against the number of rays";
+  found.notes = {
+      fmt::format("times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace, compact, "
+                  "scan and interact, the sort is order and sort, all from profiling events",
+                  request.repeats)};
+  return found;
+}
+
+// What an experiment needs of a request.
+void check_experiment(const Recipe& recipe, const Request& request) {
+  const Config& config = request.config;
+  if (config.transmitters.empty())
+    throw ConfigError(fmt::format("{}: {} launches rays from the first [[transmitter]], and there is none; add one",
+                                  config.file, recipe.name));
+  if (config.trace.max_depth == 0)
+    throw ConfigError(fmt::format("trace.max_depth = 0: {} looks at what rays hit; give 1 or more", recipe.name));
+  const RayRange& rays = request.rays;
+  const RayRange not_given;
+  if (rays.first != not_given.first || rays.last != not_given.last)
+    throw ConfigError(fmt::format("--rays {}:{}: {} launches {} rays; leave --rays out", rays.first, rays.last,
+                                  recipe.name, grouped(experiment_rays)));
+}
+
+}  // namespace
+
+Report run_recipe(const Recipe& recipe, const Request& request, const Host& host) {
+  if (recipe.experiment) check_experiment(recipe, request);
+  const Findings found =
+      recipe.experiment ? recipe.experiment(recipe, request, host) : time_series(recipe, request, host);
+  Report report{.paragraph = found.paragraph, .files = {}, .points = found.points, .planned = found.planned};
+  if (found.points > 0) report.files = write_files(recipe, request, found, host);
   return report;
 }
 

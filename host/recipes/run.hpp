@@ -24,10 +24,19 @@ struct Host {
   std::function<bool()> interrupted;
 };
 
+// What an experiment leaves to be written.
+struct Findings {
+  DeviceSummary device;
+  std::string table, script;        // NAME.csv and NAME.gp
+  std::string paragraph, caption;   // of the report and of its plot
+  std::vector<std::string> notes;   // lines of the report: how it was measured
+  size_t points = 0, planned = 0;   // measured, and asked for; nothing is written where none was
+};
+
 struct Report {
   std::string paragraph;
   std::vector<std::filesystem::path> files;  // empty: stopped before the first point
-  size_t points = 0, planned = 0;            // ray counts measured, and asked for
+  size_t points = 0, planned = 0;            // measured, and asked for: ray counts of a figure
 };
 
 // A stop is heeded after the point in progress. Throws ConfigError, InputError, DeviceError or RuntimeError.

@@ -25,7 +25,7 @@ struct CityOptions {
 };
 
 // "--seed 7 --blocks 8x6 --block-m 80 --street-m 20 --floors 3:9 --ground concrete", each optional, also as
-// --key=value. Throws ConfigError.
+// --key=value. Options of traffic (city_traffic.hpp) may stand among them. Throws ConfigError.
 CityOptions parse_city_options(std::string_view text);
 
 // In memory: one mesh for the ground, for each building one for its walls and one for its roof. Buildings are closed

@@ -1,10 +1,11 @@
-// The options of `wavetracer scene city`, and of the key scene.generate.
+// The options of `wavetracer scene city`, and of the keys scene.generate and trajectories.generate.
 // Assumes blanks between words; values hold no blanks.
 #include <fmt/format.h>
 
 #include <charconv>
 
 #include "scene/city.hpp"
+#include "scene/city_traffic.hpp"
 #include "scene/materials.hpp"
 #include "wavetracer/error.hpp"
 
@@ -12,7 +13,13 @@ namespace wavetracer {
 namespace {
 
 constexpr std::string_view usage =
-    "options: --seed N, --blocks NXxNY, --block-m N, --street-m N, --floors MIN:MAX, --ground ITU_MATERIAL";
+    "options: --seed N, --blocks NXxNY, --block-m N, --street-m N, --floors MIN:MAX, --ground ITU_MATERIAL, "
+    "--vehicles N, --seconds S, --step S";
+
+struct Options {
+  CityOptions city;
+  TrafficOptions traffic;  // but for the seed and the grid, which are the city's
+};
 
 [[noreturn]] void fail(const std::string& what) { throw ConfigError(fmt::format("city: {}; {}", what, usage)); }
 
@@ -26,6 +33,15 @@ T whole(std::string_view key, std::string_view text, T least, T most) {
   return value;
 }
 
+double seconds(std::string_view key, std::string_view text, double most) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value <= most)) {
+    fail(fmt::format("{} '{}' must be a number of seconds above 0, up to {}", key, text, most));
+  }
+  return value;
+}
+
 // "6x4" or "3:9"; one number stands for both where that makes sense.
 std::pair<uint32_t, uint32_t> two(std::string_view key, std::string_view text, char separator, uint32_t most) {
   const size_t at = text.find(separator);
@@ -33,7 +49,8 @@ std::pair<uint32_t, uint32_t> two(std::string_view key, std::string_view text, c
   return {whole<uint32_t>(key, text.substr(0, at), 1, most), whole<uint32_t>(key, second, 1, most)};
 }
 
-void set(CityOptions& options, std::string_view key, std::string_view value) {
+void set(Options& all, std::string_view key, std::string_view value) {
+  CityOptions& options = all.city;
   if (key == "--seed") {
     options.seed = whole<uint64_t>(key, value, 0, std::numeric_limits<uint64_t>::max());
   } else if (key == "--blocks") {
@@ -52,14 +69,18 @@ void set(CityOptions& options, std::string_view key, std::string_view value) {
       if (m.name == value) return;
     }
     fail(fmt::format("--ground '{}' is no ITU material", value));
+  } else if (key == "--vehicles") {
+    all.traffic.vehicles = whole<uint32_t>(key, value, 1, 1000000);
+  } else if (key == "--seconds") {
+    all.traffic.duration_s = seconds(key, value, 86400);
+  } else if (key == "--step") {
+    all.traffic.step_s = seconds(key, value, 10);
   } else {
     fail(fmt::format("unknown option '{}'", key));
   }
 }
 
-}  // namespace
-
-CityOptions parse_city_options(std::string_view text) {
+Options parse(std::string_view text) {
   std::vector<std::string_view> words;
   constexpr std::string_view blanks = " \t\r\n";
   for (size_t begin = text.find_first_not_of(blanks); begin != std::string_view::npos;) {
@@ -67,7 +88,7 @@ CityOptions parse_city_options(std::string_view text) {
     words.push_back(text.substr(begin, end - begin));
     begin = text.find_first_not_of(blanks, end);
   }
-  CityOptions options;
+  Options options;
   for (size_t i = 0; i < words.size(); ++i) {
     const size_t equals = words[i].find('=');
     if (equals != std::string_view::npos) {
@@ -80,6 +101,18 @@ CityOptions parse_city_options(std::string_view text) {
     }
   }
   return options;
+}
+
+}  // namespace
+
+CityOptions parse_city_options(std::string_view text) { return parse(text).city; }
+
+TrafficOptions parse_traffic_options(std::string_view text) {
+  Options options = parse(text);
+  const CityOptions& city = options.city;
+  options.traffic.grid = {city.blocks_x, city.blocks_y, city.block_m, city.street_m};
+  options.traffic.seed = city.seed;
+  return options.traffic;
 }
 
 }  // namespace wavetracer

@@ -26,42 +26,54 @@ TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& config
   return config.directions == "random" && !order.key ? TraceShape::bvh8 : TraceShape::packet16;
 }
 
+// Refined launches have no number of rays; that of their refreshing ones is this, a sphere of half-degree cells.
+TraceConfig with_rays(TraceConfig config) {
+  if (config.rays == 0) config.rays = 1 << 18;
+  return config;
+}
+
 }  // namespace
 
-Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order)
+std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitters) {
+  std::vector<Launcher> out;
+  for (const glm::dvec3& position : transmitters) out.push_back({static_cast<uint32_t>(out.size()), position});
+  return out;
+}
+
+Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order,
+                     bool keep_ages)
     : context_(context),
-      config_(config),
+      config_(with_rays(config)),
       plan_(order),
       max_depth_(config.reflection ? config.max_depth : 0),
       batch_rays_(choose_batch(context.info(), config)),
-      directions_(config.directions, config.rays, config.seed),
+      directions_(config.directions, config_.rays, config.seed),
       generate_(context, directions_),
       trace_(context, scene, choose_shape(context.info(), config, order), order.launch),
       scan_(context),
-      interact_(context),
-      sequences_(context, initial_slots) {
+      interact_(context, keep_ages),
+      sequences_(context, initial_slots, keep_ages) {
+  if (config.rays == 0) {
+    refinement_.emplace(context, config);
+    interact_samples_.emplace(context, keep_ages, true);
+  }
   if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
 }
 
-DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<glm::dvec3>& transmitters) {
+DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
+                                      DirectionShare share) {
   DiscoveryCounts counts;
   counts.segments_per_depth.assign(max_depth_, 0);
-  sequences_.clear();
-  if (max_depth_ == 0) return counts;
-  const uint64_t total = config_.rays * transmitters.size();
+  const uint64_t total = rays_of(share) * transmitters.size();
+  if (max_depth_ == 0 || total == 0) return counts;
   const uint64_t size = std::min(batch_rays_, total);
-  if (rays_.capacity < padded_capacity(size)) {
-    rays_ = make_ray_queue(context_, size, "rays");
-    next_ = make_ray_queue(context_, size, "next rays");
-    hits_ = make_hit_list(context_, size, Trace::block_size(context_.info()));
-    if (plan_.key)
-      order_.emplace(context_, *plan_.key, plan_.bins, directions_, scene.extent_m, static_cast<uint32_t>(size));
-  }
+  if (reserve(size) && plan_.key)
+    order_.emplace(context_, *plan_.key, plan_.bins, directions_, scene.extent_m, static_cast<uint32_t>(size));
   for (uint64_t first = 0; first < total; first += size) {
     const Batch batch{first, std::min(size, total - first)};
     for (;;) {
-      launch(transmitters, batch);
-      trace_batch(scene, counts);
+      launch(transmitters, share, batch);
+      trace_batch(scene, interact_, counts);
       if (!sequences_.overflowed()) break;
       sequences_.regrow(max_depth_);
     }
@@ -70,21 +82,58 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
   return counts;
 }
 
-void Discovery::launch(const std::vector<glm::dvec3>& transmitters, Batch batch) {
+DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters) {
+  DiscoveryCounts counts;
+  counts.segments_per_depth.assign(max_depth_, 0);
+  if (max_depth_ == 0 || transmitters.empty()) return counts;
+  for (refinement_->start(transmitters, sequences_.table().size()); refinement_->level().count > 0;) {
+    const SampleList& level = refinement_->level();
+    for (uint32_t first = 0; first < level.count && !sequences_.overflowed(); first += static_cast<uint32_t>(batch_rays_)) {
+      const auto count = static_cast<uint32_t>(std::min<uint64_t>(batch_rays_, level.count - first));
+      reserve(count);
+      refinement_->generate(rays_, first, count);
+      trace_batch(scene, *interact_samples_, counts, &level.ends);
+      counts.rays += count;
+    }
+    if (!sequences_.overflowed()) {
+      refinement_->descend();
+      continue;
+    }
+    // Sequences get new numbers when the set grows: the launch begins again.
+    sequences_.regrow(max_depth_);
+    refinement_->start(transmitters, sequences_.table().size());
+  }
+  counts.share_once = refinement_->share_once();
+  counts.capped = refinement_->capped();
+  return counts;
+}
+
+bool Discovery::reserve(uint64_t rays) {
+  if (rays_.capacity >= padded_capacity(rays)) return false;
+  rays_ = make_ray_queue(context_, rays, "rays", refinement_.has_value());
+  next_ = make_ray_queue(context_, rays, "next rays", refinement_.has_value());
+  hits_ = make_hit_list(context_, rays, Trace::block_size(context_.info()));
+  return true;
+}
+
+void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch) {
+  const uint64_t rays = rays_of(share);
   rays_.count = 0;
   for (uint64_t done = 0; done < batch.count;) {
-    const uint64_t launch_index = batch.first + done, first = launch_index % config_.rays;
-    const auto transmitter = static_cast<uint32_t>(launch_index / config_.rays);
-    const auto count = static_cast<uint32_t>(std::min(batch.count - done, config_.rays - first));
-    if (order_)
-      generate_(rays_, transmitter, transmitters[transmitter], first, count, order_->launch(first, count));
+    const uint64_t launch_index = batch.first + done, first = launch_index % rays;
+    const Launcher& from = transmitters[launch_index / rays];
+    const auto count = static_cast<uint32_t>(std::min(batch.count - done, rays - first));
+    if (order_ && share.stride == 1)
+      generate_(rays_, from.transmitter, from.position_m, first, count, order_->launch(first, count), from.source);
     else
-      generate_(rays_, transmitter, transmitters[transmitter], first, count);
+      generate_(rays_, from.transmitter, from.position_m, share.phase + share.stride * first, count, share.stride,
+                from.source);
     done += count;
   }
 }
 
-void Discovery::trace_batch(const DeviceScene& scene, DiscoveryCounts& counts) {
+void Discovery::trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
+                            const gpu::Buffer<uint32_t>* ends) {
   const uint32_t block = Trace::block_size(context_.info());
   for (uint32_t depth = 1; depth <= max_depth_ && rays_.count > 0; ++depth) {
     if (plan_.each_depth && depth > 1) (*order_)(rays_, next_);
@@ -92,7 +141,8 @@ void Discovery::trace_batch(const DeviceScene& scene, DiscoveryCounts& counts) {
     if (compact_)
       compact_->count_blocks(hits_.planes, size_t{WT_HIT_SURFACE} * hits_.capacity, rays_.count, hits_.block_hits);
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
-    interact_(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), next_, depth == max_depth_);
+    interact(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), sequences_.ages(),
+              sequences_.now(), next_, depth == max_depth_, ends);
     counts.segments_per_depth[depth - 1] += rays_.count;
     counts.hits += hit_count;
     std::swap(rays_, next_);

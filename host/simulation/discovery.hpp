@@ -12,7 +12,9 @@
 #include "passes/sequences.hpp"
 #include "passes/trace.hpp"
 #include "simulation/ray_order.hpp"
+#include "simulation/refinement.hpp"
 #include "wavetracer/config.hpp"
+#include "wavetracer/device/moving.h"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer {
@@ -21,22 +23,44 @@ namespace wavetracer {
 struct DiscoveryCounts {
   uint64_t rays = 0, hits = 0;
   std::vector<uint64_t> segments_per_depth;
+  // Of a refined launch: the share of sequences that one sample alone met, and did trace.max_rays end it?
+  double share_once = 0;
+  bool capped = false;
+};
+
+// Transmitters that stand on no vehicle.
+std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitters);
+
+// Every stride-th direction of the full set, from `phase` on. Neighbours of a sorted launch are stride apart.
+struct DirectionShare {
+  uint64_t phase = 0, stride = 1;
 };
 
 class Discovery {
  public:
-  Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order = {});
-  // Fills sequences() for these transmitters (recentred metres).
-  DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<glm::dvec3>& transmitters);
+  // keep_ages: see passes/sequences.hpp.
+  Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order = {},
+            bool keep_ages = false);
+  // Adds to sequences() what rays from these transmitters meet, in these directions.
+  DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
+                             DirectionShare share = {});
+  // The same with as many rays as trace.recall asks for, at most trace.max_rays a transmitter: a launch that is refined
+  // where it still finds something. Needs trace.rays = 0 ("auto").
+  DiscoveryCounts refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters);
   Sequences& sequences() { return sequences_; }
+  // Directions of the full set, a transmitter.
+  uint64_t rays() const { return config_.rays; }
 
  private:
   // A part of the launch: rays of the transmitters from launch index first (counted over all transmitters) on.
   struct Batch {
     uint64_t first, count;
   };
-  void launch(const std::vector<glm::dvec3>& transmitters, Batch batch);
-  void trace_batch(const DeviceScene& scene, DiscoveryCounts& counts);
+  void launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch);
+  uint64_t rays_of(DirectionShare share) const { return (config_.rays - share.phase + share.stride - 1) / share.stride; }
+  bool reserve(uint64_t rays);  // true where queues were made anew
+  void trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
+                   const gpu::Buffer<uint32_t>* ends = nullptr);
 
   gpu::Context& context_;
   TraceConfig config_;
@@ -50,6 +74,8 @@ class Discovery {
   Scan scan_;
   Interact interact_;
   Sequences sequences_;
+  std::optional<Refinement> refinement_;  // with trace.rays = "auto"
+  std::optional<Interact> interact_samples_;
   std::optional<RayOrder> order_;  // with the queues, if the plan has one
   RayQueue rays_, next_;
   HitList hits_;

@@ -2,17 +2,21 @@
 // Rays discover, geometry decides: see docs/architecture.md.
 #include "wavetracer/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "passes/candidates.hpp"
 #include "passes/occlusion.hpp"
+#include "passes/place.hpp"
 #include "passes/solve.hpp"
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
 #include "simulation/order_choice.hpp"
+#include "simulation/reciprocity.hpp"
 #include "simulation/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
 #include "simulation/visible_paths.hpp"
@@ -22,10 +26,34 @@ namespace wavetracer {
 
 namespace {
 
+constexpr uint64_t refreshed_share = 10;  // of the directions, the part that a frame launches anew where none is given
+
 std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
   std::vector<glm::dvec3> out;
   for (const EndState& end : ends) out.push_back(end.position_m);
   return out;
+}
+
+// The transmitters of wanted links, in their order.
+std::vector<Launcher> launchers(const WorldState& world) {
+  std::vector<Launcher> out;
+  for (const Link& link : world.links) {
+    if (!out.empty() && out.back().transmitter == link.tx) continue;  // links are sorted
+    const EndState& end = world.transmitters[link.tx];
+    out.push_back({link.tx, end.position_m, end.instance == no_instance ? WT_NONE : WT_OWN | end.instance});
+  }
+  return out;
+}
+
+// All directions in a cold frame; after it every stride-th, another set each time: `stride` frames together launch all.
+// Steps of the golden ratio, so that a few frames spread evenly.
+DirectionShare share_of(const TraceConfig& config, uint64_t rays, uint64_t warm_frames) {
+  if (warm_frames == 0) return {};
+  const uint64_t wanted = config.refresh_rays ? config.refresh_rays : std::max<uint64_t>(rays / refreshed_share, 1);
+  const uint64_t stride = std::max<uint64_t>(rays / wanted, 1);
+  auto step = static_cast<uint64_t>(0.6180339887498949 * static_cast<double>(stride)) + 1;
+  while (std::gcd(step, stride) != 1) ++step;
+  return {warm_frames * step % stride, stride};
 }
 
 }  // namespace
@@ -37,6 +65,9 @@ struct Simulation::State {
   Scene scene;
   DeviceScene device_scene;
   std::optional<World> world;
+  std::optional<Place> place;  // where there are instances
+  bool reuse = false;
+  uint64_t warm_frames = 0;  // since the last cold one, which counts
   std::optional<Discovery> discovery;
   std::optional<Candidates> candidates;
   std::optional<Solve> solve;
@@ -44,7 +75,25 @@ struct Simulation::State {
   std::optional<FieldModel> fields;
   DeviceSummary device;
   OrderSummary order;
+
+  void begin_frame();
+  DiscoveryCounts discover(const std::vector<Launcher>& transmitters);
 };
+
+// A cold frame starts from nothing; others go on with the sequences that are still met.
+void Simulation::State::begin_frame() {
+  Sequences& sequences = discovery->sequences();
+  if (!reuse) warm_frames = 0;
+  if (warm_frames == 0) sequences.clear();
+  sequences.begin_frame();
+  if (warm_frames > 0 && warm_frames % config.trace.forget_frames == 0)
+    sequences.forget(config.trace.forget_frames, config.trace.max_depth);
+}
+
+DiscoveryCounts Simulation::State::discover(const std::vector<Launcher>& transmitters) {
+  if (config.trace.rays == 0 && warm_frames == 0) return discovery->refined(device_scene, transmitters);
+  return (*discovery)(device_scene, transmitters, share_of(config.trace, discovery->rays(), warm_frames));
+}
 
 Simulation::Simulation(const Config& config, const std::string& device) : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -61,6 +110,10 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.config.receivers = s.world->receivers();
   const std::vector<glm::dvec3> transmitters = positions(s.world->state(0).transmitters);
   s.device_scene = choose_tree(*s.context, s.scene, config.trace, transmitters, s.world->reach_m());
+  if (!s.world->instances().empty()) {
+    s.place.emplace(*s.context, s.world->models(), s.world->instances(), s.device_scene);
+    (*s.place)(s.device_scene, s.world->state(0).instances);
+  }
   s.setup["build"] = watch.lap();
   OrderChoice order;
   if (config.order.method == "auto") {
@@ -71,11 +124,12 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   }
   s.order = {order.plan.method, order.plan.each_depth, std::to_string(order.plan.launch.dimensions) + "d",
              order.plan.launch.local_size, order.reason};
-  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan);
+  s.reuse = config.trace.reuse && s.world->frame_count() > 1;
+  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan, s.reuse);
   s.candidates.emplace(*s.context);
   s.solve.emplace(*s.context, config.trace.max_depth);
   s.occlusion.emplace(*s.context, s.device_scene);
-  s.fields.emplace(s.scene, s.config);
+  s.fields.emplace(s.scene, s.config, s.world->models(), s.world->instances());
   s.setup["compile"] = watch.lap();
 }
 
@@ -83,41 +137,53 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::forget() {}
+void Simulation::forget() { state_->warm_frames = 0; }
 uint64_t Simulation::frame_count() const { return state_->world->frame_count(); }
 double Simulation::time_s(uint32_t frame) const { return state_->world->time_s(frame); }
 const Config& Simulation::config() const { return state_->config; }
 const std::vector<Instance>& Simulation::instances() const { return state_->world->instances(); }
 const std::vector<Scene>& Simulation::models() const { return state_->world->models(); }
 const Scene& Simulation::scene() const { return state_->scene; }
+std::vector<std::string> Simulation::warnings() const {
+  std::vector<std::string> out = state_->scene.report.warnings;
+  const std::vector<std::string>& more = state_->world->warnings();
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
 const DeviceSummary& Simulation::device() const { return state_->device; }
 const OrderSummary& Simulation::order() const { return state_->order; }
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup; }
 
 FrameResult Simulation::run_frame(uint32_t frame) {
   State& s = *state_;
+  const uint32_t max_depth = s.config.trace.max_depth;
   FrameResult out;
   out.frame = frame;
   out.world = s.world->state(frame);
   s.context->reset_profile();
   Stopwatch watch;
 
-  const std::vector<glm::dvec3> transmitters = positions(out.world.transmitters);
-  const RadioEnds ends = make_radio_ends(*s.context, transmitters, positions(out.world.receivers));
-  const DiscoveryCounts found = (*s.discovery)(s.device_scene, transmitters);
+  if (s.place) (*s.place)(s.device_scene, out.world.instances);
+  const RadioEnds ends = make_radio_ends(*s.context, out.world.transmitters, out.world.receivers, out.world.links);
   Sequences& sequences = s.discovery->sequences();
+  s.begin_frame();
+  const DiscoveryCounts found = s.discover(launchers(out.world));
   uint32_t node_count = sequences.collect(ends.transmitter_count);
-  sequences.commute(s.device_scene.surfaces, node_count, s.config.trace.max_depth);
+  sequences.commute(s.device_scene.surfaces, node_count, max_depth);
   node_count = sequences.collect(ends.transmitter_count);
   const uint32_t candidate_count =
       (*s.candidates)(s.device_scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
   SolvedList& solved = (*s.solve)(s.device_scene, ends, sequences.table(), s.candidates->list(), candidate_count,
                                   sequences.counters());
   (*s.occlusion)(s.device_scene, ends, solved);
-  const PathGeometry geometry = visible_paths(solved);
+  sequences.keep(solved);
+  ++s.warm_frames;
+  const PathGeometry geometry = with_reversed_twins(visible_paths(solved), s.world->receiver_of_transmitter(),
+                                                    s.world->transmitter_of_receiver(), out.world.links);
 
   Stopwatch fields_watch;
-  out.paths = s.fields->compute(frame, geometry);
+  out.paths = s.fields->compute(frame, geometry, out.world);
   const double fields_seconds = fields_watch.lap(), frame_seconds = watch.lap();
 
   out.seconds = s.context->profile();
@@ -125,6 +191,10 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   out.seconds["frame"] = frame_seconds;
   out.segments_per_depth = found.segments_per_depth;
   out.counts.rays = found.rays;
+  if (found.capped)
+    out.warnings.push_back(fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: "
+                                       "{:.0f}% of the sequences found were met by one ray alone",
+                                       s.config.trace.max_rays, s.config.trace.recall, 100 * found.share_once));
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
   out.counts.sequences = node_count - ends.transmitter_count;

@@ -6,11 +6,8 @@
 
 namespace wavetracer {
 
-// Two solutions are one path when ends and depth agree and every vertex does to merge_distance_m: a point on the border
-// of two coplanar surfaces, or on two walls that touch, belongs to both. The one with the lowest surfaces stays.
-constexpr double merge_distance_m = 1e-4;
-
-// Rows sorted by transmitter, receiver, depth and sequence: independent of the order on the device.
+// The paths that are not blocked, in the order and merged by the rule of distinct_paths: independent of the order on
+// the device.
 PathGeometry visible_paths(const SolvedList& solved);
 
 }  // namespace wavetracer

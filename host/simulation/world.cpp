@@ -1,40 +1,239 @@
-// The world of a configuration: so far the ends that stand in it.
+// The world of a configuration, made once: tracks, bodies and antennas on them; then its state at any frame.
+// Tracks are recentred as they are loaded, so that everything here is in coordinates of the recentred scene.
 #include "simulation/world.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "motion/frame_clock.hpp"
+#include "radio/antenna.hpp"
+#include "simulation/name_pattern.hpp"
+#include "simulation/world_links.hpp"
+#include "simulation/world_models.hpp"
+#include "simulation/world_trajectories.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
+namespace {
 
-struct World::State {
-  std::vector<Scene> models;
-  std::vector<Instance> instances;
-  std::vector<RadioEnd> transmitters, receivers;
-  std::vector<std::string> warnings;
-  WorldState still;
+glm::dvec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+// A vehicle at one instant. Where it is absent, it is as it was last, or will be first.
+struct VehicleState {
+  Pose pose;
+  bool present;
 };
 
-namespace {
-std::vector<EndState> states(const std::vector<RadioEnd>& ends, const Scene& scene) {
-  std::vector<EndState> out;
-  for (const RadioEnd& end : ends) {
-    EndState state;
-    state.position_m = glm::dvec3(end.position_m[0], end.position_m[1], end.position_m[2]) - scene.origin_m;
-    state.velocity_m_s = {end.velocity_m_s[0], end.velocity_m_s[1], end.velocity_m_s[2]};
-    out.push_back(state);
-  }
-  return out;
+VehicleState vehicle_at(const Track& track, double time_s) {
+  if (const auto pose = pose_at(track, time_s)) return {*pose, true};
+  const auto later = std::upper_bound(track.samples.begin(), track.samples.end(), time_s,
+                                      [](double time, const Sample& s) { return time < s.time_s; });
+  const Sample& last = later == track.samples.begin() ? *later : *(later - 1);
+  return {*pose_at(track, last.time_s), false};
 }
+
+// A place on a vehicle: an antenna, or the origin of its model. Axes as the vehicle's: ahead, left, up.
+glm::dvec3 position_at(const Pose& pose, const glm::dvec3& arm_m) { return pose.position_m + pose.orientation * arm_m; }
+glm::dvec3 velocity_at(const Pose& pose, const glm::dvec3& arm_m) {
+  return pose.velocity_m_s + glm::cross(pose.angular_velocity_rad_s, pose.orientation * arm_m);
+}
+
+struct MountedEnd {
+  uint32_t track;
+  glm::dvec3 offset_m;
+  glm::dmat3 rotation;  // antenna axes to vehicle axes
+};
+
+// All ends of one role: those that stand, then those on vehicles.
+struct EndsOfRole {
+  std::vector<RadioEnd> ends;
+  std::vector<EndState> standing;
+  std::vector<MountedEnd> mounted;
+};
+
 }  // namespace
+
+struct World::State {
+  Trajectories trajectories;  // recentred
+  std::optional<FrameClock> clock;
+  std::vector<Scene> models;
+  std::vector<Instance> instances;
+  std::vector<uint32_t> track_instance;  // of each track, no_instance where it has no body
+  std::vector<uint32_t> instance_track;
+  EndsOfRole transmitters, receivers;
+  LinkRules links;
+  std::vector<uint32_t> receiver_of_transmitter, transmitter_of_receiver;
+  double reach_m = 0;
+  std::vector<std::string> warnings;
+
+  void add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m);
+  void add_instances(VehicleModels& vehicles, size_t static_surfaces);
+  void add_mounts(const std::vector<MountConfig>& mounts, const glm::dvec3& origin_m);
+  void add_mounted(EndsOfRole& role, uint32_t track, const MountConfig& mount, const glm::dvec3& origin_m);
+  EndState mounted_state(const MountedEnd& end, const VehicleState& vehicle) const;
+  void set_links(const LinksConfig& config);
+  void set_twins();
+  void set_clock(const TimeConfig& config);
+  void set_reach();
+};
+
+void World::State::add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
+  role.ends = ends;
+  for (const RadioEnd& end : ends)
+    role.standing.push_back({.position_m = vector_of(end.position_m) - origin_m,
+                             .rotation = rotation_of(end.orientation_deg),
+                             .velocity_m_s = vector_of(end.velocity_m_s)});
+}
+
+void World::State::add_instances(VehicleModels& vehicles, size_t static_surfaces) {
+  uint64_t next_surface = static_surfaces;
+  for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
+    const Track& track = trajectories.tracks[k];
+    const VehicleType& type = trajectories.types[track.type];
+    const std::optional<uint32_t> model = vehicles.model_of(type, track.id);
+    track_instance.push_back(model ? static_cast<uint32_t>(instances.size()) : no_instance);
+    if (!model) continue;
+    instances.push_back({track.id, type.name, *model, static_cast<uint32_t>(next_surface)});
+    instance_track.push_back(k);
+    next_surface += vehicles.models()[*model].surfaces.size();
+    if (next_surface >= no_instance)
+      throw RuntimeError(fmt::format("the surfaces of the scene and of {} vehicles are more than 2^32: use models with "
+                                     "fewer faces, or shorter trajectories",
+                                     instances.size()));
+  }
+  models = std::move(vehicles.models());
+}
+
+EndState World::State::mounted_state(const MountedEnd& end, const VehicleState& vehicle) const {
+  return {.position_m = position_at(vehicle.pose, end.offset_m),
+          .rotation = glm::mat3_cast(vehicle.pose.orientation) * end.rotation,
+          .velocity_m_s = velocity_at(vehicle.pose, end.offset_m),
+          .instance = track_instance[end.track],
+          .present = vehicle.present};
+}
+
+// As it is where its vehicle first appears.
+void World::State::add_mounted(EndsOfRole& role, uint32_t track, const MountConfig& mount, const glm::dvec3& origin_m) {
+  const Track& vehicle = trajectories.tracks[track];
+  role.mounted.push_back({track, vector_of(mount.offset_m), rotation_of(mount.orientation_deg)});
+  const EndState first = mounted_state(role.mounted.back(), vehicle_at(vehicle, vehicle.samples.front().time_s));
+  const glm::dvec3 position_m = origin_m + first.position_m, velocity_m_s = first.velocity_m_s;
+  role.ends.push_back({.name = vehicle.id + "/" + mount.name,
+                       .position_m = {position_m.x, position_m.y, position_m.z},
+                       .antenna = mount.antenna,
+                       .polarization = mount.polarization,
+                       .orientation_deg = mount.orientation_deg,
+                       .velocity_m_s = {velocity_m_s.x, velocity_m_s.y, velocity_m_s.z}});
+}
+
+void World::State::add_mounts(const std::vector<MountConfig>& mounts, const glm::dvec3& origin_m) {
+  std::vector<std::string> names;
+  for (const Track& track : trajectories.tracks) names.push_back(track.id);
+  for (const VehicleType& type : trajectories.types) names.push_back(type.name);
+  for (const MountConfig& mount : mounts)
+    require_match(mount.on, names, "[[mount]] \"" + mount.name + "\", on", "vehicle and of no type");
+  std::set<std::string> taken;
+  for (const auto* role : {&transmitters, &receivers})
+    for (const RadioEnd& end : role->ends) taken.insert(end.name);
+  for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
+    const Track& track = trajectories.tracks[k];
+    for (const MountConfig& mount : mounts) {
+      if (!matches(mount.on, track.id) && !matches(mount.on, trajectories.types[track.type].name)) continue;
+      if (const std::string name = track.id + "/" + mount.name; !taken.insert(name).second)
+        throw ConfigError(fmt::format("[[mount]] \"{}\": a radio end of the name \"{}\" is there already: rename one",
+                                      mount.name, name));
+      if (mount.role != "receiver") add_mounted(transmitters, k, mount, origin_m);
+      if (mount.role != "transmitter") add_mounted(receivers, k, mount, origin_m);
+    }
+  }
+}
+
+void World::State::set_links(const LinksConfig& config) {
+  const auto side = [](const EndsOfRole& role) {
+    LinkSide out;
+    for (const RadioEnd& end : role.ends) out.names.push_back(end.name);
+    out.vehicles.assign(role.standing.size(), no_vehicle);
+    for (const MountedEnd& end : role.mounted) out.vehicles.push_back(end.track);
+    return out;
+  };
+  links = LinkRules(config, side(transmitters), side(receivers));
+}
+
+// A transmitter and a receiver are one end where they stand in one place, or on one vehicle in one place.
+void World::State::set_twins() {
+  using Place = std::tuple<uint32_t, double, double, double>;
+  const auto place = [](const EndsOfRole& role, size_t i) {
+    const bool stands = i < role.standing.size();
+    const glm::dvec3& p = stands ? role.standing[i].position_m : role.mounted[i - role.standing.size()].offset_m;
+    return Place{stands ? no_vehicle : role.mounted[i - role.standing.size()].track, p.x, p.y, p.z};
+  };
+  receiver_of_transmitter.assign(transmitters.ends.size(), no_end);
+  transmitter_of_receiver.assign(receivers.ends.size(), no_end);
+  std::map<Place, uint32_t> at;
+  for (uint32_t rx = 0; rx < receivers.ends.size(); ++rx) at.emplace(place(receivers, rx), rx);
+  for (uint32_t tx = 0; tx < transmitters.ends.size(); ++tx) {
+    const auto found = at.find(place(transmitters, tx));
+    if (found == at.end() || transmitter_of_receiver[found->second] != no_end) continue;
+    receiver_of_transmitter[tx] = found->second;
+    transmitter_of_receiver[found->second] = tx;
+  }
+}
+
+void World::State::set_clock(const TimeConfig& config) {
+  if (trajectories.tracks.empty()) {
+    clock.emplace(0, 0, 1);
+    return;
+  }
+  const double start_s = config.start_s.value_or(trajectories.first_time_s);
+  const double end_s = config.end_s.value_or(trajectories.last_time_s);
+  const double step_s = config.step_s > 0 ? config.step_s : trajectories.step_s;
+  if (!(step_s > 0) && start_s != end_s)
+    throw ConfigError("time.step_s is not given, and no vehicle has two samples to tell a step: give it");
+  clock.emplace(start_s, end_s, step_s > 0 ? step_s : 1);
+}
+
+void World::State::set_reach() {
+  const auto add = [&](const glm::dvec3& lower_m, const glm::dvec3& upper_m, double radius_m) {
+    for (int axis = 0; axis < 3; ++axis)
+      reach_m = std::max({reach_m, std::abs(lower_m[axis]) + radius_m, std::abs(upper_m[axis]) + radius_m});
+  };
+  std::vector<double> radius_m(trajectories.tracks.size(), 0);
+  for (const auto* role : {&transmitters, &receivers}) {
+    for (const EndState& end : role->standing) add(end.position_m, end.position_m, 0);
+    for (const MountedEnd& end : role->mounted)
+      radius_m[end.track] = std::max(radius_m[end.track], glm::length(end.offset_m));
+  }
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const Scene& model = models[instances[i].model];
+    const glm::dvec3 far_m = glm::max(glm::abs(model.origin_m + model.lower), glm::abs(model.origin_m + model.upper));
+    radius_m[instance_track[i]] = std::max(radius_m[instance_track[i]], glm::length(far_m));
+  }
+  for (size_t k = 0; k < radius_m.size(); ++k) {
+    const Bounds bounds = bounds_of(trajectories.tracks[k]);
+    add(bounds.lower, bounds.upper, radius_m[k]);
+  }
+}
 
 World::World(const Config& config, const Scene& scene) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  s.transmitters = config.transmitters;
-  s.receivers = config.receivers;
-  s.still.transmitters = states(config.transmitters, scene);
-  s.still.receivers = states(config.receivers, scene);
-  for (uint32_t tx = 0; tx < s.transmitters.size(); ++tx)
-    for (uint32_t rx = 0; rx < s.receivers.size(); ++rx) s.still.links.push_back({tx, rx});
+  VehicleModels vehicles(config);
+  s.trajectories = load_trajectories(config, vehicles);
+  for (Track& track : s.trajectories.tracks)
+    for (Sample& sample : track.samples) sample.position_m -= scene.origin_m;
+  s.warnings = s.trajectories.warnings;
+  s.add_standing(s.transmitters, config.transmitters, scene.origin_m);
+  s.add_standing(s.receivers, config.receivers, scene.origin_m);
+  s.add_instances(vehicles, scene.surfaces.size());
+  s.add_mounts(config.mounts, scene.origin_m);
+  s.set_links(config.links);
+  s.set_twins();
+  s.set_clock(config.time);
+  s.set_reach();
 }
 
 World::~World() = default;
@@ -43,19 +242,37 @@ World& World::operator=(World&&) noexcept = default;
 
 const std::vector<Scene>& World::models() const { return state_->models; }
 const std::vector<Instance>& World::instances() const { return state_->instances; }
-const std::vector<RadioEnd>& World::transmitters() const { return state_->transmitters; }
-const std::vector<RadioEnd>& World::receivers() const { return state_->receivers; }
-uint64_t World::frame_count() const { return 1; }
-double World::time_s(uint64_t) const { return 0; }
-WorldState World::state(uint64_t) const { return state_->still; }
+const std::vector<RadioEnd>& World::transmitters() const { return state_->transmitters.ends; }
+const std::vector<RadioEnd>& World::receivers() const { return state_->receivers.ends; }
+uint64_t World::frame_count() const { return state_->clock->frame_count(); }
+double World::time_s(uint64_t frame) const { return state_->clock->time_s(frame); }
+double World::reach_m() const { return state_->reach_m; }
+const std::vector<uint32_t>& World::receiver_of_transmitter() const { return state_->receiver_of_transmitter; }
+const std::vector<uint32_t>& World::transmitter_of_receiver() const { return state_->transmitter_of_receiver; }
 const std::vector<std::string>& World::warnings() const { return state_->warnings; }
 
-double World::reach_m() const {
-  double reach = 0;
-  for (const auto* ends : {&state_->still.transmitters, &state_->still.receivers})
-    for (const EndState& end : *ends)
-      for (int axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(end.position_m[axis]));
-  return reach;
+WorldState World::state(uint64_t frame) const {
+  const State& s = *state_;
+  WorldState out;
+  out.time_s = time_s(frame);
+  std::vector<VehicleState> vehicles;
+  vehicles.reserve(s.trajectories.tracks.size());
+  for (const Track& track : s.trajectories.tracks) vehicles.push_back(vehicle_at(track, out.time_s));
+  for (size_t i = 0; i < s.instances.size(); ++i) {
+    const auto& [pose, present] = vehicles[s.instance_track[i]];
+    const glm::dvec3& origin_m = s.models[s.instances[i].model].origin_m;
+    out.instances.push_back({position_at(pose, origin_m), glm::mat3_cast(pose.orientation), velocity_at(pose, origin_m),
+                             pose.angular_velocity_rad_s, present});
+  }
+  const auto ends = [&](const EndsOfRole& role) {
+    std::vector<EndState> states = role.standing;
+    for (const MountedEnd& end : role.mounted) states.push_back(s.mounted_state(end, vehicles[end.track]));
+    return states;
+  };
+  out.transmitters = ends(s.transmitters);
+  out.receivers = ends(s.receivers);
+  out.links = s.links(out.transmitters, out.receivers);
+  return out;
 }
 
 }  // namespace wavetracer

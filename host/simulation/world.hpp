@@ -26,10 +26,17 @@ class World {
   const std::vector<RadioEnd>& transmitters() const;
   const std::vector<RadioEnd>& receivers() const;
 
+  // Of each transmitter the receiver that is the same end (it stands in the same place, or in the same place on the same
+  // vehicle), no_end where there is none; and the other way round.
+  const std::vector<uint32_t>& receiver_of_transmitter() const;
+  const std::vector<uint32_t>& transmitter_of_receiver() const;
+
   uint64_t frame_count() const;
   double time_s(uint64_t frame) const;
+  // Vehicles that are absent, and their antennas, are where they were last or will be first. Throws ConfigError for a
+  // frame that there is not.
   WorldState state(uint64_t frame) const;
-  // The largest absolute coordinate, recentred, that an end or a corner of an instance has in any frame.
+  // No recentred coordinate of an end or of a corner of an instance is larger than this, in any frame.
   double reach_m() const;
   const std::vector<std::string>& warnings() const;
 

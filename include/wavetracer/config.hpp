@@ -42,10 +42,10 @@ struct RadioEnd {  // [[transmitter]] or [[receiver]]
 
 // [trajectories]: how vehicles move. Give either file or generate, or [[track]] tables, or nothing: no vehicles.
 struct TrajectoriesConfig {
-  std::string file;                       // SUMO FCD or CSV, plain or gzip
-  std::string generate;                   // arguments of `wavetracer scene city` about vehicles, instead of a file
-  std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of the trajectories + this
-  double scale = 1;
+  std::string file;                         // SUMO FCD or CSV, plain or gzip
+  std::string generate;                     // arguments of `wavetracer scene city` about vehicles, instead of a file
+  std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of `file` + this
+  double scale = 1;                         // of positions in `file`
   bool persons = false, containers = false;
   std::string default_type;  // vehicle type of vehicles whose type is unknown; empty: such a vehicle is an error
 };
@@ -59,7 +59,7 @@ struct TrackConfig {  // [[track]]: a vehicle on waypoints
 struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories looks like
   std::string name;
   std::string model = "auto";  // auto, car, van, truck, none, or a mesh file (x ahead, z up, origin on the ground)
-  double length_m = 0, width_m = 0, height_m = 0;  // 0: that of SUMO's vehicle class of this name
+  double length_m = 0, width_m = 0, height_m = 0;  // 0: that of the mesh file, else of SUMO's class of this name
   std::string material = "metal";                  // of a mesh without one
 };
 

@@ -10,7 +10,7 @@ namespace wavetracer {
 struct PathGeometry {
   std::vector<uint32_t> tx, rx;
   std::vector<uint64_t> first{0};
-  std::vector<uint32_t> surface;     // one an interaction
+  std::vector<uint32_t> surface;     // one an interaction, numbered through the world (Instance::first_surface)
   std::vector<uint8_t> interaction;  // one an interaction, see Interaction
   std::vector<glm::dvec3> vertex;    // one an interaction, recentred metres
   size_t size() const { return tx.size(); }

@@ -72,6 +72,8 @@ class Simulation {
   const Config& config() const;
   const std::vector<Instance>& instances() const;
   const std::vector<Scene>& models() const;
+  // What loading the scene and the trajectories left out or made up.
+  std::vector<std::string> warnings() const;
   const DeviceSummary& device() const;
   const OrderSummary& order() const;
   // Stages outside the frame: load, surfaces, build, compile, ...

@@ -30,6 +30,8 @@ struct EndState {
   bool present = true;
 };
 
+constexpr uint32_t no_end = 0xFFFFFFFFu;
+
 // A transmitter and a receiver between which paths are wanted.
 struct Link {
   uint32_t tx, rx;

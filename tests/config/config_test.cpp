@@ -173,8 +173,7 @@ TEST_CASE("all mistakes are reported at once, in the order of the file") {
 }
 
 TEST_CASE("keys of later versions name themselves and what to use; their defaults are fine") {
-  const std::vector<std::pair<std::string, std::string>> later = {{"trajectories.file", "\"fcd.xml\""},
-                                                                  {"trace.diffraction", "true"},
+  const std::vector<std::pair<std::string, std::string>> later = {{"trace.diffraction", "true"},
                                                                   {"trace.transmission", "true"},
                                                                   {"trace.scattering", "true"},
                                                                   {"trace.reception", "\"sphere\""},

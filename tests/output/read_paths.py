@@ -13,7 +13,11 @@ DATASETS = {
     "paths": "frame tx rx depth delay_s gain_db a_re a_im aod_theta_rad aod_phi_rad aoa_theta_rad aoa_phi_rad "
              "doppler_hz vertex_offset",
     "vertices": "position_m interaction surface instance",
-    "frames": "frame time_s path_offset",
+    "frames": "frame time_s path_offset transmitter_position_m transmitter_velocity_m_s receiver_position_m "
+              "receiver_velocity_m_s",
+    "instances": "id type model",
+    "poses": "frame instance position_m rotation velocity_m_s",
+    "links": "frame tx rx",
     "transmitters": "name position_m antenna polarization orientation_deg velocity_m_s",
     "receivers": "name position_m antenna polarization orientation_deg velocity_m_s",
 }
@@ -43,6 +47,10 @@ with h5py.File(sys.argv[1] + "/paths.h5", "r") as file:
 
     assert list(file["transmitters/name"].asstr()) == ["rsu, north", "rsu"]
     assert list(file["receivers/polarization"].asstr()) == ["VH", "V"]
+    assert list(file["instances/model"].asstr()) == ["car", "/models/bus.glb"]
+    assert np.array_equal(file["frames/transmitter_position_m"][1], [[1, 2, 3], [4, 5, 6]])
+    turned = file["poses/rotation"][2] @ [1, 0, 0]
+    assert np.array_equal(turned, [0, 1, 0]), turned
     assert file.attrs["format_version"] == 1 and file.attrs["frequency_hz"] == [5.9e9]
     assert file.attrs["config"] == 'scene.file = "scene.xml"  # \u00e9\n'
 print("paths.h5: all datasets as written")

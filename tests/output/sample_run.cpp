@@ -27,13 +27,33 @@ void add_path(Paths& paths, uint32_t frame, uint32_t tx, uint32_t rx, uint32_t i
   paths.vertex_offset.push_back(paths.vertex_position_m.size());
 }
 
-FrameResult make_frame(uint32_t paths) {
+std::vector<EndState> states(const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
+  std::vector<EndState> out;
+  for (const RadioEnd& end : ends) {
+    EndState state;
+    state.position_m = glm::dvec3(end.position_m[0], end.position_m[1], end.position_m[2]) - origin_m;
+    state.velocity_m_s = {end.velocity_m_s[0], end.velocity_m_s[1], end.velocity_m_s[2]};
+    out.push_back(state);
+  }
+  return out;
+}
+
+FrameResult make_frame(const SampleRun& sample, uint32_t number, double time_s) {
   FrameResult frame;
+  frame.frame = number;
+  frame.world.time_s = time_s;
+  frame.world.transmitters = states(sample.config.transmitters, sample.scene.origin_m);
+  frame.world.receivers = states(sample.config.receivers, sample.scene.origin_m);
+  frame.world.instances.resize(sample.instances.size());
+  frame.world.links = {{0, 0}, {0, 1}, {1, 0}, {1, 1}};
+  return frame;
+}
+
+void add_counts(FrameResult& frame) {
   frame.paths.rx_ports = 2;
-  frame.counts = {1000, 2500, 1500, 40, 12, 8, paths};
+  frame.counts = {1000, 2500, 1500, 40, 12, 8, frame.paths.size()};
   frame.segments_per_depth = {1000, 900, 600};
   frame.warnings = {"a warning"};
-  return frame;
 }
 
 }  // namespace
@@ -42,21 +62,32 @@ SampleRun::SampleRun() {
   config.file = "/configs/sample.toml";
   config.text = "scene.file = \"scene.xml\"  # \xC3\xA9\n";
   config.transmitters = {{.name = "rsu, north", .position_m = {1, 2, 3}},
-                         {.name = "rsu", .position_m = {4, 5, 6}, .orientation_deg = {90, 10, 0}, .velocity_m_s = {0, -3, 0.5}}};
+                         {.name = "rsu", .position_m = {4, 5, 6}, .orientation_deg = {90, 10, 0},
+                          .velocity_m_s = {0, -3, 0.5}}};
   config.receivers = {{.name = "car", .position_m = {7, 8, 9}, .antenna = "dipole", .polarization = "VH"},
                       {.name = ""}};
   scene.file = "/scenes/scene.xml";
+  scene.origin_m = {512, -256, 0};
   scene.report.warnings = {"a scene warning"};
+  models.resize(2);
+  models[0].file = "car";
+  models[1].file = "/models/bus.glb";
+  models[1].origin_m = {0.5, 0, 1};
+  instances = {{.id = "v0", .type = "passenger"}, {.id = "v1", .type = "bus", .model = 1}};
 }
 
-RunData SampleRun::data() const {
-  RunData run{config, scene, {}, {}, 7, {0.0, 0.1}};
+Run SampleRun::run() const {
+  Run run{config, scene, instances, models, {}};
   run.summary.device = {"Portable Computing Language", "a processor", "3.1", "OpenCL C 1.2", false};
   run.summary.setup_seconds = {{"load", 0.5}, {"trace", 9.0}};
   run.summary.command_line = "wavetracer run -c sample.toml";
   run.summary.repeat_count = 3;
   run.summary.warnings = {"a run warning", "a warning"};
-  FrameResult first = make_frame(3), second = make_frame(2);
+  return run;
+}
+
+std::vector<FrameResult> SampleRun::frames() const {
+  FrameResult first = make_frame(*this, 7, 0.0), second = make_frame(*this, 8, 0.1);
   first.seconds = {{"trace", 0.25}, {"solve", 0.125}, {"frame", 0.5}};
   second.seconds = {{"trace", 0.75}, {"solve", 0.375}, {"frame", 1.5}};
   add_path(first.paths, 7, 0, 0, 0);
@@ -64,14 +95,37 @@ RunData SampleRun::data() const {
   add_path(first.paths, 7, 1, 0, 2);
   add_path(second.paths, 8, 0, 0, 3);
   add_path(second.paths, 8, 1, 1, 4);
-  run.frames = {first, second};
-  return run;
+  first.world.instances[0].position_m = {1, 2, 3};
+  first.world.instances[1].present = false;
+  second.world.instances[0].position_m = {4, 2, 3};
+  second.world.instances[1] = {.position_m = {10, 20, 2},
+                               .rotation = glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1),  // a quarter turn to the left
+                               .velocity_m_s = {0, 8, 0},
+                               .angular_velocity_rad_s = {0, 0, 2}};
+  add_counts(first);
+  add_counts(second);
+  return {first, second};
 }
 
-RunData SampleRun::empty() const {
-  RunData run{config, scene, {}, {}, 0, {}};
-  run.frames.resize(1);
-  return run;
+std::vector<FrameResult> SampleRun::empty() const { return {make_frame(*this, 0, 0)}; }
+
+std::vector<FrameResult> SampleRun::drive(uint32_t first, uint32_t count) const {
+  std::vector<FrameResult> frames;
+  for (uint32_t number = first; number < first + count; ++number) {
+    FrameResult frame = make_frame(*this, number, 0.1 * number);
+    frame.seconds = {{"trace", 0.25}, {"frame", 0.5 + 0.001 * number}};
+    frame.world.links = {{0, 0}, {1, 0}};
+    if (number % 5 == 4) frame.world.links.clear();
+    for (const Link& link : frame.world.links)
+      for (uint32_t i = 0; i < (number * 7 + link.tx * 3) % 4; ++i) add_path(frame.paths, number, link.tx, link.rx, i);
+    frame.world.receivers[1].present = false;
+    frame.world.transmitters[0].position_m.x += number;
+    frame.world.instances[0].present = number % 3 > 0;
+    frame.world.instances[1].position_m.y = 2.0 * number;
+    add_counts(frame);
+    frames.push_back(frame);
+  }
+  return frames;
 }
 
 }  // namespace wavetracer

@@ -1,6 +1,7 @@
-// A small made-up run for the output tests: two frames, two transmitters, two receivers, five paths, mixed ports.
+// A small made-up run for the output tests: two frames, two ends a side, two vehicles, five paths, mixed ports.
 // Its values are simple functions of the row, which read_paths.py computes again.
 #pragma once
+#include <vector>
 #include "output/output.hpp"
 
 namespace wavetracer {
@@ -8,11 +9,17 @@ namespace wavetracer {
 struct SampleRun {
   Config config;
   Scene scene;
+  std::vector<Instance> instances;
+  std::vector<Scene> models;
   SampleRun();
-  // Frame 7 at 0 s with three paths, frame 8 at 0.1 s with two.
-  RunData data() const;
-  // The same ends, one frame, no path.
-  RunData empty() const;
+  Run run() const;
+  // Frame 7 at 0 s with three paths, frame 8 at 0.1 s with two. The second vehicle is there in frame 8 only.
+  std::vector<FrameResult> frames() const;
+  // The same world, frame 0, no path.
+  std::vector<FrameResult> empty() const;
+  // Frames first to first + count - 1 of a drive whose ends, vehicles, links and numbers of paths change with the
+  // frame; some frames have no path at all, some no link.
+  std::vector<FrameResult> drive(uint32_t first, uint32_t count) const;
 };
 
 }  // namespace wavetracer

@@ -49,9 +49,9 @@ struct SizeLimit {
 };
 
 // The message of the RuntimeError that writing throws; empty if it throws none.
-std::string error_of(const fs::path& directory, const RunData& run) {
+std::string error_of(const fs::path& directory, const Run& run, const std::vector<FrameResult>& frames) {
   try {
-    write_outputs(directory, run);
+    write_outputs(directory, run, frames);
   } catch (const RuntimeError& error) {
     return error.what();
   }
@@ -65,7 +65,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 TEST_CASE("a disk that fills up leaves neither files nor the folder, wherever it happens") {
   const Scratch scratch;
   const SampleRun sample;
-  const auto written = write_outputs(scratch.path / "whole", sample.data());
+  const auto written = write_outputs(scratch.path / "whole", sample.run(), sample.frames());
   const uintmax_t largest = fs::file_size(written[0]);
   REQUIRE(largest > fs::file_size(written[1]));
   fs::remove_all(scratch.path / "whole");
@@ -75,7 +75,7 @@ TEST_CASE("a disk that fills up leaves neither files nor the folder, wherever it
     std::string message;
     {
       const SizeLimit full(limit);
-      message = error_of(scratch.path / "a" / "b", sample.data());
+      message = error_of(scratch.path / "a" / "b", sample.run(), sample.frames());
     }
     CHECK(contains(message, "cannot write " + (scratch.path / "a" / "b").string()));
     CHECK(contains(message, "File too large"));
@@ -84,18 +84,18 @@ TEST_CASE("a disk that fills up leaves neither files nor the folder, wherever it
     ++failures;
   }
   CHECK(failures > 40);
-  CHECK(error_of(scratch.path / "a" / "b", sample.data()) == "");  // the library survived all of it
+  CHECK(error_of(scratch.path / "a" / "b", sample.run(), sample.frames()) == "");  // the library survived all of it
   CHECK(scratch.names() == std::vector<std::string>{"a", "b", "links.csv", "paths.h5", "summary.json"});
 }
 
 TEST_CASE("a failure keeps the results of an earlier run") {
   const Scratch scratch;
   const SampleRun sample;
-  const auto written = write_outputs(scratch.path, sample.data());
+  const auto written = write_outputs(scratch.path, sample.run(), sample.frames());
   const auto size = fs::file_size(written[0]);
   {
     const SizeLimit full(size / 2);
-    CHECK(error_of(scratch.path, sample.data()) != "");
+    CHECK(error_of(scratch.path, sample.run(), sample.frames()) != "");
   }
   CHECK(fs::file_size(written[0]) == size);
   CHECK(scratch.names() == std::vector<std::string>{"links.csv", "paths.h5", "summary.json"});
@@ -106,7 +106,7 @@ TEST_CASE("a folder in place of a file is an error before anything appears") {
   const SampleRun sample;
   for (const char* name : {"paths.h5", "links.csv", "summary.json"}) {
     fs::create_directories(scratch.path / name);
-    const std::string message = error_of(scratch.path, sample.data());
+    const std::string message = error_of(scratch.path, sample.run(), sample.frames());
     CHECK(contains(message, (scratch.path / name).string()));
     CHECK(contains(message, "Is a directory"));
     CHECK(scratch.names() == std::vector<std::string>{name});
@@ -118,8 +118,8 @@ TEST_CASE("a file in place of the folder, or of one above it") {
   const Scratch scratch;
   const SampleRun sample;
   std::ofstream(scratch.path / "file") << "keep me";
-  CHECK(contains(error_of(scratch.path / "file", sample.data()), "it is not a folder"));
-  CHECK(contains(error_of(scratch.path / "file" / "below", sample.data()), "Not a directory"));
+  CHECK(contains(error_of(scratch.path / "file", sample.run(), sample.frames()), "it is not a folder"));
+  CHECK(contains(error_of(scratch.path / "file" / "below", sample.run(), sample.frames()), "Not a directory"));
   CHECK(scratch.names() == std::vector<std::string>{"file"});
   CHECK(fs::file_size(scratch.path / "file") == 7);
 }
@@ -139,13 +139,14 @@ TEST_CASE("a rename that fails takes back the files that were already renamed") 
 TEST_CASE("a trailing slash and dots in the folder's name, as mkdir -p takes them") {
   const Scratch scratch;
   const SampleRun sample;
-  CHECK(error_of(scratch.path / "x" / ".." / "y" / "", sample.data()) == "");
+  CHECK(error_of(scratch.path / "x" / ".." / "y" / "", sample.run(), sample.frames()) == "");
   CHECK(scratch.names() == std::vector<std::string>{"links.csv", "paths.h5", "summary.json", "x", "y"});
 }
 
 TEST_CASE("a folder that may not be made") {
   const SampleRun sample;
-  const std::string message = error_of("/proc/wavetracer/out", sample.data());  // /proc refuses even root
+  // /proc refuses even root.
+  const std::string message = error_of("/proc/wavetracer/out", sample.run(), sample.frames());
   CHECK(contains(message, "cannot create the folder /proc/wavetracer/out"));
   CHECK(contains(message, "-o"));
 }
@@ -153,14 +154,15 @@ TEST_CASE("a folder that may not be made") {
 TEST_CASE("inconsistent results are refused, not written") {
   const Scratch scratch;
   const SampleRun sample;
-  RunData run = sample.data();
-  run.frames[1].paths.gain_db.pop_back();
-  CHECK(contains(error_of(scratch.path / "new", run), "paths of frame 8"));
-  RunData ends = sample.data();
-  ends.frames[0].paths.rx[1] = 2;
-  CHECK(contains(error_of(scratch.path / "new", ends), "paths of frame 7"));
-  RunData times = sample.data();
-  times.frame_time_s.pop_back();
-  CHECK(contains(error_of(scratch.path / "new", times), "2 frames but 1 frame times"));
+  const auto message_of = [&](const auto& spoil) {
+    std::vector<FrameResult> frames = sample.frames();
+    spoil(frames);
+    return error_of(scratch.path / "new", sample.run(), frames);
+  };
+  CHECK(contains(message_of([](auto& frames) { frames[1].paths.gain_db.pop_back(); }), "paths of frame 8"));
+  CHECK(contains(message_of([](auto& frames) { frames[0].paths.rx[1] = 2; }), "paths of frame 7"));
+  CHECK(contains(message_of([](auto& frames) { frames[0].world.receivers.pop_back(); }), "paths of frame 7"));
+  CHECK(contains(message_of([](auto& frames) { frames[1].world.links[3].tx = 2; }), "paths of frame 8"));
+  CHECK(contains(message_of([](auto& frames) { frames[1].world.instances.clear(); }), "paths of frame 8"));
   CHECK(scratch.names().empty());
 }

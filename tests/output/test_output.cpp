@@ -1,63 +1,22 @@
 // What write_outputs() writes is what a reader finds: paths.h5 through the C library, links.csv and summary.json.
 // Leaves its sample under tests/output/sample of the build folder, for the tests that read it from Python.
 #include <doctest/doctest.h>
-#include <hdf5.h>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include "output/output.hpp"
+#include "output/reader.hpp"
 #include "output/sample_run.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;
+using test::Reader;
+using test::slurp;
 
 namespace {
 
 const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "output" / "sample";
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-// Reads with plain calls of the C library, so that a fault of the project's own wrapper cannot hide itself.
-struct Reader {
-  hid_t file;
-  explicit Reader(const fs::path& path) : file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
-  ~Reader() { H5Fclose(file); }
-
-  std::vector<hsize_t> shape(const char* name) const {
-    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
-    std::vector<hsize_t> result(static_cast<size_t>(H5Sget_simple_extent_ndims(space)));
-    H5Sget_simple_extent_dims(space, result.data(), nullptr);
-    H5Sclose(space);
-    H5Dclose(dataset);
-    return result;
-  }
-  std::vector<double> numbers(const char* name) const {  // the library converts integers exactly up to 2^53
-    size_t count = 1;
-    for (const hsize_t n : shape(name)) count *= n;
-    std::vector<double> result(count);
-    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-    CHECK(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data()) >= 0);
-    H5Dclose(dataset);
-    return result;
-  }
-  std::string attribute(const char* object, const char* name) const {
-    const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT),
-                type = H5Aget_type(attribute);
-    char* text = nullptr;
-    CHECK(H5Aread(attribute, type, &text) >= 0);
-    const std::string result = text ? text : "";
-    H5free_memory(text);
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return result;
-  }
-};
 
 using Values = std::vector<double>;
 using Shape = std::vector<hsize_t>;
@@ -67,7 +26,7 @@ using Shape = std::vector<hsize_t>;
 TEST_CASE("paths.h5 holds every column of every frame, in order") {
   fs::remove_all(folder);
   const SampleRun sample;
-  const auto written = write_outputs(folder, sample.data());
+  const auto written = write_outputs(folder, sample.run(), sample.frames());
   REQUIRE(written == std::vector<fs::path>{folder / "paths.h5", folder / "links.csv", folder / "summary.json"});
   const Reader h5(written[0]);
 
@@ -116,9 +75,41 @@ TEST_CASE("paths.h5 holds every column of every frame, in order") {
   CHECK(h5.attribute("/vertices/position_m", "units") == "m");
 }
 
+TEST_CASE("paths.h5 holds the world of every frame, in file coordinates") {
+  const SampleRun sample;
+  std::vector<FrameResult> frames = sample.frames();
+  frames[0].world.receivers[1].present = false;
+  const Reader h5(write_outputs(folder.parent_path() / "world", sample.run(), frames)[0]);
+  CHECK(h5.shape("/frames/transmitter_position_m") == Shape{2, 2, 3});
+  CHECK(h5.numbers("/frames/transmitter_position_m") == Values{1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 6});
+  CHECK(h5.numbers("/frames/transmitter_velocity_m_s") == Values{0, 0, 0, 0, -3, 0.5, 0, 0, 0, 0, -3, 0.5});
+  const Values receivers = h5.numbers("/frames/receiver_position_m"),
+               velocities = h5.numbers("/frames/receiver_velocity_m_s");
+  CHECK(Values(receivers.begin(), receivers.begin() + 3) == Values{7, 8, 9});
+  for (size_t i = 3; i < 6; ++i) {
+    CHECK(std::isnan(receivers[i]));
+    CHECK(std::isnan(velocities[i]));
+  }
+  CHECK(Values(receivers.begin() + 6, receivers.end()) == Values{7, 8, 9, 0, 0, 0});
+
+  CHECK(h5.shape("/instances/id") == Shape{2});
+  CHECK(h5.numbers("/poses/frame") == Values{7, 8, 8});
+  CHECK(h5.numbers("/poses/instance") == Values{0, 0, 1});
+  // The file's origin of the bus is half a metre behind and a metre below the recentred one; ahead is +y.
+  CHECK(h5.numbers("/poses/position_m") == Values{513, -254, 3, 516, -254, 3, 522, -236.5, 1});
+  // It turns to the left about the recentred origin, so what is behind swings to the right, +x.
+  CHECK(h5.numbers("/poses/velocity_m_s") == Values{0, 0, 0, 0, 0, 0, 1, 8, 0});
+  CHECK(h5.shape("/poses/rotation") == Shape{3, 3, 3});
+  const Values rotation = h5.numbers("/poses/rotation");
+  CHECK(Values(rotation.begin() + 18, rotation.end()) == Values{0, -1, 0, 1, 0, 0, 0, 0, 1});
+  CHECK(h5.numbers("/links/frame") == Values{7, 7, 7, 7, 8, 8, 8, 8});
+  CHECK(h5.numbers("/links/tx") == Values{0, 0, 1, 1, 0, 0, 1, 1});
+  CHECK(h5.numbers("/links/rx") == Values{0, 1, 0, 1, 0, 1, 0, 1});
+}
+
 TEST_CASE("links.csv has a row a link, quoted names, and -inf where no path is") {
   const SampleRun sample;
-  std::istringstream csv(slurp(write_outputs(folder, sample.data())[1]));
+  std::istringstream csv(slurp(write_outputs(folder, sample.run(), sample.frames())[1]));
   std::vector<std::string> lines;
   for (std::string line; std::getline(csv, line);) lines.push_back(line);
   REQUIRE(lines.size() == 1 + 2 * 4);
@@ -133,7 +124,7 @@ TEST_CASE("links.csv has a row a link, quoted names, and -inf where no path is")
 
 TEST_CASE("summary.json sums counts, takes medians of seconds and lists each warning once") {
   const SampleRun sample;
-  const auto json = nlohmann::json::parse(slurp(write_outputs(folder, sample.data())[2]));
+  const auto json = nlohmann::json::parse(slurp(write_outputs(folder, sample.run(), sample.frames())[2]));
   CHECK(json["version"] == WAVETRACER_VERSION);
   CHECK(json["device"] == "a processor");
   CHECK(json["driver"] == "3.1");
@@ -154,6 +145,15 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
   CHECK(json["seconds"]["setup_trace"] == 9.0);
   CHECK(json["seconds"]["write"].get<double>() > 0);
   CHECK(json["rays_per_second"] == 5000.0);
+  CHECK(json["frames_per_second"] == 1.0);
+  CHECK(json["frames"] == 2);
+  CHECK(json["first_frame"] == 7);
+  CHECK(json["last_frame"] == 8);
+  CHECK(json["end_s"] == 0.1);
+  CHECK(json["links"] == 8);
+  CHECK(json["vehicles"] == 2);
+  CHECK(json["repeats_cold"] == true);
+  CHECK(json["peak_memory_bytes"].get<uint64_t>() > 1000000);
   CHECK(json["order"]["method"] == "none");
   CHECK(json["cache"]["kind"] == "none");
   CHECK(json["warnings"] == std::vector<std::string>{"a run warning", "a warning", "a scene warning"});
@@ -162,7 +162,7 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
 TEST_CASE("a run without paths writes zero-length datasets") {
   const fs::path empty_folder = folder.parent_path() / "empty";
   const SampleRun sample;
-  const auto written = write_outputs(empty_folder, sample.empty());
+  const auto written = write_outputs(empty_folder, sample.run(), sample.empty());
   const Reader h5(written[0]);
   CHECK(h5.shape("/paths/delay_s") == Shape{0});
   CHECK(h5.shape("/paths/a_re") == Shape{0, 1, 1});
@@ -180,13 +180,13 @@ TEST_CASE("a run without paths writes zero-length datasets") {
 TEST_CASE("a config text beyond 64 KiB, an attribute's usual limit, arrives whole") {
   SampleRun sample;
   sample.config.text = std::string(200000, '#');
-  const Reader h5(write_outputs(folder.parent_path() / "long", sample.data())[0]);
+  const Reader h5(write_outputs(folder.parent_path() / "long", sample.run(), sample.frames())[0]);
   CHECK(h5.attribute("/", "config") == sample.config.text);
 }
 
 TEST_CASE("a name that is not UTF-8 does not keep summary.json from being valid JSON") {
   SampleRun sample;
   sample.config.file = "bad\xFFname.toml";
-  const auto written = write_outputs(folder.parent_path() / "latin", sample.data());
+  const auto written = write_outputs(folder.parent_path() / "latin", sample.run(), sample.frames());
   CHECK(nlohmann::json::parse(slurp(written[2]))["config_file"] == "bad\xEF\xBF\xBDname.toml");
 }

@@ -2,6 +2,7 @@
 // Sequences enter through the interact pass, as rays do: with hit lists that a test writes itself.
 #pragma once
 #include <algorithm>
+#include <functional>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -65,7 +66,7 @@ inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Seq
     std::erase_if(sequences, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
     HitList hits = upload_hits(surfaces, rays.size());
     const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
-    interact(scene, queue, hits, alive, set.table(), set.counters(), next, false);
+    interact(scene, queue, hits, alive, set.table(), set.counters(), set.ages(), set.now(), next, false);
     std::swap(queue, next);
   }
 }
@@ -108,6 +109,17 @@ struct SolvedPath {
   bool blocked = false;
 };
 
+// Ends that stand still on no vehicle, all of them linked.
+inline RadioEnds standing_ends(const std::vector<glm::dvec3>& transmitters, const std::vector<glm::dvec3>& receivers) {
+  std::vector<EndState> tx(transmitters.size()), rx(receivers.size());
+  std::vector<Link> links;
+  for (size_t i = 0; i < tx.size(); ++i) tx[i].position_m = transmitters[i];
+  for (size_t i = 0; i < rx.size(); ++i) rx[i].position_m = receivers[i];
+  for (uint32_t t = 0; t < tx.size(); ++t)
+    for (uint32_t r = 0; r < rx.size(); ++r) links.push_back({t, r});
+  return make_radio_ends(context(), tx, rx, links);
+}
+
 // The exact half of a frame. Candidates are listed as (sequence, receiver), the empty sequence for a line of sight.
 struct Exact {
   std::set<std::pair<Sequence, uint32_t>> candidates;
@@ -115,12 +127,14 @@ struct Exact {
   std::vector<SolvedPath> solved;  // sorted by sequence, then receiver
 
   Exact(const Scene& scene, const std::vector<glm::dvec3>& transmitters, const std::vector<glm::dvec3>& receivers,
-        const std::vector<Sequence>& sequences, uint32_t max_depth) {
+        const std::vector<Sequence>& sequences, uint32_t max_depth,
+        const std::function<void(DeviceScene&)>& add_instances = [](DeviceScene&) {}) {
     double reach_m = 0;
     for (const auto& ends : {transmitters, receivers})
       for (const glm::dvec3& p : ends) reach_m = std::max({reach_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    const DeviceScene uploaded = make_device_scene(context(), scene, false, reach_m);
-    const RadioEnds ends = make_radio_ends(context(), transmitters, receivers);
+    DeviceScene uploaded = make_device_scene(context(), scene, false, reach_m);
+    add_instances(uploaded);
+    const RadioEnds ends = standing_ends(transmitters, receivers);
     Sequences set(context(), 4096);
     enter(set, uploaded, sequences, max_depth);
     const uint32_t node_count = set.collect(ends.transmitter_count);

@@ -34,7 +34,7 @@ struct Step {
     trace_pass(uploaded, queue, list);
     hits = download(list, rays.size());
     const uint32_t alive = scan(list.block_hits, (queue.count + block - 1) / block);
-    interact(uploaded, queue, list, alive, set.table(), set.counters(), after, last);
+    interact(uploaded, queue, list, alive, set.table(), set.counters(), set.ages(), set.now(), after, last);
     next = download(after);
     table = set.table().read();
     CHECK_FALSE(set.overflowed());

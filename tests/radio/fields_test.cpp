@@ -1,5 +1,5 @@
-// Coefficients, delays and angles against Friis, the two-ray ground and transmission through a wall.
-// Isotropic antennas and 5.9 GHz unless a test says otherwise.
+// Coefficients, delays and angles against Friis, the two-ray ground and transmission through a wall; instances against
+// the same surfaces standing still. Isotropic antennas and 5.9 GHz unless a test says otherwise.
 #include "radio/fields.hpp"
 
 #include <doctest/doctest.h>
@@ -197,4 +197,102 @@ TEST_CASE("an antenna that is blind in the direction of a path gives -inf, not N
   world.config.receivers = {World::end({0, 0, 0})};
   world.add_reflections(0, 0, {});
   CHECK(world.paths().gain_db[0] < -300);
+}
+
+namespace {
+
+// A model with a concrete plane z = 2 and a conducting plane x = 1, in its own axes, beside a static ground z = 0.
+struct InstanceWorld : World {
+  std::vector<Scene> models;
+  std::vector<Instance> instances;
+  WorldState state;
+
+  InstanceWorld() {
+    add_plane({0, 0, 1}, {0, 0, 0}, test::medium_dry_ground());
+    World model;
+    model.add_plane({0, 0, 1}, {0, 0, 2}, test::concrete(0.1));
+    model.add_plane({1, 0, 0}, {1, 0, 0}, test::conductor());
+    models = {model.scene};
+    instances = {{"first", "car", 0, 1}, {"second", "car", 0, 3}};
+    state.instances = {{}, {{10, 20, 30}, rotation_of({90, 0, 0}), {1, 2, 3}, {0, 0, 0.5}}};
+    config.transmitters = {end({0, 0, 5}, "tr38901", "VH", {20, 10, 0})};
+    config.receivers = {end({8, 1, 6}, "dipole", "cross", {-40, 5, 70})};
+    const auto state_of = [&](const RadioEnd& e) { return EndState{place(e), rotation_of(e.orientation_deg)}; };
+    state.transmitters = {state_of(config.transmitters[0])};
+    state.receivers = {state_of(config.receivers[0])};
+  }
+
+  Paths moving_paths() const { return FieldModel(scene, config, models, instances).compute(0, geometry, state); }
+};
+
+}  // namespace
+
+TEST_CASE("surfaces of instances: numbers, normals, velocities of their material points") {
+  const InstanceWorld world;
+  const SurfaceTable table(world.scene, world.models, world.instances);
+  const SurfacePlace ground = table.at(0), side = table.at(4);
+  CHECK(ground.instance == no_instance);
+  CHECK(ground.surface == 0);
+  CHECK(table.at(2).instance == 0);
+  CHECK(side.instance == 1);
+  CHECK(side.surface == 1);
+  CHECK(table.scene(side.part).materials[table.surface(side).material] == test::conductor());
+  CHECK_THROWS_AS(table.at(5), std::out_of_range);
+  CHECK(table.normal(ground, world.state) == glm::dvec3{0, 0, 1});
+  CHECK(glm::length(table.normal(side, world.state) - glm::dvec3{0, 1, 0}) < 1e-15);  // turned by a right angle
+  CHECK(table.velocity_m_s(ground, {5, 6, 7}, world.state) == glm::dvec3{0});
+  CHECK(glm::length(table.velocity_m_s(side, {10, 21, 30}, world.state) - glm::dvec3{0.5, 2, 3}) < 1e-15);
+}
+
+TEST_CASE("a surface of an instance reflects as the same surface of a static scene does") {
+  InstanceWorld world;
+  world.state.instances[1] = {{3, -20, 4}, rotation_of({25, 70, 10})};
+  const glm::dvec3 normal = world.state.instances[1].rotation * glm::dvec3{0, 0, 1};
+  World still = world;
+  const uint32_t plane = still.add_plane(normal, glm::dvec3{3, -20, 4} + 2.0 * normal, test::concrete(0.1));
+  still.add_reflections(0, 0, {0, plane});
+  still.add_reflections(0, 0, {plane});
+  world.geometry = still.geometry;
+  for (uint32_t& surface : world.geometry.surface)
+    if (surface == plane) surface = 3;
+  const Paths expected = still.paths(), paths = world.moving_paths();
+  REQUIRE(paths.size() == 2);
+  CHECK(paths.delay_s == expected.delay_s);
+  for (size_t i = 0; i < 2; ++i) {
+    CHECK(paths.gain_db[i] > -200);
+    for (size_t port = 0; port < 4; ++port) CHECK(std::abs(paths.a[i][port] - expected.a[i][port]) < 1e-15);
+  }
+  const size_t single = paths.depth[0] == 1 ? 0 : 1;
+  CHECK(paths.vertex_surface[paths.vertex_offset[single]] == 0);  // the first of its model
+  CHECK(paths.vertex_instance[paths.vertex_offset[single]] == 1);
+  CHECK(paths.vertex_surface[paths.vertex_offset[1 - single]] == 0);  // the ground
+  CHECK(paths.vertex_instance[paths.vertex_offset[1 - single]] == no_instance);
+}
+
+TEST_CASE("ends are where the state has them, turned as it says, to the last bit") {
+  World still;
+  still.config.transmitters = {World::end({3, 4, 5}, "tr38901", "VH", {30, -20, 10})};
+  still.config.receivers = {World::end({9, 2, 1}, "dipole", "cross", {-50, 15, 75})};
+  still.add_reflections(0, 0, {});
+  World elsewhere = still;
+  elsewhere.config.transmitters[0] = World::end({-7, 1, 1}, "tr38901", "VH", {0, 0, 0});
+  elsewhere.config.receivers[0] = World::end({70, 1, 1}, "dipole", "cross", {5, 5, 5});
+  WorldState state;
+  state.transmitters = {{{3, 4, 5}, rotation_of({30, -20, 10}), {30, 0, 0}}};
+  state.receivers = {{{9, 2, 1}, rotation_of({-50, 15, 75}), {0, -20, 0}}};
+  const Paths expected = still.paths();
+  const Paths paths = FieldModel(elsewhere.scene, elsewhere.config).compute(0, elsewhere.geometry, state);
+  CHECK(paths.a == expected.a);
+  CHECK(paths.delay_s == expected.delay_s);
+  CHECK(paths.gain_db == expected.gain_db);
+  CHECK(paths.aoa_phi_rad == expected.aoa_phi_rad);
+  // 6, -2 and -4 m of leg, sqrt(56) m long: the ends come nearer by these parts of their speeds.
+  CHECK(paths.doppler_hz[0] == test::near((30 * 6 - 20 * 2) / std::sqrt(56) / still.wavelength_m(), 1e-13));
+}
+
+TEST_CASE("a model's material that is not known at the frequency is an error") {
+  InstanceWorld world;
+  world.scene = {};
+  world.config.radio.frequency_hz = 0.5e9;
+  CHECK_THROWS_AS(FieldModel(world.scene, world.config, world.models, world.instances), ConfigError);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "radio/fields.hpp"
 #include "radio/world.hpp"
@@ -148,4 +149,47 @@ TEST_CASE("the order of discovery and the number of threads change no bit") {
     CHECK(results[k].vertex_position_m == results[0].vertex_position_m);
   }
   CHECK(std::is_sorted(results[0].delay_s.begin(), results[0].delay_s.end()));
+}
+
+TEST_CASE("rows of many links: the order of discovery and the number of threads change no bit, and rows are sorted") {
+  const Ends ends = some_ends();
+  World world = walled(ends);
+  world.geometry = {};
+  world.config.transmitters.assign(7, ends.tx);
+  world.config.receivers.assign(9, ends.rx);
+  struct Case {
+    uint32_t tx, rx;
+    std::vector<uint32_t> surfaces;
+  };
+  std::vector<Case> cases;
+  for (uint32_t tx = 0; tx < 7; ++tx)
+    for (uint32_t rx = 0; rx < 9; ++rx)
+      for (const std::vector<uint32_t>& surfaces : std::vector<std::vector<uint32_t>>{{}, {2}, {0, 3}, {1, 2, 0}})
+        if ((tx + rx) % 4 != 0) cases.push_back({tx, rx, surfaces});
+  for (size_t i = 0; i < 7; ++i) world.config.transmitters[i].position_m[0] += 0.1 * static_cast<double>(i);
+  for (size_t i = 0; i < 9; ++i) world.config.receivers[i].position_m[1] -= 0.1 * static_cast<double>(i);
+
+  std::vector<Paths> results;
+  std::mt19937 random(3);
+  for (const size_t threads : {1, 2, 5}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::ranges::shuffle(cases, random);
+    world.geometry = {};
+    for (const Case& c : cases) world.add_reflections(c.tx, c.rx, c.surfaces);
+    results.push_back(world.paths());
+  }
+  const Paths& first = results[0];
+  for (size_t i = 1; i < first.size(); ++i)
+    CHECK(std::tuple(first.tx[i - 1], first.rx[i - 1], first.delay_s[i - 1]) <
+          std::tuple(first.tx[i], first.rx[i], first.delay_s[i]));
+  for (const Paths& other : results) {
+    REQUIRE(other.size() == cases.size());
+    CHECK(other.tx == first.tx);
+    CHECK(other.rx == first.rx);
+    CHECK(other.a == first.a);
+    CHECK(other.depth == first.depth);
+    CHECK(other.vertex_offset == first.vertex_offset);
+    CHECK(other.vertex_position_m == first.vertex_position_m);
+    CHECK(other.vertex_surface == first.vertex_surface);
+  }
 }

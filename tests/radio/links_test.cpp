@@ -22,6 +22,14 @@ void add(Paths& paths, uint32_t tx, uint32_t rx, uint32_t depth, double delay_s,
   paths.doppler_hz.push_back(doppler_hz);
 }
 
+// All pairs of so many ends.
+std::vector<Link> all_links(uint32_t tx_count, uint32_t rx_count) {
+  std::vector<Link> links;
+  for (uint32_t tx = 0; tx < tx_count; ++tx)
+    for (uint32_t rx = 0; rx < rx_count; ++rx) links.push_back({tx, rx});
+  return links;
+}
+
 }  // namespace
 
 TEST_CASE("gain, mean delay and spreads are weighted by power") {
@@ -29,7 +37,7 @@ TEST_CASE("gain, mean delay and spreads are weighted by power") {
   add(paths, 0, 1, 0, 1e-6, 2e-5, 100);  // powers 4 : 1
   add(paths, 0, 1, 2, 2e-6, 1e-5, -100);
   add(paths, 1, 0, 3, 3e-6, 1e-5, 7);
-  const std::vector<LinkFigures> links = link_figures(paths, 0, 2, 2);
+  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(2, 2));
   REQUIRE(links.size() == 4);
   for (size_t i = 0; i < 4; ++i) {
     CHECK(links[i].tx == i / 2);
@@ -55,13 +63,13 @@ TEST_CASE("all ports count") {
   Paths paths;
   add(paths, 0, 0, 1, 1e-6, 3e-5, 0);
   paths.a[0][3] = {0, 4e-5};
-  CHECK(link_figures(paths, 0, 1, 1)[0].path_gain_db == test::near(20 * std::log10(5e-5), 1e-13));
+  CHECK(link_figures(paths, 0, all_links(1, 1))[0].path_gain_db == test::near(20 * std::log10(5e-5), 1e-13));
 }
 
 TEST_CASE("a link without a path, and one without power, are there and say so") {
   Paths paths;
   add(paths, 0, 1, 0, 1e-6, 0, 0);
-  const std::vector<LinkFigures> links = link_figures(paths, 0, 1, 2);
+  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 2));
   REQUIRE(links.size() == 2);
   for (const LinkFigures& link : links) {
     CHECK(std::isinf(link.path_gain_db));
@@ -81,15 +89,54 @@ TEST_CASE("rows of other frames are passed over") {
   add(paths, 0, 0, 0, 1e-6, 1e-5, 0);
   add(paths, 0, 0, 1, 2e-6, 1e-5, 0);
   paths.frame[1] = 3;
-  CHECK(link_figures(paths, 0, 1, 1)[0].mean_delay_s == 1e-6);
-  CHECK(link_figures(paths, 3, 1, 1)[0].mean_delay_s == 2e-6);
-  CHECK(link_figures(paths, 3, 1, 1)[0].frame == 3);
-  CHECK(link_figures(paths, 1, 1, 1)[0].paths == 0);
+  CHECK(link_figures(paths, 0, all_links(1, 1))[0].mean_delay_s == 1e-6);
+  CHECK(link_figures(paths, 3, all_links(1, 1))[0].mean_delay_s == 2e-6);
+  CHECK(link_figures(paths, 3, all_links(1, 1))[0].frame == 3);
+  CHECK(link_figures(paths, 1, all_links(1, 1))[0].paths == 0);
 }
 
 TEST_CASE("spreads keep their digits beside a long delay") {
   Paths paths;
   add(paths, 0, 0, 0, 1e-3, 1e-5, 0);
   add(paths, 0, 0, 1, 1e-3 + 1e-12, 1e-5, 0);
-  CHECK(link_figures(paths, 0, 1, 1)[0].rms_delay_spread_s == test::near(0.5e-12, 1e-6));
+  CHECK(link_figures(paths, 0, all_links(1, 1))[0].rms_delay_spread_s == test::near(0.5e-12, 1e-6));
+}
+
+TEST_CASE("only the links that are asked for, each with its own rows") {
+  Paths paths;
+  for (uint32_t tx = 0; tx < 3; ++tx)
+    for (uint32_t rx = 0; rx < 3; ++rx)
+      for (uint32_t i = 0; i <= tx; ++i) add(paths, tx, rx, i, 1e-6 * (10 * tx + rx + 1), 1e-5, 0);
+  const std::vector<LinkFigures> links = link_figures(paths, 0, std::vector<Link>{{0, 2}, {2, 0}, {2, 1}, {3, 0}});
+  REQUIRE(links.size() == 4);
+  CHECK(links[0].tx == 0);
+  CHECK(links[0].rx == 2);
+  CHECK(links[0].paths == 1);
+  CHECK(links[0].mean_delay_s == test::near(3e-6, 1e-13));
+  CHECK(links[1].paths == 3);
+  CHECK(links[1].mean_delay_s == test::near(21e-6, 1e-13));
+  CHECK(links[2].rx == 1);
+  CHECK(links[2].mean_delay_s == test::near(22e-6, 1e-13));
+  CHECK(links[3].paths == 0);
+}
+
+TEST_CASE("figures of many links are those of each link alone") {
+  Paths paths;
+  std::vector<Link> links;
+  for (uint32_t tx = 0; tx < 100; ++tx)
+    for (uint32_t rx = 0; rx < 100; ++rx) {
+      if ((tx * 7 + rx * 3) % 5 > 0) links.push_back({tx, rx});
+      for (uint32_t i = 0; i < (tx + rx) % 4; ++i)
+        add(paths, tx, rx, i, 1e-9 * (tx + 2 * rx + 3 * i), 1e-5 / (1 + i), i);
+    }
+  const std::vector<LinkFigures> all = link_figures(paths, 0, links);
+  REQUIRE(all.size() == links.size());
+  for (size_t i = 0; i < links.size(); i += 97) {
+    Paths alone;
+    for (uint32_t k = 0; k < (links[i].tx + links[i].rx) % 4; ++k)
+      add(alone, links[i].tx, links[i].rx, k, 1e-9 * (links[i].tx + 2 * links[i].rx + 3 * k), 1e-5 / (1 + k), k);
+    const LinkFigures one = link_figures(alone, 0, std::vector{links[i]})[0];
+    CHECK(all[i].paths == one.paths);
+    if (one.paths > 0) CHECK(all[i].rms_delay_spread_s == one.rms_delay_spread_s);
+  }
 }

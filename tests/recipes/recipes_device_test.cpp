@@ -67,7 +67,8 @@ TEST_CASE("bench: errors say what is wrong before anything is measured") {
   const Folder folder;
   const std::string file = folder.file("a.toml", street), out = folder.path("out");
   check_error({"bench"}, 2, "no recipe given; there are\n  figure-6.1 ");
-  check_error({"bench", "figure-6.2", "-o", out}, 2, "among figure-6.1, figure-6.18; did you mean \"figure-6.1\"?");
+  check_error({"bench", "figure-6.2", "-o", out}, 2,
+              "among figure-6.1, figure-6.18, coherence-frames, coherence-rays; did you mean \"figure-6.1\"?");
   check_error({"bench", "figure-6.1", "-o", out, "--rays", "2000:1000"}, 2, "--rays 2000:1000: not a range");
   check_error({"bench", "figure-6.1", "-o", out, "--rays", "3000:4000"}, 2, "no ray count of the figure");
   check_error({"bench", "figure-6.1", "-o", out, "--repeat", "0"}, 2, "--repeat");
@@ -75,6 +76,10 @@ TEST_CASE("bench: errors say what is wrong before anything is measured") {
   check_error({"bench", "figure-6.1", "-o", out, "-c", file, "--set", "trace.ray=7"}, 2,
               "did you mean \"trace.rays\"?");
   check_error({"bench", "figure-6.1", "-o", out, "-c", folder.path("absent.toml")}, 2, "absent.toml: cannot be read");
+  check_error({"bench", "coherence-rays", "-o", out, "--rays", "1000:2000"}, 2,
+              "launches 49,000 rays; leave --rays out");
+  check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.rays=7"}, 2, "leave it out");
+  check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.max_depth=0"}, 2, "give 1 or more");
   check_error({"bench", "figure-6.1", "-o", file + "/out"}, 1, "cannot write there");
   CHECK(folder.entries() == 1);
 }
@@ -153,6 +158,41 @@ TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to in
   }
   CHECK(rows[0].at("paths") == rows[1].at("paths"));
   CHECK(contains(run.out, fmt::format("H3DH is at 1,000 rays {:.2f} times", number(rows[1].at("gain_unpaid")))));
+}
+
+TEST_CASE("coherence-rays and coherence-frames: table, plot and paragraph agree") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  for (const std::string name : {"coherence-rays", "coherence-frames"}) {
+    CAPTURE(name);
+    const bool frames = name == "coherence-frames";
+    const Outcome run = run_program({"bench", name, "-c", file, "-o", folder.path("out")});
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    const auto rows = table(folder.path("out/" + name + ".csv"));
+    REQUIRE(rows.size() == (frames ? 2 * 200 * 2 : 3 * 2 * 1000));  // two depths
+    const std::string report = contents(folder.path("out/" + name + ".md"));
+    std::map<std::string, std::string> first_of_last;  // of coherence-frames, by depth
+    for (const auto& row : rows) {
+      CHECK(number(row.at("same_surface")) >= 0);
+      CHECK(number(row.at("same_surface")) <= 1);
+      CHECK(number(row.at("pairs")) > 0);
+      if (frames && row.at("frame") == "200" && row.at("against") == "first")
+        first_of_last[row.at("depth")] = row.at("total");
+    }
+    if (frames)
+      CHECK(contains(report, fmt::format("the last frame with the first by {:.2f} and {:.2f}.",
+                                         number(first_of_last.at("1")), number(first_of_last.at("2")))));
+    else
+      CHECK(contains(report, fmt::format("correlate by {:.2f} and {:.2f} in hilbert order",
+                                         number(rows[0].at("points")), number(rows[1000].at("points")))));
+    CHECK(contains(report, run.out.substr(0, run.out.find("\n\nwritten"))));
+    if (contains(run.err, "gnuplot is not installed")) continue;
+    const std::string plot = contents(folder.path("out/" + name + ".svg"));
+    CHECK(contains(plot, "</svg>"));
+    CHECK(occurrences(plot, "id=\"gnuplot_plot_") == (frames ? 4 : 6) * 2);  // a line a panel and depth
+  }
 }
 
 TEST_CASE("an interrupt ends the measuring after the point in progress, with whole files and exit code 130") {

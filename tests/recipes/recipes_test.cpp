@@ -70,7 +70,7 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
     labels.insert(label(series));
     CHECK(series.each_depth == (series.method == "direction-origin"));
     // The field table must know its values.
-    Config applied = load_config(WAVETRACER_SOURCE "/configs/demo.toml");
+    Config applied = load_config(WAVETRACER_SOURCE "/configs/city.toml");
     apply(applied, series, 1000);
     CHECK_NOTHROW(parse_config(resolved_config(applied), "resolved.toml"));
   }
@@ -85,13 +85,14 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
 
 TEST_CASE("an unknown recipe is answered with the known ones and the nearest") {
   CHECK_THROWS_WITH_AS(find_recipe("figure-6.19"),
-                       "bench: no recipe \"figure-6.19\" among figure-6.1, figure-6.18; did you mean \"figure-6.1\"?",
+                       "bench: no recipe \"figure-6.19\" among figure-6.1, figure-6.18, coherence-frames, "
+                       "coherence-rays; did you mean \"figure-6.1\"?",
                        ConfigError);
 }
 
-TEST_CASE("the built-in city is that of configs/demo.toml") {
+TEST_CASE("the built-in city is that of configs/city.toml") {
   const Config city = recipe_config(find_recipe("figure-6.1"), "", {});
-  const Config demo = load_config(WAVETRACER_SOURCE "/configs/demo.toml");
+  const Config demo = load_config(WAVETRACER_SOURCE "/configs/city.toml");
   CHECK(city.scene.generate == demo.scene.generate);
   REQUIRE(city.transmitters.size() == 1);
   CHECK(city.transmitters[0].position_m == demo.transmitters.at(0).position_m);

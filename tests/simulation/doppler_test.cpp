@@ -1,7 +1,10 @@
-// Doppler shifts of moving ends against central differences of exact lengths, reflections included, and closed forms.
-// Two runs with the ends displaced see the same surfaces, so paths are matched by them.
+// Doppler shifts against central differences of exact lengths, and closed forms: moving ends through whole runs, moving
+// reflectors through FieldModel. Two runs with the ends displaced see the same surfaces, so paths are matched by them.
 #include <map>
+#include <optional>
+#include <random>
 
+#include "radio/fields.hpp"
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -22,6 +25,115 @@ std::map<std::vector<uint32_t>, double> lengths_after(Config config, double seco
   std::map<std::vector<uint32_t>, double> lengths;
   for (const Row& row : rows_of(run(config).paths, 0, 0)) lengths[row.surfaces] = row.delay_s * speed_of_light;
   return lengths;
+}
+
+// A plane that turns about a point and moves along with it; it stays where it was in the axes of its instance.
+struct Mirror {
+  glm::dvec3 pivot{0}, velocity{0}, spin{0};  // spin: rad/s
+  glm::dmat3 rotation{1.0};
+  glm::dvec3 normal{0, 0, 1};  // in its own axes
+  double offset = 0;
+
+  // Rodrigues' formula, by columns.
+  glm::dmat3 turned(double seconds) const {
+    const double angle = glm::length(spin) * seconds;
+    if (angle == 0) return rotation;
+    const glm::dvec3 axis = glm::normalize(spin);
+    glm::dmat3 turn(1.0);
+    for (int c = 0; c < 3; ++c) {
+      const glm::dvec3 e = glm::dmat3(1.0)[c];
+      turn[c] = std::cos(angle) * e + std::sin(angle) * glm::cross(axis, e) +
+                (1 - std::cos(angle)) * glm::dot(axis, e) * axis;
+    }
+    return turn * rotation;
+  }
+  double height(const glm::dvec3& p, double seconds) const {
+    return glm::dot(p - (pivot + seconds * velocity), turned(seconds) * normal) - offset;
+  }
+  glm::dvec3 image(const glm::dvec3& p, double seconds) const {
+    return p - 2 * height(p, seconds) * (turned(seconds) * normal);
+  }
+};
+
+// Everything at 0 s; each mirror is an instance of a model of its own, whose one surface it is.
+struct MovingWorld {
+  EndState tx, rx;
+  std::vector<Mirror> mirrors;
+
+  double length(const std::vector<uint32_t>& sequence, double seconds) const {
+    glm::dvec3 image = tx.position_m + seconds * tx.velocity_m_s;
+    for (const uint32_t m : sequence) image = mirrors[m].image(image, seconds);
+    return glm::distance(image, rx.position_m + seconds * rx.velocity_m_s);
+  }
+  double expected_hz(const std::vector<uint32_t>& sequence) const {
+    constexpr double step_s = 1e-5;
+    return -(length(sequence, step_s) - length(sequence, -step_s)) / (2 * step_s) / wavelength_m;
+  }
+
+  // Nothing where the planes have no such path: the legs at one of them would pass through it.
+  std::optional<std::vector<glm::dvec3>> points(const std::vector<uint32_t>& sequence) const {
+    std::vector<glm::dvec3> images{tx.position_m}, out(sequence.size());
+    for (const uint32_t m : sequence) images.push_back(mirrors[m].image(images.back(), 0));
+    glm::dvec3 target = rx.position_m;
+    for (size_t k = sequence.size(); k-- > 0;) {
+      const double from = mirrors[sequence[k]].height(images[k + 1], 0), to = mirrors[sequence[k]].height(target, 0);
+      if (from * to >= 0) return {};
+      target = out[k] = images[k + 1] + from / (from - to) * (target - images[k + 1]);
+    }
+    return out;
+  }
+
+  double computed_hz(const std::vector<uint32_t>& sequence) const {
+    Scene scene;
+    std::vector<Scene> models;
+    std::vector<Instance> instances;
+    WorldState state;
+    for (uint32_t m = 0; m < mirrors.size(); ++m) {
+      const Mirror& mirror = mirrors[m];
+      Scene& model = models.emplace_back();
+      model.materials = {{.name = "metal", .c = 1e7}};
+      model.surfaces.push_back({.normal = mirror.normal, .offset_m = mirror.offset});
+      instances.push_back({.id = "", .type = "", .model = m, .first_surface = m});
+      state.instances.push_back({mirror.pivot, mirror.rotation, mirror.velocity, mirror.spin});
+    }
+    state.transmitters = {tx};
+    state.receivers = {rx};
+    Config config;
+    config.radio.frequency_hz = frequency_hz;
+    config.transmitters.resize(1);
+    config.receivers.resize(1);
+
+    PathGeometry path;
+    path.tx = path.rx = {0};
+    path.first = {0, sequence.size()};
+    path.surface = sequence;
+    path.interaction.assign(sequence.size(), reflection);
+    path.vertex = points(sequence).value();
+    const Paths paths = FieldModel(scene, config, models, instances).compute(0, path, state);
+    CHECK(paths.delay_s[0] * speed_of_light == doctest::Approx(length(sequence, 0)).epsilon(1e-12));
+    return paths.doppler_hz[0];
+  }
+
+  void check(const std::vector<uint32_t>& sequence) const {
+    const double expected = expected_hz(sequence);
+    CAPTURE(expected);
+    CHECK(std::abs(computed_hz(sequence) - expected) < 1e-4 + 1e-6 * std::abs(expected));
+  }
+};
+
+// Four mirrors around the two ends, like the walls of a room.
+MovingWorld room() {
+  MovingWorld world;
+  world.tx.position_m = {-2, 1, 0.5};
+  world.rx.position_m = {3, -1.5, 1};
+  for (const glm::dvec3& inwards : {glm::dvec3{-1, 0.1, 0}, {1, 0.2, 0.1}, {0.1, -1, 0.2}, {0, 0.1, 1}}) {
+    Mirror mirror;
+    mirror.normal = glm::normalize(inwards);
+    mirror.pivot = -9.0 * mirror.normal + glm::dvec3{0.4, -0.7, 0.3};
+    mirror.offset = -0.6;
+    world.mirrors.push_back(mirror);
+  }
+  return world;
 }
 
 }  // namespace
@@ -84,4 +196,81 @@ TEST_CASE("shifts do not touch anything else; ends that stand still have none") 
   CHECK(moving.doppler_hz != still.doppler_hz);
   moving.doppler_hz = still.doppler_hz;
   CHECK(identical(moving, still));
+}
+
+TEST_CASE("a mirror that comes nearer shifts its echo by twice its speed; one that slides shifts nothing") {
+  MovingWorld world;
+  world.mirrors.push_back({.pivot = {20, 0, 0}, .velocity = {-15, 4, 3}, .normal = {-1, 0, 0}});
+  CHECK(world.computed_hz({0}) == doctest::Approx(2 * 15 / wavelength_m).epsilon(1e-12));
+  world.mirrors[0].velocity = {0, 4, 3};
+  CHECK(std::abs(world.computed_hz({0})) < 1e-9);
+}
+
+TEST_CASE("an end carried along with its mirror hears itself unshifted") {
+  MovingWorld world;
+  world.mirrors.push_back({.pivot = {20, 0, 0}, .velocity = {-15, 4, 3}, .normal = {-1, 0, 0}});
+  world.tx.velocity_m_s = world.rx.velocity_m_s = {-15, 4, 3};
+  CHECK(std::abs(world.computed_hz({0})) < 1e-9);
+}
+
+TEST_CASE("moving reflectors: every kind of motion, alone and in sequence, shifts as its length does") {
+  MovingWorld still = room();
+  CHECK(still.computed_hz({0, 1, 0}) == 0);
+
+  MovingWorld translating = room();
+  translating.mirrors[0].velocity = {-20, 5, 1};
+  translating.check({0});
+  CHECK(std::abs(translating.computed_hz({0})) > 100);
+  CHECK(translating.computed_hz({1}) == 0);
+
+  MovingWorld turning = room();
+  turning.mirrors[0].spin = {0.2, -0.1, 0.7};
+  turning.check({0});
+  CHECK(std::abs(turning.computed_hz({0})) > 1);
+
+  MovingWorld two = room();
+  two.mirrors[0].velocity = {-20, 5, 1};
+  two.mirrors[1].velocity = {3, 12, -2};
+  two.mirrors[1].spin = {0.1, 0.3, -0.8};
+  two.check({0, 1});
+  two.check({1, 0});
+  two.check({0, 1, 0, 1});
+}
+
+TEST_CASE("random worlds in which all moves and turns: every sequence that has a path, up to depth 4") {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&](double size) { return size * glm::dvec3{number(random), number(random), number(random)}; };
+  std::vector<std::vector<uint32_t>> sequences{{}};  // no mirror twice in a row
+  for (size_t k = 0; k < sequences.size() && sequences[k].size() < 4; ++k)
+    for (uint32_t m = 0; m < 4; ++m) {
+      if (!sequences[k].empty() && sequences[k].back() == m) continue;
+      sequences.push_back(sequences[k]);
+      sequences.back().push_back(m);
+    }
+  REQUIRE(sequences.size() == 1 + 4 + 12 + 36 + 108);
+  std::vector<size_t> checked(5, 0);
+  double largest = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    CAPTURE(trial);
+    MovingWorld world = room();
+    world.tx.position_m += vector(1);
+    world.rx.position_m += vector(1);
+    world.tx.velocity_m_s = vector(40);
+    world.rx.velocity_m_s = vector(40);
+    for (Mirror& mirror : world.mirrors) {
+      mirror.spin = vector(1);
+      mirror.rotation = mirror.turned(0.3);
+      mirror.velocity = vector(40);
+      mirror.spin = vector(1);
+    }
+    for (const std::vector<uint32_t>& sequence : sequences) {
+      if (!world.points(sequence)) continue;
+      world.check(sequence);
+      ++checked[sequence.size()];
+      largest = std::max(largest, std::abs(world.expected_hz(sequence)));
+    }
+  }
+  for (const size_t count : checked) CHECK(count >= 20);
+  CHECK(largest > 2000);
 }

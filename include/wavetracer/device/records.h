@@ -21,6 +21,8 @@ typedef uint64_t wt_ulong;
 #define WT_RAY_NODE 6       // trie node of the prefix that the ray has lived through, or a root
 #define WT_RAY_SURFACE 7    // surface that the ray left, WT_NONE at a transmitter
 #define WT_RAY_PLANES 8
+// One plane more where samples are followed to their end (WT_SAMPLES): the number of the sample, counted in its launch.
+#define WT_RAY_SAMPLE 8
 
 // A hit list of capacity n is WT_HIT_PLANES * n words.
 #define WT_HIT_T 0          // float, distance; undefined on a miss
@@ -49,8 +51,30 @@ typedef struct {
   double offset;
   wt_uint first_triangle;  // into the list of surface triangles (nine doubles each)
   wt_uint triangle_count;
-  wt_uint padding[2];
+  wt_uint instance;  // whose model coordinates the triangles are in; WT_NONE: those of the scene
+  wt_uint padding;
 } wt_exact_surface;
+
+// A surface of a model, in model coordinates.
+typedef struct {
+  double normal[3];
+  double offset;
+  double lower[3];
+  double upper[3];
+  wt_uint first_triangle;
+  wt_uint triangle_count;
+} wt_model_surface;
+
+// An instance in a frame: p in model coordinates is at position + rotation p. Its surfaces are first_surface + k, those
+// of its model first_model_surface + k.
+typedef struct {
+  double rotation[9];  // row by row
+  double position[3];
+  wt_uint first_surface;
+  wt_uint first_model_surface;
+  wt_uint present;
+  wt_uint padding;
+} wt_exact_instance;
 
 // A candidate: a sequence (trie node or root) with a receiver.
 typedef struct {
@@ -64,6 +88,7 @@ typedef struct {
   wt_uint receiver;
   wt_uint depth;
   wt_uint blocked;  // 0 until a leg is found obstructed
+  wt_uint node;     // of its sequence
 } wt_solved;
 
 // Counters that the passes share; one small buffer, cleared a frame.

@@ -1,0 +1,20 @@
+// The tree of a frame over the boxes of its instances: halved by count along the longest axis, one instance a leaf.
+// Balanced, so no deeper than log2 of their number; built anew every frame, on one core.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/box.hpp"
+
+namespace wavetracer {
+
+struct TopLevel {
+  std::vector<float> nodes;     // WT_BVH2_NODE_FLOATS each, boxes as minimum and maximum; node 0 is the root
+  std::vector<uint32_t> order;  // leaf k holds box order[k]
+};
+
+// Boxes must not be empty; of no boxes at all it is a root that no ray enters.
+TopLevel build_top_level(std::span<const Box> boxes);
+
+}  // namespace wavetracer

@@ -1,0 +1,32 @@
+// Repeats of a frame must agree; a device that answers differently is not to be trusted.
+// The first repeat is part of the median, as every frame of a drive is.
+#include "app/solve_frame.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include "app/interrupt.hpp"
+#include "output/median.hpp"
+
+namespace wavetracer::app {
+
+SolvedFrame solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats) {
+  SolvedFrame solved;
+  FrameResult& result = solved.result;
+  std::map<std::string, std::vector<double>> samples;
+  do {
+    if (repeats > 1) simulation.forget();
+    FrameResult next = simulation.run_frame(frame);
+    if (solved.repeated > 0 && next.counts.paths != result.counts.paths)
+      next.warnings.push_back(
+          fmt::format("repeat {} found {} paths, the one before {}: the device is not to be trusted", solved.repeated,
+                      next.counts.paths, result.counts.paths));
+    for (const auto& [stage, seconds] : next.seconds) samples[stage].push_back(seconds);
+    next.warnings.insert(next.warnings.begin(), result.warnings.begin(), result.warnings.end());
+    result = std::move(next);
+  } while (++solved.repeated < repeats && !interrupted());
+  for (const auto& [stage, values] : samples) result.seconds[stage] = median(values);
+  std::sort(result.warnings.begin(), result.warnings.end());
+  result.warnings.erase(std::unique(result.warnings.begin(), result.warnings.end()), result.warnings.end());
+  return solved;
+}
+
+}  // namespace wavetracer::app

@@ -1,0 +1,121 @@
+// One function a topic, each adding what it finds.
+// Assumes nothing about where keys stand; the parser knows, and names the place.
+#include "config/contradictions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include "config/values.hpp"
+
+namespace wavetracer::config {
+namespace {
+
+using Found = std::vector<Contradiction>;
+
+void check_scene(const SceneConfig& scene, Found& out) {
+  if (scene.file.empty() && scene.generate.empty())
+    out.push_back({{"scene"},
+                   "no scene: give scene.file = \"FILE\", or scene.generate = \"--seed 1\" for a city made on the "
+                   "spot"});
+  if (!scene.file.empty() && !scene.generate.empty())
+    out.push_back({{"scene.generate", "scene.file"},
+                   "scene.file and scene.generate exclude each other: empty one of them"});
+}
+
+void check_launch(const Config& config, Found& out) {
+  const uint32_t local = config.launch.local_size;
+  if ((local & (local - 1)) != 0)
+    out.push_back({{"launch.local_size"},
+                   fmt::format("launch.local_size = {} is no power of two: give {}, or 0 for what suits the device",
+                               local, std::bit_floor(local))});
+  const std::string &method = config.order.method, &shape = config.launch.shape;
+  const bool plane = method == "H3DH2DH" || method == "hilbert3d-histogram-hilbert2d";
+  const bool space = method == "H3DH3DH" || method == "hilbert3d-histogram-hilbert3d";
+  if ((plane && shape != "auto" && shape != "2d") || (space && shape != "auto" && shape != "3d"))
+    out.push_back({{"launch.shape", "order.method"},
+                   fmt::format("order.method = \"{}\" is a launch of {} dimensions, launch.shape = \"{}\" is not: "
+                               "leave launch.shape out",
+                               method, plane ? 2 : 3, shape)});
+}
+
+// member: what names an element. Returns the names.
+template <class Element>
+std::set<std::string> check_names(const std::string& table, const std::string& key, const std::vector<Element>& all,
+                                  std::string Element::*member, std::set<std::string> seen, Found& out) {
+  for (size_t i = 0; i < all.size(); ++i) {
+    const std::string& name = all[i].*member;
+    if (!name.empty() && !seen.insert(name).second)
+      out.push_back({{fmt::format("{}.{}.{}", table, i, key)},
+                     fmt::format("{}.{} = {} is taken: {}s are unique, choose another", table, key, toml_string(name),
+                                 key)});
+  }
+  return seen;
+}
+
+void check_materials(const std::vector<MaterialConfig>& materials, Found& out) {
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const MaterialConfig& m = materials[i];
+    if ((m.a || m.b || m.c || m.d) && (m.permittivity || m.conductivity_s_m))
+      out.push_back({{fmt::format("material.{}", i)},
+                     "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: give one kind"});
+  }
+}
+
+void check_ends(const Config& config, Found& out) {
+  const auto check = [&](const std::string& role, const std::vector<RadioEnd>& ends) {
+    const auto has_role = [&](const MountConfig& m) { return m.role == role || m.role == "both"; };
+    if (ends.empty() && std::none_of(config.mounts.begin(), config.mounts.end(), has_role))
+      out.push_back({{},
+                     fmt::format("no [[{0}]]: add one with name and position_m, or a [[mount]] with name and role = "
+                                 "\"{0}\" or \"both\" for vehicles",
+                                 role)});
+  };
+  check("transmitter", config.transmitters);
+  check("receiver", config.receivers);
+}
+
+void check_trajectories(const Config& config, Found& out) {
+  const TrajectoriesConfig& t = config.trajectories;
+  if (!t.file.empty() && !t.generate.empty())
+    out.push_back({{"trajectories.generate", "trajectories.file"},
+                   "trajectories.file and trajectories.generate exclude each other: empty one of them"});
+  if (t.file.empty() && t.generate.empty() && config.tracks.empty() && !config.mounts.empty())
+    out.push_back({{"mount.0"},
+                   "[[mount]] needs vehicles: give trajectories.file, trajectories.generate or a [[track]]"});
+  for (size_t i = 0; i < config.tracks.size(); ++i) {
+    const auto& waypoints = config.tracks[i].waypoints;
+    for (size_t k = 1; k < waypoints.size(); ++k)
+      if (!(waypoints[k][0] > waypoints[k - 1][0]))
+        out.push_back({{fmt::format("track.{}.waypoints", i)},
+                       fmt::format("track.waypoints[{}] is at {} s, the one before it at {} s: time must increase", k,
+                                   waypoints[k][0], waypoints[k - 1][0])});
+  }
+  const TimeConfig& time = config.time;
+  if (time.start_s && time.end_s && *time.end_s < *time.start_s)
+    out.push_back({{"time.start_s", "time.end_s"},
+                   fmt::format("time.end_s = {} is before time.start_s = {}: exchange them", *time.end_s,
+                               *time.start_s)});
+}
+
+}  // namespace
+
+std::vector<Contradiction> contradictions(const Config& config) {
+  Found out;
+  check_scene(config.scene, out);
+  check_launch(config, out);
+  check_ends(config, out);
+  const auto transmitters = check_names("transmitter", "name", config.transmitters, &RadioEnd::name, {}, out);
+  check_names("receiver", "name", config.receivers, &RadioEnd::name, transmitters, out);
+  check_names("material", "name", config.materials, &MaterialConfig::name, {}, out);
+  check_names("mount", "name", config.mounts, &MountConfig::name, {}, out);
+  check_names("vehicle_type", "name", config.vehicle_types, &VehicleTypeConfig::name, {}, out);
+  check_names("track", "id", config.tracks, &TrackConfig::id, {}, out);
+  check_materials(config.materials, out);
+  check_trajectories(config, out);
+  return out;
+}
+
+}  // namespace wavetracer::config

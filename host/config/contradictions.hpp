@@ -1,0 +1,18 @@
+// Checks of a whole Config: what no single key shows, such as keys that exclude each other and names that are taken.
+// Assumes that every value by itself is one that the field table accepts.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "wavetracer/config.hpp"
+
+namespace wavetracer::config {
+
+struct Contradiction {
+  std::vector<std::string> keys;  // trace.rays, track.0.waypoints, mount.0; the one that stands last is to blame
+  std::string what;
+};
+
+std::vector<Contradiction> contradictions(const Config& config);
+
+}  // namespace wavetracer::config

@@ -1,0 +1,66 @@
+// What the rows of the field table are written with, and the tables that are not in fields.cpp itself.
+// Included by the files that hold rows, and by nothing else.
+#pragma once
+#include "config/fields.hpp"
+
+namespace wavetracer::config {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Accessors: a member, a member of a sub-struct of Config, a member of an element of a vector of Config.
+template <class M>
+auto at(M Config::*member) {
+  return [member](Config& c, size_t) -> Slot { return &(c.*member); };
+}
+template <class S, class M>
+auto at(S Config::*part, M S::*member) {
+  return [part, member](Config& c, size_t) -> Slot { return &(c.*part.*member); };
+}
+template <class E, class M>
+auto at(std::vector<E> Config::*list, M E::*member) {
+  return [list, member](Config& c, size_t i) -> Slot { return &((c.*list)[i].*member); };
+}
+template <auto List>
+size_t append(Config& c) {
+  (c.*List).emplace_back();
+  return (c.*List).size() - 1;
+}
+template <auto List>
+size_t count(const Config& c) {
+  return (c.*List).size();
+}
+
+// Rows that radio ends and mounts share.
+template <class Member>
+Field antenna_field(const Member& member, auto antenna) {
+  return {.name = "antenna",
+          .slot = member(antenna),
+          .choices = {"isotropic", "short-dipole", "dipole", "tr38901"},
+          .form = Form::choice_or_file,
+          .doc = "Named, or a pattern file (CSV: theta_deg,phi_deg,v_re,v_im,h_re,h_im). isotropic leaves gains "
+                 "that are those of the channel alone."};
+}
+
+template <class Member>
+Field polarization_field(const Member& member, auto polarization) {
+  return {.name = "polarization",
+          .slot = member(polarization),
+          .choices = {"V", "H", "VH", "cross"},
+          .doc = "VH (V and H) and cross (+45 and -45 degrees) have two ports. V, as vehicle antennas are."};
+}
+
+// Of scene_fields.cpp: what stands.
+Table scene_table();
+Table material_table();
+Table transmitter_table();
+Table receiver_table();
+
+// Of vehicle_fields.cpp: what moves.
+Table trajectories_table();
+Table time_table();
+Table links_table();
+Table mount_table();
+Table vehicle_type_table();
+Table track_table();
+
+}  // namespace wavetracer::config

@@ -1,0 +1,149 @@
+// Rows of the field table about what stands: the static scene, radio materials and radio ends.
+// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+#include <utility>
+
+#include "config/field_rows.hpp"
+
+namespace wavetracer::config {
+namespace {
+
+template <auto List>
+Table ends_table(std::string name, std::string doc, std::string example_name, std::string example_position) {
+  const auto e = [](auto member) { return at(List, member); };
+  return {
+      .name = std::move(name),
+      .doc = std::move(doc),
+      .fields =
+          {
+              {.name = "name",
+               .slot = e(&RadioEnd::name),
+               .required = true,
+               .doc = "Unique among all transmitters and receivers.",
+               .example = std::move(example_name)},
+              {.name = "position_m",
+               .slot = e(&RadioEnd::position_m),
+               .unit = "m",
+               .required = true,
+               .doc = "x, y, z in the coordinates of the scene file.",
+               .example = std::move(example_position)},
+              antenna_field(e, &RadioEnd::antenna),
+              polarization_field(e, &RadioEnd::polarization),
+              {.name = "orientation_deg",
+               .slot = e(&RadioEnd::orientation_deg),
+               .unit = "degrees",
+               .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
+              {.name = "velocity_m_s",
+               .slot = e(&RadioEnd::velocity_m_s),
+               .unit = "m/s",
+               .doc = "Along x, y, z. Gives the Doppler shift of each path; the end stays where it is."},
+          },
+      .append = append<List>,
+      .count = count<List>};
+}
+
+}  // namespace
+
+Table scene_table() {
+  const auto s = [](auto member) { return at(&Config::scene, member); };
+  return {.name = "scene",
+          .doc = "The static world. Give either file or generate.",
+          .fields = {
+              {.name = "file",
+               .slot = s(&SceneConfig::file),
+               .form = Form::input_file,
+               .doc = "Mitsuba XML with PLY or OBJ meshes, or one OBJ, GLB, glTF or PLY file."},
+              {.name = "generate",
+               .slot = s(&SceneConfig::generate),
+               .doc = "A city made on the spot instead of a file: the arguments of `wavetracer scene city`.",
+               .example = "\"--seed 1 --blocks 4\"",
+               .needed = true},
+              {.name = "scale",
+               .slot = s(&SceneConfig::scale),
+               .unit = "m a file unit",
+               .range = {0, 1e6, true},
+               .doc = "For OBJ, GLB and PLY. OBJ and PLY state no unit; 1 reads them as metres, as glTF is."},
+              {.name = "up",
+               .slot = s(&SceneConfig::up),
+               .choices = {"auto", "y", "z"},
+               .doc = "The axis of the file that points to the sky; auto is z, but y for glTF as its standard says."},
+              {.name = "default_material",
+               .slot = s(&SceneConfig::default_material),
+               .doc = "Radio material of meshes that name none. Left empty, such a mesh is an error, because a guess "
+                      "would be wrong in silence."},
+              {.name = "material_alias",
+               .slot = s(&SceneConfig::material_alias),
+               .doc = "Material name in the scene file = radio material, for names that are not ITU-R P.2040 ones.",
+               .example = "{ \"my wall\" = \"concrete\" }"},
+          }};
+}
+
+Table material_table() {
+  const auto m = [](auto member) { return at(&Config::materials, member); };
+  return {.name = "material",
+          .doc =
+              "A radio material: overrides one of ITU-R P.2040 or adds one. Either a, b, c, d or permittivity and "
+              "conductivity_s_m.",
+          .fields =
+              {
+                  {.name = "name",
+                   .slot = m(&MaterialConfig::name),
+                   .required = true,
+                   .doc = "The name that the scene uses, or that scene.material_alias maps to.",
+                   .example = "\"concrete\""},
+                  {.name = "a",
+                   .slot = m(&MaterialConfig::a),
+                   .range = {0, 1e6, true},
+                   .doc = "Relative permittivity a f^b, f in GHz (ITU-R P.2040-3, Table 3).",
+                   .example = "5.24"},
+                  {.name = "b",
+                   .slot = m(&MaterialConfig::b),
+                   .range = {-10, 10},
+                   .doc = "Exponent of the permittivity.",
+                   .example = "0.0"},
+                  {.name = "c",
+                   .slot = m(&MaterialConfig::c),
+                   .unit = "S/m",
+                   .range = {0, 1e12},
+                   .doc = "Conductivity c f^d, f in GHz (ITU-R P.2040-3, Table 3).",
+                   .example = "0.0462"},
+                  {.name = "d",
+                   .slot = m(&MaterialConfig::d),
+                   .range = {-10, 10},
+                   .doc = "Exponent of the conductivity.",
+                   .example = "0.7822"},
+                  {.name = "permittivity",
+                   .slot = m(&MaterialConfig::permittivity),
+                   .range = {1, 1e6},
+                   .doc = "Relative permittivity at every frequency, instead of a and b.",
+                   .example = "5.24"},
+                  {.name = "conductivity_s_m",
+                   .slot = m(&MaterialConfig::conductivity_s_m),
+                   .unit = "S/m",
+                   .range = {0, 1e12},
+                   .doc = "Conductivity at every frequency, instead of c and d.",
+                   .example = "0.185"},
+                  {.name = "thickness_m",
+                   .slot = m(&MaterialConfig::thickness_m),
+                   .unit = "m",
+                   .range = {0, infinity, true},
+                   .doc = "Of the slab; inf is a half space. Not given: that of the scene file, else 0.1 m.",
+                   .example = "0.3"},
+              },
+          .append = append<&Config::materials>,
+          .count = count<&Config::materials>,
+          .optional = true};
+}
+
+Table transmitter_table() {
+  return ends_table<&Config::transmitters>(
+      "transmitter", "A radio end that launches rays; one table each. At least one, unless a [[mount]] is one.",
+      "\"rsu\"", "[0.0, 0.0, 6.0]");
+}
+
+Table receiver_table() {
+  return ends_table<&Config::receivers>(
+      "receiver", "A radio end that paths lead to; one table each. At least one, unless a [[mount]] is one.", "\"car\"",
+      "[40.0, 0.0, 1.5]");
+}
+
+}  // namespace wavetracer::config

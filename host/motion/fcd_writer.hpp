@@ -1,0 +1,13 @@
+// Trajectories as SUMO writes them (FCD), for other tools and for read.hpp.
+// Assumes steps of more than a microsecond. Types are written by name: a reader must know their sizes.
+#pragma once
+#include <string>
+
+#include "motion/trajectories.hpp"
+
+namespace wavetracer {
+
+// As with --precision 6: centre of the front bumper, compass angle, speed, slope and type.
+std::string format_fcd(const Trajectories& trajectories);
+
+}  // namespace wavetracer

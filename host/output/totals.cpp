@@ -1,0 +1,78 @@
+// Sums over frames and over shards of frames.
+// Assumes that what is added comes in the order of frames.
+#include "output/totals.hpp"
+#include <algorithm>
+#include <numeric>
+#include "output/median.hpp"
+
+namespace wavetracer {
+namespace {
+
+void add(FrameCounts& sum, const FrameCounts& more) {
+  sum.rays += more.rays;
+  sum.segments += more.segments;
+  sum.hits += more.hits;
+  sum.sequences += more.sequences;
+  sum.candidates += more.candidates;
+  sum.solved += more.solved;
+  sum.paths += more.paths;
+}
+
+Totals totals_of(const FrameResult& frame) {
+  Totals totals;
+  totals.frames = 1;
+  totals.first = totals.last = frame.frame;
+  totals.start_s = totals.end_s = frame.world.time_s;
+  totals.vertices = frame.paths.vertex_position_m.size();
+  totals.links = frame.world.links.size();
+  totals.counts = frame.counts;
+  totals.segments_per_depth = frame.segments_per_depth;
+  for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
+  add_warnings(totals.warnings, frame.warnings);
+  return totals;
+}
+
+}  // namespace
+
+void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  for (const std::string& text : more)
+    if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
+}
+
+void add(Totals& sum, const Totals& later) {
+  if (later.frames == 0) return;
+  if (sum.frames == 0) {
+    sum = later;
+    return;
+  }
+  sum.frames += later.frames;
+  sum.last = later.last;
+  sum.end_s = later.end_s;
+  sum.vertices += later.vertices;
+  sum.links += later.links;
+  add(sum.counts, later.counts);
+  sum.segments_per_depth.resize(std::max(sum.segments_per_depth.size(), later.segments_per_depth.size()), 0);
+  for (size_t depth = 0; depth < later.segments_per_depth.size(); ++depth)
+    sum.segments_per_depth[depth] += later.segments_per_depth[depth];
+  for (const auto& [stage, values] : later.seconds)
+    sum.seconds[stage].insert(sum.seconds[stage].end(), values.begin(), values.end());
+  add_warnings(sum.warnings, later.warnings);
+}
+
+Totals totals_of(Frames frames) {
+  Totals sum;
+  for (const FrameResult& frame : frames) add(sum, totals_of(frame));
+  return sum;
+}
+
+double median_seconds(const Totals& totals, const std::string& stage) {
+  const auto found = totals.seconds.find(stage);
+  return found == totals.seconds.end() ? 0.0 : median(found->second);
+}
+
+double sum_seconds(const Totals& totals, const std::string& stage) {
+  const auto found = totals.seconds.find(stage);
+  return found == totals.seconds.end() ? 0.0 : std::accumulate(found->second.begin(), found->second.end(), 0.0);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,35 @@
+// What the frames of a run add up to: the figures of summary.json and of a shard's line in the manifest.
+// Times are kept one by one, because medians do not add.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+#include "output/output.hpp"
+
+namespace wavetracer {
+
+struct Totals {
+  uint64_t frames = 0;
+  uint32_t first = 0, last = 0;  // numbers of frames
+  double start_s = 0, end_s = 0;
+  uint64_t vertices = 0, links = 0;
+  FrameCounts counts;
+  std::vector<uint64_t> segments_per_depth;
+  std::map<std::string, std::vector<double>> seconds;  // stage -> one value a frame
+  std::vector<std::string> warnings;                   // each text once, in order of first appearance
+};
+
+Totals totals_of(Frames frames);
+// `later` follows `sum`; either may be empty.
+void add(Totals& sum, const Totals& later);
+
+// Median of a stage over the frames; 0 where no frame has it.
+double median_seconds(const Totals& totals, const std::string& stage);
+// Sum of a stage over the frames.
+double sum_seconds(const Totals& totals, const std::string& stage);
+
+// Appends the texts that are not there yet.
+void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more);
+
+}  // namespace wavetracer

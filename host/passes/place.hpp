@@ -1,0 +1,46 @@
+// place: vehicles in the scene of a frame: a top-level tree over the instances, and their surfaces for the exact solve.
+// The trees of the models are built once; a frame moves 64 bytes a tree node and 112 bytes a surface.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/box.hpp"
+#include "passes/device_scene.hpp"
+#include "wavetracer/world.hpp"
+
+namespace wavetracer {
+
+class Place {
+ public:
+  // Gives `scene` room for the surfaces of every instance, the models' trees, and the definitions that kernels which
+  // trace it need. Surfaces of instances follow those of the static scene as Instance::first_surface says. At least one
+  // instance.
+  Place(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
+        DeviceScene& scene);
+  // Moves all instances; placements are in the order of the instances.
+  void operator()(DeviceScene& scene, std::span<const Placement> placements);
+
+ private:
+  struct Model {
+    Box box;  // of its triangles, model coordinates
+    uint32_t root = 0, first_surface = 0, primitive_count = 0;
+  };
+  void upload_surfaces(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
+  void upload_trees(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
+  void write_top_level(DeviceScene& scene, std::span<const Placement> placements);
+
+  gpu::Kernel kernel_;
+  uint32_t local_;
+  std::vector<Instance> instances_;
+  std::vector<uint32_t> first_primitive_;  // one an instance
+  std::vector<Model> models_;
+  gpu::Buffer<wt_model_surface> model_surfaces_;
+  gpu::Buffer<uint32_t> surface_instances_;  // the instance of each surface of instances
+  uint32_t first_surface_, surface_count_ = 0;
+  size_t instances_at_, nodes_at_, triangles_at_;  // parts of `moving`, counted in float4
+  uint32_t triangle_slots_ = 0;
+  float extent_m_;
+};
+
+}  // namespace wavetracer

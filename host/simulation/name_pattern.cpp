@@ -1,0 +1,46 @@
+// Matching with one point of return: only the last * has to be tried anew, since it can take up what earlier ones left.
+// Assumes few patterns; the nearest name is looked for only where there is a mistake to tell of.
+#include "simulation/name_pattern.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/spelling.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+
+bool matches(std::string_view pattern, std::string_view name) {
+  size_t p = 0, n = 0, star = pattern.npos, star_end = 0;  // the last * took the name up to star_end
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      star_end = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p;
+      ++n;
+    } else if (star != pattern.npos) {
+      p = star + 1;
+      n = ++star_end;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == pattern.npos;
+}
+
+void require_match(std::string_view pattern, const std::vector<std::string>& names, std::string_view key,
+                   std::string_view what) {
+  if (pattern == "*") return;
+  if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); })) return;
+  std::string plain(pattern);
+  std::erase_if(plain, [](char c) { return c == '*' || c == '?'; });
+  const auto nearest = std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    return config::edit_distance(plain, a) < config::edit_distance(plain, b);
+  });
+  throw ConfigError(fmt::format("{}: \"{}\" is the name of no {}; {}", key, pattern, what,
+                                nearest == names.end() ? "there is none" : "the nearest is \"" + *nearest + "\""));
+}
+
+}  // namespace wavetracer

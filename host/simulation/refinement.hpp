@@ -1,0 +1,47 @@
+// A launch that grows where it still finds something: the loop over the levels of refine.
+// Good and Turing (I. J. Good, Biometrika 40, 1953): the share of sequences met once tells what is still to be met.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "passes/compact.hpp"
+#include "passes/generate_rays.hpp"
+#include "passes/refine.hpp"
+#include "passes/scan.hpp"
+#include "wavetracer/config.hpp"
+
+namespace wavetracer {
+
+class Refinement {
+ public:
+  Refinement(gpu::Context& context, const TraceConfig& config);
+  // The first level for these launchers; slots: of the set of sequences.
+  void start(const std::vector<Launcher>& launchers, uint64_t slots);
+  // The samples to trace now; none once the launch is done.
+  const SampleList& level() const { return level_; }
+  // Appends nothing: fills the empty queue with samples first .. first + count - 1.
+  void generate(RayQueue& queue, uint32_t first, uint32_t count);
+  // All samples of the level have been traced: prepares the next, which is empty when enough was found, or the next
+  // would go beyond trace.max_rays.
+  void descend();
+  // Of all sequences met, the share that one sample alone met; and was it trace.max_rays that ended the launch?
+  double share_once() const { return share_once_; }
+  bool capped() const { return capped_; }
+
+ private:
+  gpu::Context& context_;
+  TraceConfig config_;
+  GenerateRays generate_;
+  Refine refine_;
+  Compact compact_;
+  Scan scan_;
+  uint32_t block_;
+  gpu::Buffer<float> launchers_, marks_;
+  gpu::Buffer<uint32_t> hits_, blocks_, list_;
+  SampleList level_, next_;
+  uint64_t most_ = 0, launched_ = 0;  // rays of all launchers
+  double share_once_ = 0;
+  bool capped_ = false;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,57 @@
+// All pairs of the ends whose names are wanted and that are present, each tested.
+// Assumes that ends present at once number in the thousands at most: pairs are counted in millions.
+#include "simulation/world_links.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "simulation/name_pattern.hpp"
+
+namespace wavetracer {
+namespace {
+
+std::vector<uint32_t> wanted(const std::vector<std::string>& patterns, const std::vector<std::string>& names,
+                             const std::string& role) {
+  for (const std::string& pattern : patterns) require_match(pattern, names, "links." + role + "s", role);
+  std::vector<uint32_t> out;
+  for (uint32_t i = 0; i < names.size(); ++i)
+    if (std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return matches(pattern, names[i]); }))
+      out.push_back(i);
+  return out;
+}
+
+}  // namespace
+
+LinkRules::LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers)
+    : config_(config),
+      transmitters_(std::move(transmitters)),
+      receivers_(std::move(receivers)),
+      wanted_transmitters_(wanted(config.transmitters, transmitters_.names, "transmitter")),
+      wanted_receivers_(wanted(config.receivers, receivers_.names, "receiver")) {}
+
+bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
+  if (tx_vehicle == no_vehicle && rx_vehicle == no_vehicle) return config_.i2i;
+  if (tx_vehicle == no_vehicle || rx_vehicle == no_vehicle) return config_.v2i;
+  return tx_vehicle == rx_vehicle ? config_.same_vehicle : config_.v2v;
+}
+
+std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitters,
+                                        const std::vector<EndState>& receivers) const {
+  std::vector<uint32_t> present;
+  std::copy_if(wanted_receivers_.begin(), wanted_receivers_.end(), std::back_inserter(present),
+               [&](uint32_t rx) { return receivers[rx].present; });
+  std::vector<Link> out;
+  for (const uint32_t tx : wanted_transmitters_) {
+    if (!transmitters[tx].present) continue;
+    for (const uint32_t rx : present) {
+      if (!allowed(transmitters_.vehicles[tx], receivers_.vehicles[rx])) continue;
+      const double distance_m = glm::distance(transmitters[tx].position_m, receivers[rx].position_m);
+      // What an antenna on a vehicle sends to itself is no link; a receiver at a transmitter hears its echoes.
+      const bool itself = distance_m == 0 && transmitters_.vehicles[tx] != no_vehicle;
+      if (!itself && distance_m <= config_.max_distance_m) out.push_back({tx, rx});
+    }
+  }
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,39 @@
+// Which transmitter and receiver belong together: by name, kind, vehicle and distance.
+// Assumes that names and carriers of ends never change, only where ends are and whether they are present.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "wavetracer/config.hpp"
+#include "wavetracer/world.hpp"
+
+namespace wavetracer {
+
+constexpr uint32_t no_vehicle = std::numeric_limits<uint32_t>::max();
+
+// One side of all links, an entry an end.
+struct LinkSide {
+  std::vector<std::string> names;
+  std::vector<uint32_t> vehicles;  // the vehicle that carries the end; no_vehicle: it stands
+};
+
+class LinkRules {
+ public:
+  LinkRules() = default;
+  // Throws ConfigError for a pattern of names that no end has.
+  LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers);
+
+  // The links of ends that are present, sorted. Ends of one and the same place have no path that a ray could tell.
+  std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;
+
+ private:
+  bool allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const;
+
+  LinksConfig config_;
+  LinkSide transmitters_, receivers_;
+  std::vector<uint32_t> wanted_transmitters_, wanted_receivers_;  // by name
+};
+
+}  // namespace wavetracer

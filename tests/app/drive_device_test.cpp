@@ -1,0 +1,186 @@
+// Drives through the program: a vehicle crosses the room, and the run is interrupted, killed and resumed on its way.
+// Skipped, saying so, where there is no OpenCL device.
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+#include "output/reader.hpp"
+#include "program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using wavetracer::test::datasets;
+using wavetracer::test::Reader;
+using wavetracer::test::slurp;
+
+const std::string room = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/room/room.xml"
+trace.rays = 2000
+trace.max_depth = 2
+output.shard_frames = 5
+time.step_s = 0.1
+[[transmitter]]
+name = "lamp"
+position_m = [1, 1, 2.5]
+[[receiver]]
+name = "desk"
+position_m = [7, 5, 1]
+[[track]]
+id = "truck"
+type = "passenger"
+waypoints = [[0, 3, 2, 0], [5.9, 5, 4, 0]]
+[[vehicle_type]]
+name = "passenger"
+length_m = 1.5
+width_m = 0.8
+height_m = 0.6
+[[mount]]
+name = "roof"
+role = "receiver"
+offset_m = [0, 0, 0.8]
+)";
+
+// All h5 files under a final name, in shards or merged, can be read; returns how many there are.
+size_t readable_files(const fs::path& folder) {
+  size_t count = 0;
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, none)) {
+    if (entry.path().extension() != ".h5") continue;
+    CAPTURE(entry.path());
+    const Reader h5(entry.path());
+    REQUIRE(h5.file >= 0);
+    const std::vector<double> offset = h5.numbers("/paths/vertex_offset");
+    CHECK(offset.size() == h5.numbers("/paths/delay_s").size() + 1);
+    CHECK(offset.back() == static_cast<double>(h5.shape("/vertices/position_m")[0]));
+    ++count;
+  }
+  return count;
+}
+
+void wait_for(const Program& program, const std::string& message) {
+  for (int i = 0; i < 30000 && !contains(program.messages(), message); ++i) std::this_thread::sleep_for(2ms);
+}
+
+void check_same(const fs::path& found, const fs::path& expected) {
+  const auto a = datasets(found / "paths.h5"), b = datasets(expected / "paths.h5");
+  REQUIRE(a.size() == b.size());
+  for (const auto& [name, value] : b) {
+    CAPTURE(name);
+    CHECK(a.at(name) == value);
+  }
+  CHECK(slurp(found / "links.csv") == slurp(expected / "links.csv"));
+  CHECK(slurp(expected / "links.csv").size() > 1000);
+}
+
+}  // namespace
+
+TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the same shards") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("all")});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(contains(run.out, "vehicles   1 of 1 models"));
+  CHECK(contains(run.out, "frames     60 from 0 to 5.9 s in steps of 0.1 s"));
+  CHECK(contains(run.out, "in frame 59"));
+  const Reader h5(folder.path("all/paths.h5"));
+  CHECK(h5.shape("/frames/receiver_position_m") == std::vector<hsize_t>{60, 2, 3});
+  const std::vector<double> pose = h5.numbers("/poses/position_m");
+  REQUIRE(pose.size() == 180);
+  // Waypoints are of the centre of the footprint, as the model's origin is.
+  CHECK(pose[0] == doctest::Approx(3));
+  CHECK(pose[3 * 30] == doctest::Approx(3 + 2 * 30 / 59.0));
+  CHECK(pose[3 * 30 + 1] == doctest::Approx(2 + 2 * 30 / 59.0));
+  const auto summary = nlohmann::json::parse(slurp(folder.path("all/summary.json")));
+  CHECK(summary["frames"] == 60);
+  CHECK(summary["shards"] == 12);
+  CHECK(summary["counts"]["paths"] == h5.shape("/paths/delay_s")[0]);
+
+  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("part"), "--frames", "20:32"}).code == 0);
+  const Reader part(folder.path("part/paths.h5"));
+  CHECK(part.shape("/frames/frame") == std::vector<hsize_t>{13});
+  for (const char* shard : {"000020_000024", "000025_000029"}) {
+    const std::string name = std::string("/shards/frames_") + shard;
+    CHECK(datasets(folder.path("part" + name + ".h5")) == datasets(folder.path("all" + name + ".h5")));
+    CHECK(slurp(folder.path("part" + name + ".csv")) == slurp(folder.path("all" + name + ".csv")));
+  }
+  const Outcome other = run_program({"run", "-c", file, "-o", folder.path("part"), "--resume"});
+  CHECK(other.code == 2);
+  CHECK(contains(other.err, "--frames 20:32, this run has 0:59"));
+  const Outcome again = run_program({"run", "-c", file, "-o", folder.path("all"), "--resume"});
+  CHECK(again.code == 0);
+  CHECK(contains(again.err, "all frames are there"));
+  const Outcome beyond = run_program({"run", "-c", file, "-o", folder.path("part"), "--frames", "50:60"});
+  CHECK(beyond.code == 2);
+  CHECK(contains(beyond.err, "this run has 60 frames, 0 to 59"));
+}
+
+TEST_CASE("an interrupted drive exits 130 with the frames so far and goes on with --resume") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("expected"), "--repeat", "3"}).code == 0);
+  Program run({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3"});
+  wait_for(run, "frames 5 to 9");
+  run.signal(SIGINT);
+  const Outcome stopped = run.wait();
+  CAPTURE(stopped.err);
+  CHECK(stopped.code == 130);
+  CHECK(contains(stopped.err, "go on with --resume"));
+  const auto summary = nlohmann::json::parse(slurp(folder.path("out/summary.json")));
+  const size_t frames = summary["frames"];
+  CHECK(frames >= 10);
+  CHECK(frames < 60);
+  CHECK(Reader(folder.path("out/paths.h5")).shape("/frames/frame")[0] == frames);
+  const Outcome resumed = run_program({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3", "--resume"});
+  CHECK(resumed.code == 0);
+  CHECK(contains(resumed.err, "of 60 frames are there"));
+  check_same(folder.path("out"), folder.path("expected"));
+}
+
+TEST_CASE("a drive that is killed fifty times ends as one that was left alone") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  Program alone({"run", "-c", file, "-o", folder.path("expected")});
+  wait_for(alone, "ready after");
+  const auto start = std::chrono::steady_clock::now();
+  REQUIRE(alone.wait().code == 0);
+  const double drive_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  std::mt19937 random(20240501);  // the moments differ from machine to machine, their spread does not
+  std::uniform_real_distribution<double> moment_s(-0.05 * drive_s, 0.6 * drive_s);
+  const std::string out = folder.path("out");
+  size_t kills = 0, drives = 0, files = 0;
+  while (kills < 50) {
+    Program run({"run", "-c", file, "-o", out, "--resume"});
+    const double delay_s = moment_s(random);
+    if (delay_s > 0) {  // otherwise while it starts
+      wait_for(run, "ready after");
+      std::this_thread::sleep_for(std::chrono::duration<double>(delay_s));
+    }
+    run.signal(SIGKILL);
+    const Outcome outcome = run.wait();
+    files += readable_files(out);
+    if (outcome.code == 128 + SIGKILL) {
+      ++kills;
+      continue;
+    }
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);  // it was faster
+    check_same(out, folder.path("expected"));
+    fs::remove_all(out);
+    ++drives;
+  }
+  const Outcome last = run_program({"run", "-c", file, "-o", out, "--resume"});
+  CAPTURE(last.err);
+  REQUIRE(last.code == 0);
+  check_same(out, folder.path("expected"));
+  for (const auto& entry : fs::recursive_directory_iterator(out)) CHECK(entry.path().extension() != ".tmp");
+  CHECK(files > 50);  // the kills met drives on their way
+  MESSAGE(kills << " kills, " << drives << " drives finished between them, " << files << " files read");
+}

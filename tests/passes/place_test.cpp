@@ -1,0 +1,207 @@
+// place: instances against the same triangles baked into one scene, for every shape of traversal and for the exact half
+// of a frame; absent instances; the antenna's own vehicle.
+#include "passes/place.hpp"
+
+#include <doctest/doctest.h>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "accel/top_level.hpp"
+#include "passes/caster.hpp"
+#include "passes/exact.hpp"
+#include "passes/triangles.hpp"
+#include "wavetracer/device/moving.h"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// Two models of loose triangles, many instances of them, and the world that they amount to.
+struct Traffic {
+  std::vector<Corners> still;
+  std::vector<std::vector<Corners>> bodies;
+  std::vector<Scene> models;
+  std::vector<Instance> instances;
+  std::vector<Placement> placements;
+
+  Traffic(size_t count, uint32_t seed) : still(random_soup(60, 12, 2, seed)) {
+    Random random(seed + 1);
+    bodies = {random_soup(12, 1, 1.5, seed + 2), random_soup(30, 1.5, 1.5, seed + 3)};
+    for (const auto& body : bodies) models.push_back(scene_of_triangles(body));
+    auto first = static_cast<uint32_t>(still.size());
+    for (size_t i = 0; i < count; ++i) {
+      const uint32_t model = random.below(2);
+      instances.push_back({"v" + std::to_string(i), "car", model, first});
+      first += static_cast<uint32_t>(bodies[model].size());
+      Placement placement;
+      placement.position_m = random.in_cube(9);
+      placement.rotation = glm::mat3_cast(glm::angleAxis(random.between(0, 6.28), random.direction()));
+      placements.push_back(placement);
+    }
+  }
+
+  // Surface and triangle numbers are those of the instances.
+  Scene baked() const {
+    std::vector<Corners> all = still;
+    for (size_t i = 0; i < instances.size(); ++i)
+      for (const Corners& corners : bodies[instances[i].model]) {
+        Corners moved;
+        for (size_t k = 0; k < 3; ++k) moved[k] = placements[i].position_m + placements[i].rotation * corners[k];
+        all.push_back(moved);
+      }
+    return scene_of_triangles(all);
+  }
+
+  DeviceScene upload() const {
+    DeviceScene scene = make_device_scene(context(), scene_of_triangles(still), false, 60);
+    Place place(context(), models, instances, scene);
+    place(scene, placements);
+    return scene;
+  }
+};
+
+std::vector<Ray> rays_in(double half, size_t count, uint32_t surface_count, uint32_t seed) {
+  Random random(seed);
+  std::vector<Ray> rays(count);
+  for (Ray& ray : rays) {
+    const glm::dvec3 o = random.in_cube(half), d = random.direction();
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.origin[static_cast<size_t>(axis)] = static_cast<float>(o[axis]);
+      ray.direction[static_cast<size_t>(axis)] = static_cast<float>(d[axis]);
+    }
+    if (random() < 0.5) ray.surface = random.below(surface_count);
+  }
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("rays hit instances as they hit the same triangles in one scene") {
+  for (const size_t count : {1, 2, 3, 40}) {
+    const Traffic traffic(count, 7);
+    const Scene baked = traffic.baked();
+    const std::vector<AccelTriangle> triangles = accel_triangles(baked);
+    const std::vector<Ray> rays = rays_in(12, 3000, static_cast<uint32_t>(baked.surfaces.size()), 11);
+    const DeviceScene uploaded = traffic.upload();
+    const auto still = static_cast<uint32_t>(traffic.still.size());
+    for (const TraceShape shape : shapes()) {
+      CAPTURE(name_of(shape));
+      const std::vector<Hit> hits = trace(uploaded, shape, rays);
+      size_t moving = 0;
+      for (size_t i = 0; i < rays.size(); ++i) {
+        CHECK(fault(triangles, rays[i], hits[i], 2e-5) == "");
+        moving += !hits[i].missed() && hits[i].surface >= still;
+      }
+      CHECK(moving > 10 * count);  // the test would say nothing otherwise
+    }
+  }
+}
+
+TEST_CASE("all shapes of traversal give the same bits") {
+  const Traffic traffic(25, 3);
+  const DeviceScene uploaded = traffic.upload();
+  const std::vector<Ray> rays = rays_in(12, 4000, 500, 5);
+  const std::vector<Hit> first = trace(uploaded, shapes().front(), rays);
+  for (const TraceShape shape : shapes()) CHECK(trace(uploaded, shape, rays) == first);
+}
+
+TEST_CASE("an absent instance is hit by nothing and reflects nothing") {
+  Traffic traffic(2, 19);
+  traffic.placements[0].present = false;
+  const DeviceScene uploaded = traffic.upload();
+  const uint32_t first = traffic.instances[0].first_surface, second = traffic.instances[1].first_surface;
+  const std::vector<Ray> rays = rays_in(12, 4000, 1, 23);
+  for (const TraceShape shape : shapes()) {
+    size_t absent = 0, present = 0;
+    for (const Hit& hit : trace(uploaded, shape, rays)) {
+      if (hit.missed()) continue;
+      absent += hit.surface >= first && hit.surface < second;
+      present += hit.surface >= second;
+    }
+    CHECK(absent == 0);
+    CHECK(present > 0);
+  }
+  const auto exact = uploaded.exact_surfaces.read();
+  CHECK(std::isnan(exact[first].normal[0]));
+  CHECK_FALSE(std::isnan(exact[second].normal[0]));
+}
+
+TEST_CASE("launch rays pass through their own vehicle and nothing else") {
+  Traffic traffic(2, 29);
+  traffic.placements[1].position_m = traffic.placements[0].position_m;  // one inside the other
+  const DeviceScene uploaded = traffic.upload();
+  const uint32_t first = traffic.instances[0].first_surface, second = traffic.instances[1].first_surface;
+  Random random(31);
+  std::vector<Ray> rays(2000);
+  for (Ray& ray : rays) {
+    const glm::dvec3 d = random.direction();
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.origin[static_cast<size_t>(axis)] = static_cast<float>(traffic.placements[0].position_m[axis]);
+      ray.direction[static_cast<size_t>(axis)] = static_cast<float>(d[axis]);
+    }
+    ray.surface = WT_OWN | 0;
+  }
+  for (const TraceShape shape : shapes()) {
+    size_t own = 0, other = 0;
+    for (const Hit& hit : trace(uploaded, shape, rays)) {
+      if (hit.missed()) continue;
+      own += hit.surface >= first && hit.surface < second;
+      other += hit.surface >= second;
+    }
+    CHECK(own == 0);
+    CHECK(other > 100);
+  }
+}
+
+TEST_CASE("paths by instances are those of the baked scene, to rounding") {
+  const Traffic traffic(12, 41);
+  const Scene baked = traffic.baked();
+  Random random(43);
+  std::vector<glm::dvec3> transmitters, receivers;
+  for (int i = 0; i < 2; ++i) transmitters.push_back(random.in_cube(10));
+  for (int i = 0; i < 160; ++i) receivers.push_back(random.in_cube(10));
+  std::vector<Sequence> sequences;
+  for (uint32_t tx = 0; tx < 2; ++tx)
+    for (uint32_t a = 0; a < baked.surfaces.size(); ++a) {
+      sequences.push_back({tx, {a}});
+      for (int k = 0; k < 3; ++k) {
+        const uint32_t b = random.below(static_cast<uint32_t>(baked.surfaces.size()));
+        if (a != b) sequences.push_back({tx, {a, b}});
+      }
+    }
+  const Exact one(baked, transmitters, receivers, sequences, 2);
+  const Exact two(scene_of_triangles(traffic.still), transmitters, receivers, sequences, 2, [&](DeviceScene& scene) {
+    Place place(context(), traffic.models, traffic.instances, scene);
+    place(scene, traffic.placements);
+  });
+  REQUIRE(one.solved.size() == two.solved.size());
+  CHECK(one.solved.size() > 200);
+  size_t moving = 0;
+  for (size_t i = 0; i < one.solved.size(); ++i) {
+    const SolvedPath &a = one.solved[i], &b = two.solved[i];
+    CHECK(a.sequence == b.sequence);
+    CHECK(a.receiver == b.receiver);
+    CHECK(a.blocked == b.blocked);
+    for (size_t k = 0; k < a.points.size(); ++k) CHECK(glm::length(a.points[k] - b.points[k]) < 1e-9);
+    for (const uint32_t surface : a.sequence.surfaces) moving += surface >= traffic.still.size();
+  }
+  CHECK(moving > 50);
+}
+
+TEST_CASE("the top level holds every box once, in a tree no deeper than it need be") {
+  for (const size_t count : {0, 1, 2, 3, 17, 1000}) {
+    Random random(static_cast<uint32_t>(count));
+    std::vector<Box> boxes(count);
+    for (Box& box : boxes)
+      for (int axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = static_cast<float>(random.between(-50, 50));
+        box.upper[axis] = box.lower[axis] + static_cast<float>(random.between(0, 5));
+      }
+    const TopLevel top = build_top_level(boxes);
+    std::vector<uint32_t> sorted = top.order;
+    std::sort(sorted.begin(), sorted.end());
+    for (uint32_t i = 0; i < count; ++i) CHECK(sorted[i] == i);
+    CHECK(top.nodes.size() == 16 * std::max<size_t>(count < 2 ? 1 : count - 1, 1));
+  }
+}
