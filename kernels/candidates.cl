@@ -53,6 +53,7 @@ kernel void candidates(const global ulong* table, const global uint* nodes, uint
   for (; keep; keep &= keep - 1, ++slot) {
     if (slot < capacity) {
       out[slot].node = node;
+      out[slot].back = WT_NONE;
       out[slot].receiver = first + popcount((keep & (~keep + 1)) - 1u);
     }
   }

@@ -81,11 +81,20 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
 }
 
 // The sequences of visible paths are as young as the frame, and so are their prefixes.
-kernel void keep(const global ulong* table, const global wt_solved* solved, uint solved_count, global uint* ages,
+// Joined ones are entered.
+kernel void keep(global ulong* table, uint mask, const global wt_solved* solved, uint solved_count,
+                 const global uint* sequences, uint max_depth, global wt_counters* counters, global uint* ages,
                  uint now) {
   const uint i = get_global_id(0);
   if (i >= solved_count || solved[i].blocked) return;
-  for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(table[n])) ages[n] = now;
+  if (solved[i].node != WT_NONE) {
+    for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(wt_load_relaxed_u64(table + n))) ages[n] = now;
+    return;
+  }
+  uint node = WT_ROOT | solved[i].transmitter;
+  for (uint k = 0; k < solved[i].depth; ++k)
+    node = enter(table, mask, node, sequences[(size_t)i * max_depth + k], ages, now);
+  if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
 }
 
 // After regrow: listed nodes by their new ids.

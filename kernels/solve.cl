@@ -61,7 +61,11 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
   const uint i = get_global_id(0);
   if (i >= candidate_count) return;
   uint chain[WT_MAX_DEPTH], transmitter;
-  const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
+  const uint back = candidates[i].back;
+  uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
+  if (back != WT_NONE)  // from the last surface but one on, as the receiver's rays met them last to first
+    for (uint n = wt_trie_parent(table[back]); !(n & WT_ROOT) && depth < WT_MAX_DEPTH; n = wt_trie_parent(table[n]))
+      chain[depth++] = wt_trie_surface(table[n]);
   // The vehicle that carries an antenna is no mirror to it, as it hides nothing from it.
   if (depth > 0) {
     const uint first = surfaces[chain[0]].instance, last = surfaces[chain[depth - 1]].instance;
@@ -114,7 +118,7 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
   solved[slot].receiver = candidates[i].receiver;
   solved[slot].depth = depth;
   solved[slot].blocked = 0;
-  solved[slot].node = candidates[i].node;
+  solved[slot].node = back == WT_NONE ? candidates[i].node : WT_NONE;
   for (uint k = 0; k < depth; ++k) {
     const size_t at = (size_t)slot * max_depth + k;
     vertices[3 * at] = points[k].x;

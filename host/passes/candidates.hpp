@@ -12,7 +12,7 @@ class Candidates {
   // nodes: roots first, then trie nodes. Returns the number of candidates, in list().
   uint32_t operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                       const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, gpu::Buffer<wt_counters>& counters);
-  const gpu::Buffer<wt_candidate>& list() const { return list_; }
+  gpu::Buffer<wt_candidate>& list() { return list_; }
 
  private:
   gpu::Context& context_;

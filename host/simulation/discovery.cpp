@@ -41,11 +41,12 @@ std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitters) {
 }
 
 Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order,
-                     bool keep_ages)
+                     bool keep_ages, uint32_t depth)
     : context_(context),
       config_(with_rays(config)),
       plan_(order),
       max_depth_(config.reflection ? config.max_depth : 0),
+      depth_(std::min(max_depth_, depth)),
       batch_rays_(choose_batch(context.info(), config)),
       directions_(config.directions, config_.rays, config.seed),
       generate_(context, directions_),
@@ -63,7 +64,7 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
 DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
                                       DirectionShare share) {
   DiscoveryCounts counts;
-  counts.segments_per_depth.assign(max_depth_, 0);
+  counts.segments_per_depth.assign(depth_, 0);
   const uint64_t total = rays_of(share) * transmitters.size();
   if (max_depth_ == 0 || total == 0) return counts;
   const uint64_t size = std::min(batch_rays_, total);
@@ -84,7 +85,7 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
 
 DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters) {
   DiscoveryCounts counts;
-  counts.segments_per_depth.assign(max_depth_, 0);
+  counts.segments_per_depth.assign(depth_, 0);
   if (max_depth_ == 0 || transmitters.empty()) return counts;
   for (refinement_->start(transmitters, sequences_.table().size()); refinement_->level().count > 0;) {
     const SampleList& level = refinement_->level();
@@ -135,14 +136,14 @@ void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare
 void Discovery::trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
                             const gpu::Buffer<uint32_t>* ends) {
   const uint32_t block = Trace::block_size(context_.info());
-  for (uint32_t depth = 1; depth <= max_depth_ && rays_.count > 0; ++depth) {
+  for (uint32_t depth = 1; depth <= depth_ && rays_.count > 0; ++depth) {
     if (plan_.each_depth && depth > 1) (*order_)(rays_, next_);
     trace_(scene, rays_, hits_);
     if (compact_)
       compact_->count_blocks(hits_.planes, size_t{WT_HIT_SURFACE} * hits_.capacity, rays_.count, hits_.block_hits);
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
     interact(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), sequences_.ages(),
-              sequences_.now(), next_, depth == max_depth_, ends);
+              sequences_.now(), next_, depth == depth_, ends);
     counts.segments_per_depth[depth - 1] += rays_.count;
     counts.hits += hit_count;
     std::swap(rays_, next_);

@@ -38,9 +38,9 @@ struct DirectionShare {
 
 class Discovery {
  public:
-  // keep_ages: see passes/sequences.hpp.
+  // keep_ages: see passes/sequences.hpp. depth: of the rays, where that is less than trace.max_depth.
   Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order = {},
-            bool keep_ages = false);
+            bool keep_ages = false, uint32_t depth = WT_MAX_DEPTH);
   // Adds to sequences() what rays from these transmitters meet, in these directions.
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
                              DirectionShare share = {});
@@ -65,7 +65,7 @@ class Discovery {
   gpu::Context& context_;
   TraceConfig config_;
   OrderPlan plan_;
-  uint32_t max_depth_;
+  uint32_t max_depth_, depth_;  // of sequences, of rays
   uint64_t batch_rays_;
   LaunchDirections directions_;
   GenerateRays generate_;

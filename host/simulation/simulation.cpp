@@ -15,6 +15,7 @@
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
+#include "simulation/meeting_prefixes.hpp"
 #include "simulation/order_choice.hpp"
 #include "simulation/reciprocity.hpp"
 #include "simulation/stopwatch.hpp"
@@ -45,6 +46,15 @@ std::vector<Launcher> launchers(const WorldState& world) {
   return out;
 }
 
+// Rays go half the way where both ends of every link launch and what they meet is joined.
+uint32_t ray_depth(const TraceConfig& config, const World& world) {
+  const auto all = [](const std::vector<uint32_t>& others) {
+    return std::none_of(others.begin(), others.end(), [](uint32_t other) { return other == no_end; });
+  };
+  const bool both = all(world.receiver_of_transmitter()) && all(world.transmitter_of_receiver());
+  return config.join && both ? std::min(config.max_depth, joined_depth(config.max_depth)) : config.max_depth;
+}
+
 // All directions in a cold frame; after it every stride-th, another set each time: `stride` frames together launch all.
 // Steps of the golden ratio, so that a few frames spread evenly.
 DirectionShare share_of(const TraceConfig& config, uint64_t rays, uint64_t warm_frames) {
@@ -70,6 +80,7 @@ struct Simulation::State {
   uint64_t warm_frames = 0;  // since the last cold one, which counts
   std::optional<Discovery> discovery;
   std::optional<Candidates> candidates;
+  std::optional<MeetingPrefixes> meeting;  // with trace.join
   std::optional<Solve> solve;
   std::optional<Occlusion> occlusion;
   std::optional<FieldModel> fields;
@@ -125,7 +136,9 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.order = {order.plan.method, order.plan.each_depth, std::to_string(order.plan.launch.dimensions) + "d",
              order.plan.launch.local_size, order.reason};
   s.reuse = config.trace.reuse && s.world->frame_count() > 1;
-  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan, s.reuse);
+  if (config.trace.join)
+    s.meeting.emplace(*s.context, s.world->receiver_of_transmitter(), config.trace.max_depth);
+  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan, s.reuse, ray_depth(config.trace, *s.world));
   s.candidates.emplace(*s.context);
   s.solve.emplace(*s.context, config.trace.max_depth);
   s.occlusion.emplace(*s.context, s.device_scene);
@@ -172,8 +185,11 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   uint32_t node_count = sequences.collect(ends.transmitter_count);
   sequences.commute(s.device_scene.surfaces, node_count, max_depth);
   node_count = sequences.collect(ends.transmitter_count);
-  const uint32_t candidate_count =
+  uint32_t candidate_count =
       (*s.candidates)(s.device_scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
+  if (s.meeting)
+    candidate_count =
+        (*s.meeting)(s.device_scene, ends, sequences, node_count, s.candidates->list(), candidate_count);
   SolvedList& solved = (*s.solve)(s.device_scene, ends, sequences.table(), s.candidates->list(), candidate_count,
                                   sequences.counters());
   (*s.occlusion)(s.device_scene, ends, solved);

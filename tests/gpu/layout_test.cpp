@@ -45,7 +45,7 @@ const std::vector<Record> records{
      {FIELD(wt_exact_instance, rotation), FIELD(wt_exact_instance, position), FIELD(wt_exact_instance, first_surface),
       FIELD(wt_exact_instance, first_model_surface), FIELD(wt_exact_instance, present),
       FIELD(wt_exact_instance, padding)}},
-    {"wt_candidate", sizeof(wt_candidate), {FIELD(wt_candidate, node), FIELD(wt_candidate, receiver)}},
+    {"wt_candidate", sizeof(wt_candidate), {FIELD(wt_candidate, node), FIELD(wt_candidate, receiver), FIELD(wt_candidate, back)}},
     {"wt_solved",
      sizeof(wt_solved),
      {FIELD(wt_solved, transmitter), FIELD(wt_solved, receiver), FIELD(wt_solved, depth), FIELD(wt_solved, blocked),

@@ -76,10 +76,12 @@ typedef struct {
   wt_uint padding;
 } wt_exact_instance;
 
-// A candidate: a sequence (trie node or root) with a receiver.
+// A candidate: a sequence (trie node or root) with a receiver. back: WT_NONE, or the node of the receiver's own end
+// whose sequence, back to front and without its last surface, which both share, follows that of node.
 typedef struct {
   wt_uint node;
   wt_uint receiver;
+  wt_uint back;
 } wt_candidate;
 
 // A solved candidate. Vertex j is three doubles at (index * max_depth + j) * 3, its surface at index * max_depth + j.
@@ -88,7 +90,7 @@ typedef struct {
   wt_uint receiver;
   wt_uint depth;
   wt_uint blocked;  // 0 until a leg is found obstructed
-  wt_uint node;     // of its sequence
+  wt_uint node;     // of its sequence; WT_NONE if it was joined of two
 } wt_solved;
 
 // Counters that the passes share; one small buffer, cleared a frame.
