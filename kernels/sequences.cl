@@ -1,8 +1,8 @@
 // sequences: the trie as a list (collect), its neighbours (commute), and a trie filled from another one, larger or
 // without what is old (regrow, follow). A node is its slot, so a parent must be in the new table before its children:
 // regrow runs once a depth.
-// With WT_AGES, ages[slot] is the last frame in which a ray met the sequence, or a path followed it; a node is never
-// older than its children.
+// With WT_AGES, ages[slot] is twice the last frame in which the sequence was met, by a ray, as a neighbour or by a path,
+// and one more if by a ray; a node is never older than its children. `now` is that of rays in this frame.
 #include "lib/trie.clh"
 
 // Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number.
@@ -17,7 +17,7 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
 inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* ages, uint now) {
   const uint node = wt_trie_insert(table, mask, parent, surface);
 #ifdef WT_AGES
-  if (node != WT_NONE) ages[node] = now;
+  if (node != WT_NONE) atomic_max(ages + node, now - 1);
 #endif
   return node;
 }
@@ -88,7 +88,8 @@ kernel void keep(global ulong* table, uint mask, const global wt_solved* solved,
   const uint i = get_global_id(0);
   if (i >= solved_count || solved[i].blocked) return;
   if (solved[i].node != WT_NONE) {
-    for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(wt_load_relaxed_u64(table + n))) ages[n] = now;
+    for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(wt_load_relaxed_u64(table + n)))
+      atomic_max(ages + n, now - 1);
     return;
   }
   uint node = WT_ROOT | solved[i].transmitter;

@@ -28,6 +28,20 @@ void check_file(const std::string& file, const std::string& key, const std::stri
                     where, key, file, std::strerror(errno)));
 }
 
+// Vehicles in the streets of one city would drive through the houses of another.
+void check_streets(const Config& config) {
+  const auto words = [](const StreetGrid& grid) {
+    return fmt::format("--blocks {}x{} --block-m {} --street-m {}", grid.blocks_x, grid.blocks_y, grid.block_m,
+                       grid.street_m);
+  };
+  const std::string city = words(parse_traffic_options(config.scene.generate).grid),
+                    traffic = words(parse_traffic_options(config.trajectories.generate).grid);
+  if (city != traffic)
+    throw ConfigError(fmt::format("{}trajectories.generate has the streets of {}, scene.generate those of {}: vehicles "
+                                  "would drive through houses; give both the same",
+                                  config.file.empty() ? "" : config.file + ": ", traffic, city));
+}
+
 }  // namespace
 
 void check_inputs(const Config& config) {
@@ -45,6 +59,7 @@ void check_inputs(const Config& config) {
   }
   if (!config.scene.generate.empty()) parse_city_options(config.scene.generate);
   if (!config.trajectories.generate.empty()) parse_traffic_options(config.trajectories.generate);
+  if (!config.scene.generate.empty() && !config.trajectories.generate.empty()) check_streets(config);
 }
 
 std::string rays_in_words(const TraceConfig& trace) { return trace.rays == 0 ? "auto" : std::to_string(trace.rays); }

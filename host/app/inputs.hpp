@@ -7,8 +7,8 @@
 
 namespace wavetracer::app {
 
-// Every file that the config names is there and readable, and scene.generate and trajectories.generate are understood.
-// Throws InputError or ConfigError.
+// Every file that the config names is there and readable; scene.generate and trajectories.generate are understood and
+// have the same streets. Throws InputError or ConfigError.
 void check_inputs(const Config& config);
 
 // trace.rays: a number, or auto.

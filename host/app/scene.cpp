@@ -67,6 +67,7 @@ position_m = [{0:.1f}, {1:.1f}, {2:.1f}]
 
 [links]
 max_distance_m = 300  # pairs farther apart are not computed
+i2i = false           # nor what the road-side unit hears of itself
 
 [trace]
 rays = 200000  # a transmitter

@@ -41,6 +41,28 @@ void check_launch(const Config& config, Found& out) {
                                method, plane ? 2 : 3, shape)});
 }
 
+// A refined launch splits cells of the hilbert map and goes along its curve, level by level.
+void check_rays(const Config& config, Found& out) {
+  const TraceConfig& trace = config.trace;
+  if (trace.rays == 0) {
+    if (trace.directions != "hilbert")
+      out.push_back({{"trace.rays", "trace.directions"},
+                     fmt::format("trace.rays = \"auto\" needs trace.directions = \"hilbert\", not \"{}\": leave "
+                                 "trace.directions out, or give trace.rays a number",
+                                 trace.directions)});
+    if (const std::string& method = config.order.method; method != "none" && method != "WS")
+      out.push_back({{"trace.rays", "order.method"},
+                     fmt::format("trace.rays = \"auto\" launches rays in an order of its own, order.method = \"{}\" "
+                                 "another: leave order.method out, or give trace.rays a number",
+                                 method)});
+  } else if (trace.refresh_rays > trace.rays) {
+    out.push_back({{"trace.rays", "trace.refresh_rays"},
+                   fmt::format("trace.refresh_rays = {} is more than trace.rays = {}, those of a frame that reuses "
+                               "nothing: give at most as many, or 0 for a tenth",
+                               trace.refresh_rays, trace.rays)});
+  }
+}
+
 // member: what names an element. Returns the names.
 template <class Element>
 std::set<std::string> check_names(const std::string& table, const std::string& key, const std::vector<Element>& all,
@@ -106,6 +128,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   Found out;
   check_scene(config.scene, out);
   check_launch(config, out);
+  check_rays(config, out);
   check_ends(config, out);
   const auto transmitters = check_names("transmitter", "name", config.transmitters, &RadioEnd::name, {}, out);
   check_names("receiver", "name", config.receivers, &RadioEnd::name, transmitters, out);

@@ -20,12 +20,13 @@ Table trace_table() {
            .range = {1, 2147483648.0},
            .choices = {"auto"},
            .doc = "More rays find more of the weak paths; those found are exact in any case. A million finds more "
-                  "than 99% of the paths of a city quarter at depth 5. auto: as many as recall asks for."},
+                  "than 99% of the paths of a city quarter at depth 5. auto: as many as recall asks for, along the "
+                  "hilbert curve."},
           {.name = "recall",
            .slot = t(&TraceConfig::recall),
            .range = {0, 1, true},
-           .doc = "Of rays = \"auto\": the share of the paths that is to be found. The last percent costs more rays "
-                  "than all before it."},
+           .doc = "Of rays = \"auto\": the share of the paths that is to be found, estimated from how much one ray alone "
+                  "has met (Good and Turing). The last percent costs more rays than all before it."},
           {.name = "max_rays",
            .slot = t(&TraceConfig::max_rays),
            .unit = "rays a transmitter",
@@ -39,12 +40,14 @@ Table trace_table() {
            .slot = t(&TraceConfig::refresh_rays),
            .unit = "rays a transmitter",
            .range = {0, 2147483648.0},
-           .doc = "Of a frame that reuses. 0: a tenth of rays, since little is new from one frame to the next."},
+           .doc = "Of a frame that reuses, at most rays; each such frame launches other ones of their directions. 0: a "
+                  "tenth of rays, since little is new from one frame to the next."},
           {.name = "forget_frames",
            .slot = t(&TraceConfig::forget_frames),
            .unit = "frames",
            .range = {1, 4294967295.0},
-           .doc = "Surfaces that no ray has met in this order for so long are dropped; 50 frames are 5 s at 10 Hz."},
+           .doc = "A sequence of surfaces that neither a ray nor a path has followed for so long is dropped. 50 frames "
+                  "are 5 s at 10 Hz."},
           {.name = "join",
            .slot = t(&TraceConfig::join),
            .doc = "Ends that send and receive meet halfway: what rays of both have found is joined in the middle. "

@@ -19,7 +19,7 @@ Table trajectories_table() {
               {.name = "generate",
                .slot = t(&TrajectoriesConfig::generate),
                .doc = "Traffic made on the spot instead of a file, in the streets of the city that scene.generate "
-                      "makes of the same arguments.",
+                      "makes: --blocks, --block-m and --street-m must be the same.",
                .example = "\"--seed 1 --blocks 4 --vehicles 10 --seconds 1 --step 0.1\""},
               {.name = "offset_m",
                .slot = t(&TrajectoriesConfig::offset_m),
@@ -70,7 +70,7 @@ Table time_table() {
 Table links_table() {
   const auto l = [](auto member) { return at(&Config::links, member); };
   return {.name = "links",
-          .doc = "Which pairs of a transmitter and a receiver are computed. Never those of one and the same place.",
+          .doc = "Which pairs of a transmitter and a receiver are computed. Never those of one place on one vehicle.",
           .fields = {
               {.name = "max_distance_m",
                .slot = l(&LinksConfig::max_distance_m),

@@ -1,5 +1,5 @@
 // Host side of kernels/candidates.cl.
-// A work-item takes one sequence and 16 receivers.
+// A work-item takes one sequence, on CPUs with all receivers, elsewhere with 16.
 #include "passes/candidates.hpp"
 
 #include <vector>
@@ -14,10 +14,11 @@ Candidates::Candidates(gpu::Context& context)
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                                 const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                                 gpu::Buffer<wt_counters>& counters) {
+  const uint32_t groups = ends.receiver_capacity / 16, groups_per_item = context_.info().cpu ? groups : 1;
   for (;;) {
-    kernel_({size_t{node_count} * (ends.receiver_capacity / 16), 64}, "candidates", trie, nodes, node_count,
+    kernel_({size_t{node_count} * (groups / groups_per_item), 64}, "candidates", trie, nodes, node_count,
             ends.transmitters, scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.links,
-            ends.receiver_capacity, list_, static_cast<uint32_t>(list_.size()), counters);
+            ends.receiver_capacity, groups_per_item, list_, static_cast<uint32_t>(list_.size()), counters);
     wt_counters now = counters.read_one(0, "candidates");
     if (now.candidates <= list_.size()) return now.candidates;
     list_ = context_.buffer<wt_candidate>(size_t{now.candidates} + now.candidates / 4, "candidates");

@@ -36,7 +36,7 @@ void Sequences::clear() {
 }
 
 void Sequences::begin_frame() {
-  ++now_;
+  ++frame_;
   counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
 }
 
@@ -63,12 +63,12 @@ void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
 }
 
 void Sequences::forget(uint32_t frames, uint32_t max_depth) {
-  if (!keep_ages_ || now_ <= frames) return;
+  if (!keep_ages_ || frame_ <= frames) return;
   const gpu::Buffer<uint64_t> old_table = table_;
   const gpu::Buffer<uint32_t> old_ages = ages_;
   gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old_table.size(), "moved sequences");
   resize(old_table.size());
-  move(old_table, old_ages, max_depth, now_ - frames, moved);
+  move(old_table, old_ages, max_depth, 2 * (frame_ - frames), moved);
   // Fewer than before in a table of the same size, in another order: a run of 64 taken slots is next to impossible.
   if (overflowed()) throw RuntimeError("the set of distinct sequences could not be rebuilt; lower trace.forget_frames");
 }
@@ -77,13 +77,13 @@ void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
   // What does not fit is found again.
   keep_({solved.count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), solved.headers, solved.count,
-        solved.sequences, solved.max_depth, counters_, ages_, now_);
+        solved.sequences, solved.max_depth, counters_, ages_, now());
 }
 
 void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   for (;;) {
     commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
-             surfaces, counters_, ages_, now_);
+             surfaces, counters_, ages_, now());
     if (!overflowed()) return;
     // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
     // full.

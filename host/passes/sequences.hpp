@@ -15,9 +15,12 @@ class Sequences {
   void clear();
   gpu::Buffer<uint64_t>& table() { return table_; }
   gpu::Buffer<wt_counters>& counters() { return counters_; }
-  // Of the slots: the last frame, counted by begin_frame, in which a ray or a path was there. One element if not kept.
+  // Of the slots: twice the last frame, counted by begin_frame, in which a ray, an exchange or a path was there, and one
+  // more if a ray was. One element if not kept.
   gpu::Buffer<uint32_t>& ages() { return ages_; }
-  uint32_t now() const { return now_; }
+  uint32_t frame() const { return frame_; }
+  // The age of what rays meet in this frame.
+  uint32_t now() const { return 2 * frame_ + 1; }
   // The next frame: what is entered from now on is younger than anything before, and the counters start at zero.
   void begin_frame();
   // The visible paths' sequences get the age of this frame.
@@ -47,7 +50,7 @@ class Sequences {
   gpu::Kernel collect_, commute_, regrow_, follow_, keep_;
   gpu::Buffer<uint64_t> table_;
   gpu::Buffer<uint32_t> ages_;
-  uint32_t now_ = 1;
+  uint32_t frame_ = 1;
   gpu::Buffer<uint32_t> nodes_;
   uint32_t roots_ = 0;  // roots at the head of nodes_
   gpu::Buffer<wt_counters> counters_;
