@@ -173,10 +173,11 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   const uint32_t max_depth = s.config.trace.max_depth;
   FrameResult out;
   out.frame = frame;
-  out.world = s.world->state(frame);
   s.context->reset_profile();
-  Stopwatch watch;
+  Stopwatch watch, host_watch;
 
+  out.world = s.world->state(frame);
+  const double poses_seconds = host_watch.lap();
   if (s.place) (*s.place)(s.device_scene, out.world.instances);
   const RadioEnds ends = make_radio_ends(*s.context, out.world.transmitters, out.world.receivers, out.world.links);
   Sequences& sequences = s.discovery->sequences();
@@ -195,14 +196,18 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   (*s.occlusion)(s.device_scene, ends, solved);
   sequences.keep(solved);
   ++s.warm_frames;
+  s.context->finish();
+  host_watch.lap();
   const PathGeometry geometry = with_reversed_twins(visible_paths(solved), s.world->receiver_of_transmitter(),
                                                     s.world->transmitter_of_receiver(), out.world.links);
 
-  Stopwatch fields_watch;
+  const double paths_seconds = host_watch.lap();
   out.paths = s.fields->compute(frame, geometry, out.world);
-  const double fields_seconds = fields_watch.lap(), frame_seconds = watch.lap();
+  const double fields_seconds = host_watch.lap(), frame_seconds = watch.lap();
 
   out.seconds = s.context->profile();
+  out.seconds["poses"] = poses_seconds;
+  out.seconds["paths"] = paths_seconds;
   out.seconds["fields"] = fields_seconds;
   out.seconds["frame"] = frame_seconds;
   out.segments_per_depth = found.segments_per_depth;
