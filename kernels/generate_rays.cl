@@ -45,8 +45,8 @@ inline void store_rays(global float* rays, uint capacity, uint slot, ulong index
 }
 #endif
 
-// Launch indices first_index + stride * k into slots first_slot + k. source: what the rays leave, WT_OWN and the instance
-// that carries the antenna, or WT_NONE.
+// Launch indices first_index + stride * k into slots first_slot + k. source: what the rays leave, WT_OWN and the
+// instance that carries the antenna, or WT_NONE.
 kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
                           ulong stride, ulong parameter, uint level, uint faces, float x, float y, float z, uint root,
                           uint source) {
@@ -68,19 +68,22 @@ kernel void generate_ordered(global float* rays, uint capacity, uint first_slot,
 
 #ifdef WT_SAMPLES
 // Samples first .. first + count - 1 of a list into the slots of an empty queue. A sample is a cell of the launch
-// directions (samples[i]) and a launcher (samples[sample_capacity + i]); launchers: origin and, as words, root and source
-// (two float4 each). ends[i] becomes the root: no ray of the sample has hit anything yet.
+// directions (samples[i]) and a launcher (samples[sample_capacity + i]); launchers: origin and, as words, root and
+// source (two float4 each). Directions are turned about z by the angle of this cosine and sine. ends[i] becomes the root:
+// no ray of the sample has hit anything yet.
 kernel void generate_samples(global float* rays, uint capacity, uint first, uint count, const global uint* samples,
                              uint sample_capacity, const global float4* launchers, ulong parameter, uint level,
-                             uint faces, global uint* ends) {
+                             uint faces, float cosine, float sine, global uint* ends) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
   const wt_direction d = WT_DIRECTIONS(listed(0, samples + first + k), parameter, level, faces);
 #ifdef WT_CPU
   float x[16], y[16], z[16];
-  vstore16(d.x, 0, x);
-  vstore16(d.y, 0, y);
+  vstore16(cosine * d.x - sine * d.y, 0, x);
+  vstore16(sine * d.x + cosine * d.y, 0, y);
   vstore16(d.z, 0, z);
+#else
+  const float3 turned = (float3)(cosine * d.x - sine * d.y, sine * d.x + cosine * d.y, d.z);
 #endif
   for (uint j = 0; j < WT_RAYS_PER_ITEM && k + j < count; ++j) {
     const uint sample = first + k + j;
@@ -90,7 +93,7 @@ kernel void generate_samples(global float* rays, uint capacity, uint first, uint
 #ifdef WT_CPU
     wt_store_float3(rays, capacity, WT_RAY_DIRECTION, k + j, (float3)(x[j], y[j], z[j]));
 #else
-    wt_store_float3(rays, capacity, WT_RAY_DIRECTION, k + j, (float3)(d.x, d.y, d.z));
+    wt_store_float3(rays, capacity, WT_RAY_DIRECTION, k + j, turned);
 #endif
     wt_store_word(rays, capacity, WT_RAY_NODE, k + j, root);
     wt_store_word(rays, capacity, WT_RAY_SURFACE, k + j, as_uint(launcher[1].y));

@@ -4,11 +4,12 @@
 #include "lib/images.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// A prefix: the transmitter's image in all its surfaces and in all but the last, and as words its transmitter and depth.
+// A prefix: the transmitter's image in all its surfaces and in all but the last, and as words its transmitter and
+// depth.
 #define WT_PREFIX_FLOAT4S 2
 
-// keys[i] is the last surface of node i, none for roots, single surfaces (whose end candidates joins) and prefixes of more
-// than most_depth.
+// keys[i] is the last surface of node i, none for roots, single surfaces (whose end candidates joins) and prefixes of
+// more than most_depth.
 kernel void prefixes(const global ulong* table, const global uint* nodes, uint node_count, uint most_depth,
                      uint surface_count, const global double4* transmitters, const global wt_exact_surface* exact,
                      global uint* keys, global float4* prefix_of) {

@@ -39,8 +39,8 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_NODE* triangl
   const uint source = leg == 0 ? WT_NONE : sequences[(size_t)i * max_depth + leg - 1];
   const uint goal = leg == depth ? WT_NONE : sequences[(size_t)i * max_depth + leg];
 
-  // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One that
-  // comes too soon to see it does no harm.
+  // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One
+  // that comes too soon to see it does no harm.
   if (wt_load_relaxed_u32(&solved[i].blocked)) return;
   const double length = sqrt(wt_dot(to - from, to - from));
   if (!(length > 0.0)) return;

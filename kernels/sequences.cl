@@ -1,8 +1,8 @@
 // sequences: the trie as a list (collect), its neighbours (commute), and a trie filled from another one, larger or
 // without what is old (regrow, follow). A node is its slot, so a parent must be in the new table before its children:
 // regrow runs once a depth.
-// With WT_AGES, ages[slot] is twice the last frame in which the sequence was met, by a ray, as a neighbour or by a path,
-// and one more if by a ray; a node is never older than its children. `now` is that of rays in this frame.
+// With WT_AGES, ages[slot] is twice the last frame in which the sequence was met, by a ray, as a neighbour or by a
+// path, and one more if by a ray; a node is never older than its children. `now` is that of rays in this frame.
 #include "lib/trie.clh"
 
 // Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number.
@@ -34,7 +34,7 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
   const uint i = get_global_id(0);
   if (i >= node_count || (nodes[i] & WT_ROOT)) return;
 #ifdef WT_AGES
-  if (ages[nodes[i]] != now) return;  // no ray met it in this frame: its neighbours are as old as it is
+  if (wt_load_relaxed_u32(ages + nodes[i]) != now) return;  // no ray met it in this frame: its neighbours are as old as it is
 #endif
   uint chain[WT_MAX_DEPTH], parents[WT_MAX_DEPTH];  // from the last surface back, with the node that each was added to
   uint depth = 0;

@@ -1,6 +1,7 @@
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
 // compaction). One of three shapes by build option: WT_SHAPE_BVH2 (GPU), WT_SHAPE_BVH8 (CPU) and WT_SHAPE_PACKET16
-// (CPU, ordered rays). Work-items find their ray or block by wt_launch_index. With WT_INSTANCES, `moving` is traced too.
+// (CPU, ordered rays). Work-items find their ray or block by wt_launch_index. With WT_INSTANCES, `moving` is traced
+// too.
 #include "lib/bvh2.clh"
 #include "lib/bvh8.clh"
 #include "lib/launch.clh"

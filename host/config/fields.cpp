@@ -25,8 +25,8 @@ Table trace_table() {
           {.name = "recall",
            .slot = t(&TraceConfig::recall),
            .range = {0, 1, true},
-           .doc = "Of rays = \"auto\": the share of the paths that is to be found, estimated from how much one ray alone "
-                  "has met (Good and Turing). The last percent costs more rays than all before it."},
+           .doc = "Of rays = \"auto\": the share of the paths that is to be found, estimated from how much one ray "
+                  "alone has met (Good and Turing). The last percent costs more rays than all before it."},
           {.name = "max_rays",
            .slot = t(&TraceConfig::max_rays),
            .unit = "rays a transmitter",

@@ -71,7 +71,9 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
   std::optional<VehicleType> type = given != options_.types.end() ? *given : sumo_type(base);
   if (!type) {
     if (!options_.default_type) {
-      fail_at(file_, line, fmt::format("the vehicle type '{}' is not known: give its length, width and height", name));
+      fail_at(file_, line, fmt::format("the vehicle type '{}' is not known: add a [[vehicle_type]] with its length_m, width_m "
+                                       "and height_m, or give trajectories.default_type",
+                                       name));
     }
     type = options_.default_type;
     unknown_types_.emplace_back(name);

@@ -42,12 +42,12 @@ void GenerateRays::operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin
 }
 
 void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, uint32_t count,
-                           const gpu::Buffer<float>& launchers, const LaunchDirections& directions) {
+                           const gpu::Buffer<float>& launchers, const LaunchDirections& directions, Turn turn) {
   queue.count = 0;
   check_room(queue, count);
   generate_samples_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes,
                     queue.capacity, first, count, list.samples, list.capacity, launchers, directions.parameter,
-                    directions.level, directions.faces, list.ends);
+                    directions.level, directions.faces, turn.cosine, turn.sine, list.ends);
   queue.count = count;
 }
 

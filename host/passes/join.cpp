@@ -6,14 +6,13 @@
 
 namespace wavetracer {
 
-Join::Join(gpu::Context& context, std::span<const uint32_t> receiver_of_transmitter, uint32_t max_depth)
+Join::Join(gpu::Context& context, const std::vector<uint32_t>& receiver_of_transmitter, uint32_t max_depth)
     : context_(context),
       prefixes_(context.kernel("join", "prefixes")),
       join_(context.kernel("join", "join")),
       max_depth_(max_depth),
       local_(context.info().simple_local_size()),
-      receiver_of_transmitter_(context.buffer(
-          std::vector<uint32_t>(receiver_of_transmitter.begin(), receiver_of_transmitter.end()), "receivers of ends")) {}
+      receiver_of_transmitter_(context.buffer(receiver_of_transmitter, "receivers of ends")) {}
 
 unsigned Join::key_bits(const DeviceScene& scene) {
   return static_cast<unsigned>(std::bit_width(scene.surfaces.size()));

@@ -1,7 +1,7 @@
 // join: candidates of ends that send and receive, from prefixes of both that end on one surface.
 // Adds to the list of candidates; the sequences are as long as both prefixes together, less the surface they share.
 #pragma once
-#include <span>
+#include <vector>
 
 #include "gpu/gpu.hpp"
 #include "passes/device_scene.hpp"
@@ -21,13 +21,13 @@ struct PrefixList {
 
 class Join {
  public:
-  Join(gpu::Context& context, std::span<const uint32_t> receiver_of_transmitter, uint32_t max_depth);
+  Join(gpu::Context& context, const std::vector<uint32_t>& receiver_of_transmitter, uint32_t max_depth);
   // The prefixes of all nodes (roots first, then trie nodes); their keys are not sorted yet, and have key_bits(scene).
   PrefixList& prefixes(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                        const gpu::Buffer<uint32_t>& nodes, uint32_t node_count);
   static unsigned key_bits(const DeviceScene& scene);
-  // Appends to the candidates, of which there are candidate_count; keys are sorted. Returns how many there are then; the
-  // list grows until it holds them.
+  // Appends to the candidates, of which there are candidate_count; keys are sorted. Returns how many there are then;
+  // the list grows until it holds them.
   uint32_t operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint32_t>& nodes,
                       gpu::Buffer<wt_candidate>& candidates, uint32_t candidate_count,
                       gpu::Buffer<wt_counters>& counters);

@@ -27,6 +27,7 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
 void Sequences::resize(uint64_t slots) {
   table_ = context_.buffer<uint64_t>(slots, "sequences");
   ages_ = context_.buffer<uint32_t>(keep_ages_ ? slots : 1, "ages of sequences");
+  context_.fill(ages_, 0, "sequences");
   clear();
 }
 
@@ -40,37 +41,29 @@ void Sequences::begin_frame() {
   counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
 }
 
-void Sequences::move(const gpu::Buffer<uint64_t>& old_table, const gpu::Buffer<uint32_t>& old_ages, uint32_t max_depth,
-                     uint32_t oldest, gpu::Buffer<uint32_t>& moved) {
-  for (uint32_t depth = 1; depth <= max_depth; ++depth)
-    regrow_({old_table.size(), 64}, "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth, moved,
-            table_, static_cast<uint32_t>(table_.size() - 1), counters_, old_ages, ages_, oldest);
-}
-
-void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
+gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest) {
   const gpu::Buffer<uint64_t> old_table = table_;
   const gpu::Buffer<uint32_t> old_ages = ages_;
   gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old_table.size(), "moved sequences");
-  for (;;) {
+  for (;; slots *= 4) {
     // Checked at every step: a slot must leave the bit of WT_ROOT free.
-    if (table_.size() >= uint64_t{1} << 30)
+    if (slots > uint64_t{1} << 30)
       throw RuntimeError("the set of distinct sequences has outgrown 2^30 slots; lower trace.rays or trace.max_depth");
-    resize(table_.size() * 4);
-    move(old_table, old_ages, max_depth, 0, moved);
-    if (!overflowed()) break;
+    resize(slots);
+    for (uint32_t depth = 1; depth <= max_depth; ++depth)
+      regrow_({old_table.size(), 64}, "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth, moved,
+              table_, static_cast<uint32_t>(table_.size() - 1), counters_, old_ages, ages_, oldest);
+    if (!overflowed()) return moved;
   }
+}
+
+void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
+  const gpu::Buffer<uint32_t> moved = rebuild(table_.size() * 4, max_depth, 0);
   if (listed_count > 0) follow_({listed_count, 64}, "sequences", nodes_, listed_count, moved);
 }
 
 void Sequences::forget(uint32_t frames, uint32_t max_depth) {
-  if (!keep_ages_ || frame_ <= frames) return;
-  const gpu::Buffer<uint64_t> old_table = table_;
-  const gpu::Buffer<uint32_t> old_ages = ages_;
-  gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old_table.size(), "moved sequences");
-  resize(old_table.size());
-  move(old_table, old_ages, max_depth, 2 * (frame_ - frames), moved);
-  // Fewer than before in a table of the same size, in another order: a run of 64 taken slots is next to impossible.
-  if (overflowed()) throw RuntimeError("the set of distinct sequences could not be rebuilt; lower trace.forget_frames");
+  if (keep_ages_ && frame_ > frames) rebuild(table_.size(), max_depth, 2 * (frame_ - frames));
 }
 
 void Sequences::keep(const SolvedList& solved) {

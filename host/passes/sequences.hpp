@@ -15,8 +15,8 @@ class Sequences {
   void clear();
   gpu::Buffer<uint64_t>& table() { return table_; }
   gpu::Buffer<wt_counters>& counters() { return counters_; }
-  // Of the slots: twice the last frame, counted by begin_frame, in which a ray, an exchange or a path was there, and one
-  // more if a ray was. One element if not kept.
+  // Of the slots: twice the last frame, counted by begin_frame, in which a ray, an exchange or a path was there, and
+  // one more if a ray was. One element if not kept.
   gpu::Buffer<uint32_t>& ages() { return ages_; }
   uint32_t frame() const { return frame_; }
   // The age of what rays meet in this frame.
@@ -33,8 +33,8 @@ class Sequences {
   // nodes() go on to name the nodes that they named.
   void regrow(uint32_t max_depth, uint32_t listed_count = 0);
   // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged; grows when it
-  // must. Where ages are kept, known means met by a ray in this frame. Call collect() before, whose node_count it takes,
-  // and after.
+  // must. Where ages are kept, known means met by a ray in this frame. Call collect() before, whose node_count it
+  // takes, and after.
   void commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth);
   // The roots of the transmitters, then every node. Returns the length of nodes().
   uint32_t collect(uint32_t transmitter_count);
@@ -42,8 +42,8 @@ class Sequences {
 
  private:
   void resize(uint64_t slots);
-  void move(const gpu::Buffer<uint64_t>& old_table, const gpu::Buffer<uint32_t>& old_ages, uint32_t max_depth,
-            uint32_t oldest, gpu::Buffer<uint32_t>& moved);
+  // A table of so many slots, or more, without the nodes older than `oldest`; where each old slot's node went.
+  gpu::Buffer<uint32_t> rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest);
 
   gpu::Context& context_;
   bool keep_ages_;

@@ -23,8 +23,8 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                               gpu::Buffer<wt_counters>& counters) {
   for (;;) {
     kernel_({candidate_count, 16}, "solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
-            scene.exact_triangles, scene.exact_instances, candidates, candidate_count, solved_.max_depth, solved_.headers, solved_.vertices,
-            solved_.sequences, static_cast<uint32_t>(solved_.headers.size()), counters);
+            scene.exact_triangles, scene.exact_instances, candidates, candidate_count,
+            solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences, static_cast<uint32_t>(solved_.headers.size()), counters);
     wt_counters now = counters.read_one(0, "solve");
     solved_.count = now.solved;
     if (now.solved <= solved_.headers.size()) return solved_;

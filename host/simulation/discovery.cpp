@@ -26,9 +26,9 @@ TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& config
   return config.directions == "random" && !order.key ? TraceShape::bvh8 : TraceShape::packet16;
 }
 
-// Refined launches have no number of rays; that of their refreshing ones is this, a sphere of half-degree cells.
+// Refined launches have no number of rays, but directions are made for one.
 TraceConfig with_rays(TraceConfig config) {
-  if (config.rays == 0) config.rays = 1 << 18;
+  if (config.rays == 0) config.rays = 1;
   return config;
 }
 
@@ -55,6 +55,7 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
       interact_(context, keep_ages),
       sequences_(context, initial_slots, keep_ages) {
   if (config.rays == 0) {
+    plan_ = {};  // refined launches go along their curve
     refinement_.emplace(context, config);
     interact_samples_.emplace(context, keep_ages, true);
   }
@@ -83,30 +84,37 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
   return counts;
 }
 
-DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters) {
+DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
+                                   uint64_t frame) {
   DiscoveryCounts counts;
   counts.segments_per_depth.assign(depth_, 0);
-  if (max_depth_ == 0 || transmitters.empty()) return counts;
-  for (refinement_->start(transmitters, sequences_.table().size()); refinement_->level().count > 0;) {
-    const SampleList& level = refinement_->level();
-    for (uint32_t first = 0; first < level.count && !sequences_.overflowed(); first += static_cast<uint32_t>(batch_rays_)) {
-      const auto count = static_cast<uint32_t>(std::min<uint64_t>(batch_rays_, level.count - first));
-      reserve(count);
-      refinement_->generate(rays_, first, count);
-      trace_batch(scene, *interact_samples_, counts, &level.ends);
-      counts.rays += count;
+  if (depth_ == 0 || transmitters.empty()) return counts;
+  refinement_->start(transmitters, sequences_.table().size(), frame);
+  for (bool more = true; more;) {
+    trace_level(scene, counts);
+    if (sequences_.overflowed()) {
+      // Sequences get new numbers when the set grows: the launch begins again.
+      sequences_.regrow(max_depth_);
+      counts.rays = 0;
+      refinement_->start(transmitters, sequences_.table().size(), frame);
+    } else {
+      more = refinement_->descend();
     }
-    if (!sequences_.overflowed()) {
-      refinement_->descend();
-      continue;
-    }
-    // Sequences get new numbers when the set grows: the launch begins again.
-    sequences_.regrow(max_depth_);
-    refinement_->start(transmitters, sequences_.table().size());
   }
   counts.share_once = refinement_->share_once();
   counts.capped = refinement_->capped();
   return counts;
+}
+
+void Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
+  const SampleList& level = refinement_->level();
+  for (uint64_t done = 0; done < level.count && !sequences_.overflowed(); done += batch_rays_) {
+    const auto count = static_cast<uint32_t>(std::min<uint64_t>(batch_rays_, level.count - done));
+    reserve(count);
+    refinement_->generate(rays_, static_cast<uint32_t>(done), count);
+    trace_batch(scene, *interact_samples_, counts, &level.ends);
+    counts.rays += count;
+  }
 }
 
 bool Discovery::reserve(uint64_t rays) {

@@ -46,7 +46,8 @@ class Discovery {
                              DirectionShare share = {});
   // The same with as many rays as trace.recall asks for, at most trace.max_rays a transmitter: a launch that is refined
   // where it still finds something. Needs trace.rays = 0 ("auto").
-  DiscoveryCounts refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters);
+  // frame: since the last cold one, see Refinement.
+  DiscoveryCounts refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters, uint64_t frame);
   Sequences& sequences() { return sequences_; }
   // Directions of the full set, a transmitter.
   uint64_t rays() const { return config_.rays; }
@@ -57,7 +58,10 @@ class Discovery {
     uint64_t first, count;
   };
   void launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch);
-  uint64_t rays_of(DirectionShare share) const { return (config_.rays - share.phase + share.stride - 1) / share.stride; }
+  uint64_t rays_of(DirectionShare share) const {
+    return (config_.rays - share.phase + share.stride - 1) / share.stride;
+  }
+  void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   bool reserve(uint64_t rays);  // true where queues were made anew
   void trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
                    const gpu::Buffer<uint32_t>* ends = nullptr);

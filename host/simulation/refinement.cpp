@@ -3,21 +3,39 @@
 #include "simulation/refinement.hpp"
 
 #include <bit>
-#include <utility>
 
 namespace wavetracer {
 
 namespace {
 
-// 12,288 rays a launcher to begin with: cells of two degrees, the streets and facades that a vehicle sees.
+// 12,288 rays a launcher to begin with, at the horizon one in each degree of azimuth and four of height: streets and
+// facades that a vehicle sees. Frames that know what earlier ones met begin a level higher, and refine half as much.
 constexpr uint32_t first_level = 6;
 
 // Sequences that so few samples have met are refined. On the streets of munich 2 finds more than 0.99 of the paths, 4
-// more than 0.998, 8 all that are known (bench_recall).
+// more than 0.998, 8 all that are known (bench_discovery).
 uint32_t rare(double recall) { return recall <= 0.99 ? 2 : recall <= 0.999 ? 4 : 8; }
 
 LaunchDirections directions_of(uint32_t level) {
   return LaunchDirections("hilbert", uint64_t{sample_faces} << (2 * level), 0);
+}
+
+// The first level of a frame, or the finest that trace.max_rays allows.
+uint32_t level_of(uint64_t frame, uint64_t max_rays) {
+  uint32_t level = frame == 0 ? first_level : first_level - 1;
+  while (level > 0 && uint64_t{sample_faces} << (2 * level) > max_rays) --level;
+  return level;
+}
+
+// Turns by atan(4 / 3), which is no rational part of a full turn, one a frame; + and * only, the same everywhere.
+Turn turn_of(uint64_t frame) {
+  double cosine = 1, sine = 0;
+  for (uint64_t i = 0; i < frame % 1000; ++i) {
+    const double c = 0.6 * cosine - 0.8 * sine;
+    sine = 0.8 * cosine + 0.6 * sine;
+    cosine = c;
+  }
+  return {static_cast<float>(cosine), static_cast<float>(sine)};
 }
 
 }  // namespace
@@ -25,13 +43,13 @@ LaunchDirections directions_of(uint32_t level) {
 Refinement::Refinement(gpu::Context& context, const TraceConfig& config)
     : context_(context),
       config_(config),
-      generate_(context, directions_of(first_level)),
+      generate_(context, directions_of(finest_level)),
       refine_(context),
       compact_(context, context.info().cpu ? 16 : 128),
       scan_(context),
       block_(context.info().cpu ? 16 : 128) {}
 
-void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots) {
+void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots, uint64_t frame) {
   std::vector<float> records;
   for (const Launcher& l : launchers) {
     for (int axis = 0; axis < 3; ++axis) records.push_back(static_cast<float>(l.position_m[axis]));
@@ -43,50 +61,59 @@ void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots) {
   launchers_ = context_.buffer(records, "launchers");
   if (hits_.size() != slots) hits_ = context_.buffer<uint32_t>(slots, "hits of sequences");
   context_.fill(hits_, 0, "refine");
-
-  const auto cells = static_cast<uint32_t>(uint64_t{sample_faces} << (2 * first_level));
-  const uint64_t count = uint64_t{cells} * launchers.size();
-  if (level_.capacity < count + 16) level_ = make_sample_list(context_, count);
-  std::vector<uint32_t> plane(count);
-  for (size_t i = 0; i < count; ++i) plane[i] = static_cast<uint32_t>(i % cells);
-  level_.samples.write(plane, 0, "refine");
-  for (size_t i = 0; i < count; ++i) plane[i] = static_cast<uint32_t>(i / cells);
-  level_.samples.write(plane, level_.capacity, "refine");
-  level_.count = static_cast<uint32_t>(count);
-  level_.level = first_level;
+  begin_level(launchers.size(), level_of(frame, config_.max_rays));
+  turn_ = turn_of(frame);
+  rare_ = frame == 0 ? rare(config_.recall) : rare(config_.recall) / 2;
   most_ = config_.max_rays * launchers.size();
-  launched_ = count;
+  launched_ = lists_[0].count;
   capped_ = false;
 }
 
-void Refinement::generate(RayQueue& queue, uint32_t first, uint32_t count) {
-  generate_.samples(queue, level_, first, count, launchers_, directions_of(level_.level));
+void Refinement::begin_level(uint64_t launcher_count, uint32_t level) {
+  current_ = 0;
+  SampleList& list = lists_[0];
+  list.level = level;
+  const uint64_t count = list.cells() * launcher_count;
+  if (list.count == count) return;  // as in the frame before
+  if (list.capacity < count + 16) list = make_sample_list(context_, count);
+  list.level = level;
+  list.count = static_cast<uint32_t>(count);
+  std::vector<uint32_t> plane(count);
+  for (size_t i = 0; i < count; ++i) plane[i] = static_cast<uint32_t>(i % list.cells());
+  list.samples.write(plane, 0, "refine");
+  for (size_t i = 0; i < count; ++i) plane[i] = static_cast<uint32_t>(i / list.cells());
+  list.samples.write(plane, list.capacity, "refine");
 }
 
-void Refinement::descend() {
-  refine_.count_ends(level_, hits_);
+void Refinement::generate(RayQueue& queue, uint32_t first, uint32_t count) {
+  SampleList& list = lists_[current_];
+  generate_.samples(queue, list, first, count, launchers_, directions_of(list.level), turn_);
+}
+
+bool Refinement::descend() {
+  const SampleList& level = lists_[current_];
+  refine_.count_ends(level, hits_);
   const MetSequences met = refine_.met(hits_);
   share_once_ = met.all ? static_cast<double>(met.once) / met.all : 0;
-  const uint32_t samples = std::exchange(level_.count, 0);
-  if (samples == 0 || share_once_ <= 1 - config_.recall || level_.level == finest_level) return;
-  level_.count = samples;
-  if (marks_.size() < samples) {
-    marks_ = context_.buffer<float>(samples, "marks");
-    list_ = context_.buffer<uint32_t>(samples, "marked samples");
-    blocks_ = context_.buffer<uint32_t>(samples / block_ + 1, "marks of blocks");
+  if (share_once_ <= 1 - config_.recall || level.level == finest_level) return false;
+  if (marks_.size() < level.count) {
+    marks_ = context_.buffer<float>(level.count, "marks");
+    list_ = context_.buffer<uint32_t>(level.count, "marked samples");
+    blocks_ = context_.buffer<uint32_t>(level.count / block_ + 1, "marks of blocks");
   }
-  refine_.mark(level_, hits_, rare(config_.recall), marks_);
-  compact_.count_blocks(marks_, 0, samples, blocks_);
-  const uint32_t marked = scan_(blocks_, (samples + block_ - 1) / block_);
-  level_.count = 0;
-  if (marked == 0) return;
+  refine_.mark(level, hits_, rare_, marks_);
+  compact_.count_blocks(marks_, 0, level.count, blocks_);
+  const uint32_t marked = scan_(blocks_, (level.count + block_ - 1) / block_);
   capped_ = launched_ + 4 * uint64_t{marked} > most_;
-  if (capped_) return;
-  compact_(marks_, 0, samples, blocks_, list_);
-  if (next_.capacity < 4 * uint64_t{marked} + 16) next_ = make_sample_list(context_, 4 * uint64_t{marked});
-  refine_.split(level_, list_, marked, next_);
-  std::swap(level_, next_);
-  launched_ += level_.count;
+  if (marked == 0 || capped_) return false;
+  compact_(marks_, 0, level.count, blocks_, list_);
+  const size_t other = current_ == 1 ? 2 : 1;
+  if (lists_[other].capacity < 4 * uint64_t{marked} + 16)
+    lists_[other] = make_sample_list(context_, 4 * uint64_t{marked});
+  refine_.split(level, list_, marked, lists_[other]);
+  current_ = other;
+  launched_ += lists_[other].count;
+  return true;
 }
 
 }  // namespace wavetracer

@@ -15,20 +15,23 @@ namespace wavetracer {
 class Refinement {
  public:
   Refinement(gpu::Context& context, const TraceConfig& config);
-  // The first level for these launchers; slots: of the set of sequences.
-  void start(const std::vector<Launcher>& launchers, uint64_t slots);
-  // The samples to trace now; none once the launch is done.
-  const SampleList& level() const { return level_; }
+  // The first level for these launchers; slots: of the set of sequences. frame: since the last cold one, which is 0.
+  // Frames that have the sequences of earlier ones launch fewer rays, and in directions of their own.
+  void start(const std::vector<Launcher>& launchers, uint64_t slots, uint64_t frame);
+  // The samples to trace now.
+  const SampleList& level() const { return lists_[current_]; }
   // Appends nothing: fills the empty queue with samples first .. first + count - 1.
   void generate(RayQueue& queue, uint32_t first, uint32_t count);
-  // All samples of the level have been traced: prepares the next, which is empty when enough was found, or the next
-  // would go beyond trace.max_rays.
-  void descend();
+  // All samples of the level have been traced: prepares the next. False when enough was found, or the next would go
+  // beyond trace.max_rays.
+  bool descend();
   // Of all sequences met, the share that one sample alone met; and was it trace.max_rays that ended the launch?
   double share_once() const { return share_once_; }
   bool capped() const { return capped_; }
 
  private:
+  void begin_level(uint64_t launcher_count, uint32_t level);
+
   gpu::Context& context_;
   TraceConfig config_;
   GenerateRays generate_;
@@ -38,7 +41,10 @@ class Refinement {
   uint32_t block_;
   gpu::Buffer<float> launchers_, marks_;
   gpu::Buffer<uint32_t> hits_, blocks_, list_;
-  SampleList level_, next_;
+  SampleList lists_[3];  // the first level, kept for the next frame, and two that take turns
+  size_t current_ = 0;
+  Turn turn_;
+  uint32_t rare_ = 0;
   uint64_t most_ = 0, launched_ = 0;  // rays of all launchers
   double share_once_ = 0;
   bool capped_ = false;

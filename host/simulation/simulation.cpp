@@ -102,7 +102,7 @@ void Simulation::State::begin_frame() {
 }
 
 DiscoveryCounts Simulation::State::discover(const std::vector<Launcher>& transmitters) {
-  if (config.trace.rays == 0 && warm_frames == 0) return discovery->refined(device_scene, transmitters);
+  if (config.trace.rays == 0) return discovery->refined(device_scene, transmitters, warm_frames);
   return (*discovery)(device_scene, transmitters, share_of(config.trace, discovery->rays(), warm_frames));
 }
 
@@ -213,9 +213,10 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   out.segments_per_depth = found.segments_per_depth;
   out.counts.rays = found.rays;
   if (found.capped)
-    out.warnings.push_back(fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: "
-                                       "{:.0f}% of the sequences found were met by one ray alone",
-                                       s.config.trace.max_rays, s.config.trace.recall, 100 * found.share_once));
+    out.warnings.push_back(
+        fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: "
+                    "{:.0f}% of the sequences found were met by one ray alone",
+                    s.config.trace.max_rays, s.config.trace.recall, 100 * found.share_once));
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
   out.counts.sequences = node_count - ends.transmitter_count;

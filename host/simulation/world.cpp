@@ -80,6 +80,7 @@ struct World::State {
   void set_twins();
   void set_clock(const TimeConfig& config);
   void set_reach();
+  void warn_outside(const Scene& scene);
 };
 
 void World::State::add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
@@ -219,6 +220,19 @@ void World::State::set_reach() {
   }
 }
 
+void World::State::warn_outside(const Scene& scene) {
+  size_t outside = 0;
+  for (const Track& track : trajectories.tracks) {
+    const Bounds b = bounds_of(track);
+    outside += b.lower.x > scene.upper.x || b.upper.x < scene.lower.x || b.lower.y > scene.upper.y ||
+               b.upper.y < scene.lower.y;
+  }
+  if (outside > 0)
+    warnings.push_back(
+        fmt::format("{} of {} vehicles are never inside of the scene: check trajectories.offset_m and trajectories.scale",
+                    outside, trajectories.tracks.size()));
+}
+
 World::World(const Config& config, const Scene& scene) : state_(std::make_unique<State>()) {
   State& s = *state_;
   VehicleModels vehicles(config);
@@ -234,6 +248,7 @@ World::World(const Config& config, const Scene& scene) : state_(std::make_unique
   s.set_twins();
   s.set_clock(config.time);
   s.set_reach();
+  s.warn_outside(scene);
 }
 
 World::~World() = default;

@@ -26,8 +26,8 @@ class World {
   const std::vector<RadioEnd>& transmitters() const;
   const std::vector<RadioEnd>& receivers() const;
 
-  // Of each transmitter the receiver that is the same end (it stands in the same place, or in the same place on the same
-  // vehicle), no_end where there is none; and the other way round.
+  // Of each transmitter the receiver that is the same end (it stands in the same place, or in the same place on the
+  // same vehicle), no_end where there is none; and the other way round.
   const std::vector<uint32_t>& receiver_of_transmitter() const;
   const std::vector<uint32_t>& transmitter_of_receiver() const;
 

@@ -74,7 +74,28 @@ TEST_CASE("missing input files exit 3 and name the key") {
   const std::string antenna = folder.file("b.toml", city + ends + "antenna = \"absent.csv\"\n");
   check(run_program({"validate", "-c", antenna}), 3, "receiver.antenna is \"" + folder.path("absent.csv"));
   check(run_program({"scene", "info", folder.path("absent.xml")}), 3, "absent.xml");
-  CHECK(folder.entries() == 2);
+  const std::string drive = folder.file("c.toml", city + ends + "[trajectories]\nfile = \"absent.fcd.xml\"\n");
+  for (const char* command : {"validate", "run"})
+    check(run_program({command, "-c", drive}), 3,
+          drive + ": trajectories.file is \"" + folder.path("absent.fcd.xml") +
+              "\", which cannot be read: No such file");
+  CHECK(folder.entries() == 3);
+}
+
+TEST_CASE("traffic in the streets of another city exits 2 and says what differs") {
+  const Folder folder;
+  const auto validate = [&](const std::string& houses, const std::string& traffic) {
+    const std::string file = folder.file(
+        "a.toml", "scene.generate = \"" + houses + "\"\ntrajectories.generate = \"" + traffic + "\"\n" + ends);
+    return run_program({"validate", "-c", file});
+  };
+  const std::string differs = "trajectories.generate has the streets of --blocks 6x6 --block-m 80 --street-m ";
+  check(validate("--blocks 4", "--vehicles 3"), 2,
+        folder.path("a.toml") + ": " + differs + "20, scene.generate those of --blocks 4x4 --block-m 80 --street-m 20");
+  check(validate("--seed 1", "--vehicles 3 --street-m 16"), 2, differs + "16, scene.generate those of --blocks 6x6");
+  check(validate("--block-m 100", "--block-m 90"), 2, "vehicles would drive through houses; give both the same");
+  // Defaults count as given, and houses do not matter.
+  CHECK(validate("--blocks 6 --floors 2:3", "--seed 5 --blocks=6x6 --street-m 20").code == 0);
 }
 
 TEST_CASE("an output folder that cannot be written to exits 1 before anything is traced") {

@@ -214,6 +214,33 @@ TEST_CASE("what contradicts itself, with its place") {
   check_contains(error_of(scene + ends + "[[mount]]\non = \"e\"\n" + track), "a.toml:8:1: [[mount]] has no name");
 }
 
+TEST_CASE("a refined launch goes along the hilbert curve and nothing else") {
+  const std::string automatic = scene + "trace.rays = \"auto\"\n";
+  CHECK(error_of(automatic + "trace.directions = \"hilbert\"\norder.method = \"none\"\n" + ends) == "no error");
+  CHECK(error_of(automatic + "order.method = \"WS\"\n" + ends) == "no error");
+  CHECK(error_of(automatic + "trace.directions = \"random\"\n" + ends) ==
+        "a.toml:3:20: trace.rays = \"auto\" needs trace.directions = \"hilbert\", not \"random\": leave "
+        "trace.directions out, or give trace.rays a number");
+  for (const std::string method : {"Z", "direction-origin", "auto"})
+    check_contains(error_of(automatic + "order.method = \"" + method + "\"\n" + ends),
+                   "a.toml:3:16: trace.rays = \"auto\" launches rays in an order of its own, order.method = \"" +
+                       method + "\" another: leave order.method out");
+  // What stands last is to blame, and --set comes after the file.
+  check_contains(error_of(scene + "order.method = \"Z\"\n" + ends, {"trace.rays=auto"}), "--set trace.rays=auto: ");
+  CHECK(error_of(automatic + "order.method = \"Z\"\n" + ends, {"trace.rays=1000"}) == "no error");
+}
+
+TEST_CASE("frames that reuse launch no more rays than those that do not, and forget after one frame at least") {
+  check_contains(error_of(scene + "trace.refresh_rays = 1001\ntrace.rays = 1000\n" + ends),
+                 "a.toml:3:14: trace.refresh_rays = 1001 is more than trace.rays = 1000");
+  check_contains(error_of(scene + "trace.rays = 1000\ntrace.refresh_rays = 1001\n" + ends), "a.toml:3:22: ");
+  CHECK(error_of(scene + "trace.rays = 1000\ntrace.refresh_rays = 1000\n" + ends) == "no error");
+  CHECK(error_of(scene + "trace.rays = \"auto\"\ntrace.refresh_rays = 1000000\n" + ends) == "no error");
+  check_contains(error_of(scene + "trace.forget_frames = 0\n" + ends),
+                 "a.toml:2:23: trace.forget_frames = 0 is out of range");
+  CHECK(error_of(scene + "trace.forget_frames = 1\n" + ends) == "no error");
+}
+
 TEST_CASE("mounts take the place of transmitters and receivers by their role") {
   const auto with = [](const std::string& role) {
     return error_of(scene + track + "[[mount]]\nname = \"m\"\nrole = \"" + role + "\"\n");

@@ -115,7 +115,7 @@ TEST_CASE("unknown types are errors where there is no default; sizes and scale m
   TrajectoryOptions options;
   options.default_type.reset();
   fails(fcd(timestep("0", car("x=\"1\" y=\"2\" type=\"spaceship\""))),
-        "drive.xml:3: the vehicle type 'spaceship' is not known: give its length, width and height", options);
+        "drive.xml:3: the vehicle type 'spaceship' is not known: add a [[vehicle_type]] with its length_m", options);
   options.types = {{"spaceship", 0, 1, 1}};
   CHECK_THROWS_WITH_AS(read_text(fcd(""), options), Contains("vehicle type 'spaceship': 0 m is no size"), ConfigError);
   options.types.clear();

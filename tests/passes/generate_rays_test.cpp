@@ -13,6 +13,7 @@
 
 #include "passes/triangles.hpp"
 #include "wavetracer/device/directions.h"
+#include "wavetracer/device/moving.h"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -124,6 +125,102 @@ TEST_CASE("a launch in parts, and of several transmitters, gives the same rays")
     for (const auto& [first, count] : {std::pair{0u, 157u}, {157u, n - 157}})
       generate(parts, 1, {-4, 5, 6}, first, count);
     CHECK(download(parts) == download(whole));
+  }
+}
+
+TEST_CASE("a share of the directions: every stride-th launch index, with the surface that the rays leave") {
+  constexpr uint64_t n = 100000;
+  constexpr uint32_t count = 100, source = WT_OWN | 5;
+  for (const std::string map : maps)
+    for (const uint64_t stride : {uint64_t{1}, uint64_t{10}, uint64_t{997}}) {
+      CAPTURE(map);
+      CAPTURE(stride);
+      GenerateRays generate(context(), LaunchDirections(map, n, seed));
+      RayQueue queue = make_ray_queue(context(), count, "rays");
+      // In two parts, the first of which ends within the 16 rays of a work-item.
+      generate(queue, 2, {1, 2, 3}, 7, 37, stride, source);
+      generate(queue, 2, {1, 2, 3}, 7 + 37 * stride, count - 37, stride, source);
+      const std::vector<Ray> rays = download(queue);
+      REQUIRE(rays.size() == count);
+      const Launch launch(map, n);
+      size_t different = 0;
+      for (uint32_t k = 0; k < count; ++k)
+        different += rays[k] != Ray{{1, 2, 3}, launch.direction(map, 7 + stride * k), source, WT_ROOT | 2};
+      CHECK(different == 0);
+    }
+}
+
+TEST_CASE("stride launches from every phase are together the whole launch") {
+  constexpr uint64_t n = 203, stride = 10;
+  GenerateRays generate(context(), LaunchDirections("hilbert", n, seed));
+  RayQueue whole = make_ray_queue(context(), n, "whole"), shares = make_ray_queue(context(), n, "shares");
+  generate(whole, 0, {0, 0, 0}, 0, n);
+  for (uint64_t phase = 0; phase < stride; ++phase)
+    generate(shares, 0, {0, 0, 0}, phase, static_cast<uint32_t>((n - phase + stride - 1) / stride), stride);
+  std::multiset<Float3> one, other;
+  for (const Ray& ray : download(whole)) one.insert(ray.direction);
+  for (const Ray& ray : download(shares)) other.insert(ray.direction);
+  CHECK(one == other);
+}
+
+TEST_CASE("an order is followed, and its rays leave what they should") {
+  constexpr uint32_t n = 1000, count = 50, first = 300, source = WT_OWN | 1;
+  std::vector<uint32_t> order(count + 16, 0);
+  for (uint32_t k = 0; k < count; ++k) order[k] = (37 * k + 11) % count;
+  GenerateRays generate(context(), LaunchDirections("hilbert", n, seed));
+  RayQueue queue = make_ray_queue(context(), count, "rays");
+  generate(queue, 1, {4, 5, 6}, first, count, context().buffer(order, "order"), source);
+  const std::vector<Ray> rays = download(queue);
+  const Launch launch("hilbert", n);
+  size_t different = 0;
+  for (uint32_t k = 0; k < count; ++k)
+    different += rays[k] != Ray{{4, 5, 6}, launch.direction("hilbert", first + order[k]), source, WT_ROOT | 1};
+  CHECK(different == 0);
+}
+
+TEST_CASE("samples: the ray of a cell and a launcher, with its number, and an end that is a root") {
+  constexpr uint32_t level = 7, cells = sample_faces << (2 * level), count = 300;
+  const std::vector<glm::dvec3> origins{{1, 2, 3}, {-4, 5, 0.5}};
+  const std::vector<uint32_t> roots{WT_ROOT | 4, WT_ROOT | 9}, sources{WT_NONE, WT_OWN | 3};
+  std::vector<float> launchers;
+  for (size_t i = 0; i < 2; ++i) {
+    for (const float x : to_float(origins[i])) launchers.push_back(x);
+    launchers.insert(launchers.end(), {0, std::bit_cast<float>(roots[i]), std::bit_cast<float>(sources[i]), 0, 0});
+  }
+  SampleList list = make_sample_list(context(), count);
+  std::vector<uint32_t> cell(count), launcher(count), untouched(list.capacity, 77);
+  Random random(3);
+  for (uint32_t i = 0; i < count; ++i) {
+    cell[i] = random.below(cells);
+    launcher[i] = random.below(2);
+  }
+  list.samples.write(cell);
+  list.samples.write(launcher, list.capacity);
+  list.ends.write(untouched);
+  list.count = count;
+  list.level = level;
+  const LaunchDirections directions("hilbert", cells, 0);
+  GenerateRays generate(context(), LaunchDirections("hilbert", 12345, seed));
+  RayQueue queue = make_ray_queue(context(), count, "rays", true);
+  for (const auto& [first, part] : {std::pair{0u, 100u}, {100u, 131u}, {231u, 69u}}) {
+    CAPTURE(first);
+    generate.samples(queue, list, first, part, context().buffer(launchers, "launchers"), directions);
+    REQUIRE(queue.count == part);
+    const std::vector<Ray> rays = download(queue);
+    const std::vector<float> numbers = queue.planes.read(size_t{WT_RAY_SAMPLE} * queue.capacity, part);
+    size_t different = 0;
+    for (uint32_t k = 0; k < part; ++k) {
+      const uint32_t i = first + k, from = launcher[i];
+      const device::wt_direction d =
+          device::wt_direction_hilbert(cell[i], directions.parameter, directions.level, directions.faces);
+      different += rays[k] != Ray{to_float(origins[from]), {d.x, d.y, d.z}, sources[from], roots[from]};
+      different += std::bit_cast<uint32_t>(numbers[k]) != i;
+    }
+    CHECK(different == 0);
+    const std::vector<uint32_t> ends = list.ends.read();
+    size_t wrong = 0;
+    for (uint32_t i = 0; i < list.capacity; ++i) wrong += ends[i] != (i < first + part ? roots[launcher[i]] : 77);
+    CHECK(wrong == 0);
   }
 }
 

@@ -1,0 +1,20 @@
+// How many of the paths of one frame another frame has, where both were solved by us in the same world.
+// Two paths are the same where link and delay (to 1e-12 s) agree, and surfaces and instances do, or else the power.
+#pragma once
+#include <cstddef>
+
+#include "wavetracer/paths.hpp"
+
+namespace wavetracer::bench {
+
+struct PathRecall {
+  size_t reference = 0, mine = 0, found = 0;
+  double paths = 1, power = 1;  // shares of the reference found, by number and by the sum of |a|^2; 1 of nothing
+
+  size_t extra() const { return mine - found; }  // paths that the reference lacks
+};
+
+// Each path is matched once. Both in the order that Paths promises, one frame each; frame numbers are not compared.
+PathRecall path_recall(const Paths& reference, const Paths& mine);
+
+}  // namespace wavetracer::bench

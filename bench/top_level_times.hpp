@@ -1,0 +1,13 @@
+// What it takes to place instances anew in every frame, with the tree over them built on the host and on the device.
+// Assumes a quiet machine.
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace wavetracer::bench {
+
+// A line for each of 100 to 10,000 cars: a frame's placement with its transfers, the tree built on the device; the
+// baseline is the same with the host's tree. Where they cross is the constant of simulation/placement.hpp.
+void print_top_level_times(const std::string& device, size_t runs, const std::string& command);
+
+}  // namespace wavetracer::bench
