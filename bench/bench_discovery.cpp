@@ -62,8 +62,8 @@ class Bench {
   void run() {
     const uint64_t plain = find_plain();
     for (const double recall : {0.99, 0.999, 0.9999}) run_auto(recall, plain);
-    for (const uint64_t rays : {plain, plain / 3})
-      for (const bool all_at_first : {true, false}) run_reuse(rays, all_at_first, plain);
+    for (const double recall : {0.99, 0.999}) run_reuse(0, recall, plain);
+    for (const uint64_t rays : {plain, 3 * plain}) run_reuse(rays, 0, plain);
   }
 
  private:
@@ -118,19 +118,22 @@ class Bench {
     print_line(solve_standing(config), fmt::format("auto, recall {}", recall), plain, "");
   }
 
-  // The transmitter drives and ends where it stands in the list. The first frame launches all rays or its share alone,
-  // those after it a share of them; the recall is the mean over several ways to that place.
-  void run_reuse(uint64_t rays, bool all_at_first, uint64_t plain) {
+  // The transmitter drives and ends where it stands in the list. rays: those of the first frame, of which later ones
+  // launch a share, or 0: "auto" for this recall. Recall and rays are means over several ways to that place, and rays
+  // over the frames after the first.
+  void run_reuse(uint64_t rays, double recall, uint64_t plain) {
     const double length_m = (drive_frames - 1) * step_s * speed_m_s;
     const glm::dvec3 end_m = reference_.transmitters_m.front();
     Config config = config_;
     config.vehicle_types = {{.name = "antenna", .model = "none", .length_m = 1, .width_m = 1, .height_m = 1}};
     config.mounts = {{.name = "tx", .role = "transmitter", .polarization = "VH"}};
     config.time.step_s = step_s;
+    config.trace.rays = rays;
+    config.trace.recall = recall;
     config.trace.refresh_rays = rays / refresh_share;
-    config.trace.rays = all_at_first ? rays : config.trace.refresh_rays;
     if (ways_.empty()) ways_ = free_ways_to(load_scene(config), end_m, length_m, options_.ways);
-    Measured mean{.rays = config.trace.refresh_rays};
+    Measured mean;
+    uint64_t launched = 0;
     double worst = 1;
     for (const glm::dvec3& start_m : ways_) {
       config.tracks = {{"drive",
@@ -139,7 +142,10 @@ class Bench {
                          {(drive_frames - 1) * step_s, end_m.x, end_m.y, end_m.z}}}};
       Simulation simulation(config, options_.device);
       FrameResult result;
-      for (uint32_t frame = 0; frame < drive_frames; frame++) result = simulation.run_frame(frame);
+      for (uint32_t frame = 0; frame < drive_frames; frame++) {
+        result = simulation.run_frame(frame);
+        if (frame > 0) launched += result.counts.rays;
+      }
       const Comparison c = reference::compare_paths(reference_, result.paths);
       const double weight = 1 / static_cast<double>(ways_.size());
       mean.comparison.reference = c.reference;
@@ -150,10 +156,8 @@ class Bench {
       worst = std::min(worst, c.recall);
     }
     mean.comparison.found /= ways_.size();
-    print_line(mean,
-               fmt::format("reuse, {:.2g} of the plain rays, {}",
-                           static_cast<double>(mean.rays) / static_cast<double>(plain),
-                           all_at_first ? fmt::format("{} at first", rays) : "as few at first"),
+    mean.rays = launched / (ways_.size() * (drive_frames - 1));
+    print_line(mean, rays ? fmt::format("reuse, {} rays at first", rays) : fmt::format("reuse, auto, recall {}", recall),
                plain, fmt::format("frame {} of {} ways; {:.4f} at worst", drive_frames - 1, ways_.size(), worst));
   }
 

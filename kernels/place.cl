@@ -13,7 +13,8 @@ kernel void place(const global wt_exact_instance* instances, const global wt_mod
   if (i >= surface_count) return;
   const uint number = surface_instances[i];
   const global wt_exact_instance* instance = instances + number;
-  const global wt_model_surface* s = models + instance->first_model_surface + (first_surface + i - instance->first_surface);
+  const global wt_model_surface* s =
+      models + instance->first_model_surface + (first_surface + i - instance->first_surface);
   const double3 model_n = (double3)(s->normal[0], s->normal[1], s->normal[2]);
   const double3 c = (double3)(0.5 * (s->lower[0] + s->upper[0]), 0.5 * (s->lower[1] + s->upper[1]),
                               0.5 * (s->lower[2] + s->upper[2]));

@@ -1,5 +1,5 @@
-// Host side of kernels/place.cl, and the top-level tree, which is built here: faster than on a device for the numbers of
-// vehicles that scenes hold (bench_drive).
+// Host side of kernels/place.cl, and the top-level tree where the host builds it: faster than a device for some hundred
+// vehicles (bench_drive). What instances are whatever the frame is uploaded once.
 #include "passes/place.hpp"
 
 #include <algorithm>
@@ -74,7 +74,12 @@ Place::Place(gpu::Context& context, const std::vector<Scene>& models, const std:
   }
   upload_surfaces(context, models, scene);
   upload_trees(context, models, scene);
-  scene.exact_instances = context.buffer<wt_exact_instance>(instances_.size(), "instances");
+  for (const Instance& instance : instances_) {
+    wt_exact_instance& record = records_.emplace_back();
+    record.first_surface = instance.first_surface;
+    record.first_model_surface = models_[instance.model].first_surface;
+  }
+  scene.exact_instances = context.buffer<wt_exact_instance>(records_.size(), "instances");
   scene.definitions["WT_INSTANCES"] = "1";
 }
 
@@ -125,14 +130,16 @@ void Place::upload_trees(gpu::Context& context, const std::vector<Scene>& models
     if (scene.cpu) {
       models_[m].root = static_cast<uint32_t>(nodes.size() / WT_BVH8_NODE_FLOATS);
       const Bvh8 eight = make_bvh8(build_binary(triangles, BuildOptions::for_bvh8()), triangles);
-      append_nodes(nodes, eight.nodes, WT_BVH8_NODE_FLOATS, 48, 8, static_cast<uint32_t>(leaves.size() / WT_BLOCK_FLOATS));
+      const auto first_block = static_cast<uint32_t>(leaves.size() / WT_BLOCK_FLOATS);
+      append_nodes(nodes, eight.nodes, WT_BVH8_NODE_FLOATS, 48, 8, first_block);
       leaves.insert(leaves.end(), eight.blocks.begin(), eight.blocks.end());
       stack = std::max(stack, 7 * eight.max_depth + 1);
     } else {
       models_[m].root = static_cast<uint32_t>(nodes.size() / WT_BVH2_NODE_FLOATS);
       trees.push_back(make_bvh2(build_binary(triangles, BuildOptions::for_bvh2()), triangles));
       // Rays in model coordinates start as far away as the scene is wide.
-      append_nodes(nodes, centred_boxes(trees.back().nodes, 4 * extent_m_), WT_BVH2_NODE_FLOATS, 12, 2, triangle_slots_);
+      const std::vector<float> centred = centred_boxes(trees.back().nodes, 4 * extent_m_);
+      append_nodes(nodes, centred, WT_BVH2_NODE_FLOATS, 12, 2, triangle_slots_);
       triangle_slots_ += trees.back().triangle_slots;
       stack = std::max(stack, trees.back().max_depth);
     }
@@ -149,59 +156,75 @@ void Place::upload_trees(gpu::Context& context, const std::vector<Scene>& models
   instances_at_ = WT_MOVING_TOP + 4 * std::max<size_t>(instances_.size(), 2);
   nodes_at_ = instances_at_ + WT_INSTANCE_FLOAT4S * instances_.size();
   triangles_at_ = nodes_at_ + nodes.size() / 4;
+  const float head[4] = {bits(static_cast<uint32_t>(instances_at_)), bits(static_cast<uint32_t>(nodes_at_)),
+                         bits(static_cast<uint32_t>(triangles_at_)), bits(triangle_slots_)};
   scene.moving = context.buffer<float>(4 * triangles_at_ + leaves.size(), "moving");
+  scene.moving.write(head);
   scene.moving.write(nodes, 4 * nodes_at_);
   scene.moving.write(leaves, 4 * triangles_at_);
+  top_.resize(4 * (nodes_at_ - WT_MOVING_TOP));
+}
+
+std::vector<float> Place::bodies() const {
+  std::vector<float> bodies;
+  bodies.reserve(8 * instances_.size());
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    const Model& model = models_[instances_[i].model];
+    const auto &lower = model.box.lower, &upper = model.box.upper;
+    bodies.insert(bodies.end(), {lower[0], lower[1], lower[2], bits(model.root)});
+    bodies.insert(bodies.end(), {upper[0], upper[1], upper[2], bits(first_primitive_[i])});
+  }
+  return bodies;
 }
 
 void Place::operator()(DeviceScene& scene, std::span<const Placement> placements) {
-  std::vector<wt_exact_instance> records(instances_.size());
-  for (size_t i = 0; i < records.size(); ++i) {
-    wt_exact_instance& record = records[i];
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) record.rotation[3 * row + column] = placements[i].rotation[column][row];
-      record.position[row] = placements[i].position_m[row];
-    }
-    record.first_surface = instances_[i].first_surface;
-    record.first_model_surface = models_[instances_[i].model].first_surface;
-    record.present = placements[i].present;
-  }
-  scene.exact_instances.write(records, 0, "place");
-  kernel_({surface_count_, local_}, "place", scene.exact_instances, model_surfaces_, surface_instances_, first_surface_,
-          surface_count_, scene.exact_surfaces, scene.surfaces);
+  surfaces(scene, placements);
   write_top_level(scene, placements);
 }
 
+void Place::surfaces(DeviceScene& scene, std::span<const Placement> placements) {
+  for (size_t i = 0; i < records_.size(); ++i) {
+    wt_exact_instance& record = records_[i];
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column)
+        record.rotation[3 * row + column] = placements[i].rotation[column][row];
+      record.position[row] = placements[i].position_m[row];
+    }
+    record.present = placements[i].present;
+  }
+  scene.exact_instances.write(records_, 0, "place");
+  kernel_({surface_count_, local_}, "place", scene.exact_instances, model_surfaces_, surface_instances_, first_surface_,
+          surface_count_, scene.exact_surfaces, scene.surfaces);
+}
+
 void Place::write_top_level(DeviceScene& scene, std::span<const Placement> placements) {
-  std::vector<uint32_t> present;
-  std::vector<Box> boxes;
+  present_.clear();
+  boxes_.clear();
   for (uint32_t i = 0; i < instances_.size(); ++i) {
     if (!placements[i].present) continue;
-    present.push_back(i);
-    boxes.push_back(placed(models_[instances_[i].model].box, placements[i]));
+    present_.push_back(i);
+    boxes_.push_back(placed(models_[instances_[i].model].box, placements[i]));
   }
-  const TopLevel top = build_top_level(boxes);
-  const std::vector<float> nodes = centred_boxes(top.nodes, extent_m_);
-  std::vector<float> words(4 * nodes_at_, 0.0f);
-  words[WT_MOVING_INSTANCES] = bits(static_cast<uint32_t>(instances_at_));
-  words[WT_MOVING_NODES] = bits(static_cast<uint32_t>(nodes_at_));
-  words[WT_MOVING_TRIANGLES] = bits(static_cast<uint32_t>(triangles_at_));
-  words[WT_MOVING_TRIANGLE_SLOTS] = bits(triangle_slots_);
-  std::copy(nodes.begin(), nodes.end(), words.begin() + 4 * WT_MOVING_TOP);
-  float* record = &words[4 * instances_at_];
-  for (const uint32_t leaf : top.order) {
-    const uint32_t i = present[leaf];
-    for (int k = 0; k < 3; ++k, record += 4) {  // row k of the inverse rotation is column k of the rotation
-      for (int axis = 0; axis < 3; ++axis) record[axis] = static_cast<float>(placements[i].rotation[k][axis]);
-      record[3] = static_cast<float>(placements[i].position_m[k]);
-    }
-    record[0] = bits(models_[instances_[i].model].root);
-    record[1] = bits(instances_[i].first_surface);
-    record[2] = bits(first_primitive_[i]);
-    record[3] = bits(i);
-    record += 4;
+  TopLevel tree = build_top_level(boxes_);
+  const std::vector<float> nodes = centred_boxes(std::move(tree.nodes), extent_m_);
+  std::ranges::copy(nodes, top_.begin());
+  float* record = &top_[4 * (instances_at_ - WT_MOVING_TOP)];
+  for (const uint32_t leaf : tree.order) {
+    write_instance(record, present_[leaf], placements[present_[leaf]]);
+    record += 4 * WT_INSTANCE_FLOAT4S;
   }
-  scene.moving.write(words, 0, "place");
+  scene.moving.write(top_, 4 * WT_MOVING_TOP, "place");
+}
+
+void Place::write_instance(float* record, uint32_t i, const Placement& placement) const {
+  for (int k = 0; k < 3; ++k, record += 4) {  // row k of the inverse rotation is column k of the rotation
+    for (int axis = 0; axis < 3; ++axis) record[axis] = static_cast<float>(placement.rotation[k][axis]);
+    record[3] = static_cast<float>(placement.position_m[k]);
+  }
+  record[0] = bits(models_[instances_[i].model].root);
+  record[1] = bits(instances_[i].first_surface);
+  record[2] = bits(first_primitive_[i]);
+  record[3] = bits(i);
 }
 
 }  // namespace wavetracer

@@ -1,5 +1,6 @@
-// place: vehicles in the scene of a frame: a top-level tree over the instances, and their surfaces for the exact solve.
-// The trees of the models are built once; a frame moves 64 bytes a tree node and 112 bytes a surface.
+// place: vehicles in the scene of a frame: their surfaces for the exact solve, and a top-level tree over the instances.
+// The trees of the models are built once; a frame uploads 112 bytes an instance, and where the host builds the tree
+// over them, 128 bytes more.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -18,8 +19,12 @@ class Place {
   // instance.
   Place(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
         DeviceScene& scene);
-  // Moves all instances; placements are in the order of the instances.
+  // Moves all instances, and builds the tree over them on the host; placements are in the order of the instances.
   void operator()(DeviceScene& scene, std::span<const Placement> placements);
+  // The same without the tree, for those that build it elsewhere (passes/top_level.hpp).
+  void surfaces(DeviceScene& scene, std::span<const Placement> placements);
+  // What such a tree holds of the instances whatever the frame: eight floats each, see instance_keys of top_level.cl.
+  std::vector<float> bodies() const;
 
  private:
   struct Model {
@@ -29,6 +34,7 @@ class Place {
   void upload_surfaces(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
   void upload_trees(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
   void write_top_level(DeviceScene& scene, std::span<const Placement> placements);
+  void write_instance(float* record, uint32_t i, const Placement& placement) const;
 
   gpu::Kernel kernel_;
   uint32_t local_;
@@ -41,6 +47,10 @@ class Place {
   size_t instances_at_, nodes_at_, triangles_at_;  // parts of `moving`, counted in float4
   uint32_t triangle_slots_ = 0;
   float extent_m_;
+  std::vector<wt_exact_instance> records_;  // of the last frame, as are these
+  std::vector<uint32_t> present_;
+  std::vector<Box> boxes_;
+  std::vector<float> top_;  // the top-level tree and its instances: `moving` between its head and the models' trees
 };
 
 }  // namespace wavetracer

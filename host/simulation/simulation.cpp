@@ -10,13 +10,13 @@
 
 #include "passes/candidates.hpp"
 #include "passes/occlusion.hpp"
-#include "passes/place.hpp"
 #include "passes/solve.hpp"
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
 #include "simulation/meeting_prefixes.hpp"
 #include "simulation/order_choice.hpp"
+#include "simulation/placement.hpp"
 #include "simulation/reciprocity.hpp"
 #include "simulation/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
@@ -75,7 +75,7 @@ struct Simulation::State {
   Scene scene;
   DeviceScene device_scene;
   std::optional<World> world;
-  std::optional<Place> place;  // where there are instances
+  std::optional<InstancePlacement> place;  // where there are instances
   bool reuse = false;
   uint64_t warm_frames = 0;  // since the last cold one, which counts
   std::optional<Discovery> discovery;

@@ -4,78 +4,14 @@
 
 #include <doctest/doctest.h>
 
-#include <glm/gtc/quaternion.hpp>
-
 #include "accel/top_level.hpp"
 #include "passes/caster.hpp"
 #include "passes/exact.hpp"
-#include "passes/triangles.hpp"
+#include "passes/traffic.hpp"
 #include "wavetracer/device/moving.h"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
-
-namespace {
-
-// Two models of loose triangles, many instances of them, and the world that they amount to.
-struct Traffic {
-  std::vector<Corners> still;
-  std::vector<std::vector<Corners>> bodies;
-  std::vector<Scene> models;
-  std::vector<Instance> instances;
-  std::vector<Placement> placements;
-
-  Traffic(size_t count, uint32_t seed) : still(random_soup(60, 12, 2, seed)) {
-    Random random(seed + 1);
-    bodies = {random_soup(12, 1, 1.5, seed + 2), random_soup(30, 1.5, 1.5, seed + 3)};
-    for (const auto& body : bodies) models.push_back(scene_of_triangles(body));
-    auto first = static_cast<uint32_t>(still.size());
-    for (size_t i = 0; i < count; ++i) {
-      const uint32_t model = random.below(2);
-      instances.push_back({"v" + std::to_string(i), "car", model, first});
-      first += static_cast<uint32_t>(bodies[model].size());
-      Placement placement;
-      placement.position_m = random.in_cube(9);
-      placement.rotation = glm::mat3_cast(glm::angleAxis(random.between(0, 6.28), random.direction()));
-      placements.push_back(placement);
-    }
-  }
-
-  // Surface and triangle numbers are those of the instances.
-  Scene baked() const {
-    std::vector<Corners> all = still;
-    for (size_t i = 0; i < instances.size(); ++i)
-      for (const Corners& corners : bodies[instances[i].model]) {
-        Corners moved;
-        for (size_t k = 0; k < 3; ++k) moved[k] = placements[i].position_m + placements[i].rotation * corners[k];
-        all.push_back(moved);
-      }
-    return scene_of_triangles(all);
-  }
-
-  DeviceScene upload() const {
-    DeviceScene scene = make_device_scene(context(), scene_of_triangles(still), false, 60);
-    Place place(context(), models, instances, scene);
-    place(scene, placements);
-    return scene;
-  }
-};
-
-std::vector<Ray> rays_in(double half, size_t count, uint32_t surface_count, uint32_t seed) {
-  Random random(seed);
-  std::vector<Ray> rays(count);
-  for (Ray& ray : rays) {
-    const glm::dvec3 o = random.in_cube(half), d = random.direction();
-    for (int axis = 0; axis < 3; ++axis) {
-      ray.origin[static_cast<size_t>(axis)] = static_cast<float>(o[axis]);
-      ray.direction[static_cast<size_t>(axis)] = static_cast<float>(d[axis]);
-    }
-    if (random() < 0.5) ray.surface = random.below(surface_count);
-  }
-  return rays;
-}
-
-}  // namespace
 
 TEST_CASE("rays hit instances as they hit the same triangles in one scene") {
   for (const size_t count : {1, 2, 3, 40}) {

@@ -1,6 +1,7 @@
-// Layout of what moves, one definition for C++ (host/passes/place.cpp) and OpenCL C (kernels/lib/moving*.clh): one
-// buffer of float4 with a head, the top-level tree of the frame, its instances, and the trees of all models.
-// Two-level traversal: the top level in scene coordinates, then the ray in the coordinates of a model.
+// Layout of what moves, one definition for C++ (host/passes/place.cpp, kernels/top_level.cl) and OpenCL C
+// (kernels/lib/moving*.clh): one buffer of float4 with a head, the top-level tree of the frame, its instances, and the
+// trees of all models. Two-level traversal: the top level in scene coordinates, then the ray in the coordinates of a
+// model.
 #ifndef WAVETRACER_DEVICE_MOVING_H
 #define WAVETRACER_DEVICE_MOVING_H
 

@@ -1,0 +1,42 @@
+// Host side of kernels/top_level.cl.
+// Four launches beside those of the sort, whatever the number of instances.
+#include "passes/top_level.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+namespace wavetracer {
+
+TopLevelTree::TopLevelTree(gpu::Context& context, const std::vector<float>& bodies)
+    : local_(context.info().simple_local_size()),
+      group_(static_cast<uint32_t>(std::min<size_t>(1024, std::bit_floor(context.info().max_work_group)))),
+      bodies_(context.buffer(bodies, "bodies of instances")) {
+  instances_.count = static_cast<uint32_t>(bodies.size() / 8);
+  instances_.keys = context.buffer<uint32_t>(instances_.count, "keys of instances");
+  instances_.order = context.buffer<uint32_t>(instances_.count, "order of instances");
+  boxes_ = context.buffer<float>(8 * size_t{instances_.count}, "boxes of instances");
+  tree_ = context.buffer<float>(8 * (2 * std::max<size_t>(instances_.count, 2) - 1), "boxes of the top-level tree");
+  const gpu::Definitions definitions = {{"WT_KEY_LEVEL", std::to_string(InstanceOrder::key_level)},
+                                        {"WT_ITEMS", std::to_string(group_)}};
+  instance_keys_ = context.kernel("top_level", "instance_keys", definitions);
+  leaves_ = context.kernel("top_level", "leaves", definitions);
+  inner_boxes_ = context.kernel("top_level", "inner_boxes", definitions);
+  top_nodes_ = context.kernel("top_level", "top_nodes", definitions);
+}
+
+InstanceOrder& TopLevelTree::keys(const DeviceScene& scene) {
+  instance_keys_({instances_.count, local_}, "place", scene.exact_instances, bodies_, instances_.count, scene.extent_m,
+                 boxes_, instances_.keys);
+  return instances_;
+}
+
+void TopLevelTree::operator()(DeviceScene& scene, uint32_t present) {
+  const uint32_t leaf_count = std::max(present, 2u);
+  leaves_({leaf_count, local_}, "place", instances_.order, scene.exact_instances, bodies_, boxes_, present, leaf_count,
+          tree_, scene.moving);
+  inner_boxes_({group_, group_}, "place", leaf_count, tree_);
+  top_nodes_({leaf_count - 1, local_}, "place", tree_, present, leaf_count, scene.extent_m, scene.moving);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,36 @@
+// top_level: the top-level tree over the instances of a frame, built on the device from their records there.
+// The host gives it their number and no more, and nothing is read back. Between its two halves keys are sorted.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "passes/device_scene.hpp"
+
+namespace wavetracer {
+
+// Keys to sort, and the permutation that sorts them, for the second half.
+struct InstanceOrder {
+  static constexpr unsigned key_level = 15;                // bits a coordinate
+  static constexpr unsigned key_bits = 2 * key_level + 1;  // one more for those that are absent
+  gpu::Buffer<uint32_t> keys, order;
+  uint32_t count;
+};
+
+class TopLevelTree {
+ public:
+  // bodies: those of Place.
+  TopLevelTree(gpu::Context& context, const std::vector<float>& bodies);
+  // A key an instance, those of absent ones last. Assumes that Place has moved the instances.
+  InstanceOrder& keys(const DeviceScene& scene);
+  // Writes tree and records of the first `present` instances of the sorted order, which are all that are present.
+  void operator()(DeviceScene& scene, uint32_t present);
+
+ private:
+  uint32_t local_, group_;
+  gpu::Kernel instance_keys_, leaves_, inner_boxes_, top_nodes_;
+  gpu::Buffer<float> bodies_;
+  InstanceOrder instances_;
+  gpu::Buffer<float> boxes_, tree_;  // of instances, of nodes and leaves; eight floats each
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,57 @@
+// Instances where a frame has them: their surfaces and the tree over them, which the host builds where they are few and
+// a GPU where they are many. Rays hit the same, whoever built it.
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "passes/place.hpp"
+#include "passes/sort.hpp"
+#include "passes/top_level.hpp"
+
+namespace wavetracer {
+
+// Who builds the top-level tree; fastest: by the device and the number of instances that are present.
+enum class TopLevelBuild { fastest, host, device };
+
+class InstancePlacement {
+ public:
+  // As Place.
+  InstancePlacement(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
+                    DeviceScene& scene, TopLevelBuild build = TopLevelBuild::fastest)
+      : place_(context, models, instances, scene) {
+    if (build == TopLevelBuild::host || (build == TopLevelBuild::fastest && context.info().cpu)) return;
+    least_ = build == TopLevelBuild::device ? 0 : crossover;
+    if (instances.size() < least_) return;
+    tree_.emplace(context, place_.bodies());
+    sort_.emplace(context);
+    const size_t words = sort_->temporary_words(static_cast<uint32_t>(instances.size()));
+    temporary_ = context.buffer<uint32_t>(std::max<size_t>(words, 1), "sort");
+  }
+
+  void operator()(DeviceScene& scene, std::span<const Placement> placements) {
+    const auto present = static_cast<uint32_t>(std::ranges::count(placements, true, &Placement::present));
+    if (!tree_ || present < least_) {
+      place_(scene, placements);
+      return;
+    }
+    place_.surfaces(scene, placements);
+    InstanceOrder& instances = tree_->keys(scene);
+    (*sort_)(instances.keys, instances.order, instances.count, temporary_, InstanceOrder::key_bits);
+    (*tree_)(scene, present);
+  }
+
+ private:
+  // Instances from which a GPU is faster. The host took 0.008, 0.2 and 2.7 ms for a tree of 100, 1,000 and 10,000, the
+  // sort on an H200 alone 0.013, 0.020 and 0.069 ms (bench_drive).
+  static constexpr size_t crossover = 256;
+
+  Place place_;
+  std::optional<TopLevelTree> tree_;
+  std::optional<Sort> sort_;
+  gpu::Buffer<uint32_t> temporary_;
+  size_t least_ = 0;
+};
+
+}  // namespace wavetracer

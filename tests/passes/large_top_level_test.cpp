@@ -1,0 +1,11 @@
+// top_level where it is too large for Oclgrind: a city's worth of instances.
+#include <doctest/doctest.h>
+
+#include "passes/traffic.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+TEST_CASE("rays hit the same through the device's tree of thousands as through the host's") {
+  check_hits(with_gaps(5000, 55), 20000, 55);
+}

@@ -1,0 +1,151 @@
+// top_level: the tree that the device builds over instances, against plain code on what it holds, and against the
+// host's tree by the hits of rays.
+#include "passes/top_level.hpp"
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <set>
+
+#include "passes/traffic.hpp"
+#include "wavetracer/device/bvh.h"
+#include "wavetracer/device/moving.h"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+uint32_t word(float x) { return std::bit_cast<uint32_t>(x); }
+
+struct Span {
+  glm::dvec3 lower, upper;
+};
+
+// The top level as it stands in DeviceScene::moving, walked from its root.
+class Walk {
+ public:
+  Walk(const Traffic& traffic, const DeviceScene& scene) : traffic_(traffic), moving_(scene.moving.read()) {
+    visit(0, 1);
+  }
+
+  std::multiset<uint32_t> instances;  // those of the leaves
+  size_t deepest = 0;                 // inner nodes on the longest way down
+  double half_areas = 0;              // of the boxes of inner nodes, but the root
+  double worst_gap_m = 0;             // how far a corner of an instance lies outside of a box above it
+  double most_slack_m = 0;            // by which the box of a leaf is larger than it need be
+
+ private:
+  // Returns what the node's corners span.
+  Span visit(size_t node, size_t depth) {
+    deepest = std::max(deepest, depth);
+    const float* at = &moving_[4 * WT_MOVING_TOP + WT_BVH2_NODE_FLOATS * node];
+    Span all{glm::dvec3(1e30), glm::dvec3(-1e30)};
+    for (size_t side = 0; side < 2; ++side) {
+      const float *xy = at + 4 * side, *z = at + 8 + 2 * side;
+      const glm::dvec3 centre(xy[0], xy[2], z[0]), half_size(xy[1], xy[3], z[1]);
+      const auto child = std::bit_cast<int32_t>(at[12 + side]);
+      const uint32_t leaf = word(at[12 + side]) ^ 0xFFFFFFFFu;
+      if (child < 0 && (leaf & 15) == 0) {
+        for (int axis = 0; axis < 3; ++axis) CHECK(half_size[axis] < 0);
+        continue;
+      }
+      if (child < 0) CHECK((leaf & 15) == 1);
+      const Span below = child < 0 ? corners(leaf >> WT_LEAF_BITS) : visit(static_cast<size_t>(child), depth + 1);
+      const glm::dvec3 outside = glm::max(centre - half_size - below.lower, below.upper - (centre + half_size));
+      for (int axis = 0; axis < 3; ++axis) worst_gap_m = std::max(worst_gap_m, outside[axis]);
+      if (child < 0)
+        for (int axis = 0; axis < 3; ++axis) most_slack_m = std::max(most_slack_m, -outside[axis]);
+      else
+        half_areas += half_size.x * half_size.y + half_size.y * half_size.z + half_size.z * half_size.x;
+      all = {glm::min(all.lower, below.lower), glm::max(all.upper, below.upper)};
+    }
+    return all;
+  }
+
+  // Of the box of an instance's model, turned and moved in double; checks the instance's record.
+  Span corners(size_t leaf) {
+    const float* record = &moving_[4 * (word(moving_[WT_MOVING_INSTANCES]) + WT_INSTANCE_FLOAT4S * leaf)];
+    const uint32_t number = word(record[15]);
+    CHECK(leaf == instances.size());  // leaves follow each other from left to right, as instances do in memory
+    instances.insert(number);
+    REQUIRE(number < traffic_.instances.size());
+    const Instance& instance = traffic_.instances[number];
+    const Placement& placement = traffic_.placements[number];
+    for (int row = 0; row < 3; ++row) {
+      for (int axis = 0; axis < 3; ++axis)
+        CHECK(record[4 * row + axis] == static_cast<float>(placement.rotation[row][axis]));
+      CHECK(record[4 * row + 3] == static_cast<float>(placement.position_m[row]));
+    }
+    CHECK(word(record[13]) == instance.first_surface);
+    CHECK(word(record[14]) == instance.first_surface);  // a surface a triangle
+    if (instance.model == 0) CHECK(word(record[12]) == 0);
+    if (instance.model == 1) CHECK(word(record[12]) > 0);
+    const Scene& model = traffic_.models[instance.model];
+    Span out{glm::dvec3(1e30), glm::dvec3(-1e30)};
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p(corner & 1 ? model.upper.x : model.lower.x, corner & 2 ? model.upper.y : model.lower.y,
+                         corner & 4 ? model.upper.z : model.lower.z);
+      const glm::dvec3 moved = placement.position_m + placement.rotation * p;
+      out = {glm::min(out.lower, moved), glm::max(out.upper, moved)};
+    }
+    return out;
+  }
+
+  const Traffic& traffic_;
+  std::vector<float> moving_;
+};
+
+void check_tree(const Traffic& traffic, const DeviceScene& scene) {
+  const Walk walk(traffic, scene);
+  const std::multiset<uint32_t> present = traffic.present();
+  CHECK(walk.instances == present);
+  CHECK(walk.deepest <= std::max<size_t>(std::bit_width(present.size() - !present.empty()), 1));
+  CHECK(walk.worst_gap_m <= 0);
+  CHECK(walk.most_slack_m < 4e-4);  // padding of 2e-6 of the extent on both sides, and roundings
+}
+
+}  // namespace
+
+TEST_CASE("the device's tree holds every instance that is present once, inside of its boxes") {
+  for (const size_t count : {1, 2, 3, 4, 5, 17, 300}) {
+    CAPTURE(count);
+    const Traffic traffic = with_gaps(count, 9);
+    check_tree(traffic, traffic.upload(TopLevelBuild::device));
+  }
+}
+
+TEST_CASE("a tree over absent instances alone is a root that no ray enters") {
+  Traffic traffic(3, 5);
+  for (Placement& placement : traffic.placements) placement.present = false;
+  check_tree(traffic, traffic.upload(TopLevelBuild::device));
+  check_hits(traffic, 1000, 12);
+}
+
+TEST_CASE("rays hit the same through the device's tree as through the host's") {
+  for (const size_t count : {1, 2, 3, 17, 300}) {
+    CAPTURE(count);
+    check_hits(with_gaps(count, 9), 2000, 12);
+  }
+}
+
+TEST_CASE("instances move on: a tree is that of its frame alone") {
+  Traffic traffic = with_gaps(40, 9);
+  DeviceScene scene = make_device_scene(context(), scene_of_triangles(traffic.still), false, 60);
+  InstancePlacement place(context(), traffic.models, traffic.instances, scene, TopLevelBuild::device);
+  place(scene, traffic.placements);
+  Random random(3);
+  for (Placement& placement : traffic.placements) {
+    placement.position_m = random.in_cube(9);
+    placement.present = random() < 0.5;
+  }
+  place(scene, traffic.placements);
+  check_tree(traffic, scene);
+}
+
+TEST_CASE("keys order instances by their places on the ground") {
+  Traffic traffic(300, 11, 50);
+  for (Placement& placement : traffic.placements) placement.position_m.z = 0;
+  const Walk device(traffic, traffic.upload(TopLevelBuild::device)), host(traffic, traffic.upload());
+  CHECK(device.half_areas < 1.25 * host.half_areas);  // unordered it is several times as much
+}
