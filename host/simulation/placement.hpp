@@ -43,9 +43,9 @@ class InstancePlacement {
   }
 
  private:
-  // Instances from which a GPU is faster. The host took 0.008, 0.2 and 2.7 ms for a tree of 100, 1,000 and 10,000, the
-  // sort on an H200 alone 0.013, 0.020 and 0.069 ms (bench_drive).
-  static constexpr size_t crossover = 256;
+  // Instances from which a GPU is faster: an H200 places 100, 400 and 10,000 in 0.058, 0.065 and 0.31 ms with a tree of
+  // its own, and in 0.066, 0.19 and 4.2 ms with one by the host (bench_drive).
+  static constexpr size_t crossover = 100;
 
   Place place_;
   std::optional<TopLevelTree> tree_;
