@@ -41,7 +41,7 @@ Table trace_table() {
            .unit = "rays a transmitter",
            .range = {0, 2147483648.0},
            .doc = "Of a frame that reuses, at most rays; each such frame launches other ones of their directions. 0: a "
-                  "tenth of rays, since little is new from one frame to the next."},
+                  "tenth of rays, since little is new from one frame to the next. rays = \"auto\" decides by itself."},
           {.name = "forget_frames",
            .slot = t(&TraceConfig::forget_frames),
            .unit = "frames",

@@ -14,6 +14,7 @@ Candidates::Candidates(gpu::Context& context)
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                                 const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                                 gpu::Buffer<wt_counters>& counters) {
+  if (ends.receiver_capacity == 0) return 0;
   const uint32_t groups = ends.receiver_capacity / 16, groups_per_item = context_.info().cpu ? groups : 1;
   for (;;) {
     kernel_({size_t{node_count} * (groups / groups_per_item), 64}, "candidates", trie, nodes, node_count,

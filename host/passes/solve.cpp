@@ -9,13 +9,7 @@ namespace wavetracer {
 
 Solve::Solve(gpu::Context& context, uint32_t max_depth) : context_(context), kernel_(context.kernel("solve", "solve")) {
   solved_.max_depth = std::max(max_depth, 1u);
-  reserve(1 << 14);
-}
-
-void Solve::reserve(size_t count) {
-  solved_.headers = context_.buffer<wt_solved>(count, "solved paths");
-  solved_.vertices = context_.buffer<double>(3 * count * solved_.max_depth, "path vertices");
-  solved_.sequences = context_.buffer<uint32_t>(count * solved_.max_depth, "path surfaces");
+  solved_.reserve(context, 1 << 14);
 }
 
 SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
@@ -28,7 +22,7 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
     wt_counters now = counters.read_one(0, "solve");
     solved_.count = now.solved;
     if (now.solved <= solved_.headers.size()) return solved_;
-    reserve(size_t{now.solved} + now.solved / 4);
+    solved_.reserve(context_, size_t{now.solved} + now.solved / 4);
     now.solved = 0;
     counters.write(std::vector{now}, 0, "solve");
   }

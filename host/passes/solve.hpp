@@ -18,7 +18,6 @@ class Solve {
   gpu::Context& context_;
   gpu::Kernel kernel_;
   SolvedList solved_;
-  void reserve(size_t count);
 };
 
 }  // namespace wavetracer

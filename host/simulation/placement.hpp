@@ -44,7 +44,7 @@ class InstancePlacement {
 
  private:
   // Instances from which a GPU is faster: an H200 places 100, 400 and 10,000 in 0.058, 0.065 and 0.31 ms with a tree of
-  // its own, and in 0.066, 0.19 and 4.2 ms with one by the host (bench_drive).
+  // its own, and in 0.066, 0.20 and 4 to 6 ms with one by the host (bench_drive).
   static constexpr size_t crossover = 100;
 
   Place place_;

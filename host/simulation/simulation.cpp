@@ -11,6 +11,7 @@
 #include "passes/candidates.hpp"
 #include "passes/occlusion.hpp"
 #include "passes/solve.hpp"
+#include "passes/visible.hpp"
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
@@ -83,6 +84,7 @@ struct Simulation::State {
   std::optional<MeetingPrefixes> meeting;  // with trace.join
   std::optional<Solve> solve;
   std::optional<Occlusion> occlusion;
+  std::optional<Visible> visible;
   std::optional<FieldModel> fields;
   DeviceSummary device;
   OrderSummary order;
@@ -142,6 +144,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.candidates.emplace(*s.context);
   s.solve.emplace(*s.context, config.trace.max_depth);
   s.occlusion.emplace(*s.context, s.device_scene);
+  s.visible.emplace(*s.context, config.trace.max_depth);
   s.fields.emplace(s.scene, s.config, s.world->models(), s.world->instances());
   s.setup["compile"] = watch.lap();
 }
@@ -196,9 +199,9 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   (*s.occlusion)(s.device_scene, ends, solved);
   sequences.keep(solved);
   ++s.warm_frames;
-  s.context->finish();
+  const SolvedList& visible = (*s.visible)(solved, sequences.counters());
   host_watch.lap();
-  const PathGeometry geometry = with_reversed_twins(visible_paths(solved), s.world->receiver_of_transmitter(),
+  const PathGeometry geometry = with_reversed_twins(visible_paths(visible), s.world->receiver_of_transmitter(),
                                                     s.world->transmitter_of_receiver(), out.world.links);
 
   const double paths_seconds = host_watch.lap();

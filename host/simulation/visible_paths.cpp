@@ -1,4 +1,4 @@
-// Reads solved paths and keeps the visible ones.
+// Reads solved paths and keeps the visible ones: all of them, where the pass visible has selected them.
 // Read in pieces that stay in the cache: most rows are obstructed, and their bytes need not be kept.
 #include "simulation/visible_paths.hpp"
 

@@ -56,7 +56,7 @@ const std::vector<Record> records{
     {"wt_counters",
      sizeof(wt_counters),
      {FIELD(wt_counters, nodes), FIELD(wt_counters, trie_overflow), FIELD(wt_counters, candidates),
-      FIELD(wt_counters, solved)}},
+      FIELD(wt_counters, solved), FIELD(wt_counters, visible)}},
 };
 
 #undef FIELD

@@ -99,6 +99,7 @@ typedef struct {
   wt_uint trie_overflow;  // an insertion found no slot: grow and trace the batch again
   wt_uint candidates;     // may exceed the capacity: grow and run again
   wt_uint solved;         // likewise
+  wt_uint visible;        // likewise
 } wt_counters;
 
 #endif

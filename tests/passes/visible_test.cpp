@@ -1,0 +1,72 @@
+// visible: what occlusion left, row for row, whatever the order; a list that must grow; nothing at all.
+#include "passes/visible.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "passes/triangles.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+using Row = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, std::vector<uint32_t>, std::vector<double>>;
+
+// Rows of a list but the obstructed, sorted.
+std::vector<Row> rows_of(const SolvedList& list) {
+  std::vector<Row> rows;
+  if (list.count == 0) return rows;
+  const auto headers = list.headers.read(0, list.count);
+  const auto surfaces = list.sequences.read(0, size_t{list.count} * list.max_depth);
+  const auto points = list.vertices.read(0, 3 * surfaces.size());
+  for (size_t i = 0; i < headers.size(); ++i) {
+    if (headers[i].blocked) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i * list.max_depth);
+    const auto depth = static_cast<std::ptrdiff_t>(headers[i].depth);
+    rows.emplace_back(headers[i].transmitter, headers[i].receiver, headers[i].depth, headers[i].node,
+                      std::vector(surfaces.begin() + at, surfaces.begin() + at + depth),
+                      std::vector(points.begin() + 3 * at, points.begin() + 3 * (at + depth)));
+  }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+SolvedList made_up(uint32_t count, uint32_t max_depth, double blocked_share) {
+  Random random(count);
+  SolvedList list;
+  list.max_depth = max_depth;
+  list.count = count;
+  list.reserve(context(), std::max(count, 1u));
+  std::vector<wt_solved> headers(count);
+  std::vector<uint32_t> surfaces(size_t{count} * max_depth);
+  std::vector<double> points(3 * surfaces.size());
+  for (uint32_t i = 0; i < count; ++i)
+    headers[i] = {random.below(9), random.below(9), random.below(max_depth + 1), random() < blocked_share, i};
+  for (uint32_t& surface : surfaces) surface = random.below(1000);
+  for (double& x : points) x = random.between(-100, 100);
+  if (count > 0) {
+    list.headers.write(headers);
+    list.sequences.write(surfaces);
+    list.vertices.write(points);
+  }
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("visible keeps every row that is not obstructed, and no other") {
+  Visible visible(context(), 5);
+  auto counters = context().buffer<wt_counters>(1, "counters");
+  for (const uint32_t count : {0u, 1u, 100u, 9000u})
+    for (const double blocked : {0.0, 0.7, 1.0}) {
+      const SolvedList solved = made_up(count, 5, blocked);
+      counters.write(std::vector<wt_counters>{{}});
+      const SolvedList& kept = visible(solved, counters);
+      const std::vector<Row> wanted = rows_of(solved);
+      CHECK(kept.count == wanted.size());
+      CHECK((rows_of(kept) == wanted));
+    }
+}
