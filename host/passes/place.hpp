@@ -29,7 +29,7 @@ class Place {
  private:
   struct Model {
     Box box;  // of its triangles, model coordinates
-    uint32_t root = 0, first_surface = 0, primitive_count = 0;
+    uint32_t root = 0, first_surface = 0;
   };
   void upload_surfaces(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
   void upload_trees(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
