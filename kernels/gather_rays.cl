@@ -1,12 +1,12 @@
-// gather_rays: the rays of a queue into another, in the order of a permutation: slot i takes ray order[i].
+// gather_rays: rays of a queue into another: slot i takes ray order[i]. A permutation, or a part of the rays.
 // Both queues have the same capacity. WT_RAYS_PER_ITEM rays a work-item, plane by plane (1 on GPUs).
 #include "wavetracer/device/records.h"
 
 kernel void gather_rays(const global float* rays, uint capacity, uint count, const global uint* order,
-                        global float* next) {
+                        global float* next, uint plane_count) {
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (first >= count) return;
   const uint end = first + min((uint)WT_RAYS_PER_ITEM, count - first);
-  for (size_t plane = 0; plane < WT_RAY_PLANES; ++plane)
+  for (size_t plane = 0; plane < plane_count; ++plane)
     for (uint i = first; i < end; ++i) next[plane * capacity + i] = rays[plane * capacity + order[i]];
 }

@@ -1,7 +1,7 @@
 // interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in
 // order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: only the trie is
 // wanted. With WT_AGES, ages[node] becomes `now` for every node that a ray reaches.
-// With WT_SAMPLES, ends[sample] becomes the node.
+// With WT_SAMPLES, ends[sample] becomes the node. With WT_LABELS, queues have all planes of records.h.
 #include "lib/block_rank.clh"
 #include "lib/mirror.clh"
 #include "lib/trie.clh"
@@ -22,8 +22,13 @@ inline void go_on(const global wt_surface* surfaces, const global float* rays, c
   wt_store_float3(next, capacity, WT_RAY_DIRECTION, j, d);
   wt_store_word(next, capacity, WT_RAY_NODE, j, node);
   wt_store_word(next, capacity, WT_RAY_SURFACE, j, surface);
-#ifdef WT_SAMPLES
+#if defined(WT_SAMPLES) || defined(WT_LABELS)
   wt_store_word(next, capacity, WT_RAY_SAMPLE, j, wt_load_word(rays, capacity, WT_RAY_SAMPLE, i));
+#endif
+#ifdef WT_LABELS
+  wt_store_word(next, capacity, WT_RAY_LEFT, j, wt_load_word(hits, capacity, WT_HIT_PRIMITIVE, i));
+  wt_store_word(next, capacity, WT_RAY_REGION, j, wt_load_word(rays, capacity, WT_RAY_REGION, i));
+  wt_store_word(next, capacity, WT_RAY_ENTRY, j, wt_load_word(rays, capacity, WT_RAY_ENTRY, i));
 #endif
 }
 

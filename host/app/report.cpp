@@ -39,13 +39,25 @@ std::string frame_line(const Run& run, const Totals& totals) {
   return line + "\n";
 }
 
+// How much the ray cache answered, and how full it is.
+std::string cache_line(const CacheSummary& cache) {
+  if (!cache.on) return "";
+  const auto percent = [](uint64_t part, uint64_t whole) {
+    return whole > 0 ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+  };
+  return fmt::format("cache      {:.3g}% of {} look-ups answered, {:.3g}% of {} entries in use\n",
+                     percent(cache.hits, cache.lookups), cache.lookups, percent(cache.used, cache.entries),
+                     cache.entries);
+}
+
 std::string count_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
+  const uint64_t traced = traced_segments(totals);
   std::string rate;
   if (const double trace_s = sum_seconds(totals, "trace"); trace_s > 0)
-    rate = fmt::format(", {}rays/s while tracing", scaled(static_cast<double>(n.segments) / trace_s));
-  return fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", n.rays, n.segments, n.hits,
-                     rate) +
+    rate = fmt::format(", {}rays/s while tracing", scaled(static_cast<double>(traced) / trace_s));
+  return fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", n.rays, traced, n.hits, rate) +
+         cache_line(totals.cache) +
          fmt::format("sequences  {} distinct, {} candidates, {} solved\n", n.sequences, n.candidates, n.solved) +
          fmt::format("paths      {}\n", n.paths) + frame_line(run, totals);
 }

@@ -63,6 +63,42 @@ void check_rays(const Config& config, Found& out) {
   }
 }
 
+// Spheres take each ray as a sample of the directions that reach a receiver.
+void check_reception(const Config& config, Found& out) {
+  const TraceConfig& trace = config.trace;
+  if (trace.reception != "sphere") return;
+  if (trace.rays == 0)
+    out.push_back({{"trace.reception", "trace.rays"},
+                   "trace.reception = \"sphere\" needs rays that are spread evenly, trace.rays = \"auto\" refines "
+                   "where sequences are rare: give trace.rays a number, or use trace.reception = \"exact\""});
+  if (trace.join)
+    out.push_back({{"trace.reception", "trace.join"},
+                   "trace.reception = \"sphere\" takes paths from whole rays, trace.join = true from two halves: leave "
+                   "trace.join out, or use trace.reception = \"exact\""});
+}
+
+void check_waypoints(const Config& config, Found& out) {
+  if (config.output.waypoints > 0 && config.trace.rays == 0)
+    out.push_back({{"output.waypoints", "trace.rays"},
+                   fmt::format("output.waypoints = {} picks evenly from a known number of rays, which trace.rays = "
+                               "\"auto\" is not: give trace.rays a number, or leave output.waypoints out",
+                               config.output.waypoints)});
+}
+
+void check_cache(const Config& config, Found& out) {
+  const CacheConfig& cache = config.cache;
+  if (cache.kind == "none") return;
+  if (cache.key == "exact" && cache.scope == "all")
+    out.push_back({{"cache.key", "cache.scope"},
+                   "cache.key = \"exact\" promises the paths of no cache, which cache.scope = \"all\" cannot when "
+                   "things move: leave cache.scope out, or use cache.key = \"quantised\""});
+  if (cache.first_depth > config.trace.max_depth)
+    out.push_back({{"cache.first_depth", "trace.max_depth", "cache.kind"},
+                   fmt::format("cache.first_depth = {} is beyond trace.max_depth = {}, so the cache would never be "
+                               "asked: lower the one, raise the other, or use cache.kind = \"none\"",
+                               cache.first_depth, config.trace.max_depth)});
+}
+
 // member: what names an element. Returns the names.
 template <class Element>
 std::set<std::string> check_names(const std::string& table, const std::string& key, const std::vector<Element>& all,
@@ -129,6 +165,9 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_scene(config.scene, out);
   check_launch(config, out);
   check_rays(config, out);
+  check_reception(config, out);
+  check_waypoints(config, out);
+  check_cache(config, out);
   check_ends(config, out);
   const auto transmitters = check_names("transmitter", "name", config.transmitters, &RadioEnd::name, {}, out);
   check_names("receiver", "name", config.receivers, &RadioEnd::name, transmitters, out);

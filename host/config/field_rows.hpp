@@ -49,6 +49,9 @@ Field polarization_field(const Member& member, auto polarization) {
           .doc = "VH (V and H) and cross (+45 and -45 degrees) have two ports. V, as vehicle antennas are."};
 }
 
+// Of cache_fields.cpp.
+Table cache_table();
+
 // Of scene_fields.cpp: what stands.
 Table scene_table();
 Table material_table();

@@ -79,14 +79,14 @@ Table trace_table() {
           {.name = "reception",
            .slot = t(&TraceConfig::reception),
            .choices = {"exact", "sphere"},
-           .doc = "exact: the path is solved by the image method. sphere: a ray that passes near a receiver counts.",
-           .later = "use \"exact\", which needs no reception sphere"},
+           .doc = "exact: rays only find surfaces, paths are solved by the image method. sphere: a ray that passes "
+                  "within sphere_radius_m of a receiver is its path, as in the thesis: lengths are a little wrong, "
+                  "some paths lost and some none at all. Frames then reuse no sequences, each is traced whole."},
           {.name = "sphere_radius_m",
            .slot = t(&TraceConfig::sphere_radius_m),
            .unit = "m",
            .range = {0, 1e4, true},
-           .doc = "Of reception = \"sphere\".",
-           .later = "leave it out: reception = \"exact\" needs no reception sphere"},
+           .doc = "Of reception = \"sphere\". A larger sphere loses fewer paths, and errs more in those it finds."},
           {.name = "batch_rays",
            .slot = t(&TraceConfig::batch_rays),
            .unit = "rays",
@@ -141,49 +141,6 @@ Table launch_table() {
       }};
 }
 
-Table cache_table() {
-  const auto c = [](auto member) { return at(&Config::cache, member); };
-  return {.name = "cache",
-          .doc = "Reuse of traced segments. Without effect while kind is none.",
-          .fields = {
-              {.name = "kind",
-               .slot = c(&CacheConfig::kind),
-               .choices = {"none", "chained", "open", "concurrent"},
-               .doc = "The table that holds the segments.",
-               .later = "use \"none\": every segment is then traced"},
-              {.name = "hash_method",
-               .slot = c(&CacheConfig::hash_method),
-               .range = {1, 3},
-               .doc = "1 uniform, 2 Morton, 3 mixed."},
-              {.name = "division",
-               .slot = c(&CacheConfig::division),
-               .range = {1, 4294967295.0},
-               .doc = "Cells a direction component; fewer give more hits and a larger error."},
-              {.name = "buffer_size",
-               .slot = c(&CacheConfig::buffer_size),
-               .unit = "entries",
-               .range = {1, 1e12},
-               .doc = "Entries of the table."},
-              {.name = "load_factor",
-               .slot = c(&CacheConfig::load_factor),
-               .range = {0, 1, true},
-               .doc = "Largest share of the table in use."},
-              {.name = "readers_number",
-               .slot = c(&CacheConfig::readers_number),
-               .range = {1, 65535},
-               .doc = "Readers of one entry at once (kind = \"open\")."},
-              {.name = "purge",
-               .slot = c(&CacheConfig::purge),
-               .choices = {"position", "precision"},
-               .doc = "What makes an entry stale: the transmitter moved, or the residual grew too large."},
-              {.name = "residual_value",
-               .slot = c(&CacheConfig::residual_value),
-               .unit = "scene units, L1",
-               .range = {0, 1e6},
-               .doc = "Largest residual of purge = \"precision\"."},
-          }};
-}
-
 }  // namespace
 
 const std::vector<Table>& tables() {
@@ -216,7 +173,13 @@ const std::vector<Table>& tables() {
                    .range = {1, 1e9},
                    .doc = "Of a drive. An interrupted run goes on after the last file that is whole; the first frame "
                           "of each is cold where frames reuse sequences, so fewer frames cost time, more cost "
-                          "memory."}}},
+                          "memory."},
+                  {.name = "waypoints",
+                   .slot = at(&Config::output, &OutputConfig::waypoints),
+                   .unit = "samples a transmitter",
+                   .range = {0, 1e9},
+                   .doc = "Of these rays, spread evenly over each launch, waypoints.h5 gets every point from launch to "
+                          "last hit, for study and pictures. They are many: 0 writes none."}}},
       material_table(),
       transmitter_table(),
       receiver_table(),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include "output/cache_json.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -26,8 +27,9 @@ Shard decode(const Json& json) {
   t.links = json.at("links");
   const Json& counts = json.at("counts");
   t.counts = {counts.at("rays"),       counts.at("segments"), counts.at("hits"), counts.at("sequences"),
-              counts.at("candidates"), counts.at("solved"),   counts.at("paths")};
+              counts.at("candidates"), counts.at("solved"),   counts.at("paths"), counts.at("receptions")};
   t.segments_per_depth = json.at("segments_per_depth").get<std::vector<uint64_t>>();
+  if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
   for (size_t i = 0; i < shard.files.size(); ++i)
@@ -52,8 +54,9 @@ std::string encode_manifest_line(const Shard& shard) {
   json["counts"] = {{"rays", t.counts.rays},           {"segments", t.counts.segments},
                     {"hits", t.counts.hits},           {"sequences", t.counts.sequences},
                     {"candidates", t.counts.candidates}, {"solved", t.counts.solved},
-                    {"paths", t.counts.paths}};
+                    {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
   json["segments_per_depth"] = t.segments_per_depth;
+  if (t.cache.on) json["cache"] = encode_cache(t.cache);
   json["seconds"] = t.seconds;
   json["warnings"] = t.warnings;
   json["files"] = files;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <vector>
+#include "output/cache_json.hpp"
 #include "output/median.hpp"
 
 namespace wavetracer {
@@ -28,16 +29,26 @@ Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
   return result;
 }
 
-// So many things in so much time; null without a time.
-Json rate(uint64_t count, double seconds) {
-  return seconds > 0 ? Json(static_cast<double>(count) / seconds) : Json(nullptr);
+// So many in so much, such as things in seconds; null in nothing.
+Json rate(uint64_t count, double whole) {
+  return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr);
 }
 
 Json counts(const Totals& totals) {
   const FrameCounts& sum = totals.counts;
   return {{"rays", sum.rays},           {"segments", sum.segments},     {"hits", sum.hits},
           {"sequences", sum.sequences}, {"candidates", sum.candidates}, {"solved", sum.solved},
-          {"paths", sum.paths}};
+          {"paths", sum.paths},         {"receptions", sum.receptions}};
+}
+
+// hit_rate: the share of the look-ups that were answered.
+Json cache(const CacheConfig& asked, const CacheSummary& done) {
+  Json json = {{"kind", asked.kind}};
+  if (!done.on) return json;
+  json["key"] = asked.key;
+  json["hit_rate"] = rate(done.hits, static_cast<double>(done.lookups));
+  json.update(encode_cache(done));
+  return json;
 }
 
 // The run's own warnings and the frames', each text once, in order of first appearance.
@@ -85,7 +96,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["links"] = totals.links;
   json["segments_per_depth"] = totals.segments_per_depth;
   json["seconds"] = stage_seconds(run, totals, write_seconds);
-  json["rays_per_second"] = rate(totals.counts.segments, sum_seconds(totals, "trace"));
+  json["rays_per_second"] = rate(traced_segments(totals), sum_seconds(totals, "trace"));
   json["frames_per_second"] = rate(totals.frames, sum_seconds(totals, "frame"));
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["order"] = {{"asked", run.config.order.method},
@@ -94,7 +105,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
                    {"launch_shape", summary.order.launch_shape},
                    {"local_size", summary.order.local_size},
                    {"reason", summary.order.reason}};
-  json["cache"] = {{"kind", run.config.cache.kind}};
+  json["cache"] = cache(run.config.cache, totals.cache);
   json["warnings"] = warnings(run, totals);
   // Names of files and devices need not be UTF-8; what is not is replaced rather than refused.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

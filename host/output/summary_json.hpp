@@ -1,5 +1,5 @@
 // summary.json: what ran, on what, how much work it was and how long each stage took.
-// Counts are sums over the frames; seconds of a frame's stages are medians over the frames.
+// Counts are sums over the frames, those of the ray cache too; seconds of a frame's stages are medians over the frames.
 #pragma once
 #include <string>
 #include "output/totals.hpp"

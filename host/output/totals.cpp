@@ -3,6 +3,7 @@
 #include "output/totals.hpp"
 #include <algorithm>
 #include <numeric>
+#include "output/cache_counts.hpp"
 #include "output/median.hpp"
 
 namespace wavetracer {
@@ -16,6 +17,20 @@ void add(FrameCounts& sum, const FrameCounts& more) {
   sum.candidates += more.candidates;
   sum.solved += more.solved;
   sum.paths += more.paths;
+  sum.receptions += more.receptions;
+}
+
+void add(std::vector<uint64_t>& sum, const std::vector<uint64_t>& more) {
+  sum.resize(std::max(sum.size(), more.size()), 0);
+  for (size_t i = 0; i < more.size(); ++i) sum[i] += more[i];
+}
+
+void add(CacheSummary& sum, const CacheSummary& later) {
+  CacheSummary total = later;
+  for (const auto& [name, count] : cache_counts) total.*count += sum.*count;
+  add(total.lookups_per_depth, sum.lookups_per_depth);
+  add(total.hits_per_depth, sum.hits_per_depth);
+  sum = std::move(total);
 }
 
 Totals totals_of(const FrameResult& frame) {
@@ -27,6 +42,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.links = frame.world.links.size();
   totals.counts = frame.counts;
   totals.segments_per_depth = frame.segments_per_depth;
+  totals.cache = frame.cache;
   for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
   add_warnings(totals.warnings, frame.warnings);
   return totals;
@@ -51,9 +67,8 @@ void add(Totals& sum, const Totals& later) {
   sum.vertices += later.vertices;
   sum.links += later.links;
   add(sum.counts, later.counts);
-  sum.segments_per_depth.resize(std::max(sum.segments_per_depth.size(), later.segments_per_depth.size()), 0);
-  for (size_t depth = 0; depth < later.segments_per_depth.size(); ++depth)
-    sum.segments_per_depth[depth] += later.segments_per_depth[depth];
+  add(sum.segments_per_depth, later.segments_per_depth);
+  add(sum.cache, later.cache);
   for (const auto& [stage, values] : later.seconds)
     sum.seconds[stage].insert(sum.seconds[stage].end(), values.begin(), values.end());
   add_warnings(sum.warnings, later.warnings);
@@ -64,6 +79,8 @@ Totals totals_of(Frames frames) {
   for (const FrameResult& frame : frames) add(sum, totals_of(frame));
   return sum;
 }
+
+uint64_t traced_segments(const Totals& totals) { return totals.counts.segments - totals.cache.hits; }
 
 double median_seconds(const Totals& totals, const std::string& stage) {
   const auto found = totals.seconds.find(stage);

@@ -16,6 +16,7 @@ struct Totals {
   uint64_t vertices = 0, links = 0;
   FrameCounts counts;
   std::vector<uint64_t> segments_per_depth;
+  CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
   std::map<std::string, std::vector<double>> seconds;  // stage -> one value a frame
   std::vector<std::string> warnings;                   // each text once, in order of first appearance
 };
@@ -23,6 +24,9 @@ struct Totals {
 Totals totals_of(Frames frames);
 // `later` follows `sum`; either may be empty.
 void add(Totals& sum, const Totals& later);
+
+// Segments that the device traced: those that no ray cache answered.
+uint64_t traced_segments(const Totals& totals);
 
 // Median of a stage over the frames; 0 where no frame has it.
 double median_seconds(const Totals& totals, const std::string& stage);

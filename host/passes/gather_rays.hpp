@@ -1,5 +1,5 @@
-// gather_rays: the rays of a queue into another, permuted.
-// Assumes two queues of one capacity.
+// gather_rays: rays of a queue into another, permuted or picked.
+// Assumes two queues of one capacity, the second with no more planes than the first.
 #pragma once
 #include "passes/ray_queue.hpp"
 
@@ -7,12 +7,14 @@ namespace wavetracer {
 
 class GatherRays {
  public:
-  explicit GatherRays(gpu::Context& context);
-  // next becomes rays[order[0]], rays[order[1]], ...
-  void operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, RayQueue& next);
+  // stage: whose time it is.
+  explicit GatherRays(gpu::Context& context, const char* stage = "order");
+  // next becomes rays[order[0]], ..., rays[order[count - 1]].
+  void operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, uint32_t count, RayQueue& next);
 
  private:
   gpu::Kernel kernel_;
+  const char* stage_;
   uint32_t rays_per_item_, local_;
 };
 

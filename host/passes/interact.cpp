@@ -12,12 +12,13 @@ namespace {
 constexpr uint32_t blocks_per_item = 64;
 }
 
-Interact::Interact(gpu::Context& context, bool keep_ages, bool samples) {
+Interact::Interact(gpu::Context& context, bool keep_ages, bool samples, bool labels) {
   const uint32_t block = Trace::block_size(context.info());
   gpu::Definitions definitions{{"WT_BLOCK", std::to_string(block)},
                                {"WT_BLOCKS_PER_ITEM", std::to_string(blocks_per_item)}};
   if (keep_ages) definitions["WT_AGES"] = "1";
   if (samples) definitions["WT_SAMPLES"] = "1";
+  if (labels) definitions["WT_LABELS"] = "1";
   kernel_ = context.kernel("interact", "interact", definitions);
   rays_per_item_ = context.info().cpu ? block * blocks_per_item : 1;
   local_ = context.info().cpu ? 4 : block;

@@ -9,7 +9,8 @@ namespace wavetracer {
 class Interact {
  public:
   // keep_ages: as the set of sequences was made. samples: rays carry the number of their sample, and note its end.
-  explicit Interact(gpu::Context& context, bool keep_ages = false, bool samples = false);
+  // labels: queues have WT_RAY_LABELLED_PLANES, see label_rays.
+  explicit Interact(gpu::Context& context, bool keep_ages = false, bool samples = false, bool labels = false);
   // next.count becomes hit_count, unless this is the last depth, when next is left alone. Sequences that rays
   // reach get the age `now`, where ages are kept. ends: one a sample, needed where samples are followed.
   void operator()(const DeviceScene& scene, const RayQueue& rays, const HitList& hits, uint32_t hit_count,

@@ -14,6 +14,7 @@ struct RayQueue {
   gpu::Buffer<float> planes;
   uint32_t capacity = 0;
   uint32_t count = 0;
+  uint32_t plane_count = WT_RAY_PLANES;
 };
 
 struct HitList {
@@ -22,10 +23,11 @@ struct HitList {
   gpu::Buffer<uint32_t> block_hits;  // hits a block of rays; after scan, hits of all blocks before
 };
 
-// samples: with the plane WT_RAY_SAMPLE.
-inline RayQueue make_ray_queue(gpu::Context& context, uint64_t rays, const char* name, bool samples = false) {
+// plane_count: WT_RAY_PLANES, one more for WT_RAY_SAMPLE, or WT_RAY_LABELLED_PLANES.
+inline RayQueue make_ray_queue(gpu::Context& context, uint64_t rays, const char* name,
+                               uint32_t plane_count = WT_RAY_PLANES) {
   const uint32_t capacity = padded_capacity(rays);
-  return {context.buffer<float>(size_t{capacity} * (WT_RAY_PLANES + samples), name), capacity, 0};
+  return {context.buffer<float>(size_t{capacity} * plane_count, name), capacity, 0, plane_count};
 }
 
 inline HitList make_hit_list(gpu::Context& context, uint64_t rays, uint32_t block) {

@@ -6,12 +6,14 @@
 
 namespace wavetracer {
 
-Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch)
+Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch,
+             Scope scope)
     : shape_(shape),
       launch_(launch),
       block_(block_size(context.info())),
       counts_blocks_(shape != TraceShape::bvh2 || launch.plain()) {
   gpu::Definitions definitions = scene.definitions;
+  if (scope == Scope::fixed) definitions.erase("WT_INSTANCES");
   launch.define(definitions);
   if (counts_blocks_) definitions["WT_COUNT_BLOCKS"] = "1";
   definitions["WT_BLOCK"] = std::to_string(block_);

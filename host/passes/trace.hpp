@@ -12,7 +12,11 @@ class Trace {
   // Rays a block: the unit in which hits are counted and rays compacted.
   static uint32_t block_size(const gpu::DeviceInfo& device) { return device.cpu ? 16 : 128; }
 
-  Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch = {});
+  // What is traced: all there is, or the static scene alone (see trace_moving).
+  enum class Scope { all, fixed };
+
+  Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch = {},
+        Scope scope = Scope::all);
   // Does it count the hits of blocks? If not (launches of another shape on GPUs), Compact::count_blocks does.
   bool counts_blocks() const { return counts_blocks_; }
   void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);

@@ -48,9 +48,11 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
       max_depth_(config.reflection ? config.max_depth : 0),
       depth_(std::min(max_depth_, depth)),
       batch_rays_(choose_batch(context.info(), config)),
+      keep_ages_(keep_ages),
+      shape_(choose_shape(context.info(), config, order)),
       directions_(config.directions, config_.rays, config.seed),
       generate_(context, directions_),
-      trace_(context, scene, choose_shape(context.info(), config, order), order.launch),
+      trace_(context, scene, shape_, order.launch),
       scan_(context),
       interact_(context, keep_ages),
       sequences_(context, initial_slots, keep_ages) {
@@ -62,12 +64,35 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
   if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
 }
 
+void Discovery::use_cache(const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world) {
+  cache_.emplace(context_, scene, config, world, shape_, plan_.launch);
+  if (!compact_) compact_.emplace(context_, Trace::block_size(context_.info()));
+  label();
+}
+
+void Discovery::follow(RayTrails& trails) {
+  trails_ = &trails;
+  const gpu::DeviceInfo& device = context_.info();
+  const uint64_t bytes = trails.bytes_a_sample();
+  batch_rays_ = std::max<uint64_t>(256, std::min({batch_rays_, device.max_buffer / bytes,
+                                                  device.global_memory / (4 * bytes)}));
+  label();
+}
+
+void Discovery::label() {
+  if (label_) return;
+  label_.emplace(context_);
+  interact_ = Interact(context_, keep_ages_, false, true);
+  if (refinement_) interact_samples_.emplace(context_, keep_ages_, true, true);
+}
+
 DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
                                       DirectionShare share) {
   DiscoveryCounts counts;
-  counts.segments_per_depth.assign(depth_, 0);
+  counts.segments_per_depth.assign(segments(), 0);
   const uint64_t total = rays_of(share) * transmitters.size();
-  if (max_depth_ == 0 || total == 0) return counts;
+  if (segments() == 0 || total == 0) return counts;
+  if (trails_) trails_->begin_launch();
   const uint64_t size = std::min(batch_rays_, total);
   if (reserve(size) && plan_.key)
     order_.emplace(context_, *plan_.key, plan_.bins, directions_, scene.extent_m, static_cast<uint32_t>(size));
@@ -79,6 +104,7 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
       if (!sequences_.overflowed()) break;
       sequences_.regrow(max_depth_);
     }
+    if (trails_) trails_->end_batch();
     counts.rays += batch.count;
   }
   return counts;
@@ -87,16 +113,16 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
 DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
                                    uint64_t frame) {
   DiscoveryCounts counts;
-  counts.segments_per_depth.assign(depth_, 0);
-  if (depth_ == 0 || transmitters.empty()) return counts;
-  refinement_->start(transmitters, sequences_.table().size(), frame);
+  counts.segments_per_depth.assign(segments(), 0);
+  if (segments() == 0 || transmitters.empty()) return counts;
+  start_level(transmitters, frame);
   for (bool more = true; more;) {
-    trace_level(scene, counts);
+    trace_level(scene, transmitters, counts);
     if (sequences_.overflowed()) {
       // Sequences get new numbers when the set grows: the launch begins again.
       sequences_.regrow(max_depth_);
       counts.rays = 0;
-      refinement_->start(transmitters, sequences_.table().size(), frame);
+      start_level(transmitters, frame);
     } else {
       more = refinement_->descend();
     }
@@ -106,21 +132,48 @@ DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<L
   return counts;
 }
 
-void Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
+void Discovery::start_level(const std::vector<Launcher>& transmitters, uint64_t frame) {
+  refinement_->start(transmitters, sequences_.table().size(), frame);
+  if (trails_) trails_->begin_launch();
+}
+
+// The samples of a level by transmitter. Those of the first, which covers all directions, may be chosen for waypoints.
+std::vector<LaunchPart> Discovery::level_parts(const std::vector<Launcher>& transmitters, uint64_t first,
+                                               uint32_t count) const {
+  const SampleList& level = refinement_->level();
+  const uint64_t cells = level.cells();
+  if (level.count != cells * transmitters.size()) return {{0, static_cast<uint32_t>(first), count, 0, 0, 0}};
+  std::vector<LaunchPart> parts;
+  for (uint64_t done = first; done < first + count;) {
+    const uint64_t cell = done % cells;
+    const auto part = static_cast<uint32_t>(std::min(first + count - done, cells - cell));
+    parts.push_back(
+        {transmitters[done / cells].transmitter, static_cast<uint32_t>(done), part, cell, cells, cell});
+    done += part;
+  }
+  return parts;
+}
+
+void Discovery::trace_level(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
+                            DiscoveryCounts& counts) {
   const SampleList& level = refinement_->level();
   for (uint64_t done = 0; done < level.count && !sequences_.overflowed(); done += batch_rays_) {
     const auto count = static_cast<uint32_t>(std::min<uint64_t>(batch_rays_, level.count - done));
     reserve(count);
     refinement_->generate(rays_, static_cast<uint32_t>(done), count);
+    if (label_) (*label_)(rays_);
+    if (trails_) trails_->begin_batch(level_parts(transmitters, done, count));
     trace_batch(scene, *interact_samples_, counts, &level.ends);
+    if (trails_ && !sequences_.overflowed()) trails_->end_batch();
     counts.rays += count;
   }
 }
 
 bool Discovery::reserve(uint64_t rays) {
   if (rays_.capacity >= padded_capacity(rays)) return false;
-  rays_ = make_ray_queue(context_, rays, "rays", refinement_.has_value());
-  next_ = make_ray_queue(context_, rays, "next rays", refinement_.has_value());
+  const uint32_t planes = label_ ? WT_RAY_LABELLED_PLANES : WT_RAY_PLANES + refinement_.has_value();
+  rays_ = make_ray_queue(context_, rays, "rays", planes);
+  next_ = make_ray_queue(context_, rays, "next rays", planes);
   hits_ = make_hit_list(context_, rays, Trace::block_size(context_.info()));
   return true;
 }
@@ -128,30 +181,53 @@ bool Discovery::reserve(uint64_t rays) {
 void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch) {
   const uint64_t rays = rays_of(share);
   rays_.count = 0;
+  std::vector<LaunchPart> parts;
   for (uint64_t done = 0; done < batch.count;) {
     const uint64_t launch_index = batch.first + done, first = launch_index % rays;
     const Launcher& from = transmitters[launch_index / rays];
     const auto count = static_cast<uint32_t>(std::min(batch.count - done, rays - first));
-    if (order_ && share.stride == 1)
-      generate_(rays_, from.transmitter, from.position_m, first, count, order_->launch(first, count), from.source);
-    else
+    const auto sample = static_cast<uint32_t>(done);
+    if (order_ && share.stride == 1) {
+      const gpu::Buffer<uint32_t>& order = order_->launch(first, count);
+      generate_(rays_, from.transmitter, from.position_m, first, count, order, from.source);
+      if (label_) (*label_)(rays_, sample, count, sample, order);
+    } else {
       generate_(rays_, from.transmitter, from.position_m, share.phase + share.stride * first, count, share.stride,
                 from.source);
+      if (label_) (*label_)(rays_, sample, count, sample);
+    }
+    parts.push_back({from.transmitter, sample, count, first, rays, share.phase + share.stride * first, share.stride});
     done += count;
   }
+  if (trails_) trails_->begin_batch(std::move(parts));
+}
+
+// Hits of the queue, and the hits of its blocks.
+void Discovery::find_hits(const DeviceScene& scene, uint32_t depth) {
+  const bool ask = cache_ && depth >= cache_->first_depth();
+  if (ask)
+    (*cache_)(scene, rays_, hits_, depth);
+  else
+    trace_(scene, rays_, hits_);
+  if (trails_) {
+    const std::optional<AnsweredRays> answered = ask ? cache_->answered() : std::nullopt;
+    (*trails_)(rays_, hits_, depth - 1, answered ? &*answered : nullptr);
+  }
+  if (ask || !trace_.counts_blocks())
+    compact_->count_blocks(hits_.planes, size_t{WT_HIT_SURFACE} * hits_.capacity, rays_.count, hits_.block_hits);
 }
 
 void Discovery::trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
                             const gpu::Buffer<uint32_t>* ends) {
   const uint32_t block = Trace::block_size(context_.info());
-  for (uint32_t depth = 1; depth <= depth_ && rays_.count > 0; ++depth) {
+  const uint32_t last = segments();
+  for (uint32_t depth = 1; depth <= last && rays_.count > 0; ++depth) {
     if (plan_.each_depth && depth > 1) (*order_)(rays_, next_);
-    trace_(scene, rays_, hits_);
-    if (compact_)
-      compact_->count_blocks(hits_.planes, size_t{WT_HIT_SURFACE} * hits_.capacity, rays_.count, hits_.block_hits);
+    find_hits(scene, depth);
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
-    interact(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), sequences_.ages(),
-              sequences_.now(), next_, depth == depth_, ends);
+    if (depth <= depth_)
+      interact(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), sequences_.ages(),
+               sequences_.now(), next_, depth == last, ends);
     counts.segments_per_depth[depth - 1] += rays_.count;
     counts.hits += hit_count;
     std::swap(rays_, next_);

@@ -8,10 +8,13 @@
 #include "passes/compact.hpp"
 #include "passes/generate_rays.hpp"
 #include "passes/interact.hpp"
+#include "passes/label_rays.hpp"
 #include "passes/scan.hpp"
 #include "passes/sequences.hpp"
 #include "passes/trace.hpp"
+#include "simulation/ray_cache.hpp"
 #include "simulation/ray_order.hpp"
+#include "simulation/ray_trails.hpp"
 #include "simulation/refinement.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/device/moving.h"
@@ -41,6 +44,11 @@ class Discovery {
   // keep_ages: see passes/sequences.hpp. depth: of the rays, where that is less than trace.max_depth.
   Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order = {},
             bool keep_ages = false, uint32_t depth = WT_MAX_DEPTH);
+  // Segments are asked of a cache from now on, before they are traced.
+  void use_cache(const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world);
+  RayCache* cache() { return cache_ ? &*cache_ : nullptr; }
+  // Rays are followed from now on; trails outlives this.
+  void follow(RayTrails& trails);
   // Adds to sequences() what rays from these transmitters meet, in these directions.
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
                              DirectionShare share = {});
@@ -61,7 +69,14 @@ class Discovery {
   uint64_t rays_of(DirectionShare share) const {
     return (config_.rays - share.phase + share.stride - 1) / share.stride;
   }
-  void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
+  void start_level(const std::vector<Launcher>& transmitters, uint64_t frame);
+  void trace_level(const DeviceScene& scene, const std::vector<Launcher>& transmitters, DiscoveryCounts& counts);
+  // Queues get the planes that say where a ray comes from.
+  void label();
+  // Segments of a ray, at most: one more than reflections where receptions are wanted.
+  uint32_t segments() const { return depth_ + (trails_ && trails_->receives()); }
+  std::vector<LaunchPart> level_parts(const std::vector<Launcher>& transmitters, uint64_t first, uint32_t count) const;
+  void find_hits(const DeviceScene& scene, uint32_t depth);
   bool reserve(uint64_t rays);  // true where queues were made anew
   void trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
                    const gpu::Buffer<uint32_t>* ends = nullptr);
@@ -71,6 +86,8 @@ class Discovery {
   OrderPlan plan_;
   uint32_t max_depth_, depth_;  // of sequences, of rays
   uint64_t batch_rays_;
+  bool keep_ages_;
+  TraceShape shape_;
   LaunchDirections directions_;
   GenerateRays generate_;
   Trace trace_;
@@ -80,6 +97,9 @@ class Discovery {
   Sequences sequences_;
   std::optional<Refinement> refinement_;  // with trace.rays = "auto"
   std::optional<Interact> interact_samples_;
+  std::optional<RayCache> cache_;
+  std::optional<LabelRays> label_;  // with a cache or trails
+  RayTrails* trails_ = nullptr;
   std::optional<RayOrder> order_;  // with the queues, if the plan has one
   RayQueue rays_, next_;
   HitList hits_;

@@ -85,7 +85,7 @@ const gpu::Buffer<uint32_t>& RayOrder::launch(uint64_t first, uint32_t count) {
 void RayOrder::operator()(RayQueue& rays, RayQueue& spare) {
   keys_of_(rays, keys_);
   sort_(keys_, order_, rays.count, temporary_, keys_of_.queue_bits());
-  gather_(rays, order_, spare);
+  gather_(rays, order_, rays.count, spare);
   std::swap(rays, spare);
 }
 

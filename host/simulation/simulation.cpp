@@ -67,6 +67,21 @@ DirectionShare share_of(const TraceConfig& config, uint64_t rays, uint64_t warm_
   return {warm_frames * step % stride, stride};
 }
 
+// What the cache must know of the world.
+CacheWorld cache_world(const Scene& scene, const World& world) {
+  CacheWorld out{.transmitters = static_cast<uint32_t>(world.transmitters().size()),
+                 .surfaces = static_cast<uint32_t>(scene.surfaces.size()),
+                 .primitives = static_cast<uint32_t>(scene.triangles.size()),
+                 .static_surfaces = static_cast<uint32_t>(scene.surfaces.size()),
+                 .instances = static_cast<uint32_t>(world.instances().size())};
+  for (const Instance& instance : world.instances()) {
+    const Scene& model = world.models()[instance.model];
+    out.surfaces += static_cast<uint32_t>(model.surfaces.size());
+    out.primitives += static_cast<uint32_t>(model.triangles.size());
+  }
+  return out;
+}
+
 }  // namespace
 
 struct Simulation::State {
@@ -79,6 +94,7 @@ struct Simulation::State {
   std::optional<InstancePlacement> place;  // where there are instances
   bool reuse = false;
   uint64_t warm_frames = 0;  // since the last cold one, which counts
+  std::optional<RayTrails> trails;  // with trace.reception = "sphere" or output.waypoints
   std::optional<Discovery> discovery;
   std::optional<Candidates> candidates;
   std::optional<MeetingPrefixes> meeting;  // with trace.join
@@ -91,6 +107,8 @@ struct Simulation::State {
 
   void begin_frame();
   DiscoveryCounts discover(const std::vector<Launcher>& transmitters);
+  PathGeometry solved_paths(const RadioEnds& ends, FrameCounts& counts);
+  PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts);
 };
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
@@ -106,6 +124,35 @@ void Simulation::State::begin_frame() {
 DiscoveryCounts Simulation::State::discover(const std::vector<Launcher>& transmitters) {
   if (config.trace.rays == 0) return discovery->refined(device_scene, transmitters, warm_frames);
   return (*discovery)(device_scene, transmitters, share_of(config.trace, discovery->rays(), warm_frames));
+}
+
+// Every sequence with every receiver: what is a path is solved exactly (image method, in double) and checked for
+// visibility.
+PathGeometry Simulation::State::solved_paths(const RadioEnds& ends, FrameCounts& counts) {
+  const uint32_t max_depth = config.trace.max_depth;
+  Sequences& sequences = discovery->sequences();
+  uint32_t node_count = sequences.collect(ends.transmitter_count);
+  sequences.commute(device_scene.surfaces, node_count, max_depth);
+  node_count = sequences.collect(ends.transmitter_count);
+  uint32_t candidate_count =
+      (*candidates)(device_scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
+  if (meeting)
+    candidate_count = (*meeting)(device_scene, ends, sequences, node_count, candidates->list(), candidate_count);
+  SolvedList& solved =
+      (*solve)(device_scene, ends, sequences.table(), candidates->list(), candidate_count, sequences.counters());
+  (*occlusion)(device_scene, ends, solved);
+  sequences.keep(solved);
+  counts.sequences = node_count - ends.transmitter_count;
+  counts.candidates = candidate_count;
+  counts.solved = solved.count;
+  return visible_paths((*visible)(solved, sequences.counters()));
+}
+
+// The thesis' way: rays that pass a receiver's sphere are its paths.
+PathGeometry Simulation::State::received_paths(const RadioEnds& ends, FrameCounts& counts) {
+  counts.sequences = discovery->sequences().collect(ends.transmitter_count) - ends.transmitter_count;
+  counts.receptions = trails->receptions();
+  return trails->paths();
 }
 
 Simulation::Simulation(const Config& config, const std::string& device) : state_(std::make_unique<State>()) {
@@ -137,10 +184,21 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   }
   s.order = {order.plan.method, order.plan.each_depth, std::to_string(order.plan.launch.dimensions) + "d",
              order.plan.launch.local_size, order.reason};
-  s.reuse = config.trace.reuse && s.world->frame_count() > 1;
+  const bool sphere = config.trace.reception == "sphere";
+  s.reuse = config.trace.reuse && !sphere && s.world->frame_count() > 1;  // a sphere receives what this frame's rays meet
   if (config.trace.join)
     s.meeting.emplace(*s.context, s.world->receiver_of_transmitter(), config.trace.max_depth);
-  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan, s.reuse, ray_depth(config.trace, *s.world));
+  const uint32_t depth = ray_depth(config.trace, *s.world);
+  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan, s.reuse, depth);
+  if (sphere || config.output.waypoints > 0) {
+    s.trails.emplace(*s.context, config.trace, config.output.waypoints, config.trace.reflection ? depth : 0,
+                     SurfaceTable(s.scene, s.world->models(), s.world->instances()));
+    s.discovery->follow(*s.trails);
+  }
+  if (config.cache.kind != "none") {
+    s.discovery->use_cache(s.device_scene, config.cache, cache_world(s.scene, *s.world));
+    if (sphere) s.discovery->cache()->keep_receptions(*s.trails, config.trace.sphere_radius_m);
+  }
   s.candidates.emplace(*s.context);
   s.solve.emplace(*s.context, config.trace.max_depth);
   s.occlusion.emplace(*s.context, s.device_scene);
@@ -153,7 +211,10 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::forget() { state_->warm_frames = 0; }
+void Simulation::forget() {
+  state_->warm_frames = 0;
+  if (RayCache* const cache = state_->discovery->cache()) cache->clear();
+}
 uint64_t Simulation::frame_count() const { return state_->world->frame_count(); }
 double Simulation::time_s(uint32_t frame) const { return state_->world->time_s(frame); }
 const Config& Simulation::config() const { return state_->config; }
@@ -173,7 +234,6 @@ const StageSeconds& Simulation::setup_seconds() const { return state_->setup; }
 
 FrameResult Simulation::run_frame(uint32_t frame) {
   State& s = *state_;
-  const uint32_t max_depth = s.config.trace.max_depth;
   FrameResult out;
   out.frame = frame;
   s.context->reset_profile();
@@ -183,25 +243,18 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   const double poses_seconds = host_watch.lap();
   if (s.place) (*s.place)(s.device_scene, out.world.instances);
   const RadioEnds ends = make_radio_ends(*s.context, out.world.transmitters, out.world.receivers, out.world.links);
-  Sequences& sequences = s.discovery->sequences();
   s.begin_frame();
+  RayCache* const cache = s.discovery->cache();
+  if (cache) cache->begin_frame(out.world);
+  if (s.trails) s.trails->begin_frame(frame, ends, out.world);
   const DiscoveryCounts found = s.discover(launchers(out.world));
-  uint32_t node_count = sequences.collect(ends.transmitter_count);
-  sequences.commute(s.device_scene.surfaces, node_count, max_depth);
-  node_count = sequences.collect(ends.transmitter_count);
-  uint32_t candidate_count =
-      (*s.candidates)(s.device_scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
-  if (s.meeting)
-    candidate_count =
-        (*s.meeting)(s.device_scene, ends, sequences, node_count, s.candidates->list(), candidate_count);
-  SolvedList& solved = (*s.solve)(s.device_scene, ends, sequences.table(), s.candidates->list(), candidate_count,
-                                  sequences.counters());
-  (*s.occlusion)(s.device_scene, ends, solved);
-  sequences.keep(solved);
+  if (cache) out.cache = cache->summary();
+  if (s.trails) out.waypoints = s.trails->take_waypoints();
+  const bool sphere = s.trails && s.trails->receives();
+  const PathGeometry one_way = sphere ? s.received_paths(ends, out.counts) : s.solved_paths(ends, out.counts);
   ++s.warm_frames;
-  const SolvedList& visible = (*s.visible)(solved, sequences.counters());
   host_watch.lap();
-  const PathGeometry geometry = with_reversed_twins(visible_paths(visible), s.world->receiver_of_transmitter(),
+  const PathGeometry geometry = with_reversed_twins(one_way, s.world->receiver_of_transmitter(),
                                                     s.world->transmitter_of_receiver(), out.world.links);
 
   const double paths_seconds = host_watch.lap();
@@ -222,9 +275,6 @@ FrameResult Simulation::run_frame(uint32_t frame) {
                     s.config.trace.max_rays, s.config.trace.recall, 100 * found.share_once));
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
-  out.counts.sequences = node_count - ends.transmitter_count;
-  out.counts.candidates = candidate_count;
-  out.counts.solved = solved.count;
   out.counts.paths = out.paths.size();
   return out;
 }

@@ -114,19 +114,27 @@ struct LaunchConfig {
 };
 
 struct CacheConfig {
-  std::string kind = "none";
-  uint32_t hash_method = 3;
-  uint32_t division = 200000;
-  uint64_t buffer_size = 1048576;
-  double load_factor = 0.75;
-  uint32_t readers_number = 4;
-  std::string purge = "position";
-  double residual_value = 0.01;
+  std::string kind = "none";        // none, chained, open, concurrent
+  std::string key = "quantised";    // quantised: primitive and cells of directions; exact: the ray itself
+  uint32_t hash_method = 3;         // 1 uniform, 2 Morton, 3 mixed
+  uint32_t division = 200000;       // cells a direction component, of a quantised key
+  uint64_t buffer_size = 1048576;   // entries, shared evenly by the transmitters
+  double load_factor = 3;           // chained: entries a bucket, on average
+  std::string locking = "readers";  // open: mutex, readers
+  uint32_t readers_number = 5;      // open, readers: reads of an entry after which it is written anew
+  std::string purge = "position";   // position, precision
+  double position_step_m = 0.1;     // of the transmitter's position key
+  double residual_value = 0.0125;   // precision: largest L1 distance of origins and directions
+  std::string scope = "static";     // static: what vehicles and receivers decide is tested every time; all: it is kept
+  std::string hit_point = "own";    // of an answered ray: own (its line on the surface), cached (the other ray's)
+  uint32_t first_depth = 1;         // segments before this one of a ray, counted from 1, are always traced
+  bool statistics = false;          // hits an entry, and entries linked along paths
 };
 
 struct OutputConfig {
   std::string directory = "out";
   uint32_t shard_frames = 100;  // frames a file of a drive; the first of each is cold where frames reuse sequences
+  uint64_t waypoints = 0;       // samples a transmitter whose waypoints are written, spread evenly; 0: none
 };
 
 struct Config {

@@ -133,6 +133,16 @@ TEST_CASE("init, then validate") {
   CHECK(validate.code == 0);
   CHECK(validate.err.empty());
   CHECK(contains(validate.out, file + ": ok\n"));
+  for (const char* line : {"\nkind = \"none\"\n", "\nhit_point = \"own\"\n", "\nwaypoints = 0\n"})
+    CHECK(contains(init.out, line));
+}
+
+TEST_CASE("the configs that come with the program are valid") {
+  for (const std::string name : {"cache", "city", "demo", "drive"}) {
+    const Outcome validate = run_program({"validate", "-c", WAVETRACER_SOURCE "/configs/" + name + ".toml"});
+    CAPTURE(validate.err);
+    CHECK(validate.code == 0);
+  }
 }
 
 TEST_CASE("scene city writes what scene info reads") {

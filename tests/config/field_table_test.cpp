@@ -88,14 +88,22 @@ TEST_CASE("every key of the contract is in the table, once") {
                           "launch.shape",
                           "launch.local_size",
                           "cache.kind",
+                          "cache.key",
                           "cache.hash_method",
                           "cache.division",
                           "cache.buffer_size",
                           "cache.load_factor",
+                          "cache.locking",
                           "cache.readers_number",
                           "cache.purge",
+                          "cache.position_step_m",
                           "cache.residual_value",
-                          "output.directory"}) {
+                          "cache.scope",
+                          "cache.hit_point",
+                          "cache.first_depth",
+                          "cache.statistics",
+                          "output.directory",
+                          "output.waypoints"}) {
     CAPTURE(key);
     CHECK(keys.contains(key));
   }

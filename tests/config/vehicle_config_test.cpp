@@ -5,33 +5,17 @@
 #include <cmath>
 #include <string>
 
-#include "config/config_file.hpp"
-#include "wavetracer/error.hpp"
+#include "config/texts.hpp"
 
 using namespace wavetracer;
+using test::check_contains;
+using test::ends;
+using test::error_of;
+using test::scene;
 
 namespace {
 
-const std::string scene = "scene.file = \"s.xml\"\n";  // one line
-const std::string ends =
-    "[[transmitter]]\nname = \"t\"\nposition_m = [0, 0, 6]\n"
-    "[[receiver]]\nname = \"r\"\nposition_m = [10, 0, 1.5]\n";
 const std::string track = "[[track]]\nid = \"ego\"\nwaypoints = [[0, 0, 0, 0], [1, 10, 0, 0]]\n";
-
-std::string error_of(const std::string& text, const std::vector<std::string>& sets = {}) {
-  try {
-    parse_config(text, "a.toml", sets);
-  } catch (const ConfigError& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
-void check_contains(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CAPTURE(part);
-  CHECK(text.find(part) != std::string::npos);
-}
 
 const std::string everything = R"(
 scene.file = "s.xml"

@@ -51,7 +51,7 @@ FrameResult make_frame(const SampleRun& sample, uint32_t number, double time_s) 
 
 void add_counts(FrameResult& frame) {
   frame.paths.rx_ports = 2;
-  frame.counts = {1000, 2500, 1500, 40, 12, 8, frame.paths.size()};
+  frame.counts = {1000, 2500, 1500, 40, 12, 8, frame.paths.size(), 3};
   frame.segments_per_depth = {1000, 900, 600};
   frame.warnings = {"a warning"};
 }

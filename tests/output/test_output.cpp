@@ -136,7 +136,8 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
                                          {"sequences", 80},
                                          {"candidates", 24},
                                          {"solved", 16},
-                                         {"paths", 5}});
+                                         {"paths", 5},
+                                         {"receptions", 6}});
   CHECK(json["segments_per_depth"] == std::vector<int>{2000, 1800, 1200});
   CHECK(json["seconds"]["frame"] == 1.0);
   CHECK(json["seconds"]["solve"] == 0.25);

@@ -201,7 +201,7 @@ TEST_CASE("samples: the ray of a cell and a launcher, with its number, and an en
   list.level = level;
   const LaunchDirections directions("hilbert", cells, 0);
   GenerateRays generate(context(), LaunchDirections("hilbert", 12345, seed));
-  RayQueue queue = make_ray_queue(context(), count, "rays", true);
+  RayQueue queue = make_ray_queue(context(), count, "rays", WT_RAY_PLANES + 1);
   for (const auto& [first, part] : {std::pair{0u, 100u}, {100u, 131u}, {231u, 69u}}) {
     CAPTURE(first);
     generate.samples(queue, list, first, part, context().buffer(launchers, "launchers"), directions);

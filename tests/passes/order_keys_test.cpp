@@ -104,7 +104,7 @@ TEST_CASE("rays of a sorted queue are those that it had, each once, their direct
   const std::vector<Ray> before = download(queue);
   const std::vector<uint32_t> order = order_of(OrderKey::hilbert_bins, 16, directions, queue);
   GatherRays gather(context());
-  gather(queue, context().buffer(order, "order"), sorted);
+  gather(queue, context().buffer(order, "order"), queue.count, sorted);
   const std::vector<Ray> after = download(sorted);
   REQUIRE(after.size() == before.size());
   size_t different = 0;

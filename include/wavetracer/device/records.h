@@ -21,8 +21,13 @@ typedef uint64_t wt_ulong;
 #define WT_RAY_NODE 6       // trie node of the prefix that the ray has lived through, or a root
 #define WT_RAY_SURFACE 7    // surface that the ray left, WT_NONE at a transmitter
 #define WT_RAY_PLANES 8
-// One plane more where samples are followed to their end (WT_SAMPLES): the number of the sample, counted in its launch.
+// More planes where samples are followed (WT_SAMPLES, WT_LABELS): the number of the sample, counted in its launch.
 #define WT_RAY_SAMPLE 8
+// And with a ray cache or waypoints (WT_LABELS, written by label_rays and interact):
+#define WT_RAY_LEFT 9     // primitive that the ray left, WT_NONE at a transmitter
+#define WT_RAY_REGION 10  // transmitter that launched it
+#define WT_RAY_ENTRY 11   // cache entry of the segment before, or WT_NONE
+#define WT_RAY_LABELLED_PLANES 12
 
 // A hit list of capacity n is WT_HIT_PLANES * n words.
 #define WT_HIT_T 0          // float, distance; undefined on a miss

@@ -1,0 +1,24 @@
+// The counts of a CacheSummary that add up over frames, with the names they have in summary.json and in manifests.
+// What describes the table (entries, used, bytes, entries_by_hits) does not add up; that of the last frame is kept.
+#pragma once
+#include <array>
+#include <utility>
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer {
+
+inline constexpr std::array<std::pair<const char*, uint64_t CacheSummary::*>, 11> cache_counts{{
+    {"lookups", &CacheSummary::lookups},
+    {"hits", &CacheSummary::hits},
+    {"conflicts", &CacheSummary::conflicts},
+    {"stale", &CacheSummary::stale},
+    {"stored", &CacheSummary::stored},
+    {"replaced", &CacheSummary::replaced},
+    {"duplicates", &CacheSummary::duplicates},
+    {"dropped", &CacheSummary::dropped},
+    {"exhausted", &CacheSummary::exhausted},
+    {"evicted", &CacheSummary::evicted},
+    {"linked", &CacheSummary::linked},
+}};
+
+}  // namespace wavetracer

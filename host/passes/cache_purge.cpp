@@ -1,0 +1,44 @@
+// Host side of kernels/cache_purge.cl.
+// A run of entries a work-item; regions are the second dimension.
+#include "passes/cache_purge.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace wavetracer {
+
+namespace {
+constexpr uint32_t entries_per_item = 16;
+}
+
+CachePurge::CachePurge(gpu::Context& context, const CacheTable& table)
+    : old_(context.buffer<uint32_t>(table.regions.size(), "old cache entries")),
+      local_(context.info().simple_local_size()) {
+  gpu::Definitions definitions = table.definitions(true);
+  definitions["WT_ENTRIES_PER_ITEM"] = std::to_string(entries_per_item) + "u";
+  kernel_ = context.kernel("cache_purge", "cache_purge", definitions);
+}
+
+void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t keep_from) {
+  context.fill(old_, 0, "cache_purge");
+  const size_t items = (size_t{table.regions.front().entries} + entries_per_item - 1) / entries_per_item;
+  kernel_({{items, table.regions.size(), 1}, {local_, 1, 1}, 2}, "cache_purge", table.entries, table.heads, table.used,
+          table.device_regions, table.counters, keep_from, old_);
+  if (table.config.kind == "chained") clear_old_regions(context, table);
+}
+
+void CachePurge::clear_old_regions(gpu::Context& context, CacheTable& table) {
+  const std::vector<uint32_t> old = old_.read(0, old_.size(), "cache_purge");
+  const std::vector<uint32_t> used = table.used.read(0, table.used.size(), "cache_purge");
+  std::vector counters{table.counters.read_one(0, "cache_purge")};
+  for (uint32_t r = 0; r < table.regions.size(); ++r) {
+    const uint32_t filled = std::min(used[r], table.regions[r].entries);
+    if (2 * uint64_t{old[r]} <= filled) continue;
+    counters[0].evicted += filled;
+    table.clear(context, r);
+  }
+  table.counters.write(counters, 0, "cache_purge");
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,23 @@
+// cache_purge: removes entries that were not used since a given frame, in a pass of its own.
+// Assumes that nothing else uses the table meanwhile.
+#pragma once
+#include "passes/cache_table.hpp"
+
+namespace wavetracer {
+
+class CachePurge {
+ public:
+  CachePurge(gpu::Context& context, const CacheTable& table);
+  // Of every region, entries whose time is before `keep_from`, and those that were withdrawn. The chained table cannot
+  // give up single nodes: its regions are cleared whole where more than half of their entries would go.
+  void operator()(gpu::Context& context, CacheTable& table, uint32_t keep_from);
+
+ private:
+  void clear_old_regions(gpu::Context& context, CacheTable& table);
+
+  gpu::Kernel kernel_;
+  gpu::Buffer<uint32_t> old_;  // entries a region
+  uint32_t local_;
+};
+
+}  // namespace wavetracer

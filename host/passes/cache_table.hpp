@@ -1,0 +1,47 @@
+// The memory of a ray cache on the device, one region a transmitter, and the definitions that its kernels are built
+// with. What lies in heads and used depends on the kind: see kernels/lib/cache_*.clh.
+#pragma once
+#include <vector>
+
+#include "gpu/gpu.hpp"
+#include "wavetracer/config.hpp"
+#include "wavetracer/device/cache.h"
+
+namespace wavetracer {
+
+struct CacheTable {
+  CacheConfig config;
+  device::wt_cache_widths widths{};
+  std::vector<device::wt_cache_region> regions;  // as on the device
+  gpu::Buffer<device::wt_cache_entry> entries;
+  gpu::Buffer<uint32_t> heads, used;
+  gpu::Buffer<device::wt_cache_region> device_regions;
+  gpu::Buffer<device::wt_cache_counters> counters;  // one
+  // With config.statistics: answers of each slot since its region was cleared; else a placeholder.
+  gpu::Buffer<uint32_t> hits;
+
+  // Of kernels that use lib/cache_table.clh. bulk: nobody writes while the kernel reads.
+  gpu::Definitions definitions(bool bulk) const;
+  uint64_t bytes() const;
+  // Forgets everything in a region, or everywhere. Counters stay.
+  void clear(gpu::Context& context, uint32_t region);
+  void clear(gpu::Context& context);
+};
+
+// What moves, as entries of scope = "all" need to know it.
+struct CacheMovement {
+  gpu::Buffer<float> receivers;  // centres, recentred, four floats each (the last is padding)
+  float radius_m = 0;            // of the spheres around them
+  gpu::Buffer<uint32_t> instance_since;  // frame in which each instance last moved
+};
+
+// Entries, heads and regions of this configuration, all empty. surface_count, primitive_count: of the world, for
+// hash_method 2. Throws ConfigError that names limit and value where the device cannot hold cache.buffer_size, or a
+// transmitter's share of it is too small.
+CacheTable make_cache_table(gpu::Context& context, const CacheConfig& config, uint32_t transmitter_count,
+                            uint32_t surface_count, uint32_t primitive_count);
+
+// Nothing moves: placeholders.
+CacheMovement make_cache_movement(gpu::Context& context);
+
+}  // namespace wavetracer

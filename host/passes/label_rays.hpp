@@ -1,0 +1,25 @@
+// label_rays: launch rays learn their sample, their transmitter, and that they have left nothing yet.
+// Assumes queues with WT_RAY_LABELLED_PLANES.
+#pragma once
+#include "passes/ray_queue.hpp"
+
+namespace wavetracer {
+
+class LabelRays {
+ public:
+  explicit LabelRays(gpu::Context& context);
+  // The rays first_slot .. first_slot + count - 1 are samples first_sample, ..., or, where they were launched in an
+  // order, first_sample + order[0], ...
+  void operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample);
+  void operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample,
+                  const gpu::Buffer<uint32_t>& order);
+  // All rays, which know their samples (a refined launch).
+  void operator()(RayQueue& queue);
+
+ private:
+  gpu::Kernel label_, label_ordered_, label_samples_;
+  uint32_t rays_per_item_, local_;
+  gpu::Range range(uint32_t count) const { return {(size_t{count} + rays_per_item_ - 1) / rays_per_item_, local_}; }
+};
+
+}  // namespace wavetracer

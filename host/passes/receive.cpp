@@ -1,0 +1,58 @@
+// Host side of kernels/receive.cl.
+// One ray a work-item. A list that is too short is made longer, and the same rays run again.
+#include "passes/receive.hpp"
+
+namespace wavetracer {
+
+Receive::Receive(gpu::Context& context, double radius_m)
+    : context_(context),
+      receive_(context.kernel("receive", "receive")),
+      receive_answered_(context.kernel("receive", "receive", {{"WT_ANSWERED", "1"}})),
+      first_(context.kernel("receive", "first_receiver")),
+      radius_m_(static_cast<float>(radius_m)),
+      local_(context.info().cpu ? 64 : 128),
+      list_(context.buffer<wt_reception>(1 << 16, "receptions")),
+      counter_(context.buffer<uint32_t>(1, "receptions")) {
+  begin_batch();
+}
+
+void Receive::begin_batch() {
+  count_ = 0;
+  counter_.write(std::vector{count_}, 0, "receive");
+}
+
+void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth) {
+  append(receive_, ends, rays, hits, depth, counter_, counter_);
+}
+
+void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth,
+                         const gpu::Buffer<float>& traced, const gpu::Buffer<uint32_t>& answered) {
+  append(receive_answered_, ends, rays, hits, depth, traced, answered);
+}
+
+void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits,
+                     uint32_t depth, const gpu::Memory& traced, const gpu::Memory& answered) {
+  for (;;) {
+    kernel({rays.count, local_}, "receive", rays.planes, hits.planes, rays.capacity, rays.count, ends.receiver_planes,
+           ends.links, ends.receiver_capacity, radius_m_, depth, list_, static_cast<uint32_t>(list_.size()), counter_,
+           traced, answered);
+    const uint32_t now = counter_.read_one(0, "receive");
+    if (now <= list_.size()) {
+      count_ = now;
+      return;
+    }
+    auto longer = context_.buffer<wt_reception>(size_t{now} + now / 4, "receptions (see trace.sphere_radius_m)");
+    context_.copy(list_, longer, size_t{count_} * sizeof(wt_reception), "receive");
+    list_ = longer;
+    counter_.write(std::vector{count_}, 0, "receive");
+  }
+}
+
+void Receive::first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first) {
+  first_({rays.count, local_}, "receive", rays.planes, hits.planes, rays.capacity, rays.count, ends.receiver_planes,
+         ends.links, ends.receiver_capacity, radius_m_, first);
+}
+
+std::vector<wt_reception> Receive::list() const { return list_.read(0, count_, "receive"); }
+
+}  // namespace wavetracer

@@ -1,0 +1,40 @@
+// receive: rays that pass receivers within a radius, the thesis' way of reception. The list grows until it holds them.
+// Assumes labelled queues (see label_rays).
+#pragma once
+#include <vector>
+
+#include "passes/radio_ends.hpp"
+#include "passes/ray_queue.hpp"
+#include "wavetracer/device/waypoints.h"
+
+namespace wavetracer {
+
+class Receive {
+ public:
+  Receive(gpu::Context& context, double radius_m);
+  // Forgets all receptions.
+  void begin_batch();
+  // Adds those of rays that have lived through `depth` interactions.
+  void operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth);
+  // The same where a ray cache has answered rays: traced[i] is WT_NONE (as a bit pattern) for them, and answered[i] the
+  // one receiver that they pass, or WT_NONE, however far their own segment is from it.
+  void operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth,
+                  const gpu::Buffer<float>& traced, const gpu::Buffer<uint32_t>& answered);
+  // first[i] becomes the receiver whose sphere ray i enters first, or WT_NONE.
+  void first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first);
+  // Receptions in no particular order.
+  std::vector<wt_reception> list() const;
+
+ private:
+  void append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth,
+              const gpu::Memory& traced, const gpu::Memory& answered);
+
+  gpu::Context& context_;
+  gpu::Kernel receive_, receive_answered_, first_;
+  float radius_m_;
+  uint32_t local_, count_ = 0;
+  gpu::Buffer<wt_reception> list_;
+  gpu::Buffer<uint32_t> counter_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,19 @@
+// trace_moving: hits of the static scene are replaced by those of instances that come before them.
+// Assumes a scene with instances (passes/place.hpp), and hits by a Trace of Scope::fixed.
+#pragma once
+#include "passes/device_scene.hpp"
+#include "passes/ray_queue.hpp"
+
+namespace wavetracer {
+
+class TraceMoving {
+ public:
+  TraceMoving(gpu::Context& context, const DeviceScene& scene);
+  void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);
+
+ private:
+  gpu::Kernel kernel_;
+  uint32_t rays_per_item_, local_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,42 @@
+// Host side of kernels/waypoints.cl.
+// One ray a work-item.
+#include "passes/waypoints.hpp"
+
+#include <algorithm>
+
+namespace wavetracer {
+
+Waypoints::Waypoints(gpu::Context& context, uint32_t max_depth)
+    : context_(context),
+      kernel_(context.kernel("waypoints", "waypoints")),
+      gather_(context.kernel("waypoints", "gather_waypoints")),
+      stride_(max_depth + 1),
+      local_(context.info().simple_local_size()) {}
+
+void Waypoints::begin_batch(uint32_t first_sample, uint32_t count) {
+  first_sample_ = first_sample;
+  const size_t wanted = size_t{count} * stride_;
+  if (list_.size() < wanted) list_ = context_.buffer<wt_waypoint>(wanted, "waypoints (see trace.batch_rays)");
+}
+
+void Waypoints::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth) {
+  kernel_({rays.count, local_}, "waypoints", rays.planes, hits.planes, rays.capacity, rays.count, first_sample_, depth,
+          stride_, list_);
+}
+
+std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
+  if (samples.empty()) return {};
+  if (samples_.size() < samples.size()) {
+    const size_t room = samples.size() + samples.size() / 4;
+    samples_ = context_.buffer<uint32_t>(room, "samples");
+    rows_ = context_.buffer<wt_waypoint>(room * stride_, "waypoints of samples");
+  }
+  std::vector<uint32_t> slots = samples;
+  for (uint32_t& slot : slots) slot -= first_sample_;
+  samples_.write(slots);
+  const size_t count = samples.size() * stride_;
+  gather_({count, local_}, "waypoints", list_, samples_, static_cast<uint32_t>(samples.size()), stride_, rows_);
+  return rows_.read(0, count, "waypoints");
+}
+
+}  // namespace wavetracer

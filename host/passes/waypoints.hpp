@@ -1,0 +1,33 @@
+// waypoints: where rays start and end, segment by segment, a row a sample.
+// Assumes labelled queues (see label_rays), and every depth of a batch passed once, in order.
+#pragma once
+#include <vector>
+
+#include "passes/ray_queue.hpp"
+#include "wavetracer/device/waypoints.h"
+
+namespace wavetracer {
+
+class Waypoints {
+ public:
+  Waypoints(gpu::Context& context, uint32_t max_depth);
+  // Rows for the samples first_sample .. first_sample + count - 1. What was there is lost.
+  void begin_batch(uint32_t first_sample, uint32_t count);
+  // The segments of rays that have lived through `depth` interactions. Where segments after the last interaction end is
+  // not kept.
+  void operator()(const RayQueue& rays, const HitList& hits, uint32_t depth);
+  // The rows of these samples, stride() waypoints each. What follows on a miss is undefined.
+  std::vector<wt_waypoint> rows(const std::vector<uint32_t>& samples);
+  uint32_t stride() const { return stride_; }
+  // Device memory that a sample takes.
+  static uint64_t bytes_a_sample(uint32_t max_depth) { return (uint64_t{max_depth} + 1) * sizeof(wt_waypoint); }
+
+ private:
+  gpu::Context& context_;
+  gpu::Kernel kernel_, gather_;
+  uint32_t stride_, local_, first_sample_ = 0;
+  gpu::Buffer<wt_waypoint> list_, rows_;
+  gpu::Buffer<uint32_t> samples_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,215 @@
+// Stamps and eviction on the host, answers on the device.
+// Two host reads a depth: the rays that were not answered, and (by the caller) those that hit.
+#include "simulation/ray_cache.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <ranges>
+
+namespace wavetracer {
+
+namespace {
+
+constexpr double full = 0.8;  // share of a region's entries from which those that nobody uses make room
+
+// Quantised position of a transmitter (section 4.2.3), 21 bits a component, compared whole.
+uint64_t position_key(const glm::dvec3& position_m, double step_m) {
+  const auto cell = [step_m](double x) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / step_m))) & 0x1FFFFF;
+  };
+  return cell(position_m.x) | cell(position_m.y) << 21 | cell(position_m.z) << 42;
+}
+
+bool moved(const Placement& a, const Placement& b, double step_m) {
+  constexpr double turn = 1e-3;  // of a matrix element: a millimetre at a metre
+  if (a.present != b.present || glm::length(a.position_m - b.position_m) > step_m) return true;
+  for (int column = 0; column < 3; ++column)
+    if (glm::length(a.rotation[column] - b.rotation[column]) > turn) return true;
+  return false;
+}
+
+}  // namespace
+
+RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world,
+                   TraceShape shape, const LaunchShape& launch)
+    : context_(context),
+      table_(make_cache_table(context, config, world.transmitters, world.surfaces, world.primitives)),
+      movement_(make_cache_movement(context)),
+      lookup_(context, table_),
+      store_(context, table_),
+      purge_(context, table_),
+      compact_(context, Trace::block_size(context.info())),
+      scan_(context),
+      gather_(context, "cache_gather"),
+      trace_(context, scene, shape, launch, config.scope == "static" ? Trace::Scope::fixed : Trace::Scope::all),
+      block_(Trace::block_size(context.info())),
+      static_surfaces_(world.static_surfaces),
+      keys_(world.transmitters),
+      instance_since_(world.instances),
+      used_(world.transmitters) {
+  if (world.instances > 0 && config.scope == "static") trace_moving_.emplace(context, scene);
+  if (world.instances > 0) movement_.instance_since = context.buffer(instance_since_, "instances moved");
+}
+
+void RayCache::keep_receptions(RayTrails& trails, double radius_m) {
+  if (table_.config.scope != "all") return;
+  trails_ = &trails;
+  movement_.radius_m = static_cast<float>(radius_m);
+}
+
+std::optional<AnsweredRays> RayCache::answered() const {
+  if (!trails_) return {};
+  return AnsweredRays{missed_, answers_};
+}
+
+void RayCache::clear() {
+  table_.clear(context_);
+  std::ranges::fill(used_, 0u);
+  placements_.clear();
+  counters_ = {};
+  touch_ = false;
+}
+
+void RayCache::begin_frame(const WorldState& world) {
+  ++frame_;
+  frame_summary_ = {};
+  frame_summary_.on = true;
+  table_.counters.write(std::vector<device::wt_cache_counters>(1), 0, "cache_purge");
+  if (touch_) purge();
+  const bool evicts = table_.config.kind != "open";
+  touch_ = evicts && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
+             return used_[r] > full / 2 * table_.regions[r].entries;
+           });
+  note_positions(world.transmitters);
+  note_movement(world.instances);
+  note_receivers(world.receivers);
+}
+
+// Entries that no ray of the last frame used, where a region is nearly full.
+void RayCache::purge() {
+  bool wanted = counters_.exhausted > 0;
+  for (size_t r = 0; r < used_.size(); ++r) wanted = wanted || used_[r] > full * table_.regions[r].entries;
+  if (wanted) purge_(context_, table_, frame_ - 1);
+}
+
+// Algorithm 3: what was traced before the transmitter's position key changed is stale.
+void RayCache::note_positions(const std::vector<EndState>& transmitters) {
+  const CacheConfig& config = table_.config;
+  if (config.key != "quantised" || config.purge != "position") return;
+  bool changed = false;
+  for (size_t r = 0; r < keys_.size(); ++r) {
+    const uint64_t key = position_key(transmitters[r].position_m, config.position_step_m);
+    if (key == keys_[r] && frame_ > 1) continue;
+    keys_[r] = key;
+    table_.regions[r].since = frame_;
+    changed = true;
+    if (config.kind == "open" || used_[r] == 0) continue;  // an open table writes over stale entries
+    frame_summary_.evicted += used_[r];
+    table_.clear(context_, static_cast<uint32_t>(r));
+  }
+  if (changed) table_.device_regions.write(table_.regions, 0, "cache_purge");
+}
+
+// Section 3.2.3, movement of objects: entries on instances that have moved are stale.
+void RayCache::note_movement(std::span<const Placement> instances) {
+  if (table_.config.scope != "all" || instances.empty()) return;
+  for (size_t i = 0; i < instances.size(); ++i)
+    if (placements_.empty() || moved(instances[i], placements_[i], table_.config.position_step_m))
+      instance_since_[i] = frame_;
+  placements_.assign(instances.begin(), instances.end());
+  movement_.instance_since.write(instance_since_, 0, "cache_purge");
+}
+
+// Algorithm 4: entries say which receiver they reach, and stand while they do.
+void RayCache::note_receivers(const std::vector<EndState>& receivers) {
+  if (!trails_) return;
+  std::vector<float> centres;
+  for (const EndState& end : receivers)
+    for (const double x : {end.position_m.x, end.position_m.y, end.position_m.z, 0.0})
+      centres.push_back(static_cast<float>(x));
+  if (movement_.receivers.size() != centres.size())
+    movement_.receivers = context_.buffer(centres, "receivers");
+  else
+    movement_.receivers.write(centres, 0, "cache_purge");
+}
+
+void RayCache::reserve(const RayQueue& rays) {
+  if (missed_rays_.capacity == rays.capacity) return;
+  const uint64_t count = rays.capacity - 256;  // see padded_capacity
+  missed_rays_ = make_ray_queue(context_, count, "missed rays", WT_RAY_ENTRY);
+  missed_hits_ = make_hit_list(context_, count, block_);
+  missed_ = context_.buffer<float>(rays.capacity, "missed");
+  missed_blocks_ = context_.buffer<uint32_t>(rays.capacity / block_ + 1, "missed blocks");
+  indices_ = context_.buffer<uint32_t>(rays.capacity, "missed indices");
+  if (table_.config.scope != "all") return;
+  answers_ = context_.buffer<uint32_t>(rays.capacity, "cached receptions");
+  first_ = context_.buffer<uint32_t>(rays.capacity, "receptions");
+  context_.fill(first_, WT_NONE);  // as it stays where receptions are not kept
+}
+
+void RayCache::operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) {
+  reserve(rays);
+  lookup_(scene, rays, hits, missed_, table_, movement_, static_surfaces_, frame_, touch_,
+          answers_ ? &answers_ : nullptr);
+  compact_.count_blocks(missed_, 0, rays.count, missed_blocks_);
+  const uint32_t missed = scan_(missed_blocks_, (rays.count + block_ - 1) / block_);
+  if (missed > 0) {
+    compact_(missed_, 0, rays.count, missed_blocks_, indices_);
+    gather_(rays, indices_, missed, missed_rays_);
+    trace_(scene, missed_rays_, missed_hits_);
+    if (trails_) trails_->first_receivers(missed_rays_, missed_hits_, first_);
+    store_(rays, missed_rays_, missed_hits_, indices_, hits, table_, static_surfaces_, frame_,
+           first_ ? &first_ : nullptr);
+  }
+  if (trace_moving_) (*trace_moving_)(scene, rays, hits);
+  CacheSummary& s = frame_summary_;
+  s.lookups_per_depth.resize(std::max<size_t>(s.lookups_per_depth.size(), depth));
+  s.hits_per_depth.resize(s.lookups_per_depth.size());
+  s.lookups_per_depth[depth - 1] += rays.count;
+  s.hits_per_depth[depth - 1] += rays.count - missed;
+  s.lookups += rays.count;
+  s.hits += rays.count - missed;
+}
+
+CacheSummary RayCache::summary() {
+  counters_ = table_.counters.read_one(0, "cache_purge");
+  used_ = table_.used.read(0, used_.size(), "cache_purge");
+  // The chained table counts what it would have handed out.
+  for (size_t r = 0; r < used_.size(); ++r) used_[r] = std::min(used_[r], table_.regions[r].entries);
+  CacheSummary s = frame_summary_;
+  s.conflicts = counters_.conflicts;
+  s.stale = counters_.stale;
+  s.stored = counters_.stored;
+  s.replaced = counters_.replaced;
+  s.duplicates = counters_.duplicates;
+  s.dropped = counters_.dropped;
+  s.exhausted = counters_.exhausted;
+  s.evicted += counters_.evicted;
+  s.linked = counters_.linked;
+  for (const device::wt_cache_region& region : table_.regions) s.entries += region.entries;
+  for (const uint32_t used : used_) s.used += used;
+  s.bytes = table_.bytes();
+  if (table_.config.statistics) s.entries_by_hits = entries_by_hits();
+  return s;
+}
+
+// Groups of 0, 1, 2, 3 to 4, 5 to 8, ... answers, of entries that were written.
+std::vector<uint64_t> RayCache::entries_by_hits() const {
+  const std::vector<uint32_t> hits = table_.hits.read(0, table_.hits.size(), "cache_purge");
+  std::vector<uint64_t> groups;
+  uint64_t answering = 0, written = 0;
+  for (const uint32_t count : hits) {
+    if (count == 0) continue;
+    const auto group = static_cast<size_t>(count == 1 ? 1 : 1 + std::bit_width(count - 1));
+    groups.resize(std::max(groups.size(), group + 1));
+    ++groups[group];
+    ++answering;
+  }
+  for (const uint32_t used : used_) written += used;
+  groups.resize(std::max<size_t>(groups.size(), 1));
+  groups[0] = written - std::min(written, answering);
+  return groups;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,85 @@
+// The ray cache in a frame: answers rays of a depth, traces the rest, keeps what was traced; one region a transmitter.
+// Rests on what the static scene decides (cache.scope = "static"), or on everything as the thesis does ("all").
+#pragma once
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "passes/cache_lookup.hpp"
+#include "passes/cache_purge.hpp"
+#include "passes/cache_store.hpp"
+#include "passes/compact.hpp"
+#include "passes/gather_rays.hpp"
+#include "passes/scan.hpp"
+#include "passes/trace.hpp"
+#include "passes/trace_moving.hpp"
+#include "simulation/ray_trails.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer {
+
+// What a cache must know of the world besides the scene on the device.
+struct CacheWorld {
+  uint32_t transmitters = 0;
+  uint32_t surfaces = 0, primitives = 0;  // of everything
+  uint32_t static_surfaces = 0;
+  uint32_t instances = 0;
+};
+
+class RayCache {
+ public:
+  // shape, launch: how missed rays are traced. Throws ConfigError where the table does not fit.
+  RayCache(gpu::Context& context, const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world,
+           TraceShape shape, const LaunchShape& launch);
+  // With scope = "all" entries say which receiver's sphere their segment passed first, as the thesis' do. trails
+  // outlives this.
+  void keep_receptions(RayTrails& trails, double radius_m);
+  // Forgets everything: the next frame meets an empty table.
+  void clear();
+  // A frame begins: regions of transmitters that have moved on are purged, and what nobody uses where room is short.
+  void begin_frame(const WorldState& world);
+  // The hits of all rays; block counts of hits are left to the caller. depth: from 1.
+  void operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth);
+  // Which of them were answered, and with what receivers, where receptions are kept; valid until the next call.
+  std::optional<AnsweredRays> answered() const;
+  uint32_t first_depth() const { return table_.config.first_depth; }
+  // Of the frame so far; reads the device.
+  CacheSummary summary();
+
+ private:
+  void purge();
+  void note_positions(const std::vector<EndState>& transmitters);
+  void note_movement(std::span<const Placement> instances);
+  void note_receivers(const std::vector<EndState>& receivers);
+  void reserve(const RayQueue& rays);
+  std::vector<uint64_t> entries_by_hits() const;
+
+  gpu::Context& context_;
+  CacheTable table_;
+  CacheMovement movement_;
+  CacheLookup lookup_;
+  CacheStore store_;
+  CachePurge purge_;
+  Compact compact_;
+  Scan scan_;
+  GatherRays gather_;
+  Trace trace_;
+  std::optional<TraceMoving> trace_moving_;
+  uint32_t block_, static_surfaces_, frame_ = 0;
+  RayQueue missed_rays_;
+  HitList missed_hits_;
+  gpu::Buffer<float> missed_;
+  gpu::Buffer<uint32_t> missed_blocks_, indices_;
+  RayTrails* trails_ = nullptr;            // where receptions are kept
+  gpu::Buffer<uint32_t> answers_, first_;  // scope = "all": receivers of answered rays, and of missed ones
+  bool touch_ = false;
+  std::vector<uint64_t> keys_;                // position key a transmitter
+  std::vector<Placement> placements_;         // of the frame before
+  std::vector<uint32_t> instance_since_;      // frame of the last movement
+  std::vector<uint32_t> used_;                // entries a region at the end of the last frame
+  device::wt_cache_counters counters_{};      // of the last frame
+  CacheSummary frame_summary_;
+};
+
+}  // namespace wavetracer

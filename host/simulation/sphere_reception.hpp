@@ -1,0 +1,43 @@
+// The thesis' way of reception: a receiver is a sphere, and a ray that passes through it makes a path, without a solve.
+// Of the rays of one sequence the one that passes nearest stays; its path goes over its own points to the receiver's
+// centre. A ray that passes at b makes it too long by about b^2 r1 / (2 r2 (r1 + r2)), r1 and r2 the lengths before and
+// after its last point.
+#pragma once
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "passes/receive.hpp"
+#include "passes/waypoints.hpp"
+#include "wavetracer/path_geometry.hpp"
+
+namespace wavetracer {
+
+class SphereReception {
+ public:
+  SphereReception(gpu::Context& context, double radius_m) : receive_(context, radius_m) {}
+  // Forgets all paths.
+  void begin_launch();
+  // Forgets what the batch has received so far.
+  void begin_batch() { receive_.begin_batch(); }
+  // All segments of the batch have been received: keeps what is nearer than before, and returns all receptions.
+  std::vector<wt_reception> end_batch(Waypoints& waypoints);
+  // Receptions of all batches.
+  uint64_t count() const { return count_; }
+  // In the order of distinct_paths.
+  PathGeometry paths() const;
+  Receive& receive() { return receive_; }
+
+ private:
+  struct Kept {
+    float distance_m;
+    std::vector<glm::dvec3> points;
+  };
+  using Key = std::tuple<uint32_t, uint32_t, std::vector<uint32_t>>;  // transmitter, receiver, surfaces
+
+  Receive receive_;
+  std::map<Key, Kept> kept_;
+  uint64_t count_ = 0;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,26 @@
+// Where samples went, and which receivers their rays passed: records of the passes waypoints and receive.
+// A sample is one launched ray and all its segments.
+#ifndef WAVETRACER_DEVICE_WAYPOINTS_H
+#define WAVETRACER_DEVICE_WAYPOINTS_H
+#include "wavetracer/device/records.h"
+
+// Waypoint k of a sample is where its segment k began and segment k - 1 ended: a row of max_depth + 1 of them. The
+// surface says of what kind it is: a reflection there, or one of these. A row ends with a miss or is full.
+#define WT_WAYPOINT_LAUNCH 0xFFFFFFFEu
+#define WT_WAYPOINT_MISS 0xFFFFFFFFu
+typedef struct {
+  float position[3];  // recentred metres; of a miss the direction in which the ray was lost
+  wt_uint surface;
+} wt_waypoint;
+
+// A segment that passed within the radius of a receiver.
+typedef struct {
+  wt_uint node;  // of the set of sequences: what the ray had lived through
+  wt_uint transmitter;
+  wt_uint receiver;
+  wt_uint sample;
+  wt_uint depth;     // interactions before the segment
+  float distance_m;  // of the receiver from the segment
+} wt_reception;
+
+#endif

@@ -1,0 +1,32 @@
+// Waypoints of samples of launched rays, for study and pictures: where each ray went, whether or not it became a path.
+// Columns of equal length, sorted by frame, tx, sample, depth; hits come before the end of their segment, by receiver.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace wavetracer {
+
+enum class WaypointKind : uint8_t {
+  launch = 0,
+  reflection = 1,
+  diffraction = 2,
+  hit = 3,   // a receiver's centre, which the segment passes within trace.sphere_radius_m
+  miss = 4,  // a point 1 m along the segment that met nothing
+};
+
+struct WaypointRows {
+  std::vector<uint32_t> frame, tx;
+  std::vector<uint64_t> sample;  // launch index of the ray, counted for its transmitter
+  std::vector<uint32_t> depth;   // segments up to here: 0 at the transmitter
+  std::vector<WaypointKind> kind;
+  std::vector<glm::dvec3> position_m;  // file coordinates
+  std::vector<uint32_t> surface;       // as in Paths; the receiver of a hit; no_surface of launches and misses
+  std::vector<uint32_t> instance;      // of a surface that moves, else no_instance
+
+  size_t size() const { return tx.size(); }
+};
+
+constexpr uint32_t no_surface = 0xFFFFFFFFu;
+
+}  // namespace wavetracer

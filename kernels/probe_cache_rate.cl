@@ -1,0 +1,110 @@
+// Kernels that only bench_cache runs: what a table of the ray cache does in a second, and what memory would allow.
+// Questions are arrays, read in order; WT_QUESTIONS_PER_ITEM of them a work-item, `items` apart. All regard region 0.
+#include "lib/cache_table.clh"
+
+inline ulong rate_mix(ulong i) {
+  ulong x = i * 0x9E3779B97F4A7C15ul;
+  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9ul;
+  x = (x ^ x >> 27) * 0x94D049BB133111EBul;
+  return x ^ x >> 31;
+}
+
+inline wt_cache_question rate_ask(ulong cells, uint left, wt_cache_widths widths) {
+  wt_cache_question q;
+  q.origin = q.direction = (float3)(0.0f);
+  q.cells = cells;
+  q.left = left;
+  q.hash = wt_cache_hash(WT_CACHE_HASH_METHOD, cells, left, left >> 1, widths);
+  q.region = 0;
+  q.now = 1;
+  return q;
+}
+
+// What is stored under a key.
+inline uint rate_primitive(ulong cells, uint left) { return (uint)(cells ^ cells >> 32) + left; }
+
+// Question i is of key first + i or, with draws, of a random one of `keys` keys from `first` on.
+kernel void make_questions(uint first, uint keys, uint draws, global ulong* cells, global uint* left, uint count) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const uint key = first + (draws ? (uint)((rate_mix(~(ulong)i) >> 32) * keys >> 32) : i);
+  cells[i] = rate_mix(key + 1ul) >> 1;  // of key 0 all would be 0, which stands for a miss
+  left[i] = key >> 2;
+}
+
+kernel void put_questions(global wt_cache_entry* entries, global uint* heads, global uint* used,
+                          const global wt_cache_region* regions, global wt_cache_counters* counters,
+                          wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const wt_cache cache = {entries, heads, used, regions, counters};
+  const wt_cache_question q = rate_ask(cells[i], left[i], widths);
+  const uint primitive = rate_primitive(q.cells, q.left);
+  const wt_cache_entry e = wt_cache_answer(q, (float)(primitive >> 8), primitive, ~primitive, WT_NONE);
+  wt_cache_put(cache, q, &e);
+}
+
+// Answers: planes of t, primitive and surface, as in a hit list. With WT_PUT_EVERY, every so many blocks of 32
+// questions are put instead.
+kernel void find_questions(global wt_cache_entry* entries, global uint* heads, global uint* used,
+                           const global wt_cache_region* regions, global wt_cache_counters* counters,
+                           wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count,
+                           uint items, global float* t, global uint* primitives, global uint* surfaces) {
+  const uint item = (uint)get_global_id(0);
+  if (item >= items) return;
+  const wt_cache cache = {entries, heads, used, regions, counters};
+#pragma unroll
+  for (uint k = 0; k < WT_QUESTIONS_PER_ITEM; ++k) {
+    const uint i = item + k * items;
+    if (i >= count) return;
+    const wt_cache_question q = rate_ask(cells[i], left[i], widths);
+#ifdef WT_PUT_EVERY
+    if (i / 32 % WT_PUT_EVERY == 0) {
+      const uint primitive = rate_primitive(q.cells, q.left);
+      const wt_cache_entry e = wt_cache_answer(q, (float)(primitive >> 8), primitive, ~primitive, WT_NONE);
+      wt_cache_put(cache, q, &e);
+      primitives[i] = WT_NONE;
+      continue;
+    }
+#endif
+    uint slot;
+    wt_cache_entry answer;
+    const bool found = wt_cache_find(cache, q, &answer, &slot);
+    t[i] = found ? answer.t : 0.0f;
+    primitives[i] = found ? answer.primitive : WT_NONE;
+    surfaces[i] = found ? answer.surface : WT_NONE;
+  }
+}
+
+// outcome: hits, and hits that are wrong.
+kernel void check_answers(const global ulong* cells, const global uint* left, uint count, const global float* t,
+                          const global uint* primitives, const global uint* surfaces, global uint* outcome) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count || primitives[i] == WT_NONE) return;
+  const uint primitive = rate_primitive(cells[i], left[i]);
+  wt_fetch_add_u32(outcome, 1u);
+  if (primitives[i] != primitive || surfaces[i] != ~primitive || t[i] != (float)(primitive >> 8))
+    wt_fetch_add_u32(outcome + 1, 1u);
+}
+
+kernel void hash_questions(wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count,
+                           global uint* out) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  out[i] = (uint)(wt_cache_hash(WT_CACHE_HASH_METHOD, cells[i], left[i], left[i] >> 1, widths) >> 32);
+}
+
+// What memory gives to one random access a work-item: slots of 64 bytes, all of them read, and words of eight.
+kernel void gather_slots(const global ulong2* slots, uint slot_count, uint count, global uint* out) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const global ulong2* slot = slots + 4 * (size_t)wt_cache_bucket(rate_mix(i), slot_count);
+  const ulong2 all = slot[0] ^ slot[1] ^ slot[2] ^ slot[3];
+  out[i] = (uint)(all.x ^ all.y);
+}
+
+kernel void gather_words(const global ulong* words, uint word_count, uint count, global uint* out) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  out[i] = (uint)words[wt_cache_bucket(rate_mix(i), word_count)];
+}

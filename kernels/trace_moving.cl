@@ -1,0 +1,23 @@
+// trace_moving: hits of the static scene against the instances: where one comes before a ray's hit, it takes its place.
+// With trace of the static scene alone it gives what trace of all there is gives. WT_RAYS_PER_ITEM rays a work-item.
+#include "lib/moving.clh"
+#pragma OPENCL FP_CONTRACT OFF
+
+kernel void trace_moving(const global float4* moving, float extent_m, const global float* rays, uint capacity,
+                         uint ray_count, global float* hits) {
+  const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
+  if (first >= ray_count) return;
+  const uint end = first + min((uint)WT_RAYS_PER_ITEM, ray_count - first);
+  for (uint i = first; i < end; ++i) {
+    const float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i),
+                 d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+    const uint source = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
+    const uint found = wt_load_word(hits, capacity, WT_HIT_PRIMITIVE, i);
+    wt_hit hit = {found == WT_NONE ? INFINITY : hits[i], found, wt_load_word(hits, capacity, WT_HIT_SURFACE, i)};
+    wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, &hit);
+    if (hit.primitive == found) continue;
+    hits[i] = hit.t;
+    wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, hit.primitive);
+    wt_store_word(hits, capacity, WT_HIT_SURFACE, i, hit.surface);
+  }
+}

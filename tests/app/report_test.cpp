@@ -1,0 +1,26 @@
+// The closing words of a run, from made-up results.
+#include "app/report.hpp"
+#include <doctest/doctest.h>
+#include "output/sample_run.hpp"
+#include "program.hpp"
+
+using namespace wavetracer;
+
+TEST_CASE("the report says how much a ray cache answered and how full it is; without one, nothing") {
+  const SampleRun sample;
+  const auto report = [&](const CacheSummary& cache) {
+    app::Results results{totals_of(sample.frames()), 8, {}, {}};
+    results.totals.cache = cache;
+    return app::report(sample.run(), results);
+  };
+  CacheSummary cache;
+  CHECK_FALSE(contains(report(cache), "cache"));
+  cache.on = true;
+  CHECK(contains(report(cache), "\ncache      0% of 0 look-ups answered, 0% of 0 entries in use\n"));
+  cache.lookups = 2000;
+  cache.hits = 1430;
+  cache.entries = 400;
+  cache.used = 50;
+  CHECK(contains(report(cache), "\nrays       2000 launched, 3570 traced over all depths, 3000 hits, 3.57 krays/s"));
+  CHECK(contains(report(cache), "\ncache      71.5% of 2000 look-ups answered, 12.5% of 400 entries in use\n"));
+}

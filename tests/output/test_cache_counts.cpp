@@ -1,0 +1,128 @@
+// What summary.json says about a ray cache: sums over frames, whether they were written at once, in shards or resumed.
+// The counts of a frame are made up: frame n has (k + 1) n of the k-th.
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include "output/reader.hpp"
+#include "output/sample_run.hpp"
+#include "output/shards.hpp"
+#include "temporary_folder.hpp"
+
+using namespace wavetracer;
+using test::slurp;
+using test::TemporaryFolder;
+using Json = nlohmann::json;
+
+namespace {
+
+const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 12, 1};
+
+// Frames first to last of a drive with a cache. Even frames reach depth 2 only.
+std::vector<FrameResult> cached_drive(const SampleRun& sample, uint32_t first, uint32_t last) {
+  std::vector<FrameResult> frames = sample.drive(first, last - first + 1);
+  for (FrameResult& frame : frames) {
+    const uint64_t n = frame.frame;
+    frame.cache = {.on = true,
+                   .lookups = n,
+                   .hits = 2 * n,
+                   .conflicts = 3 * n,
+                   .stale = 4 * n,
+                   .stored = 5 * n,
+                   .replaced = 6 * n,
+                   .duplicates = 7 * n,
+                   .dropped = 8 * n,
+                   .exhausted = 9 * n,
+                   .evicted = 10 * n,
+                   .linked = 11 * n,
+                   .entries = 4096,
+                   .used = 100 + n,
+                   .bytes = 300000,
+                   .lookups_per_depth = {10 * n, n},
+                   .hits_per_depth = {n, 0},
+                   .entries_by_hits = {n, 5, 1}};
+    if (n % 2 == 0) continue;
+    frame.cache.lookups_per_depth.push_back(1);
+    frame.cache.hits_per_depth.push_back(1);
+  }
+  return frames;
+}
+
+Json summary_of(const std::vector<std::filesystem::path>& written) { return Json::parse(slurp(written[2])); }
+
+SampleRun cached_run() {
+  SampleRun sample;
+  sample.config.cache.kind = "open";
+  sample.config.cache.key = "exact";
+  return sample;
+}
+
+// Frames 3 to 12: the numbers add up to 75, those of the five odd ones have a third depth.
+void check_summary(const Json& cache) {
+  CAPTURE(cache.dump());
+  CHECK(cache["kind"] == "open");
+  CHECK(cache["key"] == "exact");
+  CHECK(cache["hit_rate"] == 2.0);
+  const std::vector<std::string> counts = {"lookups",    "hits",    "conflicts", "stale",   "stored", "replaced",
+                                           "duplicates", "dropped", "exhausted", "evicted", "linked"};
+  for (size_t k = 0; k < counts.size(); ++k) {
+    CAPTURE(counts[k]);
+    CHECK(cache[counts[k]] == 75 * (k + 1));
+  }
+  CHECK(cache["entries"] == 4096);
+  CHECK(cache["used"] == 112);
+  CHECK(cache["bytes"] == 300000);
+  CHECK(cache["lookups_per_depth"] == std::vector<int>{750, 75, 5});
+  CHECK(cache["hits_per_depth"] == std::vector<int>{75, 0, 5});
+  CHECK(cache["entries_by_hits"] == std::vector<int>{12, 5, 1});
+}
+
+}  // namespace
+
+TEST_CASE("rays that the cache answered do not count as traced") {
+  const TemporaryFolder folder;
+  const SampleRun sample = cached_run();
+  std::vector<FrameResult> frames = sample.frames();  // 5000 segments, 1 s of tracing
+  frames[0].cache.on = frames[1].cache.on = true;
+  frames[1].cache.lookups = 2000;
+  frames[1].cache.hits = 1500;
+  const Json summary = summary_of(write_outputs(folder.path(), sample.run(), frames));
+  CHECK(summary["rays_per_second"] == 3500.0);
+  CHECK(summary["counts"]["segments"] == 5000);
+}
+
+TEST_CASE("counts of the cache are sums, its table is that of the last frame") {
+  const TemporaryFolder folder;
+  const SampleRun sample = cached_run();
+  check_summary(summary_of(write_outputs(folder.path(), sample.run(), cached_drive(sample, 3, 12)))["cache"]);
+}
+
+TEST_CASE("shards of an interrupted drive bring the counts of their caches along") {
+  const TemporaryFolder folder;
+  const SampleRun sample = cached_run();
+  {
+    Shards killed(folder.path(), identity);
+    killed.write(sample.run(), cached_drive(sample, 3, 6));
+    killed.write(sample.run(), cached_drive(sample, 7, 9));
+  }
+  Shards again(folder.path(), identity);
+  REQUIRE(again.resume() == 2);
+  const Json summary = summary_of(again.merge(sample.run(), cached_drive(sample, 10, 12)));
+  check_summary(summary["cache"]);
+  CHECK(summary["counts"]["receptions"] == 30);
+}
+
+TEST_CASE("a cache that was never asked has no hit rate, and no cache has nothing but its kind") {
+  const TemporaryFolder folder;
+  SampleRun sample = cached_run();
+  std::vector<FrameResult> frames = sample.frames();
+  for (FrameResult& frame : frames) frame.cache.on = true;
+  const Json unasked = summary_of(write_outputs(folder.path() / "unasked", sample.run(), frames))["cache"];
+  CHECK(unasked["hit_rate"].is_null());
+  CHECK(unasked["lookups"] == 0);
+  sample.config.cache.kind = "none";
+  const Json none = summary_of(write_outputs(folder.path() / "none", sample.run(), sample.frames()))["cache"];
+  CHECK(none == Json{{"kind", "none"}});
+  Shards shards(folder.path() / "drive", identity);
+  shards.write(sample.run(), sample.drive(3, 10));
+  CHECK(slurp(folder.path() / "drive" / "shards" / "manifest.jsonl").find("cache") == std::string::npos);
+  CHECK(Shards(folder.path() / "drive", identity).resume() == 1);
+}
