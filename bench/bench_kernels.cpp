@@ -178,7 +178,7 @@ class Suite {
       return count;
     };
     measure({fmt::format("gather_rays, {}", shuffled ? "random permutation" : "identity"), 8.0 * WT_RAY_PLANES + 4,
-             [&] { gather(rays, list, next); }, wrong});
+             [&] { gather(rays, list, rays.count, next); }, wrong});
   }
 
   // Directions that differ from those of the host, which evaluates the same header.
