@@ -68,35 +68,42 @@ kernel void cache_lookup(global float* rays, uint capacity, uint count, global f
                          wt_cache_widths widths, uint now, uint touch, uint static_surfaces,
                          const global wt_surface* surfaces, const global wt_exact_surface* exact_surfaces,
                          const global float* receivers, float radius, const global uint* instance_since,
-                         global uint* receptions, global uint* entry_hits) {
+                         global uint* receptions, global uint* entry_hits, global uint* uses) {
   const wt_cache cache = {entries, heads, used, regions, counters};
   const wt_cache_movement movement = {receivers, radius, exact_surfaces, instance_since};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (first >= count) return;
   const uint end = first + min((uint)WT_RAYS_PER_ITEM, count - first);
-  for (uint i = first; i < end; ++i) {
-    const wt_cache_question q = wt_cache_ask(rays, capacity, i, widths, now);
-    const uint left_surface = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
-    wt_cache_entry e;
-    const uint slot = look_up(cache, q, left_surface, static_surfaces, surfaces, movement, &e);
-    wt_store_word(missed, capacity, 0, i, slot == WT_NONE ? i : WT_NONE);
+  for (uint next = first; next < end; next += WT_AHEAD) {
+    wt_cache_question questions[WT_AHEAD];
+    const uint ahead = min((uint)WT_AHEAD, end - next);
+    for (uint k = 0; k < ahead; ++k) {
+      questions[k] = wt_cache_ask(rays, capacity, next + k, widths, now);
+      wt_cache_prefetch_home(cache, questions[k]);
+    }
+    if (WT_AHEAD > 1)
+      for (uint k = 0; k < ahead; ++k) wt_cache_prefetch_entry(cache, questions[k], false);
+    for (uint k = 0; k < ahead; ++k) {
+      const uint i = next + k, left_surface = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
+      wt_cache_entry e;
+      const uint slot = look_up(cache, questions[k], left_surface, static_surfaces, surfaces, movement, &e);
+      wt_store_word(missed, capacity, 0, i, slot == WT_NONE ? i : WT_NONE);
 #ifdef WT_CACHE_ALL
-    receptions[i] = slot == WT_NONE ? WT_NONE : e.receiver;
+      receptions[i] = slot == WT_NONE ? WT_NONE : e.receiver;
 #endif
-    if (slot == WT_NONE) continue;
-    hits[i] = e.t;
-    wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, e.primitive);
-    wt_store_word(hits, capacity, WT_HIT_SURFACE, i, e.surface);
+      if (slot == WT_NONE) continue;
+      hits[i] = e.t;
+      wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, e.primitive);
+      wt_store_word(hits, capacity, WT_HIT_SURFACE, i, e.surface);
 #if !defined(WT_CACHE_OWN_POINT) && !defined(WT_CACHE_EXACT)
-    wt_store_float3(rays, capacity, WT_RAY_ORIGIN, i, vload3(0, e.origin));
-    wt_store_float3(rays, capacity, WT_RAY_DIRECTION, i, vload3(0, e.direction));
+      wt_store_float3(rays, capacity, WT_RAY_ORIGIN, i, vload3(0, e.origin));
+      wt_store_float3(rays, capacity, WT_RAY_DIRECTION, i, vload3(0, e.direction));
 #endif
 #ifdef WT_CACHE_STATISTICS
-    wt_fetch_add_u32(entry_hits + slot, 1u);
-    wt_cache_link_path(cache, rays, capacity, i, slot);
+      wt_fetch_add_u32(entry_hits + slot, 1u);
+      wt_cache_link_path(cache, rays, capacity, i, slot);
 #endif
-#ifndef WT_CACHE_BULK
-    if (touch && e.time != now) wt_cache_touch(cache, slot, now);
-#endif
+      if (touch) wt_store_relaxed_u32(uses + slot, now);
+    }
   }
 }

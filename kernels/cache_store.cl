@@ -5,23 +5,16 @@
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
 
-kernel void cache_store(global float* rays, uint capacity, const global float* missed, const global float* missed_hits,
-                        uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
-                        global wt_cache_entry* entries, global uint* heads, global uint* used,
-                        const global wt_cache_region* regions, global wt_cache_counters* counters,
-                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions) {
-  const wt_cache cache = {entries, heads, used, regions, counters};
-  const uint k = get_global_id(0);
-  if (k >= missed_count) return;
-  const uint i = indices[k];
+// Ray k of the missed ones: its hit to the whole queue, and into the table.
+inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, uint capacity, const global float* missed,
+                      const global float* missed_hits, uint missed_capacity, uint k, uint i, global float* hits,
+                      uint static_surfaces, const global uint* receptions) {
   const float t = missed_hits[k];
   const uint primitive = wt_load_word(missed_hits, missed_capacity, WT_HIT_PRIMITIVE, k);
   const uint surface = wt_load_word(missed_hits, missed_capacity, WT_HIT_SURFACE, k);
   hits[i] = t;
   wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, primitive);
   wt_store_word(hits, capacity, WT_HIT_SURFACE, i, surface);
-
-  const wt_cache_question q = wt_cache_ask(missed, missed_capacity, k, widths, now);
   uint slot = WT_NONE;
   if (wt_cache_may_ask(q, wt_load_word(missed, missed_capacity, WT_RAY_SURFACE, k), static_surfaces)) {
 #ifdef WT_CACHE_ALL
@@ -36,3 +29,73 @@ kernel void cache_store(global float* rays, uint capacity, const global float* m
   wt_cache_link_path(cache, rays, capacity, i, slot);
 #endif
 }
+
+inline void flush_tally(wt_cache cache, uint region) {
+  if (cache.tally->stored) wt_fetch_add_u32(&cache.counters->stored, cache.tally->stored);
+  if (cache.tally->claimed) wt_fetch_add_u32(cache.used + region, cache.tally->claimed);
+  cache.tally->stored = cache.tally->claimed = 0;
+}
+
+#ifdef WT_CPU
+// A run of rays a work-item.
+kernel void cache_store(global float* rays, uint capacity, const global float* missed, const global float* missed_hits,
+                        uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
+                        global wt_cache_entry* entries, global uint* heads, global uint* used,
+                        const global wt_cache_region* regions, global wt_cache_counters* counters,
+                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions) {
+  wt_cache_tally tally = {0, 0};
+  const wt_cache cache = {entries, heads, used, regions, counters, &tally};
+  const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
+  if (first >= missed_count) return;
+  const uint end = first + min((uint)WT_RAYS_PER_ITEM, missed_count - first);
+  uint region = wt_load_word(missed, missed_capacity, WT_RAY_REGION, first);
+  for (uint next = first; next < end; next += WT_AHEAD) {
+    wt_cache_question questions[WT_AHEAD];
+    const uint ahead = min((uint)WT_AHEAD, end - next);
+    for (uint j = 0; j < ahead; ++j) {
+      questions[j] = wt_cache_ask(missed, missed_capacity, next + j, widths, now);
+      wt_cache_prefetch_home(cache, questions[j]);
+    }
+    for (uint j = 0; j < ahead; ++j) wt_cache_prefetch_entry(cache, questions[j], true);
+    for (uint j = 0; j < ahead; ++j) {
+      if (questions[j].region != region) {
+        flush_tally(cache, region);
+        region = questions[j].region;
+      }
+      store_hit(cache, questions[j], rays, capacity, missed, missed_hits, missed_capacity, next + j, indices[next + j],
+                hits, static_surfaces, receptions);
+    }
+  }
+  flush_tally(cache, region);
+}
+#else
+// One ray a work-item. Neighbours mostly belong to one region, for which the group adds up.
+kernel void cache_store(global float* rays, uint capacity, const global float* missed, const global float* missed_hits,
+                        uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
+                        global wt_cache_entry* entries, global uint* heads, global uint* used,
+                        const global wt_cache_region* regions, global wt_cache_counters* counters,
+                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions) {
+  local uint stored, claimed, region;
+  wt_cache_tally tally = {0, 0};
+  const wt_cache cache = {entries, heads, used, regions, counters, &tally};
+  const uint k = get_global_id(0);
+  if (get_local_id(0) == 0) {
+    stored = claimed = 0;
+    region = wt_load_word(missed, missed_capacity, WT_RAY_REGION, min(k, missed_count - 1));
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (k < missed_count) {
+    const wt_cache_question q = wt_cache_ask(missed, missed_capacity, k, widths, now);
+    store_hit(cache, q, rays, capacity, missed, missed_hits, missed_capacity, k, indices[k], hits, static_surfaces,
+              receptions);
+    if (q.region != region) flush_tally(cache, q.region);
+  }
+  if (tally.stored) atomic_add(&stored, tally.stored);
+  if (tally.claimed) atomic_add(&claimed, tally.claimed);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) > 0) return;
+  tally.stored = stored;
+  tally.claimed = claimed;
+  flush_tally(cache, region);
+}
+#endif

@@ -10,15 +10,11 @@ namespace wavetracer {
 CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table)
     : rays_per_item_(context.info().cpu ? 256 : 1),
       local_(context.info().cpu ? 1 : context.info().simple_local_size()) {
-  const auto build = [&](bool bulk) {
-    gpu::Definitions definitions = table.definitions(bulk);
-    definitions["WT_RAYS_PER_ITEM"] = std::to_string(rays_per_item_) + "u";
-    return context.kernel("cache_lookup", "cache_lookup", definitions);
-  };
-  // Statistics, and entries withdrawn, are written beside the reads of others, as entries touched are.
+  // Links along paths, and entries withdrawn, are written beside the reads of others.
   const bool writes = table.config.statistics || table.config.scope == "all";
-  kernel_ = build(false);
-  bulk_ = writes ? kernel_ : build(true);
+  gpu::Definitions definitions = table.definitions(!writes);
+  definitions["WT_RAYS_PER_ITEM"] = std::to_string(rays_per_item_) + "u";
+  kernel_ = context.kernel("cache_lookup", "cache_lookup", definitions);
 }
 
 void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
@@ -27,11 +23,10 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
   if (table.config.scope == "all" && !receptions)
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
   const size_t items = (size_t{rays.count} + rays_per_item_ - 1) / rays_per_item_;
-  gpu::Kernel& kernel = touch ? kernel_ : bulk_;
-  kernel({items, local_}, "cache_lookup", rays.planes, rays.capacity, rays.count, hits.planes, missed, table.entries,
+  kernel_({items, local_}, "cache_lookup", rays.planes, rays.capacity, rays.count, hits.planes, missed, table.entries,
          table.heads, table.used, table.device_regions, table.counters, table.widths, now, static_cast<uint32_t>(touch),
          static_surfaces, scene.surfaces, scene.exact_surfaces, movement.receivers, movement.radius_m,
-         movement.instance_since, receptions ? *receptions : table.used, table.hits);
+         movement.instance_since, receptions ? *receptions : table.used, table.hits, table.uses);
 }
 
 }  // namespace wavetracer

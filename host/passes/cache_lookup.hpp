@@ -14,14 +14,14 @@ class CacheLookup {
   // the cached one. With hit_point = "own" that is where the ray meets the plane of the cached surface, and a miss
   // where this is outside of the surface's bounds; with "cached" the ray itself is replaced by the cached one.
   // static_surfaces: rays that left a surface from this number on are not asked for with a quantised key and scope =
-  // "static", as what they left moves. touch: entries that answer get the time `now`, which eviction goes by.
+  // "static", as what they left moves. touch: table.uses of entries that answer becomes `now`, which eviction goes by.
   // receptions: with scope = "all", needed there: [i] becomes the receiver that an answered segment passes, or WT_NONE.
   void operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
                   CacheTable& table, const CacheMovement& movement, uint32_t static_surfaces, uint32_t now, bool touch,
                   gpu::Buffer<uint32_t>* receptions = nullptr);
 
  private:
-  gpu::Kernel kernel_, bulk_;
+  gpu::Kernel kernel_;
   uint32_t rays_per_item_, local_;
 };
 

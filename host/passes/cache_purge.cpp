@@ -24,7 +24,7 @@ void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t k
   context.fill(old_, 0, "cache_purge");
   const size_t items = (size_t{table.regions.front().entries} + entries_per_item - 1) / entries_per_item;
   kernel_({{items, table.regions.size(), 1}, {local_, 1, 1}, 2}, "cache_purge", table.entries, table.heads, table.used,
-          table.device_regions, table.counters, keep_from, old_);
+          table.device_regions, table.counters, keep_from, old_, table.uses);
   if (table.config.kind == "chained") clear_old_regions(context, table);
 }
 

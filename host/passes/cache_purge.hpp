@@ -8,8 +8,8 @@ namespace wavetracer {
 class CachePurge {
  public:
   CachePurge(gpu::Context& context, const CacheTable& table);
-  // Of every region, entries whose time is before `keep_from`, and those that were withdrawn. The chained table cannot
-  // give up single nodes: its regions are cleared whole where more than half of their entries would go.
+  // Of every region, entries that were neither written nor touched since frame `keep_from`, and withdrawn ones. The
+  // chained table cannot give up single nodes: its regions are cleared whole where more than half would go.
   void operator()(gpu::Context& context, CacheTable& table, uint32_t keep_from);
 
  private:

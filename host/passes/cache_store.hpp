@@ -18,7 +18,7 @@ class CacheStore {
 
  private:
   gpu::Kernel kernel_;
-  uint32_t local_;
+  uint32_t rays_per_item_, local_;
 };
 
 }  // namespace wavetracer

@@ -15,6 +15,7 @@ struct CacheTable {
   std::vector<device::wt_cache_region> regions;  // as on the device
   gpu::Buffer<device::wt_cache_entry> entries;
   gpu::Buffer<uint32_t> heads, used;
+  gpu::Buffer<uint32_t> uses;  // frame of an entry's last answer, where look-ups touch it
   gpu::Buffer<device::wt_cache_region> device_regions;
   gpu::Buffer<device::wt_cache_counters> counters;  // one
   // With config.statistics: answers of each slot since its region was cleared; else a placeholder.

@@ -11,7 +11,8 @@ namespace wavetracer {
 
 namespace {
 
-constexpr double full = 0.8;  // share of a region's entries from which those that nobody uses make room
+// Shares of a region's entries: from the first on, look-ups note what is used; from the second on, the rest makes room.
+constexpr double filling = 0.7, full = 0.8;
 
 // Quantised position of a transmitter (section 4.2.3), 21 bits a component, compared whole.
 uint64_t position_key(const glm::dvec3& position_m, double step_m) {
@@ -79,7 +80,7 @@ void RayCache::begin_frame(const WorldState& world) {
   if (touch_) purge();
   const bool evicts = table_.config.kind != "open";
   touch_ = evicts && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
-             return used_[r] > full / 2 * table_.regions[r].entries;
+             return used_[r] > filling * table_.regions[r].entries;
            });
   note_positions(world.transmitters);
   note_movement(world.instances);
@@ -88,7 +89,7 @@ void RayCache::begin_frame(const WorldState& world) {
 
 // Entries that no ray of the last frame used, where a region is nearly full.
 void RayCache::purge() {
-  bool wanted = counters_.exhausted > 0;
+  bool wanted = table_.config.kind == "chained" && counters_.exhausted > 0;
   for (size_t r = 0; r < used_.size(); ++r) wanted = wanted || used_[r] > full * table_.regions[r].entries;
   if (wanted) purge_(context_, table_, frame_ - 1);
 }

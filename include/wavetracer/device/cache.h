@@ -24,7 +24,7 @@ typedef struct {
   float t;           // the result, as in a hit list; infinite on a miss
   wt_uint primitive;
   wt_uint surface;
-  wt_uint time;      // frame in which it was last written or used; WT_NONE: withdrawn, as something has moved
+  wt_uint time;      // frame in which it was written; WT_NONE: withdrawn, as something has moved
   float origin[3];   // the ray that was traced
   float direction[3];
   wt_uint next;      // entry of the next segment of a ray that took this one, WT_NONE: not known
