@@ -50,6 +50,13 @@ std::string cache_line(const CacheSummary& cache) {
                      cache.entries);
 }
 
+// What became of sequences: paths are solved for, or are what the spheres of receivers caught.
+std::string sequence_line(const Run& run, const FrameCounts& n) {
+  if (run.config.trace.reception == "sphere")
+    return fmt::format("sequences  {} distinct, {} segments passed receivers\n", n.sequences, n.receptions);
+  return fmt::format("sequences  {} distinct, {} candidates, {} solved\n", n.sequences, n.candidates, n.solved);
+}
+
 std::string count_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
   const uint64_t traced = traced_segments(totals);
@@ -58,7 +65,7 @@ std::string count_lines(const Run& run, const Totals& totals) {
     rate = fmt::format(", {}rays/s while tracing", scaled(static_cast<double>(traced) / trace_s));
   return fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", n.rays, traced, n.hits, rate) +
          cache_line(totals.cache) +
-         fmt::format("sequences  {} distinct, {} candidates, {} solved\n", n.sequences, n.candidates, n.solved) +
+         sequence_line(run, n) +
          fmt::format("paths      {}\n", n.paths) + frame_line(run, totals);
 }
 

@@ -32,8 +32,7 @@ Shard decode(const Json& json) {
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
-  for (size_t i = 0; i < shard.files.size(); ++i)
-    shard.files[i] = {json.at("files").at(i).at("name"), json.at("files").at(i).at("bytes")};
+  for (const Json& file : json.at("files")) shard.files.push_back({file.at("name"), file.at("bytes")});
   return shard;
 }
 

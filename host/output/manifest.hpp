@@ -1,7 +1,6 @@
 // The manifest of a drive, DIR/shards/manifest.jsonl: one line of JSON a finished shard, appended when its files are in
 // place. A line that a killed run left half written is passed over.
 #pragma once
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,7 +26,7 @@ struct ShardFile {
 struct Shard {
   RunIdentity run;
   Totals totals;
-  std::array<ShardFile, 2> files;  // .h5, .csv
+  std::vector<ShardFile> files;  // those of h5_outputs() in their order, then .csv
 };
 
 std::string encode_manifest_line(const Shard& shard);

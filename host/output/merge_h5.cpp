@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 #include <vector>
-#include "output/paths_h5.hpp"
 
 namespace wavetracer {
 namespace {
@@ -12,6 +11,7 @@ namespace {
 using hdf5::Column;
 using hdf5::File;
 using hdf5::Table;
+using Groups = std::span<const char* const>;
 
 constexpr size_t block_bytes = size_t{4} << 20;
 
@@ -24,16 +24,16 @@ struct Target {
   std::optional<Table> table{};  // once `rows` is known
 };
 
-std::vector<Target> targets_in(const File& part) {
+std::vector<Target> targets_in(const File& part, Groups groups) {
   std::vector<Target> targets;
-  for (const std::string group : growing_groups)
+  for (const std::string group : groups)
     for (const std::string& name : part.members(group))
       targets.push_back({.path = group + "/" + name, .offsets = name.ends_with("_offset")});
   return targets;
 }
 
-void make_groups(const File& part, const File& merged) {
-  for (const std::string group : growing_groups) {
+void make_groups(const File& part, Groups groups, const File& merged) {
+  for (const std::string group : groups) {
     const hdf5::Id id(H5Gopen2(part.id(), group.c_str(), H5P_DEFAULT), H5Gclose, "find group " + group);
     merged.make_group(group, hdf5::text_attribute(id, "description"));
   }
@@ -67,11 +67,11 @@ void copy(Target& target, const File& part, bool first, std::vector<std::byte>& 
 
 }  // namespace
 
-void merge_frames_h5(std::span<const std::filesystem::path> parts, const File& merged) {
+void merge_frames_h5(std::span<const std::filesystem::path> parts, Groups groups, const File& merged) {
   std::vector<Target> targets;
   for (const std::filesystem::path& path : parts) {
     const File part = File::open_to_read(path);
-    if (targets.empty()) targets = targets_in(part);
+    if (targets.empty()) targets = targets_in(part, groups);
     for (Target& target : targets) {
       const bool counted_before = target.offsets && target.rows > 0;
       target.rows += Column(part, target.path).shape()[0] - (counted_before ? 1 : 0);
@@ -81,7 +81,7 @@ void merge_frames_h5(std::span<const std::filesystem::path> parts, const File& m
   for (const std::filesystem::path& path : parts) {
     const File part = File::open_to_read(path);
     const bool first = &path == &parts.front();
-    if (first) make_groups(part, merged);
+    if (first) make_groups(part, groups, merged);
     for (Target& target : targets) {
       if (first) make_table(target, part, merged);
       copy(target, part, first, block);

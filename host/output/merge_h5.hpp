@@ -1,4 +1,4 @@
-// Files of consecutive frames, made one: the growing groups of paths.h5, a block of rows at a time.
+// Files of consecutive frames, made one: the groups that grow with frames, a block of rows at a time.
 // A copy rather than a virtual dataset, because HDF5 fills in for parts that it cannot open, and says nothing: parts
 // that were left behind, or more parts than a process may have open files (measured with 1500 of them).
 #pragma once
@@ -8,8 +8,9 @@
 
 namespace wavetracer {
 
-// parts: files by encode_frames_h5() of one run, in the order of their frames, at least one. Into `merged` go their
-// growing groups, as if all frames had been encoded at once. Throws RuntimeError.
-void merge_frames_h5(std::span<const std::filesystem::path> parts, const hdf5::File& merged);
+// parts: files of one kind and run, in the order of their frames, at least one. Into `merged` go these groups of them,
+// as if all frames had been encoded at once. Throws RuntimeError.
+void merge_frames_h5(std::span<const std::filesystem::path> parts, std::span<const char* const> groups,
+                     const hdf5::File& merged);
 
 }  // namespace wavetracer

@@ -37,10 +37,10 @@ struct Run {
 // Consecutive frames, sorted by their number.
 using Frames = std::span<const FrameResult>;
 
-// Writes paths.h5, links.csv and summary.json of a run that fits in memory, replacing earlier ones and what an earlier
-// drive left there, and returns their paths in that order.
-// The folder is created where it is missing. A file appears under its name only when all three are whole and on the
-// disk; after a failure neither temporary files nor a folder made here are left. Throws RuntimeError.
+// Writes paths.h5, waypoints.h5 (where output.waypoints asks for it), links.csv and summary.json of a run that fits in
+// memory, in place of all that an earlier run left there, and returns their paths in that order.
+// The folder is created where it is missing. A file appears under its name only when all are whole and on the disk;
+// after a failure neither temporary files nor a folder made here are left. Throws RuntimeError.
 // Not to be called from two threads at once: the HDF5 library is not thread safe.
 std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& directory, const Run& run, Frames frames);
 

@@ -1,11 +1,11 @@
 // A drive on disk: shards of whole files as it goes, and at the end the same outputs as those of a run of one frame.
-// DIR/shards holds frames_FIRST_LAST.h5 and .csv, each a paths.h5 and links.csv of its frames, and the manifest.
+// DIR/shards holds frames_FIRST_LAST.h5, .csv and with output.waypoints .waypoints.h5, each a paths.h5, links.csv or
+// waypoints.h5 of its frames, and the manifest.
 #pragma once
 #include <filesystem>
 #include <vector>
 #include "output/manifest.hpp"
 #include "output/output.hpp"
-#include "output/pending_file.hpp"
 
 namespace wavetracer {
 
@@ -26,8 +26,9 @@ class Shards {
   // that an earlier run left in the folder.
   void write(const Run& run, Frames frames);
 
-  // Writes paths.h5, links.csv and summary.json of the finished shards and of `unfinished`, the first frames of the one
-  // that was interrupted, and returns their paths. At least one frame is needed. Memory holds a block of rows at most.
+  // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
+  // the first frames of the one that was interrupted. At least one frame is needed. Of finished shards, memory holds a
+  // block of rows at most.
   std::vector<std::filesystem::path> merge(const Run& run, Frames unfinished);
 
  private:
@@ -39,8 +40,5 @@ class Shards {
 
   void save_manifest() const;
 };
-
-// Removes the shards that an earlier drive left in a folder, but for these files on their way. Throws RuntimeError.
-void remove_shards(const std::filesystem::path& directory, std::span<const PendingFile> except = {});
 
 }  // namespace wavetracer

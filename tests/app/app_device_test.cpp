@@ -49,6 +49,22 @@ TEST_CASE("a run writes three files and says what it found") {
   CHECK(lines(folder.path("out/links.csv")) == 2);
 }
 
+TEST_CASE("a run with output.waypoints writes a fourth file, and one without takes it away again") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street), waypoints = folder.path("out/waypoints.h5");
+  const Outcome with = run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "output.waypoints=5"});
+  CAPTURE(with.err);
+  CHECK(with.code == 0);
+  CHECK(contains(with.out, ", " + waypoints + ", "));
+  CHECK(std::filesystem::exists(waypoints));
+  const Outcome without = run_program({"run", "-c", file, "-o", folder.path("out")});
+  CHECK(without.code == 0);
+  CHECK_FALSE(contains(without.out, "waypoints"));
+  CHECK_FALSE(std::filesystem::exists(waypoints));
+  CHECK(std::filesystem::exists(folder.path("out/paths.h5")));
+}
+
 TEST_CASE("output.directory is relative to the config file") {
   if (!device_present()) return;
   const Folder folder;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -21,6 +22,7 @@ const std::string room = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/
 trace.rays = 2000
 trace.max_depth = 2
 output.shard_frames = 5
+output.waypoints = 10
 time.step_s = 0.1
 [[transmitter]]
 name = "lamp"
@@ -52,9 +54,13 @@ size_t readable_files(const fs::path& folder) {
     CAPTURE(entry.path());
     const Reader h5(entry.path());
     REQUIRE(h5.file >= 0);
-    const std::vector<double> offset = h5.numbers("/paths/vertex_offset");
-    CHECK(offset.size() == h5.numbers("/paths/delay_s").size() + 1);
-    CHECK(offset.back() == static_cast<double>(h5.shape("/vertices/position_m")[0]));
+    if (entry.path().filename().string().ends_with("waypoints.h5")) {
+      CHECK(h5.shape("/waypoints/instance") == h5.shape("/waypoints/frame"));
+    } else {
+      const std::vector<double> offset = h5.numbers("/paths/vertex_offset");
+      CHECK(offset.size() == h5.numbers("/paths/delay_s").size() + 1);
+      CHECK(offset.back() == static_cast<double>(h5.shape("/vertices/position_m")[0]));
+    }
     ++count;
   }
   return count;
@@ -65,14 +71,40 @@ void wait_for(const Program& program, const std::string& message) {
 }
 
 void check_same(const fs::path& found, const fs::path& expected) {
-  const auto a = datasets(found / "paths.h5"), b = datasets(expected / "paths.h5");
-  REQUIRE(a.size() == b.size());
-  for (const auto& [name, value] : b) {
-    CAPTURE(name);
-    CHECK(a.at(name) == value);
+  for (const char* file : {"paths.h5", "waypoints.h5"}) {
+    const auto a = datasets(found / file), b = datasets(expected / file);
+    REQUIRE(a.size() == b.size());
+    for (const auto& [name, value] : b) {
+      CAPTURE(name);
+      CHECK(a.at(name) == value);
+    }
   }
   CHECK(slurp(found / "links.csv") == slurp(expected / "links.csv"));
   CHECK(slurp(expected / "links.csv").size() > 1000);
+}
+
+// Ten samples of the lamp a frame, from the lamp on; each goes from wall to wall of the closed room, or to the vehicle,
+// whose positions in the frames are the poses of paths.h5.
+void check_waypoints(const Reader& h5, const Reader& paths) {
+  const auto frame = h5.numbers("/waypoints/frame"), depth = h5.numbers("/waypoints/depth"),
+             kind = h5.numbers("/waypoints/kind"), at = h5.numbers("/waypoints/position_m"),
+             instance = h5.numbers("/waypoints/instance"), pose = paths.numbers("/poses/position_m");
+  REQUIRE(frame.size() == size_t{60} * 10 * 3);
+  size_t wrong = 0, on_vehicle = 0;
+  for (size_t i = 0; i < frame.size(); ++i) {
+    const double* p = &at[3 * i];
+    wrong += frame[i] != static_cast<double>(i / 30) || depth[i] != static_cast<double>(i % 3);
+    wrong += kind[i] != (i % 3 == 0 ? 0 : 1);
+    if (i % 3 == 0) {
+      wrong += std::hypot(p[0] - 1, p[1] - 1, p[2] - 2.5) > 1e-5;
+    } else if (instance[i] == 0) {
+      const double* centre = &pose[3 * (i / 30)];
+      wrong += std::hypot(p[0] - centre[0], p[1] - centre[1]) > std::hypot(0.75, 0.4) + 1e-5 || p[2] > 0.6 + 1e-5;
+      ++on_vehicle;
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(on_vehicle > 0);
 }
 
 }  // namespace
@@ -100,12 +132,18 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   CHECK(summary["shards"] == 12);
   CHECK(summary["counts"]["paths"] == h5.shape("/paths/delay_s")[0]);
 
+  CHECK(contains(run.out, "written    " + folder.path("all/paths.h5") + ", " + folder.path("all/waypoints.h5") + ", "));
+  const Reader trails(folder.path("all/waypoints.h5"));
+  check_waypoints(trails, h5);
+  const auto waypoints = trails.shape("/waypoints/frame");
+
   REQUIRE(run_program({"run", "-c", file, "-o", folder.path("part"), "--frames", "20:32"}).code == 0);
   const Reader part(folder.path("part/paths.h5"));
   CHECK(part.shape("/frames/frame") == std::vector<hsize_t>{13});
   for (const char* shard : {"000020_000024", "000025_000029"}) {
     const std::string name = std::string("/shards/frames_") + shard;
-    CHECK(datasets(folder.path("part" + name + ".h5")) == datasets(folder.path("all" + name + ".h5")));
+    for (const char* suffix : {".h5", ".waypoints.h5"})
+      CHECK(datasets(folder.path("part" + name + suffix)) == datasets(folder.path("all" + name + suffix)));
     CHECK(slurp(folder.path("part" + name + ".csv")) == slurp(folder.path("all" + name + ".csv")));
   }
   const Outcome other = run_program({"run", "-c", file, "-o", folder.path("part"), "--resume"});
@@ -114,6 +152,12 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   const Outcome again = run_program({"run", "-c", file, "-o", folder.path("all"), "--resume"});
   CHECK(again.code == 0);
   CHECK(contains(again.err, "all frames are there"));
+  CHECK(Reader(folder.path("all/waypoints.h5")).shape("/waypoints/frame") == waypoints);
+  const Outcome fewer = run_program({"run", "-c", file, "-o", folder.path("all"), "--frames", "0:4", "--set",
+                                     "output.waypoints=0"});
+  CHECK(fewer.code == 0);
+  CHECK_FALSE(contains(fewer.out, "waypoints"));
+  CHECK_FALSE(fs::exists(folder.path("all/waypoints.h5")));
   const Outcome beyond = run_program({"run", "-c", file, "-o", folder.path("part"), "--frames", "50:60"});
   CHECK(beyond.code == 2);
   CHECK(contains(beyond.err, "this run has 60 frames, 0 to 59"));

@@ -24,3 +24,12 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
   CHECK(contains(report(cache), "\nrays       2000 launched, 3570 traced over all depths, 3000 hits, 3.57 krays/s"));
   CHECK(contains(report(cache), "\ncache      71.5% of 2000 look-ups answered, 12.5% of 400 entries in use\n"));
 }
+
+TEST_CASE("the report counts what was solved, or with spheres what was caught, and lists the files") {
+  SampleRun sample;
+  const app::Results results{totals_of(sample.frames()), 8, {}, {"out/paths.h5", "out/waypoints.h5"}};
+  CHECK(contains(app::report(sample.run(), results), "\nsequences  80 distinct, 24 candidates, 16 solved\n"));
+  sample.config.trace.reception = "sphere";
+  CHECK(contains(app::report(sample.run(), results), "\nsequences  80 distinct, 6 segments passed receivers\n"));
+  CHECK(contains(app::report(sample.run(), results), "\nwritten    out/paths.h5, out/waypoints.h5\n"));
+}

@@ -1,5 +1,5 @@
-// Every record of include/wavetracer/device/records.h has the same size and the same offsets on the device and here.
-// The header's own text says which records and fields there are, so that none is left out of the table below.
+// Every record of the headers that host and device share has the same size and the same offsets on both.
+// The headers' own text says which records and fields there are, so that none is left out of the table below.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <cstddef>
@@ -8,9 +8,12 @@
 #include <vector>
 #include "gpu/gpu.hpp"
 #include "gpu/temporary.hpp"
+#include "wavetracer/device/cache.h"
 #include "wavetracer/device/records.h"
+#include "wavetracer/device/waypoints.h"
 
 using namespace wavetracer;
+using namespace wavetracer::device;
 using namespace wavetracer::test;
 
 namespace {
@@ -57,26 +60,54 @@ const std::vector<Record> records{
      sizeof(wt_counters),
      {FIELD(wt_counters, nodes), FIELD(wt_counters, trie_overflow), FIELD(wt_counters, candidates),
       FIELD(wt_counters, solved), FIELD(wt_counters, visible)}},
+    {"wt_waypoint", sizeof(wt_waypoint), {FIELD(wt_waypoint, position), FIELD(wt_waypoint, surface)}},
+    {"wt_reception",
+     sizeof(wt_reception),
+     {FIELD(wt_reception, node), FIELD(wt_reception, transmitter), FIELD(wt_reception, receiver),
+      FIELD(wt_reception, sample), FIELD(wt_reception, depth), FIELD(wt_reception, distance_m)}},
+    {"wt_cache_entry",
+     sizeof(wt_cache_entry),
+     {FIELD(wt_cache_entry, cells), FIELD(wt_cache_entry, left), FIELD(wt_cache_entry, version),
+      FIELD(wt_cache_entry, t), FIELD(wt_cache_entry, primitive), FIELD(wt_cache_entry, surface),
+      FIELD(wt_cache_entry, time), FIELD(wt_cache_entry, origin), FIELD(wt_cache_entry, direction),
+      FIELD(wt_cache_entry, next), FIELD(wt_cache_entry, receiver)}},
+    {"wt_cache_region",
+     sizeof(wt_cache_region),
+     {FIELD(wt_cache_region, first_entry), FIELD(wt_cache_region, entries), FIELD(wt_cache_region, first_bucket),
+      FIELD(wt_cache_region, buckets), FIELD(wt_cache_region, since), FIELD(wt_cache_region, padding)}},
+    {"wt_cache_counters",
+     sizeof(wt_cache_counters),
+     {FIELD(wt_cache_counters, conflicts), FIELD(wt_cache_counters, stale), FIELD(wt_cache_counters, stored),
+      FIELD(wt_cache_counters, replaced), FIELD(wt_cache_counters, duplicates), FIELD(wt_cache_counters, dropped),
+      FIELD(wt_cache_counters, exhausted), FIELD(wt_cache_counters, evicted), FIELD(wt_cache_counters, linked)}},
+    {"wt_cache_widths",
+     sizeof(wt_cache_widths),
+     {FIELD(wt_cache_widths, cell_bits), FIELD(wt_cache_widths, surface_bits), FIELD(wt_cache_widths, primitive_bits)}},
 };
 
 #undef FIELD
 
-// Record name -> field names, as the header declares them.
+const std::vector<std::string> headers{"cache.h", "records.h", "waypoints.h"};
+
+// Record name -> field names, as the headers declare them.
 std::map<std::string, std::vector<std::string>> declared_records() {
-  std::string text = read_file(WAVETRACER_SOURCE "/include/wavetracer/device/records.h");
-  text = std::regex_replace(text, std::regex("//[^\n]*"), "");
   std::map<std::string, std::vector<std::string>> declared;
-  const std::regex record("typedef struct \\{([^}]*)\\} (\\w+);"), field("(\\w+)\\s*(\\[[^;]*\\])?;");
-  for (std::sregex_iterator r(text.begin(), text.end(), record), end; r != end; ++r) {
-    const std::string body = (*r)[1];
-    for (std::sregex_iterator f(body.begin(), body.end(), field); f != end; ++f) declared[(*r)[2]].push_back((*f)[1]);
+  const std::regex comment("//[^\n]*"), record("typedef struct \\{([^}]*)\\} (\\w+);"),
+      field("(\\w+)\\s*(\\[[^;]*\\])?[,;]");
+  for (const std::string& header : headers) {
+    const std::string text =
+        std::regex_replace(read_file(WAVETRACER_SOURCE "/include/wavetracer/device/" + header), comment, "");
+    for (std::sregex_iterator r(text.begin(), text.end(), record), end; r != end; ++r) {
+      const std::string body = (*r)[1];
+      for (std::sregex_iterator f(body.begin(), body.end(), field); f != end; ++f) declared[(*r)[2]].push_back((*f)[1]);
+    }
   }
   return declared;
 }
 
 }  // namespace
 
-TEST_CASE("the table names every record and field of the header, in order") {
+TEST_CASE("the table names every record and field of the headers, in order") {
   std::map<std::string, std::vector<std::string>> listed;
   for (const Record& record : records) {
     for (const Field& field : record.fields) listed[record.name].push_back(field.name);
@@ -99,8 +130,9 @@ TEST_CASE("sizes and offsets agree between host and device") {
     }
   }
   const TemporaryKernels kernels;
-  kernels.add("layout.cl",
-              "#include \"wavetracer/device/records.h\"\nkernel void layout(global uint* out) {\n" + body + "}\n");
+  std::string includes;
+  for (const std::string& header : headers) includes += "#include \"wavetracer/device/" + header + "\"\n";
+  kernels.add("layout.cl", includes + "kernel void layout(global uint* out) {\n" + body + "}\n");
   gpu::Context context;
   auto out = context.buffer<uint32_t>(expected.size(), "out");
   context.kernel("layout", "layout")({1, 1}, "test", out);

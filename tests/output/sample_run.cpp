@@ -58,6 +58,21 @@ void add_counts(FrameResult& frame) {
 
 }  // namespace
 
+WaypointRows sample_waypoints(uint32_t frame, size_t count) {
+  WaypointRows rows{.frame = {frame, frame, frame, frame},
+                    .tx = {0, 0, 0, 1},
+                    .sample = {5, 5, 5, uint64_t{1} << 40},
+                    .depth = {0, 1, 2, 2},
+                    .kind = {WaypointKind::launch, WaypointKind::reflection, WaypointKind::hit, WaypointKind::miss},
+                    .position_m = {{1e6 + frame, 0, 0}, {1e6 + frame, 0.25, -1}, {1e6 + frame, 0.5, -2},
+                                   {1e6 + frame, 0.75, -3}},
+                    .surface = {no_surface, 17, 1, no_surface},
+                    .instance = {no_instance, 1, no_instance, no_instance}};
+  const auto shorten = [count](auto&... columns) { (columns.resize(count), ...); };
+  shorten(rows.frame, rows.tx, rows.sample, rows.depth, rows.kind, rows.position_m, rows.surface, rows.instance);
+  return rows;
+}
+
 SampleRun::SampleRun() {
   config.file = "/configs/sample.toml";
   config.text = "scene.file = \"scene.xml\"  # \xC3\xA9\n";
@@ -122,6 +137,7 @@ std::vector<FrameResult> SampleRun::drive(uint32_t first, uint32_t count) const 
     frame.world.transmitters[0].position_m.x += number;
     frame.world.instances[0].present = number % 3 > 0;
     frame.world.instances[1].position_m.y = 2.0 * number;
+    if (config.output.waypoints > 0) frame.waypoints = sample_waypoints(number, number % 4);
     add_counts(frame);
     frames.push_back(frame);
   }

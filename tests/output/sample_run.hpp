@@ -6,6 +6,9 @@
 
 namespace wavetracer {
 
+// The first `count` of a launch, a reflection on vehicle 1, a hit on the way out, and another ray's miss.
+WaypointRows sample_waypoints(uint32_t frame, size_t count = 4);
+
 struct SampleRun {
   Config config;
   Scene scene;
@@ -18,7 +21,7 @@ struct SampleRun {
   // The same world, frame 0, no path.
   std::vector<FrameResult> empty() const;
   // Frames first to first + count - 1 of a drive whose ends, vehicles, links and numbers of paths change with the
-  // frame; some frames have no path at all, some no link.
+  // frame; some frames have no path at all, some no link. With config.output.waypoints each has number % 4 waypoints.
   std::vector<FrameResult> drive(uint32_t first, uint32_t count) const;
 };
 

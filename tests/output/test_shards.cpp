@@ -29,6 +29,12 @@ void write(Shards& shards, const SampleRun& sample, std::pair<uint32_t, uint32_t
   shards.write(sample.run(), sample.drive(cut.first, cut.second));
 }
 
+SampleRun with_waypoints() {
+  SampleRun sample;
+  sample.config.output.waypoints = 2;
+  return sample;
+}
+
 // Everything of the drive in a folder, written in one go.
 std::vector<fs::path> write_drive(const fs::path& folder, const SampleRun& sample) {
   Shards shards(folder, identity);
@@ -52,23 +58,39 @@ std::vector<std::string> names(const fs::path& folder) {
 
 TEST_CASE("shards merge into the files of a run that was written whole") {
   const TemporaryFolder folder;
-  const SampleRun sample;
+  const SampleRun sample = with_waypoints();
   const auto whole = write_outputs(folder.path() / "whole", sample.run(), sample.drive(3, 22));
   const auto drive = write_drive(folder.path() / "drive", sample);
-  const auto expected = datasets(whole[0]), found = datasets(drive[0]);
-  REQUIRE(expected.size() == 48);
-  for (const auto& [name, value] : expected) {
-    CAPTURE(name);
-    REQUIRE(found.contains(name));
-    CHECK(found.at(name) == value);
+  const std::vector<std::string> outputs{"paths.h5", "waypoints.h5", "links.csv", "summary.json"};
+  REQUIRE(whole.size() == outputs.size());
+  REQUIRE(drive.size() == outputs.size());
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    CHECK(whole[i] == folder.path() / "whole" / outputs[i]);
+    CHECK(drive[i] == folder.path() / "drive" / outputs[i]);
   }
-  CHECK(found.size() == expected.size());
-  CHECK(slurp(drive[1]) == slurp(whole[1]));
-  CHECK(slurp(drive[1]).size() > 1000);
+  for (const auto& [file, columns] : {std::pair{size_t{0}, size_t{48}}, {1, 8}}) {
+    const auto expected = datasets(whole[file]), found = datasets(drive[file]);
+    REQUIRE(expected.size() == columns);
+    for (const auto& [name, value] : expected) {
+      CAPTURE(name);
+      REQUIRE(found.contains(name));
+      CHECK(found.at(name) == value);
+    }
+    CHECK(found.size() == expected.size());
+  }
+  CHECK(slurp(drive[2]) == slurp(whole[2]));
+  CHECK(slurp(drive[2]).size() > 1000);
   const Reader h5(drive[0]);
   CHECK(h5.attribute("/", "config") == sample.config.text);
   CHECK(h5.attribute("/paths", "description") == Reader(whole[0]).attribute("/paths", "description"));
-  auto a = nlohmann::json::parse(slurp(whole[2])), b = nlohmann::json::parse(slurp(drive[2]));
+  const Reader waypoints(drive[1]);
+  CHECK(waypoints.attribute("/", "format") == "wavetracer waypoints");
+  CHECK(waypoints.attribute("/", "config") == sample.config.text);
+  CHECK(waypoints.attribute("/waypoints", "description") == Reader(whole[1]).attribute("/waypoints", "description"));
+  std::vector<double> frames;  // frame n has n % 4 rows
+  for (uint32_t frame = 3; frame < 25; ++frame) frames.insert(frames.end(), frame % 4, frame);
+  CHECK(waypoints.numbers("/waypoints/frame") == frames);
+  auto a = nlohmann::json::parse(slurp(whole[3])), b = nlohmann::json::parse(slurp(drive[3]));
   CHECK(b["shards"] == 3);
   CHECK(b["seconds"]["frame"] == doctest::Approx(0.5135));
   for (const char* key : {"counts", "frames", "first_frame", "last_frame", "links", "segments_per_depth", "warnings"})
@@ -96,9 +118,24 @@ TEST_CASE("a shard is a paths.h5 and a links.csv of its own") {
   CHECK(manifest[1].totals.warnings == std::vector<std::string>{"a warning"});
 }
 
+TEST_CASE("with waypoints a shard has a third file, a waypoints.h5 of its own") {
+  const TemporaryFolder folder;
+  const SampleRun sample = with_waypoints();
+  write_drive(folder.path() / "drive", sample);
+  const fs::path shards = folder.path() / "drive" / "shards";
+  CHECK(names(shards).size() == 3 * 3 + 1);
+  const auto alone = write_outputs(folder.path() / "alone", sample.run(), sample.drive(10, 10));
+  CHECK(datasets(shards / "frames_000010_000019.waypoints.h5") == datasets(alone[1]));
+  CHECK(datasets(shards / "frames_000010_000019.h5") == datasets(alone[0]));
+  const auto manifest = read_manifest(shards / "manifest.jsonl");
+  REQUIRE(manifest.size() == 3);
+  CHECK(manifest[1].files.size() == 3);
+  for (const ShardFile& file : manifest[1].files) CHECK(file.bytes == fs::file_size(shards / file.name));
+}
+
 TEST_CASE("a drive that is resumed ends as one that was not interrupted, from every state of its folder") {
   const TemporaryFolder folder;
-  const SampleRun sample;
+  const SampleRun sample = with_waypoints();
   const auto expected = write_drive(folder.path() / "expected", sample);
   const fs::path drive = folder.path() / "drive", manifest = drive / "shards" / "manifest.jsonl";
   // What a run that was killed leaves: the shards before it, and one of these.
@@ -110,7 +147,12 @@ TEST_CASE("a drive that is resumed ends as one that was not interrupted, from ev
       [&] { std::ofstream(manifest, std::ios::app) << std::string(100, '\0') << "\n"; },
       [&] { fs::resize_file(drive / "shards" / "frames_000003_000009.csv", 10); },
       [&] { fs::remove(drive / "shards" / "frames_000003_000009.h5"); },
+      [&] { fs::remove(drive / "shards" / "frames_000003_000009.waypoints.h5"); },
+      [&] { fs::resize_file(drive / "shards" / "frames_000003_000009.waypoints.h5", 1000); },
       [&] { std::ofstream(drive / "paths.h5.77.tmp") << "half"; },
+      [&] { std::ofstream(drive / "waypoints.h5.77.tmp") << "half"; },
+      [&] { std::ofstream(drive / "shards" / "frames_000010_000019.waypoints.h5.77.tmp") << "half"; },
+      [&] { std::ofstream(drive / "shards" / "manifest.jsonl.77.tmp") << "half"; },
       [&] { fs::remove_all(drive); },
   };
   for (size_t i = 0; i < states.size(); ++i) {
@@ -123,28 +165,32 @@ TEST_CASE("a drive that is resumed ends as one that was not interrupted, from ev
     states[i]();
     Shards again(drive, identity);
     const size_t finished = again.resume();
-    CHECK(finished == (i == 5 || i == 6 || i == 8 ? 0 : 1));
+    CHECK(finished == ((i >= 5 && i <= 8) || i + 1 == states.size() ? 0 : 1));
     for (const auto& cut : cuts)
       if (!again.finished(cut.first)) write(again, sample, cut);
     const auto merged = again.merge(sample.run(), {});
     CHECK(datasets(merged[0]) == datasets(expected[0]));
-    CHECK(slurp(merged[1]) == slurp(expected[1]));
+    CHECK(datasets(merged[1]) == datasets(expected[1]));
+    CHECK(slurp(merged[2]) == slurp(expected[2]));
     CHECK(lines(manifest) == 3);
-    CHECK(names(drive) == std::vector<std::string>{"links.csv", "paths.h5", "shards", "summary.json"});
-    CHECK(names(drive / "shards").size() == 7);
+    CHECK(names(drive) == std::vector<std::string>{"links.csv", "paths.h5", "shards", "summary.json", "waypoints.h5"});
+    CHECK(names(drive / "shards").size() == 10);
   }
 }
 
 TEST_CASE("a finished drive is merged again; the frames of an interrupted shard are merged, but not kept") {
   const TemporaryFolder folder;
-  const SampleRun sample;
+  const SampleRun sample = with_waypoints();
   const auto expected = write_drive(folder.path(), sample);
-  const auto before = datasets(expected[0]);
+  const auto before = datasets(expected[0]), waypoints_before = datasets(expected[1]);
   fs::remove(expected[0]);
+  fs::remove(expected[1]);
   Shards again(folder.path(), identity);
   CHECK(again.resume() == 3);
   CHECK(again.totals().frames == 22);
-  CHECK(datasets(again.merge(sample.run(), {})[0]) == before);
+  const auto merged = again.merge(sample.run(), {});
+  CHECK(datasets(merged[0]) == before);
+  CHECK(datasets(merged[1]) == waypoints_before);
 
   const TemporaryFolder other, whole;
   Shards part(other.path(), identity);
@@ -152,8 +198,10 @@ TEST_CASE("a finished drive is merged again; the frames of an interrupted shard 
   const auto written = part.merge(sample.run(), sample.drive(10, 4));
   const auto until = write_outputs(whole.path(), sample.run(), sample.drive(3, 11));
   CHECK(datasets(written[0]) == datasets(until[0]));
-  CHECK(slurp(written[1]) == slurp(until[1]));
-  CHECK(names(other.path()) == std::vector<std::string>{"links.csv", "paths.h5", "shards", "summary.json"});
+  CHECK(datasets(written[1]) == datasets(until[1]));
+  CHECK(slurp(written[2]) == slurp(until[2]));
+  CHECK(names(other.path()) ==
+        std::vector<std::string>{"links.csv", "paths.h5", "shards", "summary.json", "waypoints.h5"});
   CHECK(lines(other.path() / "shards" / "manifest.jsonl") == 1);
 }
 
@@ -187,13 +235,13 @@ TEST_CASE("a manifest that is damaged before its end is not guessed at") {
 TEST_CASE("another run replaces all of an earlier one with its first shard, and nothing before it") {
   const TemporaryFolder folder;
   const SampleRun sample;
-  const auto old = write_drive(folder.path(), sample);
+  const auto old = write_drive(folder.path(), with_waypoints());
   std::ofstream(folder.path() / "shards" / "notes.txt") << "mine";
   RunIdentity other = identity;
   other.config = "4567";
   Shards shards(folder.path(), other);
   CHECK(fs::exists(old[0]));
-  CHECK(names(folder.path() / "shards").size() == 8);
+  CHECK(names(folder.path() / "shards").size() == 11);
   shards.write(sample.run(), sample.drive(20, 5));
   CHECK(names(folder.path()) == std::vector<std::string>{"shards"});
   CHECK(names(folder.path() / "shards") ==
@@ -203,10 +251,23 @@ TEST_CASE("another run replaces all of an earlier one with its first shard, and 
   CHECK(names(folder.path()) == std::vector<std::string>{"links.csv", "paths.h5", "summary.json"});
 }
 
+TEST_CASE("waypoints of an earlier run do not stay beside the paths of one that has none") {
+  const SampleRun sample;
+  const std::vector<std::string> without{"links.csv", "paths.h5", "summary.json"};
+  const TemporaryFolder folder;
+  write_outputs(folder.path(), with_waypoints().run(), sample.frames());
+  CHECK(names(folder.path()) == std::vector<std::string>{"links.csv", "paths.h5", "summary.json", "waypoints.h5"});
+  write_outputs(folder.path(), sample.run(), sample.frames());
+  CHECK(names(folder.path()) == without);
+  write_outputs(folder.path(), with_waypoints().run(), sample.frames());
+  Shards(folder.path(), identity).merge(sample.run(), sample.drive(3, 2));  // interrupted in its first shard
+  CHECK(names(folder.path()) == without);
+}
+
 TEST_CASE("a disk that fills up while shards are written or merged leaves whole files only") {
   const TemporaryFolder folder;
-  const SampleRun sample;
-  const auto expected = datasets(write_drive(folder.path() / "whole", sample)[0]);
+  const SampleRun sample = with_waypoints();
+  const auto whole = write_drive(folder.path() / "whole", sample);
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -241,7 +302,9 @@ TEST_CASE("a disk that fills up while shards are written or merged leaves whole 
     again.resume();
     for (const auto& cut : cuts)
       if (!again.finished(cut.first)) write(again, sample, cut);
-    CHECK(datasets(again.merge(sample.run(), {})[0]) == expected);
+    const auto merged = again.merge(sample.run(), {});
+    CHECK(datasets(merged[0]) == datasets(whole[0]));
+    CHECK(datasets(merged[1]) == datasets(whole[1]));
   }
   std::signal(SIGXFSZ, handler);
   CHECK(failed_writes > 3);

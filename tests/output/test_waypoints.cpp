@@ -16,20 +16,6 @@ namespace {
 using Values = std::vector<double>;
 using Shape = std::vector<hsize_t>;
 
-// Launch, reflection on vehicle 1, a hit on the way out, and the miss.
-WaypointRows four_rows(uint32_t frame) {
-  WaypointRows rows;
-  rows.frame.assign(4, frame);
-  rows.tx = {0, 0, 0, 1};
-  rows.sample = {5, 5, 5, uint64_t{1} << 40};
-  rows.depth = {0, 1, 2, 2};
-  rows.kind = {WaypointKind::launch, WaypointKind::reflection, WaypointKind::hit, WaypointKind::miss};
-  for (int i = 0; i < 4; ++i) rows.position_m.push_back({1e6 + frame, 0.25 * i, -i});
-  rows.surface = {no_surface, 17, 1, no_surface};
-  rows.instance = {no_instance, 1, no_instance, no_instance};
-  return rows;
-}
-
 fs::path written(const fs::path& path, const Run& run, Frames frames) {
   hdf5::File file;
   encode_waypoints_h5(run, frames, file);
@@ -45,8 +31,8 @@ TEST_CASE("waypoints.h5 holds every column of every frame, in order") {
   const test::TemporaryFolder folder;
   const SampleRun sample;
   std::vector<FrameResult> frames(3);
-  frames[0].waypoints = four_rows(7);
-  frames[2].waypoints = four_rows(9);
+  frames[0].waypoints = sample_waypoints(7);
+  frames[2].waypoints = sample_waypoints(9);
   const Reader h5(written(folder.path() / "waypoints.h5", sample.run(), frames));
   constexpr double none = 4294967295.0;
   CHECK(h5.numbers("/waypoints/frame") == Values{7, 7, 7, 7, 9, 9, 9, 9});
@@ -75,7 +61,7 @@ TEST_CASE("a run whose rays left no waypoints has empty columns") {
 TEST_CASE("columns of unequal length are not written") {
   const SampleRun sample;
   std::vector<FrameResult> frames(1);
-  frames[0].waypoints = four_rows(0);
+  frames[0].waypoints = sample_waypoints(0);
   frames[0].waypoints.instance.pop_back();
   hdf5::File file;
   CHECK_THROWS_AS(encode_waypoints_h5(sample.run(), frames, file), RuntimeError);

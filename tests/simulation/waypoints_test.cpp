@@ -2,7 +2,7 @@
 // In a box, where every ray goes on to the last depth, and over a ground, which half of them miss.
 #include <algorithm>
 
-#include "simulation/run.hpp"
+#include "simulation/drive.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -127,4 +127,40 @@ TEST_CASE("with spheres, rows tell of every reception") {
   CHECK(wrong == 0);
   CHECK(hits == frame.counts.receptions);
   CHECK(hits > 20);
+}
+
+TEST_CASE("spheres in traffic: a cache of the static scene with exact keys changes nothing") {
+  const SceneFile file(street());
+  Config config = config_of(file.path(), {{-40, 2, 6}}, {{40, 3, 1.5}, {-20, -6, 1.5}, {10, 8, 2}}, 12000, 3);
+  config.trace.reception = "sphere";
+  config.trace.sphere_radius_m = 3;
+  config.output.waypoints = 2000;
+  add_vehicles(config,
+               {{"a", "passenger", {-30, 4, 0}, {12, 0, 0}, 0, 2},
+                {"b", "passenger", {20, 0, 0}, {-9, 0, 0}, 0, 2},
+                {"c", "truck", {-5, -4, 0}, {7, 0, 0}, 0, 2}},
+               0.5);
+  config.mounts = {{.name = "roof", .on = "a", .offset_m = {0, 0, 1.7}},
+                   {.name = "roof", .on = "b", .offset_m = {0, 0, 1.8}}};
+  const auto frames = [&config] {
+    Simulation simulation(config);
+    std::vector<FrameResult> out;
+    for (uint32_t frame = 0; frame < 3; ++frame) out.push_back(simulation.run_frame(frame));
+    return out;
+  };
+  const std::vector<FrameResult> plain = frames();
+  REQUIRE(paths_by_vehicles(plain[1].paths) > 0);
+  REQUIRE(std::ranges::count_if(plain[1].waypoints.instance, [](uint32_t i) { return i != no_instance; }) > 0);
+  for (const char* kind : {"chained", "open", "concurrent"}) {
+    CAPTURE(kind);
+    config.cache.kind = kind;
+    config.cache.key = "exact";
+    const std::vector<FrameResult> cached = frames();
+    for (size_t i = 0; i < plain.size(); ++i) {
+      CHECK(identical(cached[i].paths, plain[i].paths));
+      CHECK(equal(cached[i].waypoints, plain[i].waypoints));
+      CHECK(cached[i].counts.receptions == plain[i].counts.receptions);
+      CHECK((cached[i].cache.hits > 0) == (i > 0));
+    }
+  }
 }

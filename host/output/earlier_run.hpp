@@ -1,0 +1,21 @@
+// What an earlier run left in the folder of the outputs, and its removal.
+// Touches only names that this program gives; whatever else is there stays.
+#pragma once
+#include <filesystem>
+#include <span>
+#include "output/pending_file.hpp"
+
+namespace wavetracer {
+
+// All throw RuntimeError where something cannot be removed, and do nothing where there is no such folder.
+
+// Outputs of a run, but for those that these files are about to replace.
+void remove_outputs(const std::filesystem::path& directory, std::span<const PendingFile> replaced = {});
+
+// The manifest, then the shards that it lists, but for these files on their way; then their folder, if that is all.
+void remove_shards(const std::filesystem::path& directory, std::span<const PendingFile> except = {});
+
+// What killed runs were writing into this very folder. No file may be on its way there.
+void remove_temporaries(const std::filesystem::path& folder);
+
+}  // namespace wavetracer
