@@ -8,6 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "recipes/run.hpp"
+#include "recipes/thesis.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -18,39 +19,53 @@ struct Options {
   std::string recipe, file, directory, device, rays;
   std::vector<std::string> sets;
   uint32_t repeats = 5;
+  uint64_t frames = 0;
+  bool quick = false;
 };
+
+constexpr const char* all_figures = "thesis";
 
 recipes::Request request(const Options& options, const recipes::Recipe& recipe, const std::string& command_line) {
   recipes::Request out{.config = recipes::recipe_config(recipe, options.file, options.sets),
                        .device = options.device,
                        .rays = {},
                        .repeats = options.repeats,
+                       .frames = options.frames,
+                       .quick = options.quick,
                        .command_line = command_line};
   if (!options.rays.empty()) out.rays = recipes::parse_ray_range(options.rays);
-  recipes::ray_counts(out.rays);  // says so where there are none
+  if (out.rays && !recipe.study) recipes::ray_counts(*out.rays);  // says so where there are none
   if (!options.directory.empty())
     out.config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return out;
 }
 
+std::string listed() {
+  return recipes::recipe_list() + fmt::format("  {:<16} {}\n", all_figures, "all figures, as one page: thesis.html");
+}
+
 void bench(const Options& options, Invocation& invocation) {
   if (options.recipe.empty())
-    throw ConfigError("bench: no recipe given; there are\n" + recipes::recipe_list() +
+    throw ConfigError("bench: no recipe given; there are\n" + listed() +
                       "and `./dev bench` measures the parts of the program");
-  const recipes::Recipe& recipe = recipes::find_recipe(options.recipe);
+  const bool all = options.recipe == all_figures;
+  const recipes::Recipe& recipe = all ? *recipes::thesis_recipes().front() : recipes::find_recipe(options.recipe);
   const recipes::Request asked = request(options, recipe, invocation.command_line);
   check_inputs(asked.config);
   check_output_folder(asked.config.output.directory);
   catch_interrupts();
   Progress progress;
+  const recipes::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
   const recipes::Report report =
-      run_recipe(recipe, asked, {[&progress](const std::string& text) { progress.line(text); }, interrupted});
+      all ? run_thesis([&](const auto& one) { return request(options, one, invocation.command_line); }, host)
+          : run_recipe(recipe, asked, host);
   if (interrupted()) {
     invocation.code = ExitCode::interrupted;
     progress.line(report.files.empty() ? "interrupted before the first point; nothing was written"
-                                       : fmt::format("interrupted; what is written is whole, after {} of {} ray counts",
-                                                     report.points, report.planned));
+                                       : fmt::format("interrupted; what is written is whole, after {} of {} {}",
+                                                     report.points, report.planned, all ? "figures" : "ray counts"));
   }
+  if (all && report.points < report.planned && !interrupted()) invocation.code = ExitCode::partial;
   if (report.files.empty()) return;
   std::cout << report.paragraph << "\n\nwritten    ";
   for (size_t i = 0; i < report.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << report.files[i].string();
@@ -69,11 +84,15 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   command->add_option("-o,--output", options->directory, "Folder for the results, instead of output.directory");
   command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
   command->add_option("--device", options->device, "Index, or part of a platform's or device's name");
-  command->add_option("--rays", options->rays, "Fewest and most rays, A:B; default 1000:10000000");
+  command->add_option("--rays", options->rays,
+                      "Fewest and most rays, A:B; default: those of the figure, fewer of its caches on CPUs");
   command->add_option("--repeat", options->repeats, "Frames timed at each point, of which the median counts")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->footer([] { return "Experiments:\n" + recipes::recipe_list(); });
+  command->add_option("--frames", options->frames, "Frames of a drive; default 500, on CPUs 20")
+      ->check(CLI::Range(1, 1000000));
+  command->add_flag("--quick", options->quick, "Fewer rays and a fifth of the frames");
+  command->footer([] { return "Experiments:\n" + listed(); });
   command->callback([options, &invocation] { bench(*options, invocation); });
 }
 

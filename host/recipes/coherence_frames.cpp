@@ -40,7 +40,8 @@ Config experiment_config(const Config& config) {
 
 Findings run(const Recipe& recipe, const Request& request, const Host& host) {
   const Config config = experiment_config(request.config);
-  const Drive drive = plan_drive(config);
+  Drive drive = plan_drive(config);
+  if (recipe.frames > 1) drive.frames = recipe.frames;
   TracedScene traced(config, request.device, {drive.place_m(0), drive.place_m(drive.frames - 1)});
   check_way(drive, traced.scene, config.transmitters.front().name);
   HitRecorder record(traced, config.trace);
@@ -142,6 +143,15 @@ std::string encode_frame_pairs(const std::vector<FramePair>& rows, const Drive& 
                         f.points.pooled, row.by_place);
   }
   return text;
+}
+
+Recipe figure_6_13() {
+  Recipe recipe = coherence_frames();
+  recipe.name = "figure-6.13";
+  recipe.doc = "correlation of what rays hit between 100 frames of a drive, as coherence-frames finds it";
+  recipe.title = "Correlation between frames";
+  recipe.frames = 100;
+  return recipe;
 }
 
 Recipe coherence_frames() {

@@ -3,7 +3,6 @@
 #include "recipes/measure.hpp"
 #include <fmt/format.h>
 #include <algorithm>
-#include <initializer_list>
 #include <map>
 #include "output/median.hpp"
 #include "recipes/ray_counts.hpp"
@@ -11,14 +10,6 @@
 
 namespace wavetracer::recipes {
 namespace {
-
-// A stage that a frame has no use for is not in the list.
-double sum(const StageSeconds& seconds, std::initializer_list<const char*> stages) {
-  double total = 0;
-  for (const char* stage : stages)
-    if (const auto found = seconds.find(stage); found != seconds.end()) total += found->second;
-  return total;
-}
 
 struct Subject {
   Simulation simulation;
@@ -36,16 +27,23 @@ void check_same(const Row& a, const Row& b) {
 
 }  // namespace
 
+double sum_stages(const StageSeconds& seconds, std::initializer_list<const char*> stages) {
+  double total = 0;
+  for (const char* stage : stages)
+    if (const auto found = seconds.find(stage); found != seconds.end()) total += found->second;
+  return total;
+}
+
 Times summarise(const std::vector<StageSeconds>& samples, uint32_t frames) {
   std::map<std::string, std::vector<double>> values;
   for (const StageSeconds& sample : samples)
     for (const auto& [stage, seconds] : sample) values[stage].push_back(seconds);
   StageSeconds medians;
   for (const auto& [stage, seconds] : values) medians[stage] = median(seconds) / frames;
-  return {.trace_s = sum(medians, {"trace"}),
-          .order_s = sum(medians, {"order", "sort"}),
-          .unpaid_s = sum(medians, {"generate_rays", "trace", "compact", "scan", "interact"}),
-          .frame_s = sum(medians, {"frame"})};
+  return {.trace_s = sum_stages(medians, {"trace"}),
+          .order_s = sum_stages(medians, {"order", "sort"}),
+          .unpaid_s = sum_stages(medians, {"generate_rays", "trace", "compact", "scan", "interact"}),
+          .frame_s = sum_stages(medians, {"frame"})};
 }
 
 void compare(std::span<Row> rows) {

@@ -2,6 +2,7 @@
 // Times are medians of warm frames; the first frame of each series is dropped.
 #pragma once
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ struct Row {
   uint64_t paths = 0, sequences = 0;      // of all frames together
   double gain_unpaid = 1, gain_paid = 1;  // unpaid_s and paid_s of the unordered launch over those of this series
 };
+
+// Seconds of these stages together. A frame has no entry for a stage that it had no use for.
+double sum_stages(const StageSeconds& seconds, std::initializer_list<const char*> stages);
 
 // Of the seconds of several frames, stage by stage the median; and their sums as above, divided by `frames`.
 Times summarise(const std::vector<StageSeconds>& samples, uint32_t frames);

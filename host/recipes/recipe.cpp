@@ -35,14 +35,16 @@ constexpr double step_m = 0.5;  // between frames: 54 km/h at 30 frames a second
 
 void reject_varied_keys(const Recipe& recipe, const std::vector<std::string>& sets) {
   std::vector<std::string> varied = series_keys();
+  if (recipe.study) varied.insert(varied.end(), cache_keys().begin(), cache_keys().end());
   if (recipe.frames > 1) varied.push_back("trace.batch_rays");
+  const bool one_number = recipe.experiment || (recipe.study && recipe.study->rays.size() == 1);
   for (const std::string& set : sets) {
     std::string key = set.substr(0, set.find('='));
     key.erase(std::remove(key.begin(), key.end(), ' '), key.end());
     if (std::find(varied.begin(), varied.end(), key) != varied.end())
       throw ConfigError(fmt::format(
           "--set {}: {} gives {} its values itself{}", set, recipe.name, key,
-          key == "trace.rays" && !recipe.experiment ? "; choose them with --rays A:B" : "; leave it out"));
+          key == "trace.rays" && !one_number ? "; choose them with --rays A:B" : "; leave it out"));
   }
 }
 
@@ -56,7 +58,18 @@ uint64_t even_batch(uint64_t rays, uint64_t most) {
 }  // namespace
 
 const std::vector<Recipe>& recipes() {
-  static const std::vector<Recipe> all = {figure_6_1(), figure_6_18(), coherence_frames(), coherence_rays()};
+  static const std::vector<Recipe> all = [] {
+    std::vector<Recipe> list = {figure_6_1()};
+    const auto add = [&list](const std::vector<Recipe>& more) { list.insert(list.end(), more.begin(), more.end()); };
+    add(chained_figures());
+    add(open_figures());
+    add(purging_figures());
+    add({figure_6_13()});
+    add(hashing_figures());
+    add({figure_6_18(), coherence_frames(), coherence_rays()});
+    add(cache_steps());
+    return list;
+  }();
   return all;
 }
 
@@ -80,7 +93,7 @@ std::string recipe_list() {
 Config recipe_config(const Recipe& recipe, const std::string& file, const std::vector<std::string>& sets) {
   reject_varied_keys(recipe, sets);
   if (!file.empty()) return load_config(file, sets);
-  return parse_config(built_in_city + std::string(recipe.drive ? car : mast), "built-in city", sets);
+  return parse_config(built_in_city + std::string(recipe.drive ? car : mast), built_in_city_name, sets);
 }
 
 Config point_config(const Recipe& recipe, const Config& config, uint64_t rays, bool gpu) {

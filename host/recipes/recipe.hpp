@@ -2,8 +2,10 @@
 // Each belongs to a figure of A. Zhdanov's thesis (TU Munich, 2014), whose number is its name, or to a measure of it.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+#include "recipes/cache_study.hpp"
 #include "recipes/measure.hpp"
 #include "recipes/series.hpp"
 
@@ -13,7 +15,7 @@ struct Request;   // run.hpp
 struct Host;
 struct Findings;
 
-// Either series, timed and compared, or an experiment of its own with a fixed number of rays.
+// Series, timed and compared; or an experiment of its own with a fixed number of rays; or a view of a study of caching.
 struct Recipe {
   std::string name;            // on the command line, and of the files
   std::string doc;             // one line for the list
@@ -24,12 +26,23 @@ struct Recipe {
   std::string (*paragraph)(const std::vector<Row>& rows, const std::string& device) = nullptr;
   Findings (*experiment)(const Recipe& recipe, const Request& request, const Host& host) = nullptr;
   bool drive = false;  // the transmitter of the built-in city is a car in its street, not a mast
+  std::shared_ptr<const CacheStudy> study = nullptr;
+  // What this figure shows of the study: its table, plot and words.
+  Findings (*view)(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) = nullptr;
 };
 
+constexpr const char* built_in_city_name = "built-in city";  // as its Config::file
+
 Recipe figure_6_1();
+Recipe figure_6_13();
 Recipe figure_6_18();
 Recipe coherence_frames();
 Recipe coherence_rays();
+std::vector<Recipe> chained_figures();  // 6.2 to 6.5
+std::vector<Recipe> open_figures();     // 6.6 to 6.9
+std::vector<Recipe> purging_figures();  // 6.10 to 6.12
+std::vector<Recipe> hashing_figures();  // 6.14 to 6.17
+std::vector<Recipe> cache_steps();      // cache-division, cache-step
 
 const std::vector<Recipe>& recipes();
 // Throws ConfigError with the known names and the nearest of them.

@@ -63,8 +63,13 @@ std::vector<fs::path> write_files(const Recipe& recipe, const Request& request, 
   return written;
 }
 
+RayRange series_range(const Request& request) {
+  if (request.rays) return *request.rays;
+  return request.quick ? RayRange{claimed_few, claimed_many} : RayRange{};
+}
+
 Findings time_series(const Recipe& recipe, const Request& request, const Host& host) {
-  const std::vector<uint64_t> counts = ray_counts(request.rays);
+  const std::vector<uint64_t> counts = ray_counts(series_range(request));
   Findings found;
   found.planned = counts.size();
   // Finds mistakes in the device, the scene and the ends before anything is measured.
@@ -102,22 +107,36 @@ void check_experiment(const Recipe& recipe, const Request& request) {
                                   config.file, recipe.name));
   if (config.trace.max_depth == 0)
     throw ConfigError(fmt::format("trace.max_depth = 0: {} looks at what rays hit; give 1 or more", recipe.name));
-  const RayRange& rays = request.rays;
-  const RayRange not_given;
-  if (rays.first != not_given.first || rays.last != not_given.last)
-    throw ConfigError(fmt::format("--rays {}:{}: {} launches {} rays; leave --rays out", rays.first, rays.last,
-                                  recipe.name, grouped(experiment_rays)));
+  if (request.rays)
+    throw ConfigError(fmt::format("--rays {}:{}: {} launches {} rays; leave --rays out", request.rays->first,
+                                  request.rays->last, recipe.name, grouped(experiment_rays)));
 }
 
 }  // namespace
 
-Report run_recipe(const Recipe& recipe, const Request& request, const Host& host) {
-  if (recipe.experiment) check_experiment(recipe, request);
-  const Findings found =
-      recipe.experiment ? recipe.experiment(recipe, request, host) : time_series(recipe, request, host);
+Findings show(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
+  if (measured.points > 0) return recipe.view(recipe, measured, request);
+  Findings nothing;
+  nothing.device = measured.device;
+  nothing.planned = measured.planned;
+  return nothing;
+}
+
+Findings find_out(const Recipe& recipe, const Request& request, const Host& host) {
+  if (recipe.study) return show(recipe, measure_study(*recipe.study, request, host), request);
+  if (!recipe.experiment) return time_series(recipe, request, host);
+  check_experiment(recipe, request);
+  return recipe.experiment(recipe, request, host);
+}
+
+Report write_report(const Recipe& recipe, const Request& request, const Findings& found, const Host& host) {
   Report report{.paragraph = found.paragraph, .files = {}, .points = found.points, .planned = found.planned};
   if (found.points > 0) report.files = write_files(recipe, request, found, host);
   return report;
+}
+
+Report run_recipe(const Recipe& recipe, const Request& request, const Host& host) {
+  return write_report(recipe, request, find_out(recipe, request, host), host);
 }
 
 }  // namespace wavetracer::recipes

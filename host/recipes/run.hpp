@@ -3,6 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 #include "recipes/ray_counts.hpp"
@@ -13,8 +14,10 @@ namespace wavetracer::recipes {
 struct Request {
   Config config;       // see recipe_config; output.directory is where the files go
   std::string device;  // as Simulation takes it
-  RayRange rays;
+  std::optional<RayRange> rays;  // not given: those of the figure
   uint32_t repeats = 5;
+  uint64_t frames = 0;  // of a drive; 0: what suits the device
+  bool quick = false;   // fewer rays and frames
   std::string command_line;  // for the report
 };
 
@@ -33,11 +36,19 @@ struct Findings {
   size_t points = 0, planned = 0;   // measured, and asked for; nothing is written where none was
 };
 
+// What a recipe with a study shows of it.
+Findings show(const Recipe& recipe, const CacheMeasurement& measured, const Request& request);
+
+Findings find_out(const Recipe& recipe, const Request& request, const Host& host);
+
 struct Report {
   std::string paragraph;
   std::vector<std::filesystem::path> files;  // empty: stopped before the first point
   size_t points = 0, planned = 0;            // measured, and asked for: ray counts of a figure
 };
+
+// Writes the files of findings that have points.
+Report write_report(const Recipe& recipe, const Request& request, const Findings& found, const Host& host);
 
 // A stop is heeded after the point in progress. Throws ConfigError, InputError, DeviceError or RuntimeError.
 Report run_recipe(const Recipe& recipe, const Request& request, const Host& host);

@@ -67,8 +67,7 @@ TEST_CASE("bench: errors say what is wrong before anything is measured") {
   const Folder folder;
   const std::string file = folder.file("a.toml", street), out = folder.path("out");
   check_error({"bench"}, 2, "no recipe given; there are\n  figure-6.1 ");
-  check_error({"bench", "figure-6.2", "-o", out}, 2,
-              "among figure-6.1, figure-6.18, coherence-frames, coherence-rays; did you mean \"figure-6.1\"?");
+  check_error({"bench", "figure-6.0", "-o", out}, 2, "no recipe \"figure-6.0\" among figure-6.1, figure-6.2, ");
   check_error({"bench", "figure-6.1", "-o", out, "--rays", "2000:1000"}, 2, "--rays 2000:1000: not a range");
   check_error({"bench", "figure-6.1", "-o", out, "--rays", "3000:4000"}, 2, "no ray count of the figure");
   check_error({"bench", "figure-6.1", "-o", out, "--repeat", "0"}, 2, "--repeat");
@@ -79,6 +78,8 @@ TEST_CASE("bench: errors say what is wrong before anything is measured") {
   check_error({"bench", "coherence-rays", "-o", out, "--rays", "1000:2000"}, 2,
               "launches 49,000 rays; leave --rays out");
   check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.rays=7"}, 2, "leave it out");
+  check_error({"bench", "figure-6.5", "-o", out, "--set", "cache.division=7"}, 2, "leave it out");
+  check_error({"bench", "thesis", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
   check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.max_depth=0"}, 2, "give 1 or more");
   check_error({"bench", "figure-6.1", "-o", file + "/out"}, 1, "cannot write there");
   CHECK(folder.entries() == 1);
@@ -212,4 +213,75 @@ TEST_CASE("an interrupt ends the measuring after the point in progress, with who
   CHECK(rows.size() < 14 * 3);
   CHECK(rows.size() % 3 == 0);
   CHECK(contains(contents(folder.path("out/figure-6.18.md")), "- command: `"));
+}
+
+TEST_CASE("figure-6.2: a row a depth and setting; times, counts and the paragraph agree") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const Outcome run = run_program({"bench", "figure-6.2", "-c", file, "-o", folder.path("out"), "--repeat", "1"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  const auto rows = table(folder.path("out/figure-6.2.csv"));
+  REQUIRE(rows.size() == 4 * 3);  // all depths together, depth 1 and depth 2
+  for (const auto& row : rows) {
+    CAPTURE(row.at("setting"));
+    CHECK(row.at("rays") == "50000");
+    CHECK(row.at("drive") == "still");
+    const bool cached = row.at("setting") != "no cache";
+    if (row.at("depth") == "1") CHECK(row.at("segments") == "50000");
+    if (!cached || row.at("depth") != "0") continue;
+    CHECK(row.at("entries") == "50000");
+    CHECK(number(row.at("lookups")) == number(row.at("segments")));
+    CHECK(number(row.at("write_ns")) > 0);
+    CHECK(number(row.at("read_ns")) > 0);
+    CHECK(contains(run.out, fmt::format("\"{}\" {:.3g} ns to write, {:.3g} ns to read", row.at("setting"),
+                                        number(row.at("write_ns")), number(row.at("read_ns")))));
+  }
+  check_error({"bench", "figure-6.2", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000"}, 2,
+              "launches 50,000 rays; leave --rays out");
+}
+
+TEST_CASE("figure-6.12: the first setting has no error, and so has a cache with exact keys") {
+  if (!device_present()) return;
+  const Folder folder;
+  const Outcome run = run_program({"bench", "figure-6.12", "-o", folder.path("out"), "--rays", "1000:1000", "--frames",
+                                   "2", "--set", "trace.max_depth=2"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  const auto rows = table(folder.path("out/figure-6.12.csv"));
+  REQUIRE(rows.size() == 3 * 7);
+  for (const auto& row : rows) {
+    CAPTURE(row.at("drive"));
+    CAPTURE(row.at("setting"));
+    CHECK(row.at("frames") == "2");
+    CHECK(number(row.at("warm_s")) > 0);
+    if (row.at("setting") == "no cache") CHECK(number(row.at("saved_percent")) == 0);
+    if (row.at("setting") != "no cache" && row.at("setting") != "concurrent exact") continue;
+    CHECK(number(row.at("lost_share")) == 0);
+    CHECK(number(row.at("spurious_share")) == 0);
+  }
+  CHECK_FALSE(contains(run.err, "gnuplot failed"));
+}
+
+TEST_CASE("thesis: every figure on one page without links to elsewhere, also what failed") {
+  if (!device_present()) return;
+  const Folder folder;
+  const Outcome run = run_program({"bench", "thesis", "-c", folder.file("b.toml", street), "-o", folder.path("out"),
+                                   "--rays", "1000:1000", "--repeat", "1", "--frames", "2", "--set",
+                                   "trace.max_depth=1"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 5);  // some figures failed
+  const std::string page = contents(folder.path("out/thesis.html"));
+  for (int figure = 1; figure <= 18; ++figure)
+    CHECK(contains(page, fmt::format("<section id=\"figure-6.{}\">", figure)));
+  CHECK(contains(page, "<section id=\"cache-division\">"));
+  CHECK_FALSE(contains(page, "http:"));
+  // cache-division and cache-step have no point at so few rays: a page says what failed, and holds the rest.
+  CHECK(occurrences(page, "failed: --rays 1000:1000: ") == 2);
+  CHECK(occurrences(page, "failed: ") == 2);
+  CHECK(contains(run.out, "18 of 20 figures are whole"));
+  if (contains(run.err, "gnuplot is not installed")) return;
+  CHECK(occurrences(page, "<svg") == 19);  // one of speed against error
+  CHECK_FALSE(contains(run.err, "Warning"));
 }

@@ -85,8 +85,9 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
 
 TEST_CASE("an unknown recipe is answered with the known ones and the nearest") {
   CHECK_THROWS_WITH_AS(find_recipe("figure-6.19"),
-                       "bench: no recipe \"figure-6.19\" among figure-6.1, figure-6.18, coherence-frames, "
-                       "coherence-rays; did you mean \"figure-6.1\"?",
+                       doctest::Contains("bench: no recipe \"figure-6.19\" among figure-6.1, figure-6.2, "),
+                       ConfigError);
+  CHECK_THROWS_WITH_AS(find_recipe("coherence-ray"), doctest::Contains("did you mean \"coherence-rays\"?"),
                        ConfigError);
 }
 
