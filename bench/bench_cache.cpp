@@ -1,22 +1,20 @@
-// bench_cache: rates of the ray cache's tables at load 0.8 over random keys, beside those of the thesis' two locks and
-// of random reads from as much memory, and how evenly the hashes spread the rays of a scene. Assumes a quiet machine.
-// Times are those of the kernels by the device's clock; "error" counts answers that are not what was stored under
-// their key; of spreads it is the share of keys that overflow.
+// bench_cache: the ray cache's tables beside the thesis' as printed, in right answers a second; mixed operations on
+// them; where the time of a cached depth goes; and how evenly the hashes spread the rays of a scene.
+// Assumes a quiet machine. Times are those of the kernels by the device's clock. "error" counts what is wrong: answers
+// that are not what was stored under their key, or outcomes that no order of mixed operations has; of spreads it is the
+// share of keys that overflow.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <bit>
-#include <filesystem>
-#include <limits>
 #include <optional>
 
 #include "cache_keys.hpp"
 #include "cache_rates.hpp"
+#include "cache_stages.hpp"
 #include "json_line.hpp"
-#include "passes/generate_rays.hpp"
-#include "scene/city.hpp"
-#include "scene/load.hpp"
-#include "tracers.hpp"
+#include "passes/cache_mixed.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::bench {
@@ -24,8 +22,10 @@ namespace {
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
-  uint32_t runs = 7, questions = 0, per_item = 1, rays = 1000000;  // questions 0: what suits the device
-  std::vector<uint32_t> sizes_mb;                                  // empty: likewise
+  std::vector<std::string> cases{"rates", "mixed", "stages", "spreads"};
+  uint32_t runs = 7, questions = 0, rays = 1000000;  // questions, operations 0: what suits the device
+  uint64_t operations = 0;
+  std::vector<uint32_t> sizes_mb;  // empty: likewise
 };
 
 struct TableCase {
@@ -33,22 +33,25 @@ struct TableCase {
   CacheConfig config;
 };
 
-std::vector<TableCase> table_cases() {
-  const auto config = [](const char* kind, const char* locking, uint32_t hash_method) {
-    CacheConfig c;
-    c.kind = kind;
-    c.locking = locking;
-    c.hash_method = hash_method;
-    c.readers_number = 1u << 31;  // no entry wears out while it is timed
-    return c;
-  };
-  return {{"concurrent", config("concurrent", "", 3)},
-          {"concurrent, hash 1", config("concurrent", "", 1)},
-          {"concurrent, hash 2", config("concurrent", "", 2)},
-          {"chained", config("chained", "", 3)},
-          {"open, mutex", config("open", "mutex", 3)},
-          {"open, readers", config("open", "readers", 3)}};
+TableCase table_case(const std::string& name, const char* kind, const char* locking = "readers",
+                     uint32_t hash_method = 3) {
+  CacheConfig config;
+  config.kind = kind;
+  config.locking = locking;
+  config.hash_method = hash_method;
+  return {name, config};
 }
+
+const std::vector<TableCase> tables{table_case("concurrent", "concurrent"), table_case("chained", "chained"),
+                                    table_case("open, mutex", "open", "mutex"),
+                                    table_case("open, readers", "open", "readers")};
+
+// Keys at random, and as rays ask: those of a cell of directions are next to each other in a launch and want one entry.
+// After readers_number reads the thesis' slot answers nobody, until it is written again.
+const Traffic spread_keys{"keys at random", true, 1, no_wear}, other_keys{"keys never put", false, 1, no_wear};
+const std::vector<Traffic> traffics{spread_keys, other_keys,
+                                    {"256 askers a key", true, 256, CacheConfig{}.readers_number},
+                                    {"4096 askers a key", true, 4096, CacheConfig{}.readers_number}};
 
 std::string size_name(uint32_t mb) {
   return mb % 1024 == 0 ? fmt::format("{} GB", mb / 1024) : fmt::format("{} MB", mb);
@@ -57,17 +60,42 @@ std::string size_name(uint32_t mb) {
 class Bench {
  public:
   Bench(const Options& options, std::string command)
-      : options_(options),
-        command_(std::move(command)),
-        context_(options.device),
-        questions_(make_questions(context_,
-                                  options.questions ? options.questions : 1u << (context_.info().cpu ? 20 : 26),
-                                  options.runs, options.per_item)) {}
+      : options_(options), command_(std::move(command)), context_(options.device) {}
 
   void run() {
+    if (wants("rates")) all_rates();
+    if (wants("mixed")) mixed();
+    if (!wants("stages") && !wants("spreads")) return;
+    const SceneRays rays = scene_rays(context_, options_.shared, options_.rays);
+    if (wants("stages")) stages(rays);
+    if (wants("spreads")) spreads(rays);
+  }
+
+ private:
+  const Options& options_;
+  std::string command_;
+  gpu::Context context_;
+
+  bool wants(const char* name) const {
+    return std::find(options_.cases.begin(), options_.cases.end(), name) != options_.cases.end();
+  }
+
+  Result result(const std::string& name, double value, const char* unit) const {
+    Result r;
+    r.bench = "cache";
+    r.name = name;
+    r.device = context_.info().name;
+    r.value = value;
+    r.unit = unit;
+    return r;
+  }
+
+  void all_rates() {
+    const bool cpu = context_.info().cpu;
+    const uint32_t count = options_.questions ? options_.questions : 1u << (cpu ? 20 : 26);
     std::vector<uint32_t> sizes = options_.sizes_mb;
-    if (sizes.empty()) sizes = {16, 256, 4096};
-    if (options_.sizes_mb.empty() && context_.info().cpu) sizes.pop_back();
+    if (sizes.empty()) sizes = cpu ? std::vector{16u, 256u} : std::vector{16u, 256u, 4096u};
+    Questions questions = make_questions(context_, count, options_.runs);
     for (const uint32_t mb : sizes) {
       const uint64_t bytes = uint64_t{mb} << 20;
       if (bytes > context_.info().max_buffer) {
@@ -75,146 +103,149 @@ class Bench {
                    size_name(mb));
         continue;
       }
-      rates(size_name(mb), bytes);
+      rates(questions, size_name(mb), bytes);
     }
-    spreads();
+    hashes(questions, sizes.size() > 1 ? sizes[1] : sizes[0]);
   }
 
- private:
-  const Options& options_;
-  std::string command_;
-  gpu::Context context_;
-  Questions questions_;
-
-  struct Baseline {
-    std::string name;
-    double per_second;
-  };
-
-  void line(const std::string& name, const Rate& rate, const std::string& detail,
-            const std::optional<Baseline>& baseline, const GatherCeilings& ceilings, uint64_t bytes) {
-    Result result;
-    result.bench = "cache";
-    result.name = name;
-    result.device = context_.info().name;
-    result.value = rate.per_second * 1e-9;
-    result.unit = "G/s";
-    result.error = static_cast<double>(rate.wrong);
-    result.detail = detail;
-    result.extra = {{"bytes", bytes},
-                    {"hit_share", rate.hits},
-                    {"questions", questions_.count},
-                    {"questions_per_item", questions_.per_item},
-                    {"gather_slots_g_s", ceilings.slots * 1e-9},
-                    {"gather_words_g_s", ceilings.words * 1e-9}};
-    if (baseline) {
-      result.baseline = baseline->name;
-      result.baseline_value = baseline->per_second * 1e-9;
+  // One table under one traffic. done: what became of the operations that count. thesis: its table under the same.
+  void line(const std::string& name, const RatedTable& table, const Rate& rate, const char* done,
+            const GatherRates& gathers, const std::optional<Rate>& thesis) const {
+    Result r = result(name, rate.right * 1e-9, "G right/s");
+    r.error = static_cast<double>(rate.wrong);
+    r.detail = fmt::format("{:.4g} G/s in all, {:.2f} of random 64-byte reads; {:.3g}% {}", rate.asked * 1e-9,
+                           rate.asked / gathers.slots, 100 * rate.answered, done);
+    r.extra = {{"bytes", table.bytes()},
+               {"entries", table.entries()},
+               {"keys", table.keys()},
+               {"asked_g_s", rate.asked * 1e-9},
+               {"answered_share", rate.answered},
+               {"gather_share", rate.asked / gathers.slots}};
+    if (thesis) {
+      r.baseline = "thesis' two locks";
+      r.baseline_value = thesis->right * 1e-9;
     }
-    print(result, command_);
+    print(r, command_);
   }
 
-  void rates(const std::string& size, uint64_t bytes) {
-    const GatherCeilings ceilings = gather_ceilings(context_, questions_, bytes);
-    const Baseline slots{"random reads of 64 bytes", ceilings.slots};
-    line(size + ": random reads, slots of 64 bytes", {ceilings.slots}, "", {}, ceilings, bytes);
-    line(size + ": random reads, words of 8 bytes", {ceilings.words}, "", {}, ceilings, bytes);
+  void rates(Questions& questions, const std::string& size, uint64_t bytes) {
+    const GatherRates gathers = gather_rates(context_, questions, bytes);
+    Result r = result(size + ": random reads of 64 bytes", gathers.slots * 1e-9, "G/s");
+    r.detail = fmt::format("{:.4g} G/s of 8 bytes", gathers.words * 1e-9);
+    r.extra = {{"bytes", bytes}, {"questions", questions.count}, {"words_g_s", gathers.words * 1e-9}};
+    print(r, command_);
 
-    Rate thesis_put, thesis_hit, thesis_miss;
+    std::vector<Rate> thesis;
+    const auto all = [&](const std::string& name, RatedTable& table) {
+      std::vector<Rate> measured{table.put(questions)};
+      for (const Traffic& traffic : traffics) measured.push_back(table.find(questions, traffic));
+      const bool baseline = !thesis.empty();
+      for (size_t i = 0; i < measured.size(); ++i)
+        line(fmt::format("{}: {}, {}", size, name, i == 0 ? "put" : traffics[i - 1].name), table, measured[i],
+             i == 0 ? "kept" : "answered", gathers, baseline ? std::optional(thesis[i]) : std::nullopt);
+      if (!baseline) thesis = measured;
+    };
     {
-      ThesisRates thesis(context_, bytes);
-      thesis_put = thesis.put(questions_);
-      thesis_hit = thesis.find(questions_, true);
-      thesis_miss = thesis.find(questions_, false);
+      ThesisTable table(context_, bytes);
+      all("thesis' two locks", table);
     }
-    const auto hits = [](const Rate& rate) { return fmt::format("{:.1f}% answered", 100 * rate.hits); };
-    line(size + ": thesis' two locks, put", thesis_put, "", {}, ceilings, bytes);
-    line(size + ": thesis' two locks, find of keys that were put", thesis_hit, hits(thesis_hit), slots, ceilings,
-         bytes);
-    line(size + ": thesis' two locks, find of others", thesis_miss, hits(thesis_miss), slots, ceilings, bytes);
-
-    for (const TableCase& c : table_cases()) {
-      TableRates table(context_, c.config, bytes);
-      const std::string name = size + ": " + c.name;
-      const Rate put = table.put(questions_);
-      const std::string load = fmt::format("{} entries, {} keys, {:.2f}% of them dropped or displaced", table.entries(),
-                                           table.keys(), 100 * table.dropped());
-      line(name + ", put", put, load, Baseline{"thesis' two locks", thesis_put.per_second}, ceilings, table.bytes());
-      const Rate hit = table.find(questions_, true, false, true), miss = table.find(questions_, false, false, true);
-      const auto both = [&](const std::string& what, const Rate& rate, const Rate& thesis) {
-        const std::string detail =
-            fmt::format("{}; {:.2f} of random 64-byte reads", hits(rate), rate.per_second / ceilings.slots);
-        line(name + what, rate, detail, Baseline{"thesis' two locks", thesis.per_second}, ceilings, table.bytes());
-        line(name + what + ", against memory", rate, detail, slots, ceilings, table.bytes());
-      };
-      both(", find-hit", hit, thesis_hit);
-      both(", find-miss", miss, thesis_miss);
-      if (c.name != "concurrent") continue;
-      both(", find-hit as beside writers", table.find(questions_, true, false, false), thesis_hit);
-      both(", find-hit beside writers (one operation in 16 a put)", table.find(questions_, true, true, false),
-           thesis_hit);
-      line(name + ", hash alone", table.hash(questions_), "", {}, ceilings, table.bytes());
+    for (const TableCase& c : tables) {
+      OurTable table(context_, c.config, bytes);
+      all(c.name, table);
     }
   }
 
-  // Rays of segments 1 to 5 from one transmitter.
-  void spreads() {
-    const std::string munich = options_.shared + "/scenes/munich/munich.xml";
-    const bool there = std::filesystem::exists(munich);
-    if (!there) fmt::print(stderr, "bench_cache: {} is not there, so the generated city is traced instead\n", munich);
-    Config config;
-    config.scene.generate = "--seed 1";
-    const Scene scene = there ? load_scene_file(munich, {}) : load_scene(config);
-    const std::array<double, 3> transmitter_m =
-        there ? std::array{45.0, 90.0, 1.5}
-              : example_positions(parse_city_options(config.scene.generate)).front().position_m;
+  // What the hash costs and how many keys find a place by it, on the concurrent table.
+  void hashes(Questions& questions, uint32_t mb) {
+    for (uint32_t method = 1; method <= 3; ++method) {
+      OurTable table(context_, table_case("", "concurrent", "", method).config, uint64_t{mb} << 20);
+      table.put(questions);
+      const Rate found = table.find(questions, spread_keys);
+      Result r = result(fmt::format("{}: concurrent, hash {}", size_name(mb), method), found.right * 1e-9, "G right/s");
+      r.error = static_cast<double>(found.wrong);
+      r.detail = fmt::format("{}; {:.4g} G/s in all, {:.1f}% answered; the hash alone {:.4g} G/s", spread_keys.name,
+                             found.asked * 1e-9, 100 * found.answered, table.hash(questions) * 1e-9);
+      print(r, command_);
+    }
+  }
 
-    const std::vector<AccelTriangle> triangles = accel_triangles(scene);
-    const DeviceScene device_scene = make_device_scene(context_, scene, false);
-    OurTracer tracer(context_, device_scene, TraceShape::bvh2, options_.rays);
-    RayQueue launched = make_ray_queue(context_, options_.rays, "launched rays");
-    GenerateRays(context_, LaunchDirections("hilbert", options_.rays, 1))(launched, 0, {0, 0, 0}, 0, options_.rays);
-    std::vector<Ray> rays(options_.rays, {{}, 0, {}, std::numeric_limits<float>::max()});
-    for (size_t axis = 0; axis < 3; axis++) {
-      const auto plane = launched.planes.read((WT_RAY_DIRECTION + axis) * launched.capacity, rays.size());
-      const double origin = transmitter_m[axis] - scene.origin_m[static_cast<int>(axis)];
-      for (size_t i = 0; i < rays.size(); i++) {
-        rays[i].origin[axis] = static_cast<float>(origin);
-        rays[i].direction[axis] = plane[i];
+  // Three finds to a put, an eighth of them of 64 keys, in one launch; see large_cache_test.cpp.
+  void mixed() {
+    const uint64_t operations =
+        options_.operations ? options_.operations : context_.info().cpu ? 2'000'000 : 100'000'000;
+    for (const TableCase& c : tables) {
+      const test::TableKind kind{c.config.kind, c.config.locking, "quantised"};
+      const test::MixedReport report = test::run_mixed(context_, kind, operations, operations / 8, cache_load);
+      const double per_second = static_cast<double>(operations) / report.seconds;
+      Result r = result("mixed put and find: " + c.name, per_second * 1e-9, "G/s");
+      r.error = static_cast<double>(report.faults.all());
+      r.detail = fmt::format("{} operations, {} puts, {} hits, {} puts dropped", operations, report.puts, report.hits,
+                             report.dropped);
+      r.extra = {{"wrong_answers", report.faults.wrong_answers},
+                 {"never_put", report.faults.never_put},
+                 {"lost", report.faults.lost},
+                 {"miscounted", report.faults.miscounted}};
+      print(r, command_);
+    }
+  }
+
+  void stage(const std::string& name, size_t rays, double seconds, double trace_seconds, const std::string& detail) {
+    const double ns_a_ray = 1e9 / static_cast<double>(rays);
+    Result r = result(name, seconds * ns_a_ray, "ns/ray");
+    r.better = Better::lower;
+    r.baseline = "trace of the same rays";
+    r.baseline_value = trace_seconds * ns_a_ray;
+    r.detail = detail;
+    r.extra = {{"rays", rays}};
+    print(r, command_);
+  }
+
+  void stages(const SceneRays& rays) {
+    const auto lines = [&](const std::string& name, bool with_hash, const StageTimes& t) {
+      const std::string share = fmt::format("{:.1f}% answered", 100 * t.answered);
+      if (with_hash) stage(name + ", hash", t.rays, t.hash, t.trace, fmt::format("{} rays", t.rays));
+      stage(name + ", look-up that misses", t.rays, t.lookup_miss, t.trace, "of entries of the depths before");
+      stage(name + ", look-up that hits", t.rays, t.lookup_hit, t.trace, share);
+      stage(name + ", store", t.rays, t.store, t.trace, "");
+    };
+    for (const TableCase& c : tables) {
+      const std::vector<StageTimes> times = stage_times(context_, rays, c.config, options_.runs);
+      const bool first = c.name == tables.front().name;  // depth by depth; keys and hashes are those of all
+      StageTimes all;
+      for (size_t k = 0; k < times.size(); ++k) {
+        const StageTimes& t = times[k];
+        if (first) lines(fmt::format("{}, depth {}: {}", rays.name, k + 1, c.name), true, t);
+        all.rays += t.rays;
+        all.hash += t.hash;
+        all.lookup_miss += t.lookup_miss;
+        all.lookup_hit += t.lookup_hit;
+        all.store += t.store;
+        all.trace += t.trace;
+        all.answered += t.answered * static_cast<double>(t.rays);
       }
+      all.answered /= static_cast<double>(all.rays);
+      lines(fmt::format("{}, all depths: {}", rays.name, c.name), first, all);
     }
+  }
+
+  void spreads(const SceneRays& rays) {
     const CacheConfig defaults;
-    std::vector<RayKey> keys;
-    for (int depth = 1; depth <= 5 && !rays.empty(); depth++) {
-      std::vector<Hit> hits(rays.size());
-      tracer.load(rays);
-      tracer.run();
-      tracer.fetch(hits);
-      rays = next_segment(rays, hits, triangles);
-      add_keys(keys, rays, hits, triangles, defaults.division);
-    }
-    const size_t all = keys.size();
-    keys = distinct(std::move(keys));
+    const std::vector<RayKey> keys = distinct_keys(rays, defaults.division);
     const auto bits = [](size_t values) { return static_cast<uint32_t>(std::bit_width(values - 1)); };
-    const device::wt_cache_widths widths{bits(defaults.division), bits(scene.surfaces.size()), bits(triangles.size())};
+    const device::wt_cache_widths widths{bits(defaults.division), bits(rays.scene.surfaces.size()),
+                                         bits(rays.scene.triangles.size())};
     for (uint32_t method = 1; method <= 3; method++) {
       const Spread s = spread(keys, method, widths);
-      Result result;
-      result.bench = "cache";
-      result.name = fmt::format("spread of hash {}, {}", method, there ? "munich" : "city");
-      result.device = context_.info().name;
-      result.value = s.chi_square;
-      result.unit = "chi-square/dof";
-      result.better = Better::lower;
-      result.baseline = "keys thrown at random";
-      result.baseline_value = 1;
-      result.error = s.overflow;
-      result.detail =
+      Result r = result(fmt::format("spread of hash {}, {}", method, rays.name), s.chi_square, "chi-square/dof");
+      r.better = Better::lower;
+      r.baseline = "keys thrown at random";
+      r.baseline_value = 1;
+      r.error = s.overflow;
+      r.detail =
           fmt::format("{} keys of {} rays; {:.1f}% of buckets occupied, longest {}; {:.3g}% overflow at load 0.8",
-                      keys.size(), all, 100 * s.occupied, s.longest, 100 * s.overflow);
-      result.extra = {
-          {"keys", keys.size()}, {"occupied", s.occupied}, {"longest", s.longest}, {"overflow", s.overflow}};
-      print(result, command_);
+                      keys.size(), rays.count(), 100 * s.occupied, s.longest, 100 * s.overflow);
+      r.extra = {{"keys", keys.size()}, {"occupied", s.occupied}, {"longest", s.longest}, {"overflow", s.overflow}};
+      print(r, command_);
     }
   }
 };
@@ -224,17 +255,20 @@ class Bench {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
-  CLI::App app("Rates of the ray cache's tables, and how evenly its hashes spread rays");
+  CLI::App app("The ray cache's tables: right answers a second, mixed operations, stages of a frame, spread of hashes");
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "the folder with scenes/munich");
+  app.add_option("--cases", options.cases, "what to run; default: all")
+      ->check(CLI::IsMember({"rates", "mixed", "stages", "spreads"}));
   app.add_option("--runs", options.runs, "timed runs of which the median counts")->check(CLI::Range(3, 1000));
   app.add_option("--sizes", options.sizes_mb, "MB a table; default: 16 256 on CPUs, 16 256 4096 elsewhere")
       ->check(CLI::Range(1, 65536));
   app.add_option("--questions", options.questions, "a launch; default: 2^20 on CPUs, 2^26 elsewhere")
       ->check(CLI::Range(64, 1 << 30));
-  app.add_option("--per-item", options.per_item, "questions a work-item")->check(CLI::Range(1, 16));
-  app.add_option("--rays", options.rays, "launched for the spread of hashes")->check(CLI::Range(1000, 100000000));
+  app.add_option("--operations", options.operations, "mixed ones; default: 2 * 10^6 on CPUs, 10^8 elsewhere")
+      ->check(CLI::Range(1000, 1000000000));
+  app.add_option("--rays", options.rays, "launched for stages and spreads")->check(CLI::Range(1000, 100000000));
   CLI11_PARSE(app, argc, argv);
   try {
     bench::Bench(options, bench::command_line(argc, argv)).run();

@@ -32,18 +32,13 @@ double overflow(const std::vector<uint32_t>& homes, uint32_t buckets) {
 
 }  // namespace
 
-void add_keys(std::vector<RayKey>& keys, std::span<const Ray> next, std::span<const Hit> hits,
-              std::span<const AccelTriangle> triangles, uint32_t division) {
-  size_t k = 0;
-  for (const Hit& hit : hits) {
-    if (hit.primitive == kNoPrimitive) continue;
-    const auto& d = next[k++].direction;
-    const uint64_t cells = device::wt_cache_cells(d[0], d[1], d[2], division);
-    keys.push_back({cells, hit.primitive, triangles[hit.primitive].surface});
-  }
-}
-
-std::vector<RayKey> distinct(std::vector<RayKey> keys) {
+std::vector<RayKey> distinct_keys(const SceneRays& rays, uint32_t division) {
+  std::vector<RayKey> keys;
+  for (const Segment& segment : rays.segments)
+    for (size_t i = 0; i < segment.rays.size(); ++i) {
+      const auto& d = segment.rays[i].direction;
+      keys.push_back({device::wt_cache_cells(d[0], d[1], d[2], division), segment.left[i], segment.surface[i]});
+    }
   const auto value = [](const RayKey& key) { return std::tie(key.left, key.cells); };
   std::sort(keys.begin(), keys.end(), [&](const RayKey& a, const RayKey& b) { return value(a) < value(b); });
   keys.erase(std::unique(keys.begin(), keys.end(),

@@ -1,10 +1,10 @@
 // How evenly the hashes of the ray cache spread the rays of a real scene over buckets, on the host.
-// Assumes that rays and hits are those of segments.hpp.
+// Assumes labelled rays, see cache_rays.hpp.
 #pragma once
 #include <span>
 #include <vector>
 
-#include "segments.hpp"
+#include "cache_rays.hpp"
 #include "wavetracer/device/cache.h"
 
 namespace wavetracer::bench {
@@ -14,12 +14,8 @@ struct RayKey {
   uint32_t left, surface;
 };
 
-// Keys of the rays that next_segment makes of `rays`, in its order.
-void add_keys(std::vector<RayKey>& keys, std::span<const Ray> next, std::span<const Hit> hits,
-              std::span<const AccelTriangle> triangles, uint32_t division);
-
-// Each key once.
-std::vector<RayKey> distinct(std::vector<RayKey> keys);
+// The keys of all rays, each once.
+std::vector<RayKey> distinct_keys(const SceneRays& rays, uint32_t division);
 
 struct Spread {
   double occupied;    // share of the buckets that have a key

@@ -1,5 +1,5 @@
 // Kernels that only bench_cache runs: what a table of the ray cache does in a second, and what memory would allow.
-// Questions are arrays, read in order; WT_QUESTIONS_PER_ITEM of them a work-item, `items` apart. All regard region 0.
+// Questions are arrays, read in order, one a work-item. All regard region 0.
 #include "lib/cache_table.clh"
 
 inline ulong rate_mix(ulong i) {
@@ -23,57 +23,57 @@ inline wt_cache_question rate_ask(ulong cells, uint left, wt_cache_widths widths
 // What is stored under a key.
 inline uint rate_primitive(ulong cells, uint left) { return (uint)(cells ^ cells >> 32) + left; }
 
-// Question i is of key first + i or, with draws, of a random one of `keys` keys from `first` on.
-kernel void make_questions(uint first, uint keys, uint draws, global ulong* cells, global uint* left, uint count) {
+// Question i is of key first + i or, with askers, of one of `keys` keys from `first` on, drawn at random for so many
+// questions in a row.
+kernel void make_questions(uint first, uint keys, uint askers, global ulong* cells, global uint* left, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const uint key = first + (draws ? (uint)((rate_mix(~(ulong)i) >> 32) * keys >> 32) : i);
+  const uint key = first + (askers ? (uint)((rate_mix(~(ulong)(i / askers)) >> 32) * keys >> 32) : i);
   cells[i] = rate_mix(key + 1ul) >> 1;  // of key 0 all would be 0, which stands for a miss
   left[i] = key >> 2;
 }
 
+#ifdef WT_CACHE_TALLY
+// The group adds up what its puts count, as cache_store does.
 kernel void put_questions(global wt_cache_entry* entries, global uint* heads, global uint* used,
                           const global wt_cache_region* regions, global wt_cache_counters* counters,
                           wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count) {
+  local uint stored, claimed;
+  wt_cache_tally tally = {0, 0};
+  const wt_cache cache = {entries, heads, used, regions, counters, &tally};
+  if (get_local_id(0) == 0) stored = claimed = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint i = (uint)get_global_id(0);
+  if (i < count) {
+    const wt_cache_question q = rate_ask(cells[i], left[i], widths);
+    const uint primitive = rate_primitive(q.cells, q.left);
+    const wt_cache_entry e = wt_cache_answer(q, (float)(primitive >> 8), primitive, ~primitive, WT_NONE);
+    wt_cache_put(cache, q, &e);
+  }
+  if (tally.stored) atomic_add(&stored, tally.stored);
+  if (tally.claimed) atomic_add(&claimed, tally.claimed);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) > 0) return;
+  if (stored) wt_fetch_add_u32(&counters->stored, stored);
+  if (claimed) wt_fetch_add_u32(used, claimed);
+}
+#endif
+
+// Answers: planes of t, primitive and surface, as in a hit list.
+kernel void find_questions(global wt_cache_entry* entries, global uint* heads, global uint* used,
+                           const global wt_cache_region* regions, global wt_cache_counters* counters,
+                           wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count,
+                           global float* t, global uint* primitives, global uint* surfaces) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const wt_cache cache = {entries, heads, used, regions, counters};
   const wt_cache_question q = rate_ask(cells[i], left[i], widths);
-  const uint primitive = rate_primitive(q.cells, q.left);
-  const wt_cache_entry e = wt_cache_answer(q, (float)(primitive >> 8), primitive, ~primitive, WT_NONE);
-  wt_cache_put(cache, q, &e);
-}
-
-// Answers: planes of t, primitive and surface, as in a hit list. With WT_PUT_EVERY, every so many blocks of 32
-// questions are put instead.
-kernel void find_questions(global wt_cache_entry* entries, global uint* heads, global uint* used,
-                           const global wt_cache_region* regions, global wt_cache_counters* counters,
-                           wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count,
-                           uint items, global float* t, global uint* primitives, global uint* surfaces) {
-  const uint item = (uint)get_global_id(0);
-  if (item >= items) return;
-  const wt_cache cache = {entries, heads, used, regions, counters};
-#pragma unroll
-  for (uint k = 0; k < WT_QUESTIONS_PER_ITEM; ++k) {
-    const uint i = item + k * items;
-    if (i >= count) return;
-    const wt_cache_question q = rate_ask(cells[i], left[i], widths);
-#ifdef WT_PUT_EVERY
-    if (i / 32 % WT_PUT_EVERY == 0) {
-      const uint primitive = rate_primitive(q.cells, q.left);
-      const wt_cache_entry e = wt_cache_answer(q, (float)(primitive >> 8), primitive, ~primitive, WT_NONE);
-      wt_cache_put(cache, q, &e);
-      primitives[i] = WT_NONE;
-      continue;
-    }
-#endif
-    uint slot;
-    wt_cache_entry answer;
-    const bool found = wt_cache_find(cache, q, &answer, &slot);
-    t[i] = found ? answer.t : 0.0f;
-    primitives[i] = found ? answer.primitive : WT_NONE;
-    surfaces[i] = found ? answer.surface : WT_NONE;
-  }
+  uint slot;
+  wt_cache_entry answer;
+  const bool found = wt_cache_find(cache, q, &answer, &slot);
+  t[i] = found ? answer.t : 0.0f;
+  primitives[i] = found ? answer.primitive : WT_NONE;
+  surfaces[i] = found ? answer.surface : WT_NONE;
 }
 
 // outcome: hits, and hits that are wrong.
@@ -92,6 +92,14 @@ kernel void hash_questions(wt_cache_widths widths, const global ulong* cells, co
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   out[i] = (uint)(wt_cache_hash(WT_CACHE_HASH_METHOD, cells[i], left[i], left[i] >> 1, widths) >> 32);
+}
+
+// Of the rays of a labelled queue: all that a question costs before memory is asked.
+kernel void hash_rays(const global float* rays, uint capacity, uint count, wt_cache_widths widths, global uint* out) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const wt_cache_question q = wt_cache_ask(rays, capacity, i, widths, 1u);
+  out[i] = (uint)(q.hash >> 32) ^ q.region;
 }
 
 // What memory gives to one random access a work-item: slots of 64 bytes, all of them read, and words of eight.

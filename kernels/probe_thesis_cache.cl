@@ -112,3 +112,9 @@ kernel void thesis_find(global thesis_node* nodes, const global ulong* cells, co
   primitives[i] = primitive;
   surfaces[i] = surface;
 }
+
+// Adds the nodes that hold something to *written.
+kernel void thesis_count(const global thesis_node* nodes, global uint* written) {
+  const uint i = (uint)get_global_id(0);
+  if (i < WT_NODES && nodes[i].used) wt_fetch_add_u32(written, 1u);
+}

@@ -1,6 +1,8 @@
 // The concurrent table: every operation beside every other, one entry a key, holes, full regions, whole keys.
 // Small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
-#include "passes/cache_probe.hpp"
+#include <set>
+
+#include "passes/cache_mixed_check.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;

@@ -1,4 +1,4 @@
-// The chained table's trees as the host finds them in memory: how many nodes, in which order, in which buckets.
+// The chained table, and its trees as the host finds them in memory: how many nodes, in which order, in which buckets.
 // Assumes rays whose surface follows from the primitive that they left, see surface_of.
 #pragma once
 #include <doctest/doctest.h>
@@ -10,11 +10,19 @@
 #include <set>
 #include <vector>
 
-#include "passes/cache_table.hpp"
+#include "passes/cached_rays.hpp"
 
 namespace wavetracer::test {
 
-inline uint32_t surface_of(uint32_t left) { return left == WT_NONE ? WT_NONE : left / 2; }
+inline CacheConfig chained(uint64_t entries, double load_factor = 3, uint32_t method = 3) {
+  CacheConfig config;
+  config.kind = "chained";
+  config.buffer_size = entries;
+  config.load_factor = load_factor;
+  config.hash_method = method;
+  config.hit_point = "cached";  // answers are what was put
+  return config;
+}
 
 // All trees as the host finds them.
 struct Forest {
@@ -80,5 +88,11 @@ struct Forest {
     walk(heads_[links + 1], depth + 1);
   }
 };
+
+inline void check_whole(const Forest& forest, size_t nodes) {
+  CHECK(forest.nodes == nodes);
+  CHECK(forest.wrong_bucket == 0);
+  CHECK(forest.out_of_order == 0);
+}
 
 }  // namespace wavetracer::test

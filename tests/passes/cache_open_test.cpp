@@ -1,6 +1,6 @@
 // The open-addressed table under locks: mixed operations, wear, purging by position and by precision, and the two
 // faults of the thesis' listing C.3, which is run beside it as printed. Small enough for Oclgrind.
-#include "passes/cache_probe.hpp"
+#include "passes/cache_mixed_check.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;

@@ -2,19 +2,74 @@
 // What is put is given, not traced: any hit for any ray.
 #pragma once
 #include <numeric>
+#include <set>
 #include <span>
 
 #include "passes/cache_lookup.hpp"
 #include "passes/cache_purge.hpp"
 #include "passes/cache_store.hpp"
-#include "passes/on_device.hpp"
+#include "passes/triangles.hpp"
 
 namespace wavetracer::test {
+
+// A small table, in which no entry wears out.
+inline CacheConfig small_cache(const std::string& kind, const std::string& key = "quantised") {
+  CacheConfig config;
+  config.kind = kind;
+  config.key = key;
+  config.buffer_size = 3 * 4096;
+  config.division = 16;
+  config.readers_number = 1000;
+  return config;
+}
 
 struct CachedRay {
   Float3 origin{}, direction{1, 0, 0};
   uint32_t surface = WT_NONE, left = WT_NONE, region = 0, entry = WT_NONE;
 };
+
+// Random rays of many primitives, two a surface, and some of the transmitter.
+inline uint32_t surface_of(uint32_t left) { return left == WT_NONE ? WT_NONE : left / 2; }
+
+inline CachedRay random_ray(Random& random, uint32_t region = 0) {
+  const uint32_t left = random.below(8) ? random.below(900) : WT_NONE;
+  return {to_float(random.in_cube(50)), to_float(random.direction()), surface_of(left), left, region};
+}
+
+inline std::vector<CachedRay> random_rays(uint32_t seed, size_t count, uint32_t regions = 1) {
+  Random random(seed);
+  std::vector<CachedRay> rays;
+  for (size_t i = 0; i < count; ++i) rays.push_back(random_ray(random, static_cast<uint32_t>(i) % regions));
+  return rays;
+}
+
+// Hits that say whose they are.
+inline Hit hit_of(uint32_t key, uint32_t copy = 0) { return {1.0f + static_cast<float>(key), copy, key}; }
+
+inline std::vector<Hit> hits_of(size_t count) {
+  std::vector<Hit> hits;
+  for (uint32_t i = 0; i < count; ++i) hits.push_back(hit_of(i));
+  return hits;
+}
+
+inline uint64_t cells_of(const CacheConfig& config, const CachedRay& ray) {
+  const uint32_t division = config.key == "exact" ? WT_CACHE_MAX_DIVISION : config.division;
+  return device::wt_cache_cells(ray.direction[0], ray.direction[1], ray.direction[2], division);
+}
+
+// The one slot of an open table that a ray may lie in.
+inline uint32_t open_slot(const CacheTable& table, const CachedRay& ray) {
+  const device::wt_cache_region& region = table.regions[ray.region];
+  const uint64_t hash = device::wt_cache_hash(table.config.hash_method, cells_of(table.config, ray), ray.left,
+                                              ray.surface, table.widths);
+  return region.first_entry + device::wt_cache_bucket(hash, region.entries);
+}
+
+inline size_t count_open_slots(const CacheTable& table, std::span<const CachedRay> rays) {
+  std::set<uint32_t> slots;
+  for (const CachedRay& ray : rays) slots.insert(open_slot(table, ray));
+  return slots.size();
+}
 
 inline RayQueue upload(std::span<const CachedRay> rays) {
   RayQueue queue = make_ray_queue(context(), rays.size(), "test rays", WT_RAY_LABELLED_PLANES);
@@ -110,6 +165,13 @@ class Cache {
       out.found.push_back(mark == WT_NONE);
     }
     return out;
+  }
+
+  // Each ray in a launch of its own, so that none meets another under a lock.
+  std::vector<bool> find_one_by_one(std::span<const CachedRay> rays) {
+    std::vector<bool> found;
+    for (size_t i = 0; i < rays.size(); ++i) found.push_back(find(rays.subspan(i, 1)).found[0]);
+    return found;
   }
 
   void purge(uint32_t keep_from) { purge_(context(), table, keep_from); }
