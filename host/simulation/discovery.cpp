@@ -113,16 +113,16 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
 DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
                                    uint64_t frame) {
   DiscoveryCounts counts;
-  counts.segments_per_depth.assign(segments(), 0);
-  if (segments() == 0 || transmitters.empty()) return counts;
-  start_level(transmitters, frame);
+  counts.segments_per_depth.assign(depth_, 0);
+  if (depth_ == 0 || transmitters.empty()) return counts;
+  refinement_->start(transmitters, sequences_.table().size(), frame);
   for (bool more = true; more;) {
-    trace_level(scene, transmitters, counts);
+    trace_level(scene, counts);
     if (sequences_.overflowed()) {
       // Sequences get new numbers when the set grows: the launch begins again.
       sequences_.regrow(max_depth_);
       counts.rays = 0;
-      start_level(transmitters, frame);
+      refinement_->start(transmitters, sequences_.table().size(), frame);
     } else {
       more = refinement_->descend();
     }
@@ -132,39 +132,14 @@ DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<L
   return counts;
 }
 
-void Discovery::start_level(const std::vector<Launcher>& transmitters, uint64_t frame) {
-  refinement_->start(transmitters, sequences_.table().size(), frame);
-  if (trails_) trails_->begin_launch();
-}
-
-// The samples of a level by transmitter. Those of the first, which covers all directions, may be chosen for waypoints.
-std::vector<LaunchPart> Discovery::level_parts(const std::vector<Launcher>& transmitters, uint64_t first,
-                                               uint32_t count) const {
-  const SampleList& level = refinement_->level();
-  const uint64_t cells = level.cells();
-  if (level.count != cells * transmitters.size()) return {{0, static_cast<uint32_t>(first), count, 0, 0, 0}};
-  std::vector<LaunchPart> parts;
-  for (uint64_t done = first; done < first + count;) {
-    const uint64_t cell = done % cells;
-    const auto part = static_cast<uint32_t>(std::min(first + count - done, cells - cell));
-    parts.push_back(
-        {transmitters[done / cells].transmitter, static_cast<uint32_t>(done), part, cell, cells, cell});
-    done += part;
-  }
-  return parts;
-}
-
-void Discovery::trace_level(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
-                            DiscoveryCounts& counts) {
+void Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
   const SampleList& level = refinement_->level();
   for (uint64_t done = 0; done < level.count && !sequences_.overflowed(); done += batch_rays_) {
     const auto count = static_cast<uint32_t>(std::min<uint64_t>(batch_rays_, level.count - done));
     reserve(count);
     refinement_->generate(rays_, static_cast<uint32_t>(done), count);
     if (label_) (*label_)(rays_);
-    if (trails_) trails_->begin_batch(level_parts(transmitters, done, count));
     trace_batch(scene, *interact_samples_, counts, &level.ends);
-    if (trails_ && !sequences_.overflowed()) trails_->end_batch();
     counts.rays += count;
   }
 }

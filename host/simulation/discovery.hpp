@@ -47,7 +47,7 @@ class Discovery {
   // Segments are asked of a cache from now on, before they are traced.
   void use_cache(const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world);
   RayCache* cache() { return cache_ ? &*cache_ : nullptr; }
-  // Rays are followed from now on; trails outlives this.
+  // Rays of launches that are not refined are followed from now on; trails outlives this.
   void follow(RayTrails& trails);
   // Adds to sequences() what rays from these transmitters meet, in these directions.
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
@@ -69,13 +69,11 @@ class Discovery {
   uint64_t rays_of(DirectionShare share) const {
     return (config_.rays - share.phase + share.stride - 1) / share.stride;
   }
-  void start_level(const std::vector<Launcher>& transmitters, uint64_t frame);
-  void trace_level(const DeviceScene& scene, const std::vector<Launcher>& transmitters, DiscoveryCounts& counts);
+  void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   // Queues get the planes that say where a ray comes from.
   void label();
   // Segments of a ray, at most: one more than reflections where receptions are wanted.
   uint32_t segments() const { return depth_ + (trails_ && trails_->receives()); }
-  std::vector<LaunchPart> level_parts(const std::vector<Launcher>& transmitters, uint64_t first, uint32_t count) const;
   void find_hits(const DeviceScene& scene, uint32_t depth);
   bool reserve(uint64_t rays);  // true where queues were made anew
   void trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,

@@ -15,7 +15,7 @@ namespace wavetracer {
 
 // Samples of one transmitter that follow each other in a batch: sample first_sample + k has launch index
 // first_index + k * stride, and is number first + k of the `launched` samples of its transmitter, of which some are
-// chosen for the output (launched = 0: none here, as in the later levels of a refined launch).
+// chosen for the output.
 struct LaunchPart {
   uint32_t transmitter, first_sample, count;
   uint64_t first, launched;
