@@ -1,5 +1,5 @@
-// bench_cached_frame: frames of a moving world with ray caches, against frames without: seconds, where they go, and what
-// is lost. Munich with moving cars; the transmitter stands at a crossing, or rides on a car. No frame reuses sequences,
+// bench_cached_frame: frames of a moving world with ray caches, against frames without: seconds, where they go, and
+// what is lost. Munich with moving cars; the transmitter stands at a crossing, or rides on a car. No frame reuses sequences,
 // but in the case that says so. "error" is the lost power against uncached frames of the same rays.
 #include <fmt/format.h>
 
@@ -166,9 +166,16 @@ double stage_ms(const Measured& measured, const std::string& stage) {
 void print_line(const Options& options, const std::string& name, const Measured& measured, const Measured* baseline,
                 const std::string& command) {
   const report::PathError& error = measured.error;
-  Result result{"cached_frame", name, options.info.name, 1e3 * measured.frame_s, "ms/frame", Better::lower, "", {}, 0, "", {}};
+  Result result{.bench = "cached_frame",
+                .name = name,
+                .device = options.info.name,
+                .value = 1e3 * measured.frame_s,
+                .unit = "ms/frame",
+                .better = Better::lower,
+                .baseline = "",
+                .baseline_value = {},
+                .detail = fmt::format("trace {:.2f} ms", stage_ms(measured, "trace"))};
   const double look_ms = stage_ms(measured, "cache_lookup");
-  result.detail = fmt::format("trace {:.2f} ms", stage_ms(measured, "trace"));
   if (look_ms > 0)
     result.detail += fmt::format(", look-up {:.2f}, store {:.2f}, gather {:.2f}, vehicles {:.2f}; answered {:.1f}%",
                                  look_ms, stage_ms(measured, "cache_store"), stage_ms(measured, "cache_gather"),

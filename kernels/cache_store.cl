@@ -6,9 +6,9 @@
 #include "lib/cache_table.clh"
 
 // Ray k of the missed ones: its hit to the whole queue, and into the table.
-inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, uint capacity, const global float* missed,
-                      const global float* missed_hits, uint missed_capacity, uint k, uint i, global float* hits,
-                      uint static_surfaces, const global uint* receptions) {
+inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, uint capacity,
+                      const global float* missed, const global float* missed_hits, uint missed_capacity, uint k, uint i,
+                      global float* hits, uint static_surfaces, const global uint* receptions) {
   const float t = missed_hits[k];
   const uint primitive = wt_load_word(missed_hits, missed_capacity, WT_HIT_PRIMITIVE, k);
   const uint surface = wt_load_word(missed_hits, missed_capacity, WT_HIT_SURFACE, k);

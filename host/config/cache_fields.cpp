@@ -22,14 +22,16 @@ Table cache_table() {
            .slot = c(&CacheConfig::key),
            .choices = {"quantised", "exact"},
            .doc = "Which rays share an entry. quantised: those that leave one primitive into one cell of directions, "
-                  "wherever they leave it, so results are approximate. exact: the same ray alone, bit for bit, so the "
-                  "paths are those of no cache, but only a transmitter that stands and launches its directions again "
-                  "is answered; division, purge and hit_point have no effect."},
+                  "wherever they leave it, so results are approximate, and chance decides which of two like rays "
+                  "answers for both. exact: the same ray alone, bit for bit, so the paths are those of no cache, but "
+                  "only a transmitter that stands and launches its directions again is answered; division, purge and "
+                  "hit_point have no effect."},
           {.name = "hash_method",
            .slot = c(&CacheConfig::hash_method),
            .range = {1, 3},
            .doc = "Where a key lies in the table. 1 uniform: evenly spread. 2 Morton: like rays near each other, so "
-                  "their entries share cache lines, but some buckets fill first. 3 mixed: the sum of both."},
+                  "their entries share cache lines, but most buckets stay empty, and few segments find a place in any "
+                  "but a chained table. 3 mixed: the sum of both."},
           {.name = "division",
            .slot = c(&CacheConfig::division),
            .unit = "cells a direction component",
@@ -53,9 +55,9 @@ Table cache_table() {
           {.name = "locking",
            .slot = c(&CacheConfig::locking),
            .choices = {"mutex", "readers"},
-           .doc = "Of kind = \"open\". mutex: one ray at a time has an entry; who comes meanwhile misses. readers: a "
-                  "lock for reading and one for writing, and an entry wears out after readers_number reads, as in the "
-                  "thesis."},
+           .doc = "Of kind = \"open\". mutex: one ray at a time has an entry; who comes meanwhile misses. readers: "
+                  "the thesis' locks for reading and writing in one, and an entry wears out after readers_number "
+                  "reads."},
           {.name = "readers_number",
            .slot = c(&CacheConfig::readers_number),
            .unit = "reads",

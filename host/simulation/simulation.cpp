@@ -185,7 +185,8 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.order = {order.plan.method, order.plan.each_depth, std::to_string(order.plan.launch.dimensions) + "d",
              order.plan.launch.local_size, order.reason};
   const bool sphere = config.trace.reception == "sphere";
-  s.reuse = config.trace.reuse && !sphere && s.world->frame_count() > 1;  // a sphere receives what this frame's rays meet
+  // A sphere receives what this frame's rays meet.
+  s.reuse = config.trace.reuse && !sphere && s.world->frame_count() > 1;
   if (config.trace.join)
     s.meeting.emplace(*s.context, s.world->receiver_of_transmitter(), config.trace.max_depth);
   const uint32_t depth = ray_depth(config.trace, *s.world);

@@ -88,7 +88,7 @@ class Simulation {
   // Frames of one drive may be asked for in any order; with trace.reuse, what a frame finds depends on the frames since
   // the last forget(). Throws ConfigError for a frame that the world does not have.
   FrameResult run_frame(uint32_t frame);
-  // Drops all sequences of earlier frames: the next frame is cold.
+  // Drops all sequences of earlier frames, and what a ray cache holds: the next frame is cold.
   void forget();
   uint64_t frame_count() const;
   double time_s(uint32_t frame) const;

@@ -7,7 +7,7 @@
 
 namespace wavetracer::test {
 
-// crowded: all work-items want a few keys. On a GPU thousands of them meet at each, and hardly any of them gets through.
+// crowded: all work-items want a few keys. On a GPU thousands of them meet at each, and hardly any gets through.
 inline void check_mixed(const TableKind& kind, uint64_t operations, uint64_t entries, double load,
                         bool crowded = false) {
   CAPTURE(kind.name());

@@ -1,5 +1,5 @@
-// trace_moving after a trace of the static scene gives the hits of one trace of everything; label_rays and interact keep
-// the planes that say where a ray comes from.
+// trace_moving after a trace of the static scene gives the hits of one trace of everything; label_rays and interact
+// keep the planes that say where a ray comes from.
 #include "passes/interact.hpp"
 #include "passes/label_rays.hpp"
 #include "passes/scan.hpp"
