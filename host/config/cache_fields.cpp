@@ -75,7 +75,7 @@ Table cache_table() {
            .unit = "m",
            .range = {0.001, 1000},
            .doc = "Of purge = \"position\": side of the cells of the transmitter's position. With scope = \"all\": how "
-                  "far a vehicle may move in a frame without entries on it becoming stale. Larger steps keep entries "
+                  "far a vehicle may move until entries on it are stale. Larger steps keep entries "
                   "for more frames, with results of where things were."},
           {.name = "residual_value",
            .slot = c(&CacheConfig::residual_value),

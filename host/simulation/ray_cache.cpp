@@ -115,10 +115,13 @@ void RayCache::note_positions(const std::vector<EndState>& transmitters) {
 // Section 3.2.3, movement of objects: entries on instances that have moved are stale.
 void RayCache::note_movement(std::span<const Placement> instances) {
   if (table_.config.scope != "all" || instances.empty()) return;
-  for (size_t i = 0; i < instances.size(); ++i)
-    if (placements_.empty() || moved(instances[i], placements_[i], table_.config.position_step_m))
-      instance_since_[i] = frame_;
-  placements_.assign(instances.begin(), instances.end());
+  const bool first = placements_.empty();
+  placements_.resize(instances.size());
+  for (size_t i = 0; i < instances.size(); ++i) {
+    if (!first && !moved(instances[i], placements_[i], table_.config.position_step_m)) continue;
+    instance_since_[i] = frame_;
+    placements_[i] = instances[i];
+  }
   movement_.instance_since.write(instance_since_, 0, "cache_purge");
 }
 

@@ -213,3 +213,17 @@ TEST_CASE("a car that drives into a cached segment is found where the static sce
   CHECK(found_fixed >= wanted - wanted / 20);
   CHECK(found_all < found_fixed);
 }
+
+TEST_CASE("scope all: entries on a car that creeps are stale once it has come a step, however short its frames") {
+  const SceneFile file(street());
+  Config config = config_of(file.path(), {{-40, 2, 6}}, {{40, 3, 1.5}}, 12000, 2);
+  add_vehicles(config, {{"a", "truck", {-25, 4, 0}, {0.5, 0, 0}, 0, 4}}, 0.1);
+  config.trace.reuse = false;
+  config.cache.kind = "concurrent";
+  config.cache.scope = "all";
+  config.cache.position_step_m = 0.12;
+  const std::vector<FrameResult> frames = frames_of(config, 4);
+  CHECK(frames[1].cache.stale == 0);
+  CHECK(frames[2].cache.stale == 0);
+  CHECK(frames[3].cache.stale > 0);
+}
