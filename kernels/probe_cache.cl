@@ -2,32 +2,12 @@
 // Keys are numbers. What a key is, and what is stored under it, are functions of its number and of the frame of
 // writing, so that an answer that is torn, of another key or of another frame gives itself away. Global sizes may
 // exceed what there is to do.
-#include "lib/cache_table.clh"
+#include "lib/probe_question.clh"
 
 inline wt_cache probe_cache(global wt_cache_entry* entries, global uint* heads, global uint* used,
                             const global wt_cache_region* regions, global wt_cache_counters* counters) {
   const wt_cache cache = {entries, heads, used, regions, counters};
   return cache;
-}
-
-// The finisher of SplitMix64 (G. Steele et al., OOPSLA 2014), of i counted by its increment.
-inline ulong probe_mix(ulong i) {
-  ulong x = i * 0x9E3779B97F4A7C15ul;
-  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9ul;
-  x = (x ^ x >> 27) * 0x94D049BB133111EBul;
-  return x ^ x >> 31;
-}
-
-// Surfaces of two primitives.
-inline wt_cache_question probe_ask(ulong cells, uint left, wt_cache_widths widths) {
-  wt_cache_question q;
-  q.origin = q.direction = (float3)(0.0f);
-  q.cells = cells;
-  q.left = left;
-  q.hash = wt_cache_hash(WT_CACHE_HASH_METHOD, cells, left, left >> 1, widths);
-  q.region = 0;
-  q.now = 0;
-  return q;
 }
 
 inline ulong probe_cells(uint number) { return probe_mix(number) >> 1; }
@@ -43,7 +23,7 @@ inline wt_cache_question probe_key(uint key, uint now, uint regions, wt_cache_wi
 #else
   const uint ray = PROBE_FRAMES * key + now, number = key;
 #endif
-  wt_cache_question q = probe_ask(probe_cells(number), key >> 2, widths);
+  wt_cache_question q = probe_ask(probe_cells(number), key >> 2, widths, 0u);
   q.origin = (float3)((float)(ray & 0xFFFFFF), (float)(ray & 3), (float)(ray >> 24));
   q.direction = -q.origin;
   q.region = (key >> 2) % regions;

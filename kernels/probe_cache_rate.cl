@@ -1,24 +1,6 @@
 // Kernels that only bench_cache runs: what a table of the ray cache does in a second, and what memory would allow.
 // Questions are arrays, read in order, one a work-item. All regard region 0.
-#include "lib/cache_table.clh"
-
-inline ulong rate_mix(ulong i) {
-  ulong x = i * 0x9E3779B97F4A7C15ul;
-  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9ul;
-  x = (x ^ x >> 27) * 0x94D049BB133111EBul;
-  return x ^ x >> 31;
-}
-
-inline wt_cache_question rate_ask(ulong cells, uint left, wt_cache_widths widths) {
-  wt_cache_question q;
-  q.origin = q.direction = (float3)(0.0f);
-  q.cells = cells;
-  q.left = left;
-  q.hash = wt_cache_hash(WT_CACHE_HASH_METHOD, cells, left, left >> 1, widths);
-  q.region = 0;
-  q.now = 1;
-  return q;
-}
+#include "lib/probe_question.clh"
 
 // What is stored under a key.
 inline uint rate_primitive(ulong cells, uint left) { return (uint)(cells ^ cells >> 32) + left; }
@@ -28,8 +10,8 @@ inline uint rate_primitive(ulong cells, uint left) { return (uint)(cells ^ cells
 kernel void make_questions(uint first, uint keys, uint askers, global ulong* cells, global uint* left, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const uint key = first + (askers ? (uint)((rate_mix(~(ulong)(i / askers)) >> 32) * keys >> 32) : i);
-  cells[i] = rate_mix(key + 1ul) >> 1;  // of key 0 all would be 0, which stands for a miss
+  const uint key = first + (askers ? (uint)((probe_mix(~(ulong)(i / askers)) >> 32) * keys >> 32) : i);
+  cells[i] = probe_mix(key + 1ul) >> 1;  // of key 0 all would be 0, which stands for a miss
   left[i] = key >> 2;
 }
 
@@ -45,7 +27,7 @@ kernel void put_questions(global wt_cache_entry* entries, global uint* heads, gl
   barrier(CLK_LOCAL_MEM_FENCE);
   const uint i = (uint)get_global_id(0);
   if (i < count) {
-    const wt_cache_question q = rate_ask(cells[i], left[i], widths);
+    const wt_cache_question q = probe_ask(cells[i], left[i], widths, 1u);
     const uint primitive = rate_primitive(q.cells, q.left);
     const wt_cache_entry e = wt_cache_answer(q, (float)(primitive >> 8), primitive, ~primitive, WT_NONE);
     wt_cache_put(cache, q, &e);
@@ -67,7 +49,7 @@ kernel void find_questions(global wt_cache_entry* entries, global uint* heads, g
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const wt_cache cache = {entries, heads, used, regions, counters};
-  const wt_cache_question q = rate_ask(cells[i], left[i], widths);
+  const wt_cache_question q = probe_ask(cells[i], left[i], widths, 1u);
   uint slot;
   wt_cache_entry answer;
   const bool found = wt_cache_find(cache, q, &answer, &slot);
@@ -106,7 +88,7 @@ kernel void hash_rays(const global float* rays, uint capacity, uint count, wt_ca
 kernel void gather_slots(const global ulong2* slots, uint slot_count, uint count, global uint* out) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const global ulong2* slot = slots + 4 * (size_t)wt_cache_bucket(rate_mix(i), slot_count);
+  const global ulong2* slot = slots + 4 * (size_t)wt_cache_bucket(probe_mix(i), slot_count);
   const ulong2 all = slot[0] ^ slot[1] ^ slot[2] ^ slot[3];
   out[i] = (uint)(all.x ^ all.y);
 }
@@ -114,5 +96,5 @@ kernel void gather_slots(const global ulong2* slots, uint slot_count, uint count
 kernel void gather_words(const global ulong* words, uint word_count, uint count, global uint* out) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  out[i] = (uint)words[wt_cache_bucket(rate_mix(i), word_count)];
+  out[i] = (uint)words[wt_cache_bucket(probe_mix(i), word_count)];
 }

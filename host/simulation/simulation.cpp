@@ -107,8 +107,9 @@ struct Simulation::State {
 
   void begin_frame();
   DiscoveryCounts discover(const std::vector<Launcher>& transmitters);
-  PathGeometry solved_paths(const RadioEnds& ends, FrameCounts& counts);
-  PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts);
+  // Both leave `host` at the time since the device was done.
+  PathGeometry solved_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
+  PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
 };
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
@@ -128,7 +129,7 @@ DiscoveryCounts Simulation::State::discover(const std::vector<Launcher>& transmi
 
 // Every sequence with every receiver: what is a path is solved exactly (image method, in double) and checked for
 // visibility.
-PathGeometry Simulation::State::solved_paths(const RadioEnds& ends, FrameCounts& counts) {
+PathGeometry Simulation::State::solved_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host) {
   const uint32_t max_depth = config.trace.max_depth;
   Sequences& sequences = discovery->sequences();
   uint32_t node_count = sequences.collect(ends.transmitter_count);
@@ -145,13 +146,16 @@ PathGeometry Simulation::State::solved_paths(const RadioEnds& ends, FrameCounts&
   counts.sequences = node_count - ends.transmitter_count;
   counts.candidates = candidate_count;
   counts.solved = solved.count;
-  return visible_paths((*visible)(solved, sequences.counters()));
+  const SolvedList& seen = (*visible)(solved, sequences.counters());
+  host.lap();
+  return visible_paths(seen);
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths.
-PathGeometry Simulation::State::received_paths(const RadioEnds& ends, FrameCounts& counts) {
+PathGeometry Simulation::State::received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host) {
   counts.sequences = discovery->sequences().collect(ends.transmitter_count) - ends.transmitter_count;
   counts.receptions = trails->receptions();
+  host.lap();
   return trails->paths();
 }
 
@@ -252,9 +256,9 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   if (cache) out.cache = cache->summary();
   if (s.trails) out.waypoints = s.trails->take_waypoints();
   const bool sphere = s.trails && s.trails->receives();
-  const PathGeometry one_way = sphere ? s.received_paths(ends, out.counts) : s.solved_paths(ends, out.counts);
+  const PathGeometry one_way = sphere ? s.received_paths(ends, out.counts, host_watch)
+                                      : s.solved_paths(ends, out.counts, host_watch);
   ++s.warm_frames;
-  host_watch.lap();
   const PathGeometry geometry = with_reversed_twins(one_way, s.world->receiver_of_transmitter(),
                                                     s.world->transmitter_of_receiver(), out.world.links);
 
