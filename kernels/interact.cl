@@ -1,6 +1,7 @@
 // interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in
-// order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: only the trie is
-// wanted. With WT_AGES, ages[node] becomes `now` for every node that a ray reaches.
+// order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: nothing is reflected.
+// With WT_THROUGH every such ray also goes on straight, in the same place of the queue `through`.
+// With WT_AGES, ages[node] becomes `now` for every node that a ray reaches.
 // With WT_SAMPLES, ends[sample] becomes the node. With WT_LABELS, queues have all planes of records.h.
 #include "lib/block_rank.clh"
 #include "lib/mirror.clh"
@@ -14,21 +15,42 @@ inline void note_end(const global float* rays, uint capacity, uint i, uint node,
 #endif
 }
 
-inline void go_on(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity,
-                  uint i, uint surface, uint node, global float* next, uint j) {
-  float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
-  wt_mirror(surfaces + surface, hits[i], &o, &d);
-  wt_store_float3(next, capacity, WT_RAY_ORIGIN, j, o);
-  wt_store_float3(next, capacity, WT_RAY_DIRECTION, j, d);
-  wt_store_word(next, capacity, WT_RAY_NODE, j, node);
-  wt_store_word(next, capacity, WT_RAY_SURFACE, j, surface);
+// Ray i goes on as ray j of a queue, from o along d.
+inline void store_ray(const global float* rays, const global float* hits, uint capacity, uint i, uint surface,
+                      uint node, float3 o, float3 d, global float* queue, uint j) {
+  wt_store_float3(queue, capacity, WT_RAY_ORIGIN, j, o);
+  wt_store_float3(queue, capacity, WT_RAY_DIRECTION, j, d);
+  wt_store_word(queue, capacity, WT_RAY_NODE, j, node);
+  wt_store_word(queue, capacity, WT_RAY_SURFACE, j, surface);
 #if defined(WT_SAMPLES) || defined(WT_LABELS)
-  wt_store_word(next, capacity, WT_RAY_SAMPLE, j, wt_load_word(rays, capacity, WT_RAY_SAMPLE, i));
+  wt_store_word(queue, capacity, WT_RAY_SAMPLE, j, wt_load_word(rays, capacity, WT_RAY_SAMPLE, i));
 #endif
 #ifdef WT_LABELS
-  wt_store_word(next, capacity, WT_RAY_LEFT, j, wt_load_word(hits, capacity, WT_HIT_PRIMITIVE, i));
-  wt_store_word(next, capacity, WT_RAY_REGION, j, wt_load_word(rays, capacity, WT_RAY_REGION, i));
-  wt_store_word(next, capacity, WT_RAY_ENTRY, j, wt_load_word(rays, capacity, WT_RAY_ENTRY, i));
+  wt_store_word(queue, capacity, WT_RAY_LEFT, j, wt_load_word(hits, capacity, WT_HIT_PRIMITIVE, i));
+  wt_store_word(queue, capacity, WT_RAY_REGION, j, wt_load_word(rays, capacity, WT_RAY_REGION, i));
+  wt_store_word(queue, capacity, WT_RAY_ENTRY, j, wt_load_word(rays, capacity, WT_RAY_ENTRY, i));
+#endif
+}
+
+// The reflected ray has lived through the node of its hit; what was transmitted has bent nowhere and keeps the ray's.
+inline void store(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity,
+                  uint i, uint surface, uint node, uint last, global float* next, global float* through, uint j) {
+  float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
+#ifdef WT_THROUGH
+  store_ray(rays, hits, capacity, i, surface, wt_load_word(rays, capacity, WT_RAY_NODE, i),
+            wt_behind(surfaces + surface, hits[i], o, d), d, through, j);
+  if (last) return;
+#endif
+  wt_mirror(surfaces + surface, hits[i], &o, &d);
+  store_ray(rays, hits, capacity, i, surface, node, o, d, next, j);
+}
+
+// Is there anything to store of a ray that hit?
+inline bool goes_on(uint last) {
+#ifdef WT_THROUGH
+  return true;
+#else
+  return !last;
 #endif
 }
 
@@ -38,7 +60,7 @@ inline void go_on(const global wt_surface* surfaces, const global float* rays, c
 kernel void interact(const global float* rays, const global float* hits, uint capacity, uint ray_count,
                      const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table,
                      uint mask, global wt_counters* counters, global float* next, uint last, global uint* ages,
-                     uint now, global uint* ends) {
+                     uint now, global uint* ends, global float* through) {
   const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
   const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, ray_count);
   if (first >= ray_count) return;
@@ -58,7 +80,7 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
 #endif
     }
     note_end(rays, capacity, i, last_node, ends);
-    if (!last) go_on(surfaces, rays, hits, capacity, i, surface, last_node, next, j);
+    if (goes_on(last)) store(surfaces, rays, hits, capacity, i, surface, last_node, last, next, through, j);
     ++j;
   }
 }
@@ -67,7 +89,7 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
     const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
     const global wt_surface* surfaces, global ulong* table, uint mask, global wt_counters* counters, global float* next,
-    uint last, global uint* ages, uint now, global uint* ends) {
+    uint last, global uint* ages, uint now, global uint* ends, global float* through) {
   local uint alive[WT_BLOCK_MASKS];
   const uint i = get_global_id(0);
   const uint surface = i < ray_count ? wt_load_word(hits, capacity, WT_HIT_SURFACE, i) : WT_NONE;
@@ -79,8 +101,8 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
   if (node != WT_NONE) ages[node] = now;
 #endif
   note_end(rays, capacity, i, node, ends);
-  if (last) return;
+  if (!goes_on(last)) return;
   const uint j = block_offsets[get_group_id(0)] + wt_block_rank(alive);
-  go_on(surfaces, rays, hits, capacity, i, surface, node, next, j);
+  store(surfaces, rays, hits, capacity, i, surface, node, last, next, through, j);
 }
 #endif

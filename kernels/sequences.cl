@@ -93,8 +93,11 @@ kernel void keep(global ulong* table, uint mask, const global wt_solved* solved,
     return;
   }
   uint node = WT_ROOT | solved[i].transmitter;
-  for (uint k = 0; k < solved[i].depth; ++k)
-    node = enter(table, mask, node, sequences[(size_t)i * max_depth + k], ages, now);
+  for (uint k = 0; k < solved[i].depth; ++k) {
+    const uint step = sequences[(size_t)i * max_depth + k];
+    if ((step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) continue;  // the trie holds reflections only
+    node = enter(table, mask, node, step, ages, now);
+  }
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
 }
 

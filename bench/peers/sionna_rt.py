@@ -5,6 +5,8 @@
        sionna_rt.py links.json munich.xml > peer.jsonl
        bench_paths --peer peer.jsonl
 
+Line of sight and specular reflections, as bench_paths; --diffraction and --transmission add those, on the same links:
+       sionna_rt.py links.json munich.xml --diffraction --only 1x1 --only 1x100 --rays 1e6
 "error" is the share of paths that are missed, among the distinct ones that the largest launch for the same links finds;
 null for that launch itself.
 Paths that Sionna RT reports twice count once; so do those of coplanar neighbours, which have one length.
@@ -22,6 +24,7 @@ import time
 import mitsuba as mi
 import numpy as np
 import sionna.rt as rt
+from sionna.rt.constants import InteractionType
 
 # Transmitters, receivers, rays a transmitter: those of bench_paths.cpp. For each set of links the most rays come last.
 CASES = [(1, 1, 10**5), (1, 1, 10**6), (1, 1, 10**7), (1, 10, 10**6),
@@ -43,14 +46,14 @@ def load(scene_file, links, tx_count, rx_count):
 
 
 def distinct_paths(paths):
-    """(link, depth, delay) of every path, each once, sorted."""
+    """(link, interactions, delay) of every path, each once, sorted."""
     valid = paths.valid.numpy()  # rx, tx, path
     links = np.arange(valid.shape[0] * valid.shape[1]).reshape(valid.shape[:2] + (1,))
     link = np.broadcast_to(links, valid.shape)[valid]
-    depth = (paths.interactions.numpy() != 0).sum(axis=0)[valid]  # depth, rx, tx, path
+    kinds = np.moveaxis(paths.interactions.numpy(), 0, -1)[valid]  # depth, rx, tx, path: 0 where there is none
     delay = paths.tau.numpy()[valid]
     found = []
-    for row in sorted(zip(link.tolist(), depth.tolist(), delay.tolist())):
+    for row in sorted(zip(link.tolist(), map(tuple, kinds.tolist()), delay.tolist())):
         if not (found and found[-1][:2] == row[:2] and same_delay(found[-1][2], row[2])):
             found.append(row)
     return found
@@ -75,11 +78,13 @@ def recall(reference, found):
     return hits / max(len(reference), 1)
 
 
-def solve(solver, scene, links, rays):
+def solve(solver, scene, links, rays, interactions):
     """Seconds of one solve until its results lie in the host's memory, and the paths."""
     start = time.perf_counter()
     paths = solver(scene, max_depth=links["max_depth"], samples_per_src=rays, los=True, specular_reflection=True,
-                   diffuse_reflection=False, refraction=False, diffraction=False, synthetic_array=True)
+                   diffuse_reflection=False, refraction="transmission" in interactions,
+                   diffraction="diffraction" in interactions, edge_diffraction="free edges" in interactions,
+                   synthetic_array=True)
     real, imaginary = paths.a
     for result in (paths.valid, paths.tau, real, imaginary):
         result.numpy()
@@ -97,12 +102,20 @@ def device_name():
     return f"{what}, Sionna RT {importlib.metadata.version('sionna-rt')} ({where})"
 
 
-def measure(solver, scene, links, rays, runs):
+def measure(solver, scene, links, rays, interactions, runs):
     """Seconds of the first solve, median seconds of warm ones, and the distinct paths."""
-    first, _ = solve(solver, scene, links, rays)
-    solve(solver, scene, links, rays)  # the second solve still compiles
-    seconds = [solve(solver, scene, links, rays)[0] for _ in range(runs)]  # no result outlives its solve
-    return first, statistics.median(seconds), distinct_paths(solve(solver, scene, links, rays)[1])
+
+    def once():
+        return solve(solver, scene, links, rays, interactions)
+
+    first, _ = once()
+    once()  # the second solve still compiles
+    seconds = [once()[0] for _ in range(runs)]  # no result outlives its solve
+    return first, statistics.median(seconds), distinct_paths(once()[1])
+
+
+def count_with(paths, kind):
+    return sum(int(kind) in kinds for _, kinds, _ in paths)
 
 
 def main():
@@ -111,18 +124,30 @@ def main():
     parser.add_argument("scene", type=pathlib.Path, help="the Mitsuba XML file of the same scene")
     parser.add_argument("--runs", type=int, default=5, help="warm solves of which the median counts")
     parser.add_argument("--large", action="store_true", help="on a CPU, too, the cases of 1e7 rays and more")
-    parser.add_argument("--only", metavar="TXxRX", help="only cases of this many links, such as 1x100")
+    parser.add_argument("--only", metavar="TXxRX", action="append",
+                        help="only cases of this many links, such as 1x100; may be given several times")
+    parser.add_argument("--rays", type=float, help="only cases of this many rays a transmitter, such as 1e6")
+    parser.add_argument("--diffraction", action="store_true", help="paths with a diffraction at a wedge, too")
+    parser.add_argument("--free-edges", action="store_true", help="with --diffraction: at edges of one face, too")
+    parser.add_argument("--transmission", action="store_true", help="paths through surfaces, too")
     arguments = parser.parse_args()
+    if arguments.free_edges and not arguments.diffraction:
+        parser.error("--free-edges needs --diffraction")
+    interactions = ["reflection"] + [name for name, wanted in (("diffraction", arguments.diffraction),
+                                                               ("free edges", arguments.free_edges),
+                                                               ("transmission", arguments.transmission)) if wanted]
     links = json.loads(arguments.links.read_text(encoding="utf-8"))
     all_cases = arguments.large or mi.variant().startswith("cuda")
     solver = rt.PathSolver()
     results = []
     for tx_count, rx_count, rays in CASES:
         name = f"{tx_count}x{rx_count}"
-        if (tx_count * rays >= LARGE and not all_cases) or arguments.only not in (None, name):
+        if tx_count * rays >= LARGE and not all_cases:
+            continue
+        if (arguments.only and name not in arguments.only) or arguments.rays not in (None, rays):
             continue
         scene = load(arguments.scene, links, tx_count, rx_count)
-        first, median, paths = measure(solver, scene, links, rays, arguments.runs)
+        first, median, paths = measure(solver, scene, links, rays, interactions, arguments.runs)
         results.append((name, rays, first, median, paths))
         print(f"sionna_rt.py: {name}, {rays} rays: {median:.3f} s, {len(paths)} paths", file=sys.stderr)
     largest = {name: (rays, paths) for name, rays, _, _, paths in results}
@@ -130,7 +155,7 @@ def main():
         most_rays, most_paths = largest[name]
         print(json.dumps({
             "bench": "paths",
-            "case": f"{links['scene']}, {name} links, {rays:.0e} rays a transmitter",
+            "case": ", ".join([links["scene"], f"{name} links", f"{rays:.0e} rays a transmitter"] + interactions[1:]),
             "device": device_name(),
             "value": median,
             "unit": "s a frame",
@@ -141,7 +166,10 @@ def main():
             "detail": f"{len(paths)} distinct paths; first solve {first:.3f} s",
             "links": name,
             "rays": rays,
+            "interactions": interactions,
             "paths": len(paths),
+            "diffracted_paths": count_with(paths, InteractionType.DIFFRACTION),
+            "transmitted_paths": count_with(paths, InteractionType.REFRACTION),
             "first_frame_s": first,
             "command": " ".join([pathlib.Path(sys.argv[0]).name] + sys.argv[1:]),
             "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),

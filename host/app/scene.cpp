@@ -21,6 +21,7 @@ void add_info(CLI::App& scene) {
   struct Options {
     std::string file, up = "auto", default_material;
     double scale = 1;
+    bool edges = false;
   };
   CLI::App* command = scene.add_subcommand("info", "Print what is understood of a scene file");
   const auto options = std::make_shared<Options>();
@@ -28,13 +29,15 @@ void add_info(CLI::App& scene) {
   command->add_option("--scale", options->scale, "As scene.scale: metres a file unit")->check(CLI::PositiveNumber);
   command->add_option("--up", options->up, "As scene.up")->check(CLI::IsMember({"auto", "y", "z"}));
   command->add_option("--default-material", options->default_material, "As scene.default_material");
+  command->add_flag("--edges", options->edges, "List the edges that can diffract instead");
   command->callback([options] {
     SceneConfig config;
     config.file = options->file;
     config.scale = options->scale;
     config.up = options->up;
     config.default_material = options->default_material;
-    std::cout << describe_scene(load_scene_file(options->file, config));
+    const Scene loaded = load_scene_file(options->file, config);
+    std::cout << (options->edges ? describe_edges(loaded) : describe_scene(loaded));
   });
 }
 

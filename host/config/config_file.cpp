@@ -222,12 +222,7 @@ class Parser {
   void store(const Assignment& a) {
     const Slot slot = a.field->slot(config_, a.element);
     const std::string problem = assign(*a.field, a.key, slot, *a.value, a.place.set > 0 ? fs::path() : folder_);
-    if (!problem.empty()) return fail(a.place, problem);
-    if (a.field->later.empty()) return;
-    Config defaults = prototype();
-    const std::string given = literal(*a.field, slot);
-    if (given != literal(*a.field, a.field->slot(defaults, 0)))
-      fail(a.place, fmt::format("{} = {} is not available in this version: {}", a.key, given, a.field->later));
+    if (!problem.empty()) fail(a.place, problem);
   }
 
   // Of a key, transmitter.0.name; else of what holds it, transmitter.0; else the head of the file.

@@ -28,7 +28,7 @@ std::string wrapped(const std::string& text, const std::string& lead) {
   return out + lead + line + "\n";
 }
 
-// Type, range, default and availability, in one sentence.
+// Type, range and default, in one sentence.
 std::string facts(const Field& field) {
   Config defaults = prototype();
   const std::string value = literal(field, field.slot(defaults, 0));
@@ -37,7 +37,6 @@ std::string facts(const Field& field) {
   out += field.required                                      ? "; required."
          : value.empty() || value == "\"\"" || value == "{}" ? "."
                                                              : "; default " + value + ".";
-  if (!field.later.empty()) out += " Not in this version: " + field.later + ".";
   return out;
 }
 

@@ -77,6 +77,32 @@ void check_reception(const Config& config, Found& out) {
                    "trace.join out, or use trace.reception = \"exact\""});
 }
 
+// What needs more of rays than that they tell which surfaces they met.
+void check_features(const Config& config, Found& out) {
+  const TraceConfig& trace = config.trace;
+  const std::pair<const char*, bool> features[] = {{"trace.diffraction", trace.diffraction},
+                                                   {"trace.transmission", trace.transmission},
+                                                   {"trace.scattering", trace.scattering}};
+  for (const auto& [key, on] : features) {
+    if (!on) continue;
+    if (trace.reception == "sphere")
+      out.push_back({{key, "trace.reception"},
+                     fmt::format("trace.reception = \"sphere\" receives reflected rays alone, {} = true asks for "
+                                 "more: set it to false, or use trace.reception = \"exact\"",
+                                 key)});
+    if (trace.join && key != std::string("trace.scattering"))
+      out.push_back({{key, "trace.join"},
+                     fmt::format("trace.join = true sends rays half the way, {} = true needs them whole: leave "
+                                 "trace.join out, or set {} to false",
+                                 key, key)});
+  }
+  if (trace.transmission && config.output.waypoints > 0)
+    out.push_back({{"output.waypoints", "trace.transmission"},
+                   fmt::format("output.waypoints = {} follows rays that are reflected, and with trace.transmission = "
+                               "true they split: leave output.waypoints out, or set trace.transmission to false",
+                               config.output.waypoints)});
+}
+
 void check_waypoints(const Config& config, Found& out) {
   if (config.output.waypoints > 0 && config.trace.rays == 0)
     out.push_back({{"output.waypoints", "trace.rays"},
@@ -166,6 +192,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_launch(config, out);
   check_rays(config, out);
   check_reception(config, out);
+  check_features(config, out);
   check_waypoints(config, out);
   check_cache(config, out);
   check_ends(config, out);

@@ -9,7 +9,6 @@ namespace {
 
 Table trace_table() {
   const auto t = [](auto member) { return at(&Config::trace, member); };
-  const std::string specular = "leave it false; this version finds line of sight and specular reflections";
   return {
       .name = "trace",
       .doc = "How rays discover the surfaces that paths may touch.",
@@ -60,13 +59,42 @@ Table trace_table() {
           {.name = "reflection", .slot = t(&TraceConfig::reflection), .doc = "Specular reflection."},
           {.name = "diffraction",
            .slot = t(&TraceConfig::diffraction),
-           .doc = "Diffraction at edges.",
-           .later = specular},
+           .doc = "Diffraction at edges, by the uniform theory of diffraction. Costs a launch of every receiver that "
+                  "does not send; with it shadows are filled."},
+          {.name = "max_diffractions",
+           .slot = t(&TraceConfig::max_diffractions),
+           .unit = "a path",
+           .range = {1, 2},
+           .doc = "2 adds paths over two edges, straight from one to the other: the field behind a whole building, and "
+                  "a candidate for every pair of edges that both ends see."},
+          {.name = "free_edges",
+           .slot = t(&TraceConfig::free_edges),
+           .doc = "Edges of a single face diffract too, as half planes: screens, signs, the rims of open meshes."},
+          {.name = "diffraction_rays",
+           .slot = t(&TraceConfig::diffraction_rays),
+           .unit = "rays a receiver",
+           .range = {0, 2147483648.0},
+           .doc = "With diffraction, of a receiver that does not send, at most rays. 0: a tenth of rays, but 100,000 "
+                  "at least: edges are met by many rays."},
           {.name = "transmission",
            .slot = t(&TraceConfig::transmission),
-           .doc = "Transmission through walls.",
-           .later = specular},
-          {.name = "scattering", .slot = t(&TraceConfig::scattering), .doc = "Diffuse scattering.", .later = specular},
+           .doc = "Transmission through surfaces, straight on, each a slab as thick as its material says. Rays then "
+                  "split at every surface, so it may double the tracing with each transmission allowed."},
+          {.name = "max_transmissions",
+           .slot = t(&TraceConfig::max_transmissions),
+           .unit = "a path",
+           .range = {1, 32},
+           .doc = "They count for max_depth too. 2 pass through one building or vehicle."},
+          {.name = "scattering",
+           .slot = t(&TraceConfig::scattering),
+           .doc = "Diffuse scattering by surfaces whose material has a coefficient (material.scattering), one tile a "
+                  "path, from the transmitter to the tile to the receiver."},
+          {.name = "tile_m",
+           .slot = t(&TraceConfig::tile_m),
+           .unit = "m",
+           .range = {0, 1e6, true},
+           .doc = "No tile of scattering is longer. Half as long are four times as many paths, and about a quarter of "
+                  "the error."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
            .choices = {"hilbert", "fibonacci", "random"},

@@ -45,8 +45,6 @@ struct Field {
   std::string doc = {};
   std::string example = {};  // TOML that `init` writes instead of the default: a comment, unless required or needed
   bool needed = false;       // not required, but the config of `init` would not run without its example
-  // Not empty: the feature is not in this version, and this says what to use. Only the default is accepted then.
-  std::string later = {};
 };
 
 struct Table {

@@ -8,7 +8,8 @@ namespace wavetracer {
 
 class Candidates {
  public:
-  explicit Candidates(gpu::Context& context);
+  // max_reflections: longer sequences are no paths.
+  explicit Candidates(gpu::Context& context, uint32_t max_reflections = WT_MAX_DEPTH);
   // nodes: roots first, then trie nodes. Returns the number of candidates, in list().
   uint32_t operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                       const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, gpu::Buffer<wt_counters>& counters);
@@ -17,6 +18,7 @@ class Candidates {
  private:
   gpu::Context& context_;
   gpu::Kernel kernel_;
+  uint32_t max_reflections_;
   gpu::Buffer<wt_candidate> list_;
 };
 

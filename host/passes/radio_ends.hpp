@@ -1,5 +1,5 @@
 // Transmitters and receivers on the device: double4 records (position, instance), and receivers as float planes for the
-// conservative rejection. Positions are recentred metres; the instance is that of the vehicle that carries the end, -1
+// conservative rejection. Where paths are sought from both ends, receivers that do not send launch rays too: listeners. Positions are recentred metres; the instance is that of the vehicle that carries the end, -1
 // where none does.
 #pragma once
 #include <algorithm>
@@ -11,14 +11,15 @@
 namespace wavetracer {
 
 struct RadioEnds {
-  gpu::Buffer<double> transmitters, receivers;  // four doubles each
+  gpu::Buffer<double> transmitters, receivers;  // four doubles each; listeners follow the transmitters
   gpu::Buffer<float> receiver_planes;           // three planes of receiver_capacity
   gpu::Buffer<uint16_t> links;                  // bit b of word tx * (receiver_capacity / 16) + g: receiver 16 g + b
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
 };
 
 inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndState>& transmitters,
-                                 const std::vector<EndState>& receivers, const std::vector<Link>& links) {
+                                 const std::vector<EndState>& receivers, const std::vector<Link>& links,
+                                 const std::vector<uint32_t>& listeners = {}) {
   const auto quadruples = [](const std::vector<EndState>& ends) {
     std::vector<double> out;
     for (const EndState& end : ends)
@@ -38,7 +39,9 @@ inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndSta
   std::vector<uint16_t> mask(size_t{ends.transmitter_count} * groups, 0);
   for (const Link& link : links)
     mask[size_t{link.tx} * groups + link.rx / 16] |= static_cast<uint16_t>(1u << link.rx % 16);
-  ends.transmitters = context.buffer(quadruples(transmitters), "transmitters");
+  std::vector<EndState> launching = transmitters;
+  for (const uint32_t receiver : listeners) launching.push_back(receivers[receiver]);
+  ends.transmitters = context.buffer(quadruples(launching), "transmitters");
   ends.receivers = context.buffer(quadruples(receivers), "receivers");
   ends.receiver_planes = context.buffer(planes, "receiver planes");
   ends.links = context.buffer(mask, "links");

@@ -3,7 +3,9 @@
 #include "passes/visible.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <cstddef>
+
+#include "passes/growing_list.hpp"
 
 namespace wavetracer {
 
@@ -14,17 +16,16 @@ Visible::Visible(gpu::Context& context, uint32_t max_depth)
 }
 
 const SolvedList& Visible::operator()(const SolvedList& solved, gpu::Buffer<wt_counters>& counters) {
-  for (;;) {
-    kernel_({solved.count, local_}, "visible", solved.headers, solved.vertices, solved.sequences, solved.count,
-            solved.max_depth, visible_.headers, visible_.vertices, visible_.sequences,
-            static_cast<uint32_t>(visible_.headers.size()), counters);
-    wt_counters now = counters.read_one(0, "visible");
-    visible_.count = now.visible;
-    if (now.visible <= visible_.headers.size()) return visible_;
-    visible_.reserve(context_, size_t{now.visible} + now.visible / 4);
-    now.visible = 0;
-    counters.write(std::vector{now}, 0, "visible");
-  }
+  zero_counter(context_, counters, offsetof(wt_counters, visible), "visible");
+  visible_.count = fill_list(
+      counters, &wt_counters::visible, "visible", [&] { return visible_.headers.size(); },
+      [&] {
+        kernel_({solved.count, local_}, "visible", solved.headers, solved.vertices, solved.sequences, solved.count,
+                solved.max_depth, visible_.headers, visible_.vertices, visible_.sequences,
+                static_cast<uint32_t>(visible_.headers.size()), counters);
+      },
+      [&](size_t rows) { visible_.reserve(context_, rows); });
+  return visible_;
 }
 
 }  // namespace wavetracer

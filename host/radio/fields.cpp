@@ -12,26 +12,12 @@
 
 #include "radio/constants.hpp"
 #include "radio/link_groups.hpp"
-#include "radio/material.hpp"
-#include "radio/slab.hpp"
-#include "radio/transfer.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
 
 glm::dvec3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
-std::vector<std::complex<double>> permittivities(const Scene& scene, double frequency_hz) {
-  std::vector<std::complex<double>> result(scene.materials.size());
-  std::vector<bool> known(scene.materials.size());
-  for (const Surface& surface : scene.surfaces) {
-    if (known[surface.material]) continue;
-    known[surface.material] = true;
-    result[surface.material] = complex_permittivity(scene.materials[surface.material], frequency_hz);
-  }
-  return result;
-}
 
 // The order of rows of one link, complete: two paths that compare equal are the same path.
 bool precedes(const PathGeometry& geometry, const std::vector<double>& delay_s, uint32_t p, uint32_t q) {
@@ -56,6 +42,28 @@ std::vector<uint32_t> ordered(const PathGeometry& geometry, const std::vector<do
     std::ranges::sort(links.rows(link), [&](uint32_t p, uint32_t q) { return precedes(geometry, delay_s, p, q); });
   });
   return std::move(links.row);
+}
+
+// Is there a path of these interactions among the rows of the link, as long as this row's to a picosecond?
+bool has_sibling(const PathGeometry& geometry, const std::vector<double>& delay_s, const std::vector<uint32_t>& order,
+                 size_t row, std::span<const uint32_t> surfaces, std::span<const uint8_t> interactions) {
+  const uint32_t path = order[row];
+  const auto near = [&](size_t other) {
+    const uint32_t p = order[other];
+    return geometry.tx[p] == geometry.tx[path] && geometry.rx[p] == geometry.rx[path] &&
+           std::abs(delay_s[p] - delay_s[path]) < 1e-12;
+  };
+  const auto same = [&](size_t other) {
+    const uint64_t first = geometry.first[order[other]], count = geometry.first[order[other] + 1] - first;
+    return std::ranges::equal(std::span(geometry.surface).subspan(first, count), surfaces) &&
+           std::ranges::equal(std::span(geometry.interaction).subspan(first, count), interactions);
+  };
+  size_t begin = row, end = row + 1;
+  while (begin > 0 && near(begin - 1)) --begin;
+  while (end < order.size() && near(end)) ++end;
+  for (size_t other = begin; other < end; ++other)
+    if (same(other)) return true;
+  return false;
 }
 
 // Columns of this many rows and vertices. Most of the time goes to pages that are touched first, so cores share it.
@@ -91,9 +99,7 @@ uint32_t most_ports(const auto& ends) {
 
 FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models,
                        std::span<const Instance> instances)
-    : surfaces_(scene, models, instances), wavelength_m_(speed_of_light_m_s / config.radio.frequency_hz) {
-  for (uint32_t part = 0; part < surfaces_.part_count(); ++part)
-    permittivity_.push_back(permittivities(surfaces_.scene(part), config.radio.frequency_hz));
+    : interactions_(scene, config, models, instances), origin_m_(scene.origin_m) {
   const auto make_ends = [&](const std::vector<RadioEnd>& ends, std::vector<End>& made, std::vector<EndState>& still) {
     for (const RadioEnd& end : ends) {
       made.push_back({end.name, make_antenna(end)});
@@ -109,7 +115,7 @@ FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const
 }
 
 void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs,
-                          Paths& paths, size_t row) const {
+                          const SiblingQuestion& sibling, Paths& paths, size_t row) const {
   const End &tx = transmitters_[geometry.tx[path]], &rx = receivers_[geometry.rx[path]];
   const glm::dvec3 departure = legs.directions().front(), arrival = -legs.directions().back();
   if (departure == glm::dvec3{0}) {
@@ -120,54 +126,40 @@ void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const World
   }
 
   const uint64_t first = geometry.first[path], first_vertex = paths.vertex_offset[row];
-  const SphericalBasis departure_basis = basis_of(departure), arrival_basis = basis_of(arrival);
-  Transfer transfer(departure_basis);
-  for (size_t m = 0; m < legs.meetings().size(); ++m) {
-    const auto& [place, normal] = legs.meetings()[m];
-    const uint8_t interaction = geometry.interaction[first + m];
-    const glm::dvec3 &k_in = legs.directions()[m], &k_out = legs.directions()[m + 1];
-    const double cos_theta = std::min(std::abs(glm::dot(k_in, normal)), 1.0);
-    const uint32_t material = surfaces_.surface(place).material;
-    const SlabCoefficients slab =
-        slab_coefficients(permittivity_[place.part][material], cos_theta,
-                          surfaces_.scene(place.part).materials[material].thickness_m, wavelength_m_);
-    if (interaction == reflection) {
-      transfer.meet(k_in, k_out, normal, slab.reflection_te, slab.reflection_tm);
-    } else if (interaction == transmission) {
-      transfer.meet(k_in, k_out, normal, slab.transmission_te, slab.transmission_tm);
-    } else {
-      throw RuntimeError(
-          fmt::format("path {} has an interaction of kind {}: fields know reflection (1) and "
-                      "transmission (4)",
-                      path, interaction));
-    }
-    paths.vertex_position_m[first_vertex + m] = geometry.vertex[first + m] + surfaces_.scene(0).origin_m;
-    paths.vertex_interaction[first_vertex + m] = interaction;
-    paths.vertex_surface[first_vertex + m] = place.surface;
+  const size_t count = geometry.first[path + 1] - first;
+  for (size_t m = 0; m < count; ++m) {
+    const VertexPlace place = interactions_.place(geometry, first + m);
+    paths.vertex_position_m[first_vertex + m] = geometry.vertex[first + m] + origin_m_;
+    paths.vertex_interaction[first_vertex + m] = geometry.interaction[first + m];
+    paths.vertex_surface[first_vertex + m] = place.number;
     paths.vertex_instance[first_vertex + m] = place.instance;
   }
-  const Matrix2 m = transfer.seen_in(arrival_basis);
+  const SphericalBasis departure_basis = basis_of(departure), arrival_basis = basis_of(arrival);
+  const Matrix2 m =
+      interactions_.carried(geometry, path, state, legs, departure_basis, arrival_basis, sibling);
 
   const Angles aod = angles_of(departure), aoa = angles_of(arrival);
   paths.tx[row] = geometry.tx[path];
   paths.rx[row] = geometry.rx[path];
-  paths.depth[row] = static_cast<uint32_t>(legs.meetings().size());
+  paths.depth[row] = static_cast<uint32_t>(count);
   paths.delay_s[row] = legs.length_m() / speed_of_light_m_s;
   paths.aod_theta_rad[row] = aod.theta_rad;
   paths.aod_phi_rad[row] = aod.phi_rad;
   paths.aoa_theta_rad[row] = aoa.theta_rad;
   paths.aoa_phi_rad[row] = aoa.phi_rad;
   // Plus zero: where all stands still the shift is 0, not -0.
-  paths.doppler_hz[row] = closing_speed_m_s(legs, surfaces_, state, geometry, path) / wavelength_m_ + 0.0;
+  const double wavelength_m = interactions_.wavelength_m();
+  const std::span instances(paths.vertex_instance.data() + first_vertex, count);
+  paths.doppler_hz[row] = closing_speed_m_s(legs, state, geometry, path, instances) / wavelength_m + 0.0;
   const PortFields sent = tx.antenna.fields(departure, departure_basis, state.transmitters[geometry.tx[path]].rotation);
   const PortFields heard = rx.antenna.fields(arrival, arrival_basis, state.receivers[geometry.rx[path]].rotation);
-  const double spreading = wavelength_m_ / (4 * std::numbers::pi * legs.length_m());
+  const double at_1_m = wavelength_m / (4 * std::numbers::pi);
   double power = 0;
   for (uint32_t t = 0; t < tx.antenna.ports(); ++t) {
     const FieldPair come{m[0] * sent[t].theta + m[1] * sent[t].phi, m[2] * sent[t].theta + m[3] * sent[t].phi};
     for (uint32_t r = 0; r < rx.antenna.ports(); ++r) {
       std::complex<double>& a = paths.a[row][r * tx_ports_ + t];
-      a = spreading * (heard[r].theta * come.theta + heard[r].phi * come.phi);
+      a = at_1_m * (heard[r].theta * come.theta + heard[r].phi * come.phi);
       power += std::norm(a);
     }
   }
@@ -191,8 +183,11 @@ Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const Wo
   tbb::parallel_for(tbb::blocked_range<size_t>(0, geometry.size(), 64), [&](const tbb::blocked_range<size_t>& rows) {
     Legs legs;
     for (size_t row = rows.begin(); row < rows.end(); ++row) {
-      legs.fill(surfaces_, state, geometry, order[row]);
-      evaluate(geometry, order[row], state, legs, paths, row);
+      legs.fill(interactions_.surfaces(), state, geometry, order[row]);
+      const auto sibling = [&](std::span<const uint32_t> surfaces, std::span<const uint8_t> interactions) {
+        return has_sibling(geometry, delay_s, order, row, surfaces, interactions);
+      };
+      evaluate(geometry, order[row], state, legs, sibling, paths, row);
     }
   });
   return paths;

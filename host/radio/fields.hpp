@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "radio/antenna.hpp"
+#include "radio/interactions.hpp"
 #include "radio/legs.hpp"
-#include "radio/surface_table.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/path_geometry.hpp"
 #include "wavetracer/paths.hpp"
@@ -26,14 +26,15 @@ class FieldModel {
   FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models = {},
              std::span<const Instance> instances = {});
 
-  // geometry: specular reflections and straight transmissions, in any order of rows, in the recentred frame of the
-  // scene, its surfaces numbered through the world. Rows of the result are sorted by tx, rx, delay, surfaces (the
+  // geometry: interactions as class Interactions knows them, in any order of rows, in the recentred frame of the scene,
+  // its surfaces and wedges numbered through the world. Rows of the result are sorted by tx, rx, delay, surfaces (the
   // world's numbers), interactions and vertices.
-  //   a[r tx_ports + t]: rx port r, tx port t; lambda / (4 pi L) times both antennas' fields and every interaction.
+  //   a[r tx_ports + t]: rx port r, tx port t; lambda / (4 pi) times both antennas' fields, every interaction and the
+  //     spreading, which is 1 / L where nothing diffracts or scatters.
   //     Ports that an antenna does not have are 0.
   //   aod: the direction in which the wave leaves tx; aoa: from rx towards where the wave comes from.
   //   doppler_hz: -1/lambda times the rate at which the path gets longer, from the velocities of its ends and of the
-  //     surfaces that reflect it.
+  //     surfaces and edges that turn it.
   //   gain_db: over all pairs of ports, -inf if an antenna is blind in that direction.
   //   vertex_surface: its number in the static scene, or in the model of the instance in vertex_instance.
   // Throws RuntimeError for another interaction and for ends that stand in the same point.
@@ -48,13 +49,11 @@ class FieldModel {
   };
 
   // Writes row `row` of the result.
-  void evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs, Paths& paths,
-                size_t row) const;
+  void evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs,
+                const SiblingQuestion& sibling, Paths& paths, size_t row) const;
 
-  SurfaceTable surfaces_;
-  double wavelength_m_;
-  // By part of the surface table, then by material; 0 where no surface uses it.
-  std::vector<std::vector<std::complex<double>>> permittivity_;
+  Interactions interactions_;
+  glm::dvec3 origin_m_;
   std::vector<End> transmitters_, receivers_;
   uint32_t tx_ports_, rx_ports_;  // the most that any end of that side has
   WorldState still_;

@@ -16,22 +16,22 @@ constexpr double shortest_leg_m = 1e-6;
 void Legs::fill(const SurfaceTable& surfaces, const WorldState& state, const PathGeometry& geometry, size_t path) {
   length_m_ = 0;
   directions_.clear();
-  meetings_.clear();
+  lengths_m_.clear();
   glm::dvec3 from = state.transmitters[geometry.tx[path]].position_m;
   const auto add = [&](const glm::dvec3& to, const glm::dvec3& continued) {
     const glm::dvec3 leg = to - from;
     const double length_m = glm::length(leg);
     length_m_ += length_m;
+    lengths_m_.push_back(length_m);
     directions_.push_back(length_m > shortest_leg_m ? leg / length_m : continued);
     from = to;
   };
   glm::dvec3 continued{0};
   for (uint64_t i = geometry.first[path]; i < geometry.first[path + 1]; ++i) {
-    const SurfacePlace place = surfaces.at(geometry.surface[i]);
-    meetings_.push_back({place, surfaces.normal(place, state)});
     add(geometry.vertex[i], continued);
     continued = directions_.back();
-    if (geometry.interaction[i] == reflection) continued = glm::reflect(continued, meetings_.back().normal);
+    if (geometry.interaction[i] == reflection)
+      continued = glm::reflect(continued, surfaces.normal(surfaces.at(geometry.surface[i]), state));
   }
   add(state.receivers[geometry.rx[path]].position_m, continued);
 }
@@ -48,19 +48,22 @@ double path_length_m(const WorldState& state, const PathGeometry& geometry, size
 
 // L = sum |x(i+1) - x(i)| over the ends and vertices x(i), so with the legs' directions k(i)
 //   dL/dt = sum k(i) . (x'(i+1) - x'(i)) = k_last . rx' - k_first . tx' + sum over vertices (k_in - k_out) . x'.
-// A vertex moves with the material point v below it and slides along the surface besides. Where a path is reflected,
-// k_in - k_out is along the normal: L is stationary under sliding (Fermat's principle), and x' = v serves exactly, v of
-// a turning mirror included. What is transmitted goes straight on, k_in = k_out, and adds nothing.
-double closing_speed_m_s(const Legs& legs, const SurfaceTable& surfaces, const WorldState& state,
-                         const PathGeometry& geometry, size_t path) {
+// A vertex moves with the material point v there and slides along its surface or edge besides. Where a path is
+// reflected, k_in - k_out is along the normal, and where it is diffracted, normal to the edge: L is stationary under
+// sliding (Fermat's principle), and x' = v serves exactly, v of a turning body included. What is scattered is a point of
+// the body. What is transmitted goes straight on, k_in = k_out, and adds nothing.
+double closing_speed_m_s(const Legs& legs, const WorldState& state, const PathGeometry& geometry, size_t path,
+                         std::span<const uint32_t> instances) {
   const std::vector<glm::dvec3>& k = legs.directions();
   double speed = glm::dot(state.transmitters[geometry.tx[path]].velocity_m_s, k.front()) +
                  glm::dot(state.receivers[geometry.rx[path]].velocity_m_s, -k.back());
-  for (size_t m = 0; m < legs.meetings().size(); ++m) {
+  for (size_t m = 0; m < instances.size(); ++m) {
     const uint64_t i = geometry.first[path] + m;
-    const SurfacePlace& place = legs.meetings()[m].place;
-    if (place.instance == no_instance || geometry.interaction[i] != reflection) continue;
-    speed += glm::dot(surfaces.velocity_m_s(place, geometry.vertex[i], state), k[m + 1] - k[m]);
+    if (instances[m] == no_instance || geometry.interaction[i] == transmission) continue;
+    const Placement& body = state.instances[instances[m]];
+    const glm::dvec3 velocity_m_s =
+        body.velocity_m_s + glm::cross(body.angular_velocity_rad_s, geometry.vertex[i] - body.position_m);
+    speed += glm::dot(velocity_m_s, k[m + 1] - k[m]);
   }
   return speed;
 }

@@ -36,8 +36,6 @@ class SurfaceTable {
     const glm::dvec3& normal = surface(place).normal;
     return place.instance == no_instance ? normal : state.instances[place.instance].rotation * normal;
   }
-  // Of the material point that is at this position of the world.
-  glm::dvec3 velocity_m_s(const SurfacePlace& place, const glm::dvec3& position_m, const WorldState& state) const;
 
  private:
   const Scene& scene_;

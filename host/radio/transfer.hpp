@@ -21,6 +21,10 @@ class Transfer {
   void meet(const glm::dvec3& k_in, const glm::dvec3& k_out, const glm::dvec3& normal, std::complex<double> te,
             std::complex<double> tm);
 
+  // The wave meets an edge or a rough surface: its field in components along from is multiplied by the matrix and goes
+  // on in components along to, each an orthonormal pair normal to the direction of travel.
+  void map(const std::array<glm::dvec3, 2>& from, const std::array<glm::dvec3, 2>& to, const Matrix2& matrix);
+
   // The matrix with its rows along (theta, phi) of the arrival basis.
   Matrix2 seen_in(const SphericalBasis& arrival) const;
 

@@ -1,4 +1,4 @@
-// Building a Scene in steps: gather, recentre, weld, clean, connect.
+// Building a Scene in steps: gather, recentre, weld, clean, connect, find wedges.
 // Every step is deterministic and sequential; a million triangles take a few seconds.
 #include "scene/build.hpp"
 
@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "scene/topology.hpp"
+#include "scene/wedges.hpp"
 #include "scene/weld.hpp"
 #include "wavetracer/error.hpp"
 
@@ -172,7 +173,7 @@ void compact_vertices(Scene& scene) {
 
 }  // namespace
 
-Scene build_scene(const RawScene& raw, ResolvedMaterials resolved) {
+Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, bool with_wedges) {
   Scene scene;
   scene.file = raw.file;
   scene.report.warnings = raw.warnings;
@@ -190,6 +191,7 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved) {
   const auto triangle_edges = find_edges(scene);
   find_surfaces(scene, triangle_material, triangle_edges);
   find_flat_edges(scene);
+  if (with_wedges) find_wedges(scene);
   scene.lower = scene.upper = scene.vertices[0];
   for (const dvec3& v : scene.vertices) {
     scene.lower = glm::min(scene.lower, v);

@@ -11,7 +11,8 @@ namespace wavetracer {
 // (float32 coordinates, in which rays are traced, have steps of 1 um from 8 m off the origin on).
 constexpr double degenerate_height_m = 1e-6;
 
-// Throws InputError for an empty scene, or one of impossible size.
-Scene build_scene(const RawScene& raw, ResolvedMaterials resolved);
+// with_wedges: fill Scene::wedges too, which only diffraction needs. Throws InputError for an empty scene, or one of
+// impossible size.
+Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, bool with_wedges = true);
 
 }  // namespace wavetracer

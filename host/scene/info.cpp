@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 
 namespace wavetracer {
 namespace {
@@ -39,6 +40,10 @@ std::string range(const Material& m) {
   return std::isinf(m.max_ghz) ? std::string("any frequency") : fmt::format("{} to {} GHz", m.min_ghz, m.max_ghz);
 }
 
+bool is_free(const Wedge& wedge) { return wedge.surface[0] == wedge.surface[1]; }
+
+std::string point(const glm::dvec3& p) { return fmt::format("{:>12.3f} {:>12.3f} {:>9.3f}", p.x, p.y, p.z); }
+
 }  // namespace
 
 std::string describe_scene(const Scene& scene) {
@@ -56,9 +61,16 @@ std::string describe_scene(const Scene& scene) {
   out += fmt::format("surfaces   {}, the largest of {} triangles\n", scene.surfaces.size(), largest);
   const LoadReport& report = scene.report;
   const auto flat = std::count_if(scene.edges.begin(), scene.edges.end(), [](const Edge& e) { return e.flat; });
-  out += fmt::format("edges      {}: {} with two faces, {} free, {} with more than two; {} flat, {} can diffract\n",
-                     scene.edges.size(), scene.edges.size() - report.free_edges - report.nonmanifold_edges,
-                     report.free_edges, report.nonmanifold_edges, flat, scene.edges.size() - static_cast<size_t>(flat));
+  out += fmt::format("edges      {}: {} with two faces, {} free, {} with more than two; {} flat\n", scene.edges.size(),
+                     scene.edges.size() - report.free_edges - report.nonmanifold_edges, report.free_edges,
+                     report.nonmanifold_edges, flat);
+  const auto free = std::count_if(scene.wedges.begin(), scene.wedges.end(), is_free);
+  out += fmt::format("diffract   {} edges: {} wedges, {} free\n", scene.wedges.size(),
+                     scene.wedges.size() - static_cast<size_t>(free), free);
+  out += fmt::format(
+      "           left out: {} pieces flat with another mesh, {} in corners with no sector wider than 180 degrees "
+      "(feet of walls)\n",
+      report.flat_pieces, report.corner_pieces);
   out += fmt::format("materials  {}\n", scene.materials.size());
   const std::vector<MaterialUse> use = material_use(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
@@ -70,6 +82,24 @@ std::string describe_scene(const Scene& scene) {
   out += fmt::format("dropped    {} degenerate and {} duplicate triangles; {} vertices welded into others\n",
                      report.degenerate_triangles, report.duplicate_triangles, report.welded_vertices);
   for (const std::string& warning : report.warnings) out += fmt::format("warning    {}\n", warning);
+  return out;
+}
+
+std::string describe_edges(const Scene& scene) {
+  std::string out =
+      fmt::format("{:>7} {:>12} {:>12} {:>9} {:>12} {:>12} {:>9} {:>9} {:>11}  {}\n", "edge", "start x, m", "y", "z",
+                  "end x, m", "y", "z", "length, m", "inside, deg", "surfaces (one: a free edge)");
+  const auto surface = [&scene](uint32_t s) {
+    return fmt::format("{} {}", s, scene.materials[scene.surfaces[s].material].name);
+  };
+  for (size_t i = 0; i < scene.wedges.size(); ++i) {
+    const Wedge& w = scene.wedges[i];
+    const glm::dvec3 start = scene.origin_m + w.start, end = start + w.along * w.length_m;
+    out += fmt::format("{:>7} {} {} {:>9.3f} {:>11.2f}  {}", i, point(start), point(end), w.length_m,
+                       360 - glm::degrees(w.exterior_rad), surface(w.surface[0]));
+    if (!is_free(w)) out += ", " + surface(w.surface[1]);
+    out += '\n';
+  }
   return out;
 }
 

@@ -90,10 +90,10 @@ void apply_units(RawScene& raw, const SceneConfig& config) {
 }
 
 Scene finish(RawScene raw, const SceneConfig& scene, const std::vector<MaterialConfig>& materials,
-             double frequency_hz) {
+             double frequency_hz, bool with_wedges) {
   apply_units(raw, scene);
   ResolvedMaterials resolved = resolve_materials(raw, scene, materials, frequency_hz);
-  return build_scene(raw, std::move(resolved));
+  return build_scene(raw, std::move(resolved), with_wedges);
 }
 
 }  // namespace
@@ -107,14 +107,14 @@ Scene load_scene(const Config& config) {
   }
   if (!scene.generate.empty()) {
     RawScene raw = generate_city(parse_city_options(scene.generate));
-    return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz);
+    return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, config.trace.diffraction);
   }
-  return load_scene_file(scene.file, scene, config.materials, config.radio.frequency_hz);
+  return load_scene_file(scene.file, scene, config.materials, config.radio.frequency_hz, config.trace.diffraction);
 }
 
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
-                      const std::vector<MaterialConfig>& materials, double frequency_hz) {
-  return finish(read_raw(path), scene, materials, frequency_hz);
+                      const std::vector<MaterialConfig>& materials, double frequency_hz, bool with_wedges) {
+  return finish(read_raw(path), scene, materials, frequency_hz, with_wedges);
 }
 
 }  // namespace wavetracer

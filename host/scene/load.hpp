@@ -9,13 +9,14 @@
 
 namespace wavetracer {
 
-// Loads config.scene.file, or builds the city of config.scene.generate. Throws ConfigError or InputError.
+// Loads config.scene.file, or builds the city of config.scene.generate; with wedges where config.trace.diffraction asks
+// for them. Throws ConfigError or InputError.
 Scene load_scene(const Config& config);
 
 // Reads Mitsuba XML, PLY, OBJ or glTF, by content and else by suffix. scene.file and scene.generate are not looked at.
 // The frequency only chooses between laws of one material name (glass has two ranges).
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
                       const std::vector<MaterialConfig>& materials = {},
-                      double frequency_hz = RadioConfig{}.frequency_hz);
+                      double frequency_hz = RadioConfig{}.frequency_hz, bool with_wedges = true);
 
 }  // namespace wavetracer

@@ -98,6 +98,8 @@ class Resolver {
     if ((m.permittivity && *m.permittivity < 1) || (m.a && *m.a <= 0))
       fail("permittivity must be 1 or more, a positive");
     if ((m.conductivity_s_m && *m.conductivity_s_m < 0) || (m.c && *m.c < 0)) fail("conductivity_s_m or c is negative");
+    if (m.scattering_lobe && *m.scattering_lobe != std::floor(*m.scattering_lobe))
+      fail("scattering_lobe must be a whole number");
     if (m.thickness_m && !(*m.thickness_m > 0)) fail("thickness_m must be positive (inf: a half space)");
   }
 
@@ -111,6 +113,9 @@ class Resolver {
     base.c = over.c.value_or(base.c);
     base.d = over.d.value_or(base.d);
     base.thickness_m = over.thickness_m.value_or(base.thickness_m);
+    base.scattering = over.scattering.value_or(base.scattering);
+    base.scattering_lobe = over.scattering_lobe.value_or(base.scattering_lobe);
+    base.scattering_cross_polar = over.scattering_cross_polar.value_or(base.scattering_cross_polar);
     if (over.a || over.b || over.c || over.d || over.permittivity || over.conductivity_s_m) {
       base.min_ghz = 0;
       base.max_ghz = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // The wavefront loop.
 // One host read a depth (the number of survivors); a batch whose sequences do not fit grows the set and is traced
-// again.
+// again. Queues of transmitted rays are traced depth first, so that at most one waits at each depth.
 #include "simulation/discovery.hpp"
 
 #include <algorithm>
@@ -11,9 +11,27 @@ namespace {
 
 constexpr uint64_t initial_slots = 1 << 18;
 
-// Rays in flight: what fills the device, and what its caches like where there are few cores.
-uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& config) {
-  constexpr uint64_t bytes_a_ray = 4 * (2 * WT_RAY_PLANES + WT_HIT_PLANES) + 4;
+// Depth of the sequences: wedges and tiles hang on surfaces that rays see, so these are wanted without reflection too.
+uint32_t sequence_depth(const TraceConfig& config) {
+  if (config.reflection) return config.max_depth;
+  return config.diffraction || config.scattering ? std::min(1u, config.max_depth) : 0;
+}
+
+// Interactions of a ray. What is transmitted sees further surfaces, whether they reflect or not.
+uint32_t ray_depth(const TraceConfig& config, uint32_t most) {
+  const uint32_t depth = sequence_depth(config);
+  return std::min(depth > 0 && config.transmission ? config.max_depth : depth, most);
+}
+
+// Transmissions of a ray that may have so many interactions, the last of which ends it.
+uint32_t ray_transmissions(const TraceConfig& config, uint32_t depth) {
+  return config.transmission && depth > 0 ? std::min(config.max_transmissions, depth - 1) : 0;
+}
+
+// Rays in flight: what fills the device, and what its caches like where there are few cores. waiting: queues beside the
+// two of the loop.
+uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& config, uint64_t waiting) {
+  const uint64_t bytes_a_ray = 4 * ((2 + waiting) * WT_RAY_PLANES + WT_HIT_PLANES) + 4;
   const uint64_t most = std::min(device.max_buffer / (8 * WT_RAY_PLANES), device.global_memory / (4 * bytes_a_ray));
   const uint64_t wanted = config.batch_rays ? config.batch_rays : device.cpu ? uint64_t{1} << 18 : uint64_t{1} << 25;
   return std::clamp<uint64_t>(wanted, 256, std::max<uint64_t>(most, 256));
@@ -45,21 +63,22 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
     : context_(context),
       config_(with_rays(config)),
       plan_(order),
-      max_depth_(config.reflection ? config.max_depth : 0),
-      depth_(std::min(max_depth_, depth)),
-      batch_rays_(choose_batch(context.info(), config)),
+      max_depth_(sequence_depth(config)),
+      depth_(ray_depth(config, depth)),
+      transmissions_(ray_transmissions(config, depth_)),
+      batch_rays_(choose_batch(context.info(), config, transmissions_ > 0 ? depth_ - 1 : 0)),
       keep_ages_(keep_ages),
       shape_(choose_shape(context.info(), config, order)),
       directions_(config.directions, config_.rays, config.seed),
       generate_(context, directions_),
       trace_(context, scene, shape_, order.launch),
       scan_(context),
-      interact_(context, keep_ages),
+      interact_(context, keep_ages, false, false, transmissions_ > 0),
       sequences_(context, initial_slots, keep_ages) {
   if (config.rays == 0) {
     plan_ = {};  // refined launches go along their curve
     refinement_.emplace(context, config);
-    interact_samples_.emplace(context, keep_ages, true);
+    interact_samples_.emplace(context, keep_ages, true, false, transmissions_ > 0);
   }
   if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
 }
@@ -82,17 +101,18 @@ void Discovery::follow(RayTrails& trails) {
 void Discovery::label() {
   if (label_) return;
   label_.emplace(context_);
-  interact_ = Interact(context_, keep_ages_, false, true);
-  if (refinement_) interact_samples_.emplace(context_, keep_ages_, true, true);
+  interact_ = Interact(context_, keep_ages_, false, true, transmissions_ > 0);
+  if (refinement_) interact_samples_.emplace(context_, keep_ages_, true, true, transmissions_ > 0);
 }
 
 DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
-                                      DirectionShare share) {
+                                      DirectionShare share, bool followed) {
+  followed_ = followed;
   DiscoveryCounts counts;
   counts.segments_per_depth.assign(segments(), 0);
   const uint64_t total = rays_of(share) * transmitters.size();
   if (segments() == 0 || total == 0) return counts;
-  if (trails_) trails_->begin_launch();
+  if (trails()) trails()->begin_launch();
   const uint64_t size = std::min(batch_rays_, total);
   if (reserve(size) && plan_.key)
     order_.emplace(context_, *plan_.key, plan_.bins, directions_, scene.extent_m, static_cast<uint32_t>(size));
@@ -104,7 +124,7 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
       if (!sequences_.overflowed()) break;
       sequences_.regrow(max_depth_);
     }
-    if (trails_) trails_->end_batch();
+    if (trails()) trails()->end_batch();
     counts.rays += batch.count;
   }
   return counts;
@@ -150,6 +170,11 @@ bool Discovery::reserve(uint64_t rays) {
   rays_ = make_ray_queue(context_, rays, "rays", planes);
   next_ = make_ray_queue(context_, rays, "next rays", planes);
   hits_ = make_hit_list(context_, rays, Trace::block_size(context_.info()));
+  if (transmissions_ > 0) {
+    transmitted_.clear();
+    for (uint32_t depth = 2; depth <= depth_; ++depth)
+      transmitted_.push_back(make_ray_queue(context_, rays, "transmitted rays", planes));
+  }
   return true;
 }
 
@@ -174,7 +199,7 @@ void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare
     parts.push_back({from.transmitter, sample, count, first, rays, share.phase + share.stride * first, share.stride});
     done += count;
   }
-  if (trails_) trails_->begin_batch(std::move(parts));
+  if (trails()) trails()->begin_batch(std::move(parts));
 }
 
 // Hits of the queue, and the hits of its blocks.
@@ -184,9 +209,9 @@ void Discovery::find_hits(const DeviceScene& scene, uint32_t depth) {
     (*cache_)(scene, rays_, hits_, depth);
   else
     trace_(scene, rays_, hits_);
-  if (trails_) {
+  if (trails()) {
     const std::optional<AnsweredRays> answered = ask ? cache_->answered() : std::nullopt;
-    (*trails_)(rays_, hits_, depth - 1, answered ? &*answered : nullptr);
+    (*trails())(rays_, hits_, depth - 1, answered ? &*answered : nullptr);
   }
   if (ask || !trace_.counts_blocks())
     compact_->count_blocks(hits_.planes, size_t{WT_HIT_SURFACE} * hits_.capacity, rays_.count, hits_.block_hits);
@@ -194,15 +219,30 @@ void Discovery::find_hits(const DeviceScene& scene, uint32_t depth) {
 
 void Discovery::trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
                             const gpu::Buffer<uint32_t>* ends) {
+  std::vector<Stage> waiting;
+  trace_reflected(scene, interact, counts, {1, transmissions_}, waiting, ends);
+  while (!waiting.empty()) {
+    const Stage stage = waiting.back();
+    waiting.pop_back();
+    std::swap(rays_, transmitted_[stage.depth - 2]);
+    // The end of a sample is that of the ray that was never transmitted.
+    trace_reflected(scene, interact_, counts, stage, waiting, nullptr);
+  }
+}
+
+void Discovery::trace_reflected(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts, Stage stage,
+                                std::vector<Stage>& waiting, const gpu::Buffer<uint32_t>* ends) {
   const uint32_t block = Trace::block_size(context_.info());
-  const uint32_t last = segments();
-  for (uint32_t depth = 1; depth <= last && rays_.count > 0; ++depth) {
+  const uint32_t last = config_.reflection ? segments() : stage.depth;
+  for (uint32_t depth = stage.depth; depth <= last && rays_.count > 0; ++depth) {
     if (plan_.each_depth && depth > 1) (*order_)(rays_, next_);
     find_hits(scene, depth);
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
+    const bool split = stage.transmissions > 0 && depth < depth_;
     if (depth <= depth_)
       interact(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), sequences_.ages(),
-               sequences_.now(), next_, depth == last, ends);
+               sequences_.now(), next_, depth == last, ends, split ? &transmitted_[depth - 1] : nullptr);
+    if (split) waiting.push_back({depth + 1, stage.transmissions - 1});
     counts.segments_per_depth[depth - 1] += rays_.count;
     counts.hits += hit_count;
     std::swap(rays_, next_);

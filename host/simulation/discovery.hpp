@@ -1,5 +1,6 @@
 // Discovery: rays from every transmitter leave the distinct sequences of surfaces that they lived through.
-// The wavefront loop generate, order, trace, interact; batches bound the memory, whatever the number of rays.
+// The wavefront loop generate, order, trace, interact; batches bound the memory, whatever the number of rays. With
+// transmission rays split where they hit, and what went through waits until the reflected ones are through.
 #pragma once
 #include <glm/vec3.hpp>
 #include <optional>
@@ -41,7 +42,7 @@ struct DirectionShare {
 
 class Discovery {
  public:
-  // keep_ages: see passes/sequences.hpp. depth: of the rays, where that is less than trace.max_depth.
+  // keep_ages: see passes/sequences.hpp. depth: interactions of a ray, where that is less than trace.max_depth.
   Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order = {},
             bool keep_ages = false, uint32_t depth = WT_MAX_DEPTH);
   // Segments are asked of a cache from now on, before they are traced.
@@ -49,9 +50,10 @@ class Discovery {
   RayCache* cache() { return cache_ ? &*cache_ : nullptr; }
   // Rays of launches that are not refined are followed from now on; trails outlives this.
   void follow(RayTrails& trails);
-  // Adds to sequences() what rays from these transmitters meet, in these directions.
+  // Adds to sequences() what rays from these transmitters meet, in these directions. followed: false keeps these rays
+  // from those that follow().
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
-                             DirectionShare share = {});
+                             DirectionShare share = {}, bool followed = true);
   // The same with as many rays as trace.recall asks for, at most trace.max_rays a transmitter: a launch that is refined
   // where it still finds something. Needs trace.rays = 0 ("auto").
   // frame: since the last cold one, see Refinement.
@@ -65,6 +67,10 @@ class Discovery {
   struct Batch {
     uint64_t first, count;
   };
+  // What the rays of a queue have in common: the number of their segment, from 1, and how many surfaces they may pass.
+  struct Stage {
+    uint32_t depth, transmissions;
+  };
   void launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch);
   uint64_t rays_of(DirectionShare share) const {
     return (config_.rays - share.phase + share.stride - 1) / share.stride;
@@ -72,17 +78,23 @@ class Discovery {
   void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   // Queues get the planes that say where a ray comes from.
   void label();
-  // Segments of a ray, at most: one more than reflections where receptions are wanted.
-  uint32_t segments() const { return depth_ + (trails_ && trails_->receives()); }
+  RayTrails* trails() const { return followed_ ? trails_ : nullptr; }
+  // Segments of a ray, at most: one more than interactions where receptions are wanted.
+  uint32_t segments() const { return depth_ + (trails() && trails()->receives()); }
   void find_hits(const DeviceScene& scene, uint32_t depth);
   bool reserve(uint64_t rays);  // true where queues were made anew
   void trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
                    const gpu::Buffer<uint32_t>* ends = nullptr);
+  // rays_ and what is reflected of them. Queues of transmitted rays are left in transmitted_, and their stages, from
+  // the lowest depth to the highest, in waiting.
+  void trace_reflected(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts, Stage stage,
+                       std::vector<Stage>& waiting, const gpu::Buffer<uint32_t>* ends);
 
   gpu::Context& context_;
   TraceConfig config_;
   OrderPlan plan_;
-  uint32_t max_depth_, depth_;  // of sequences, of rays
+  uint32_t max_depth_, depth_;  // of sequences; interactions of a ray
+  uint32_t transmissions_;      // of a ray, at most
   uint64_t batch_rays_;
   bool keep_ages_;
   TraceShape shape_;
@@ -98,8 +110,10 @@ class Discovery {
   std::optional<RayCache> cache_;
   std::optional<LabelRays> label_;  // with a cache or trails
   RayTrails* trails_ = nullptr;
+  bool followed_ = true;
   std::optional<RayOrder> order_;  // with the queues, if the plan has one
   RayQueue rays_, next_;
+  std::vector<RayQueue> transmitted_;  // one a depth from 2 on, where rays are transmitted
   HitList hits_;
 };
 

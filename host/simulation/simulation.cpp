@@ -8,20 +8,17 @@
 #include <numeric>
 #include <optional>
 
-#include "passes/candidates.hpp"
-#include "passes/occlusion.hpp"
-#include "passes/solve.hpp"
-#include "passes/visible.hpp"
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
-#include "simulation/meeting_prefixes.hpp"
+#include "simulation/exact_paths.hpp"
+#include "simulation/features.hpp"
+#include "simulation/listeners.hpp"
 #include "simulation/order_choice.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/reciprocity.hpp"
 #include "simulation/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
-#include "simulation/visible_paths.hpp"
 #include "simulation/world.hpp"
 
 namespace wavetracer {
@@ -33,17 +30,6 @@ constexpr uint64_t refreshed_share = 10;  // of the directions, the part that a 
 std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
   std::vector<glm::dvec3> out;
   for (const EndState& end : ends) out.push_back(end.position_m);
-  return out;
-}
-
-// The transmitters of wanted links, in their order.
-std::vector<Launcher> launchers(const WorldState& world) {
-  std::vector<Launcher> out;
-  for (const Link& link : world.links) {
-    if (!out.empty() && out.back().transmitter == link.tx) continue;  // links are sorted
-    const EndState& end = world.transmitters[link.tx];
-    out.push_back({link.tx, end.position_m, end.instance == no_instance ? WT_NONE : WT_OWN | end.instance});
-  }
   return out;
 }
 
@@ -67,9 +53,22 @@ DirectionShare share_of(const TraceConfig& config, uint64_t rays, uint64_t warm_
   return {warm_frames * step % stride, stride};
 }
 
+// Of those, the part that a listener launches: edges are met by many rays.
+DirectionShare listeners_share(const TraceConfig& config, uint64_t rays, DirectionShare share) {
+  const uint64_t wanted = config.diffraction_rays ? config.diffraction_rays : std::max<uint64_t>(rays / 10, 100000);
+  return {share.phase, share.stride * std::max<uint64_t>(rays / std::min(wanted, rays), 1)};
+}
+
+void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
+  sum.rays += more.rays;
+  sum.hits += more.hits;
+  sum.segments_per_depth.resize(std::max(sum.segments_per_depth.size(), more.segments_per_depth.size()));
+  for (size_t k = 0; k < more.segments_per_depth.size(); ++k) sum.segments_per_depth[k] += more.segments_per_depth[k];
+}
+
 // What the cache must know of the world.
-CacheWorld cache_world(const Scene& scene, const World& world) {
-  CacheWorld out{.transmitters = static_cast<uint32_t>(world.transmitters().size()),
+CacheWorld cache_world(const Scene& scene, const World& world, const Origins& origins) {
+  CacheWorld out{.transmitters = origins.count(),
                  .surfaces = static_cast<uint32_t>(scene.surfaces.size()),
                  .primitives = static_cast<uint32_t>(scene.triangles.size()),
                  .static_surfaces = static_cast<uint32_t>(scene.surfaces.size()),
@@ -86,29 +85,26 @@ CacheWorld cache_world(const Scene& scene, const World& world) {
 
 struct Simulation::State {
   Config config;
+  TraceConfig trace;  // of it, without what the scene does not need
   StageSeconds setup;
   std::optional<gpu::Context> context;
   Scene scene;
   DeviceScene device_scene;
   std::optional<World> world;
+  Origins origins;
   std::optional<InstancePlacement> place;  // where there are instances
   bool reuse = false;
   uint64_t warm_frames = 0;  // since the last cold one, which counts
   std::optional<RayTrails> trails;  // with trace.reception = "sphere" or output.waypoints
   std::optional<Discovery> discovery;
-  std::optional<Candidates> candidates;
-  std::optional<MeetingPrefixes> meeting;  // with trace.join
-  std::optional<Solve> solve;
-  std::optional<Occlusion> occlusion;
-  std::optional<Visible> visible;
+  std::optional<ExactPaths> exact_paths;
   std::optional<FieldModel> fields;
   DeviceSummary device;
   OrderSummary order;
+  Features features;
 
   void begin_frame();
-  DiscoveryCounts discover(const std::vector<Launcher>& transmitters);
-  // Both leave `host` at the time since the device was done.
-  PathGeometry solved_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
+  DiscoveryCounts discover(const WorldState& state);
   PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
 };
 
@@ -122,36 +118,22 @@ void Simulation::State::begin_frame() {
     sequences.forget(config.trace.forget_frames, config.trace.max_depth);
 }
 
-DiscoveryCounts Simulation::State::discover(const std::vector<Launcher>& transmitters) {
-  if (config.trace.rays == 0) return discovery->refined(device_scene, transmitters, warm_frames);
-  return (*discovery)(device_scene, transmitters, share_of(config.trace, discovery->rays(), warm_frames));
+// With diffraction listeners launch too, and what both ends see meets at the edge.
+DiscoveryCounts Simulation::State::discover(const WorldState& state) {
+  std::vector<Launcher> first = sending(state), then;
+  if (trace.diffraction) then = listening(state, origins);
+  if (trace.rays == 0) {
+    first.insert(first.end(), then.begin(), then.end());
+    return discovery->refined(device_scene, first, warm_frames);
+  }
+  const DirectionShare share = share_of(trace, discovery->rays(), warm_frames);
+  DiscoveryCounts counts = (*discovery)(device_scene, first, share);
+  if (!then.empty())
+    add((*discovery)(device_scene, then, listeners_share(trace, discovery->rays(), share), false), counts);
+  return counts;
 }
 
-// Every sequence with every receiver: what is a path is solved exactly (image method, in double) and checked for
-// visibility.
-PathGeometry Simulation::State::solved_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host) {
-  const uint32_t max_depth = config.trace.max_depth;
-  Sequences& sequences = discovery->sequences();
-  uint32_t node_count = sequences.collect(ends.transmitter_count);
-  sequences.commute(device_scene.surfaces, node_count, max_depth);
-  node_count = sequences.collect(ends.transmitter_count);
-  uint32_t candidate_count =
-      (*candidates)(device_scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
-  if (meeting)
-    candidate_count = (*meeting)(device_scene, ends, sequences, node_count, candidates->list(), candidate_count);
-  SolvedList& solved =
-      (*solve)(device_scene, ends, sequences.table(), candidates->list(), candidate_count, sequences.counters());
-  (*occlusion)(device_scene, ends, solved);
-  sequences.keep(solved);
-  counts.sequences = node_count - ends.transmitter_count;
-  counts.candidates = candidate_count;
-  counts.solved = solved.count;
-  const SolvedList& seen = (*visible)(solved, sequences.counters());
-  host.lap();
-  return visible_paths(seen);
-}
-
-// The thesis' way: rays that pass a receiver's sphere are its paths.
+// The thesis' way: rays that pass a receiver's sphere are its paths. Leaves `host` at the time since the device was done.
 PathGeometry Simulation::State::received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host) {
   counts.sequences = discovery->sequences().collect(ends.transmitter_count) - ends.transmitter_count;
   counts.receptions = trails->receptions();
@@ -172,6 +154,9 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.world.emplace(config, s.scene);
   s.config.transmitters = s.world->transmitters();
   s.config.receivers = s.world->receivers();
+  s.features = choose_features(s.config, s.scene, *s.world);
+  s.trace = with_features(s.config.trace, s.features);
+  s.origins = make_origins(s.world->receiver_of_transmitter(), s.world->transmitter_of_receiver(), s.trace.diffraction);
   const std::vector<glm::dvec3> transmitters = positions(s.world->state(0).transmitters);
   s.device_scene = choose_tree(*s.context, s.scene, config.trace, transmitters, s.world->reach_m());
   if (!s.world->instances().empty()) {
@@ -191,24 +176,21 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   const bool sphere = config.trace.reception == "sphere";
   // A sphere receives what this frame's rays meet.
   s.reuse = config.trace.reuse && !sphere && s.world->frame_count() > 1;
-  if (config.trace.join)
-    s.meeting.emplace(*s.context, s.world->receiver_of_transmitter(), config.trace.max_depth);
-  const uint32_t depth = ray_depth(config.trace, *s.world);
-  s.discovery.emplace(*s.context, s.device_scene, config.trace, order.plan, s.reuse, depth);
+  const uint32_t depth = ray_depth(s.trace, *s.world);
+  s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse, depth);
   if (sphere || config.output.waypoints > 0) {
-    s.trails.emplace(*s.context, config.trace, config.output.waypoints, config.trace.reflection ? depth : 0,
+    s.trails.emplace(*s.context, s.trace, config.output.waypoints, s.trace.reflection ? depth : 0,
                      SurfaceTable(s.scene, s.world->models(), s.world->instances()));
     s.discovery->follow(*s.trails);
   }
   if (config.cache.kind != "none") {
-    s.discovery->use_cache(s.device_scene, config.cache, cache_world(s.scene, *s.world));
+    s.discovery->use_cache(s.device_scene, config.cache, cache_world(s.scene, *s.world, s.origins));
     if (sphere) s.discovery->cache()->keep_receptions(*s.trails, config.trace.sphere_radius_m);
   }
-  s.candidates.emplace(*s.context);
-  s.solve.emplace(*s.context, config.trace.max_depth);
-  s.occlusion.emplace(*s.context, s.device_scene);
-  s.visible.emplace(*s.context, config.trace.max_depth);
-  s.fields.emplace(s.scene, s.config, s.world->models(), s.world->instances());
+  s.exact_paths.emplace(*s.context, s.device_scene, s.scene, *s.world, s.trace, s.origins);
+  Config radio = s.config;
+  radio.trace = s.trace;
+  s.fields.emplace(s.scene, radio, s.world->models(), s.world->instances());
   s.setup["compile"] = watch.lap();
 }
 
@@ -235,6 +217,7 @@ std::vector<std::string> Simulation::warnings() const {
 
 const DeviceSummary& Simulation::device() const { return state_->device; }
 const OrderSummary& Simulation::order() const { return state_->order; }
+const Features& Simulation::features() const { return state_->features; }
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup; }
 
 FrameResult Simulation::run_frame(uint32_t frame) {
@@ -247,17 +230,19 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   out.world = s.world->state(frame);
   const double poses_seconds = host_watch.lap();
   if (s.place) (*s.place)(s.device_scene, out.world.instances);
-  const RadioEnds ends = make_radio_ends(*s.context, out.world.transmitters, out.world.receivers, out.world.links);
+  const RadioEnds ends = make_radio_ends(*s.context, out.world.transmitters, out.world.receivers, out.world.links,
+                                          s.origins.listeners);
   s.begin_frame();
   RayCache* const cache = s.discovery->cache();
   if (cache) cache->begin_frame(out.world);
   if (s.trails) s.trails->begin_frame(frame, ends, out.world);
-  const DiscoveryCounts found = s.discover(launchers(out.world));
+  const DiscoveryCounts found = s.discover(out.world);
   if (cache) out.cache = cache->summary();
   if (s.trails) out.waypoints = s.trails->take_waypoints();
   const bool sphere = s.trails && s.trails->receives();
-  const PathGeometry one_way = sphere ? s.received_paths(ends, out.counts, host_watch)
-                                      : s.solved_paths(ends, out.counts, host_watch);
+  const PathGeometry one_way =
+      sphere ? s.received_paths(ends, out.counts, host_watch)
+             : (*s.exact_paths)(s.device_scene, ends, s.discovery->sequences(), out.counts, host_watch);
   ++s.warm_frames;
   const PathGeometry geometry = with_reversed_twins(one_way, s.world->receiver_of_transmitter(),
                                                     s.world->transmitter_of_receiver(), out.world.links);

@@ -1,4 +1,4 @@
-// Visible solved paths of the device as path geometry on the host, each path once.
+// Visible solved paths of the device as path geometry on the host.
 // Assumes occlusion has run.
 #pragma once
 #include "passes/solved_list.hpp"
@@ -6,8 +6,8 @@
 
 namespace wavetracer {
 
-// The paths that are not blocked, in the order and merged by the rule of distinct_paths: independent of the order on
-// the device.
-PathGeometry visible_paths(const SolvedList& solved);
+// Appends the paths that are not blocked, as they come; distinct_paths then makes them independent of the order on the
+// device.
+void append_visible(const SolvedList& solved, PathGeometry& paths);
 
 }  // namespace wavetracer

@@ -16,6 +16,7 @@
 #include "simulation/world_links.hpp"
 #include "simulation/world_models.hpp"
 #include "simulation/world_trajectories.hpp"
+#include "wavetracer/device/records.h"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -72,7 +73,7 @@ struct World::State {
   std::vector<std::string> warnings;
 
   void add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m);
-  void add_instances(VehicleModels& vehicles, size_t static_surfaces);
+  void add_instances(VehicleModels& vehicles, const Scene& scene);
   void add_mounts(const std::vector<MountConfig>& mounts, const glm::dvec3& origin_m);
   void add_mounted(EndsOfRole& role, uint32_t track, const MountConfig& mount, const glm::dvec3& origin_m);
   EndState mounted_state(const MountedEnd& end, const VehicleState& vehicle) const;
@@ -91,20 +92,21 @@ void World::State::add_standing(EndsOfRole& role, const std::vector<RadioEnd>& e
                              .velocity_m_s = vector_of(end.velocity_m_s)});
 }
 
-void World::State::add_instances(VehicleModels& vehicles, size_t static_surfaces) {
-  uint64_t next_surface = static_surfaces;
+void World::State::add_instances(VehicleModels& vehicles, const Scene& scene) {
+  uint64_t next_surface = scene.surfaces.size(), next_wedge = scene.wedges.size();
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
     const Track& track = trajectories.tracks[k];
     const VehicleType& type = trajectories.types[track.type];
     const std::optional<uint32_t> model = vehicles.model_of(type, track.id);
     track_instance.push_back(model ? static_cast<uint32_t>(instances.size()) : no_instance);
     if (!model) continue;
-    instances.push_back({track.id, type.name, *model, static_cast<uint32_t>(next_surface)});
+    instances.push_back({track.id, type.name, *model, static_cast<uint32_t>(next_surface), static_cast<uint32_t>(next_wedge)});
     instance_track.push_back(k);
     next_surface += vehicles.models()[*model].surfaces.size();
-    if (next_surface >= no_instance)
-      throw RuntimeError(fmt::format("the surfaces of the scene and of {} vehicles are more than 2^32: use models with "
-                                     "fewer faces, or shorter trajectories",
+    next_wedge += vehicles.models()[*model].wedges.size();
+    if (next_surface > ~WT_STEP_KIND || next_wedge >= 1u << 27)
+      throw RuntimeError(fmt::format("the scene and {} vehicles have more than 2^30 surfaces or 2^27 edges: use models "
+                                     "with fewer faces, or shorter trajectories",
                                      instances.size()));
   }
   models = std::move(vehicles.models());
@@ -242,7 +244,7 @@ World::World(const Config& config, const Scene& scene) : state_(std::make_unique
   s.warnings = s.trajectories.warnings;
   s.add_standing(s.transmitters, config.transmitters, scene.origin_m);
   s.add_standing(s.receivers, config.receivers, scene.origin_m);
-  s.add_instances(vehicles, scene.surfaces.size());
+  s.add_instances(vehicles, scene);
   s.add_mounts(config.mounts, scene.origin_m);
   s.set_links(config.links);
   s.set_twins();

@@ -13,7 +13,7 @@ namespace wavetracer {
 
 class World {
  public:
-  // scene: the static one; only its origin, extent and number of surfaces are used. Throws ConfigError or InputError.
+  // scene: the static one; only its origin, extent and numbers of surfaces and wedges are used. Throws ConfigError or InputError.
   World(const Config& config, const Scene& scene);
   ~World();
   World(World&&) noexcept;

@@ -12,6 +12,7 @@
 #include "motion/input_text.hpp"
 #include "motion/vehicle_types.hpp"
 #include "scene/load.hpp"
+#include "scene/wedges.hpp"
 #include "scene/vehicle_model.hpp"
 #include "wavetracer/error.hpp"
 
@@ -60,6 +61,7 @@ Scene stretched(Scene scene, const glm::dvec3& scale) {
   }
   scene.lower *= scale;
   scene.upper *= scale;
+  if (!scene.wedges.empty()) find_wedges(scene);  // angles change with the shape
   return scene;
 }
 
@@ -93,7 +95,8 @@ const Scene& VehicleModels::mesh_of(const VehicleTypeConfig& row) {
     SceneConfig scene;
     scene.default_material = row.material;
     scene.material_alias = config_.scene.material_alias;
-    mesh->second = load_scene_file(row.model, scene, config_.materials, config_.radio.frequency_hz);
+    mesh->second = load_scene_file(row.model, scene, config_.materials, config_.radio.frequency_hz,
+                                   config_.trace.diffraction);
   }
   return mesh->second;
 }

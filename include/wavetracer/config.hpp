@@ -16,6 +16,7 @@ struct MaterialConfig {  // [[material]]: overrides or adds a radio material by 
   std::optional<double> a, b, c, d;  // ITU-R P.2040 coefficients
   std::optional<double> permittivity, conductivity_s_m;
   std::optional<double> thickness_m;  // infinity allowed: a half space
+  std::optional<double> scattering, scattering_lobe, scattering_cross_polar;  // see Material
 };
 
 struct SceneConfig {
@@ -95,6 +96,11 @@ struct TraceConfig {
   bool join = false;             // ends that send and receive: prefixes of both are joined in the middle
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
+  uint32_t max_diffractions = 1;  // a path, 1 or 2
+  bool free_edges = true;         // edges of one face diffract as half planes
+  uint64_t diffraction_rays = 0;  // of a receiver, with diffraction; 0: a tenth of rays, at least 100,000
+  uint32_t max_transmissions = 2;  // a path
+  double tile_m = 5;               // of scattering: no tile is longer
   std::string directions = "hilbert";  // hilbert, fibonacci, random
   std::string reception = "exact";
   double sphere_radius_m = 1.0;

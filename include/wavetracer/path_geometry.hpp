@@ -10,7 +10,9 @@ namespace wavetracer {
 struct PathGeometry {
   std::vector<uint32_t> tx, rx;
   std::vector<uint64_t> first{0};
-  std::vector<uint32_t> surface;     // one an interaction, numbered through the world (Instance::first_surface)
+  // One an interaction, numbered through the world (Instance::first_surface, first_wedge): the surface of a reflection or
+  // transmission, the wedge of a diffraction, the tile of a diffuse scattering (scene/tiles.hpp).
+  std::vector<uint32_t> surface;
   std::vector<uint8_t> interaction;  // one an interaction, see Interaction
   std::vector<glm::dvec3> vertex;    // one an interaction, recentred metres
   size_t size() const { return tx.size(); }

@@ -26,7 +26,7 @@ struct Paths {
   // One entry an interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates
   std::vector<uint8_t> vertex_interaction;
-  std::vector<uint32_t> vertex_surface;
+  std::vector<uint32_t> vertex_surface;  // in its scene or model; of a diffraction the wedge (`scene info --edges`)
   std::vector<uint32_t> vertex_instance;
 
   size_t size() const { return delay_s.size(); }

@@ -17,6 +17,10 @@ struct Material {
   double a = 1, b = 0, c = 0, d = 0;
   double min_ghz = 0, max_ghz = std::numeric_limits<double>::infinity();
   double thickness_m = 0.1;  // infinity: a half space
+  // Diffuse scattering (V. Degli-Esposti et al., IEEE Trans. Antennas Propag. 55(1), 2007), with trace.scattering.
+  double scattering = 0;              // S: the share S^2 of the reflected power is scattered, 0 to 1
+  double scattering_lobe = 0;         // exponent of the directive lobe; 0: Lambertian
+  double scattering_cross_polar = 0;  // share of the scattered power in the other polarisation, 0 to 1
   bool operator==(const Material&) const = default;
 };
 
@@ -39,6 +43,18 @@ struct Edge {
   bool flat = false;
 };
 
+// A straight edge at which waves diffract: one physical edge, whichever meshes its faces belong to (host/scene/wedges.hpp
+// has the rule). Its two faces bound a sector of free space wider than pi; the azimuth of a direction d about the edge is
+// atan2(dot(d, normal), dot(d, face)) in [0, 2 pi), and free space goes from 0 (face 0) to exterior_rad (face 1).
+struct Wedge {
+  glm::dvec3 start{0}, along{0, 0, 1};  // unit; (face, normal, along) is right-handed
+  double length_m = 0;
+  glm::dvec3 face{1, 0, 0};    // unit, normal to along: from the edge into face 0
+  glm::dvec3 normal{0, 1, 0};  // of face 0, into free space
+  double exterior_rad = 0;     // n pi; 2 pi: a half plane
+  std::array<uint32_t, 2> surface{0, 0};  // of face 0 and face 1, into Scene::surfaces; the same for a free edge
+};
+
 // What the loader left out, and why; every count is reported to the user.
 struct LoadReport {
   uint64_t degenerate_triangles = 0;  // zero area, dropped
@@ -46,6 +62,9 @@ struct LoadReport {
   uint64_t welded_vertices = 0;       // vertices that were merged into another
   uint64_t nonmanifold_edges = 0;     // more than two faces
   uint64_t free_edges = 0;            // one face
+  // Pieces of edges at which nothing diffracts (host/scene/wedges.hpp), edges that are flat not counted:
+  uint64_t flat_pieces = 0;    // of two faces in one plane
+  uint64_t corner_pieces = 0;  // of three faces or more with no sector wider than 180 degrees, as the foot of a wall
   std::vector<std::string> warnings;
 };
 
@@ -60,6 +79,7 @@ struct Scene {
   std::vector<uint32_t> surface_triangles;  // triangle indices, grouped by surface
   std::vector<Edge> edges;
   std::vector<uint32_t> edge_faces;
+  std::vector<Wedge> wedges;  // free edges among them, whatever trace.free_edges says
   std::vector<Material> materials;
   std::vector<std::string> objects;  // mesh names
   glm::dvec3 lower{0}, upper{0};     // bounding box, recentred

@@ -75,6 +75,14 @@ struct OrderSummary {
   std::string reason;       // why, where order.method = "auto"
 };
 
+// A part of the model that the configuration asks for or not, and that the scene needs or not.
+struct Feature {
+  bool on = false;
+  std::string reason;  // why not: "trace.diffraction = false", "no edge of the scene diffracts", ...
+};
+// By name: reflection, diffraction, double_diffraction, transmission, scattering, instances. What is off runs no kernel.
+using Features = std::map<std::string, Feature>;
+
 class Simulation {
  public:
   // Loads the scene, builds surfaces and acceleration structures, compiles the kernels.
@@ -101,6 +109,7 @@ class Simulation {
   std::vector<std::string> warnings() const;
   const DeviceSummary& device() const;
   const OrderSummary& order() const;
+  const Features& features() const;
   // Stages outside the frame: load, surfaces, build, compile, ...
   const StageSeconds& setup_seconds() const;
 

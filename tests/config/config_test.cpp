@@ -149,14 +149,14 @@ TEST_CASE("all mistakes are reported at once, in the order of the file") {
         "a.toml:3:1: unknown key \"aaa\"");
 }
 
-TEST_CASE("keys of later versions name themselves and what to use; their defaults are fine") {
-  for (const std::string key : {"trace.diffraction", "trace.transmission", "trace.scattering"}) {
-    const std::string message = error_of(scene + key + " = true\n" + ends);
-    check_contains(message, "a.toml:2:");
-    check_contains(message, key + " = true is not available in this version: ");
-  }
-  CHECK(error_of(scene + "trace.diffraction = false\norder.method = \"none\"\n" + ends) == "no error");
-  check_contains(error_of(scene + "order.method = \"quicksort\"\n" + ends), "is not known");
+TEST_CASE("what a path may do: ranges of its keys") {
+  const auto with = [](const std::string& keys) { return error_of(scene + keys + ends); };
+  CHECK(with("trace.diffraction = true\ntrace.max_diffractions = 2\ntrace.transmission = true\n"
+             "trace.max_transmissions = 3\ntrace.scattering = true\ntrace.tile_m = 2.5\n") == "no error");
+  check_contains(with("trace.max_diffractions = 3\n"), "a.toml:2:26: trace.max_diffractions = 3 is out of range");
+  check_contains(with("trace.max_transmissions = 0\n"), "out of range");
+  check_contains(with("trace.tile_m = 0\n"), "out of range");
+  check_contains(with("[[material]]\nname = \"brick\"\nscattering = 1.5\n"), "material.scattering = 1.5 is out");
 }
 
 TEST_CASE("orders by name or mnemonic; launch shapes that contradict them are refused") {
@@ -202,7 +202,7 @@ TEST_CASE("mistakes in --set are reported as --set") {
   check_contains(of("receiver.name=x"), "write receiver.INDEX.KEY");
   check_contains(of("receiver.0.position_m=[1, 2"), "--set receiver.0.position_m=[1, 2: ");
   check_contains(of("trace.rays=5\ntrace.seed=1"), "trace.rays must be an integer");
-  check_contains(of("trace.diffraction=true"), "--set trace.diffraction=true: trace.diffraction = true is not avail");
+  check_contains(of("trace.max_diffractions=5"), "--set trace.max_diffractions=5: trace.max_diffractions = 5 is out");
 }
 
 TEST_CASE("a file that cannot be read is a config error") {

@@ -18,24 +18,27 @@ namespace {
 // One step of the wavefront loop on the device.
 struct Step {
   std::vector<Hit> hits;
-  std::vector<Ray> next;
+  std::vector<Ray> next, behind;
   std::vector<uint64_t> table;
 
-  Step(const Scene& scene, const std::vector<Ray>& rays, bool last = false) {
+  Step(const Scene& scene, const std::vector<Ray>& rays, bool last = false, bool through = false) {
     const DeviceScene uploaded = make_device_scene(context(), scene, false);
     const uint32_t block = Trace::block_size(context().info());
     const RayQueue queue = upload(rays);
     RayQueue after = make_ray_queue(context(), rays.size(), "next rays");
+    RayQueue transmitted = make_ray_queue(context(), rays.size(), "transmitted rays");
     HitList list = make_hit_list(context(), rays.size(), block);
     Sequences set(context(), 4096);
     Trace trace_pass(context(), uploaded, shapes().back());
     Scan scan(context());
-    Interact interact(context());
+    Interact interact(context(), false, false, false, through);
     trace_pass(uploaded, queue, list);
     hits = download(list, rays.size());
     const uint32_t alive = scan(list.block_hits, (queue.count + block - 1) / block);
-    interact(uploaded, queue, list, alive, set.table(), set.counters(), set.ages(), set.now(), after, last);
+    interact(uploaded, queue, list, alive, set.table(), set.counters(), set.ages(), set.now(), after, last, nullptr,
+             through ? &transmitted : nullptr);
     next = download(after);
+    behind = download(transmitted);
     table = set.table().read();
     CHECK_FALSE(set.overflowed());
   }
@@ -121,6 +124,63 @@ TEST_CASE("a mirrored ray starts off the surface also far from the origin and at
         REQUIRE(step.next.size() == 1);
         const double above = height(scene.surfaces[0], to_double(step.next[0].origin));
         CHECK(above * side > 0);
+        CHECK(std::abs(above) < 1e-5 * std::max(1.0, far));
+      }
+    }
+}
+
+TEST_CASE("with transmission rays that hit also go on straight behind the surface, in the same places") {
+  std::vector<Corners> triangles = room(Room::ball, 4, 10, {3, -2, 1});
+  for (size_t i = 0; i < triangles.size(); i += 2) triangles[i / 2] = triangles[i];
+  triangles.resize(triangles.size() / 2);
+  const Scene scene = scene_of_triangles(triangles);
+  for (const uint32_t count : {1u, 17u, 700u}) {
+    CAPTURE(count);
+    Random random(count + 100);
+    std::vector<Ray> rays;
+    for (uint32_t i = 0; i < count; ++i) {
+      rays.push_back(ray_towards(glm::dvec3{3, -2, 1} + random.in_cube(3), random.direction()));
+      rays.back().node = WT_ROOT | (i % 5);
+    }
+    const Step without(scene, rays), step(scene, rays, false, true), last(scene, rays, true, true);
+    CHECK(step.next == without.next);  // what is reflected is the same to the last bit
+    CHECK(last.next.empty());
+    CHECK(last.behind == step.behind);
+    REQUIRE(step.behind.size() == step.next.size());
+    size_t j = 0, wrong = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (step.hits[i].missed()) continue;
+      const Ray& after = step.behind[j++];
+      const Surface& surface = scene.surfaces[step.hits[i].surface];
+      wrong += after.surface != step.hits[i].surface || after.node != rays[i].node ||
+               after.direction != rays[i].direction;
+      const glm::dvec3 d = to_double(rays[i].direction), o = to_double(rays[i].origin);
+      const double before_side = height(surface, o), after_side = height(surface, to_double(after.origin));
+      wrong += before_side * after_side >= 0;
+      wrong += std::abs(after_side) > 1e-4;
+      wrong += glm::distance(to_double(after.origin), o + double{step.hits[i].t} * d) > 1e-4;
+    }
+    CHECK(wrong == 0);
+    if (count == 700) CHECK(j > 200);
+  }
+}
+
+TEST_CASE("a transmitted ray starts behind the surface also far from the origin and at grazing incidence") {
+  for (const double far : {0.0, 1000.0, 5000.0})
+    for (const double slope : {1.0, 1e-2, 1e-4}) {
+      CAPTURE(far);
+      CAPTURE(slope);
+      const glm::dvec3 at{far, -far, far / 3};
+      const glm::dvec3 normal = glm::normalize(glm::dvec3{1, 2, -2}), along = glm::normalize(glm::dvec3{2, -1, 0});
+      const glm::dvec3 across = glm::cross(normal, along);
+      const Scene scene = scene_of_triangles(
+          {{{at - 40.0 * along - 30.0 * across, at + 40.0 * along - 30.0 * across, at + 60.0 * across}}});
+      for (const double side : {-1.0, 1.0}) {
+        const glm::dvec3 from = at + side * 10 * slope * normal - 10.0 * along;
+        const Step step(scene, {ray_towards(from, at - from)}, false, true);
+        REQUIRE(step.behind.size() == 1);
+        const double above = height(scene.surfaces[0], to_double(step.behind[0].origin));
+        CHECK(above * side < 0);
         CHECK(std::abs(above) < 1e-5 * std::max(1.0, far));
       }
     }

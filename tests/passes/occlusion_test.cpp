@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "passes/image_method.hpp"
+#include "passes/solved_rows.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -111,4 +112,19 @@ TEST_CASE("every leg of a path is tested") {
   CHECK_FALSE(path(screen_between(a, (*points)[0])));
   CHECK_FALSE(path(screen_between((*points)[0], (*points)[1])));
   CHECK_FALSE(path(screen_between((*points)[1], b)));
+}
+
+TEST_CASE("a vertex exempts the surface that reflects there, and no wedge or tile exempts the surface of its number") {
+  const Scene scene = reference::scene_of_quads({wall(0)});
+  const DeviceScene uploaded = make_device_scene(context(), scene, false, 10);
+  std::vector<PathRow> rows;
+  for (const uint32_t kind : {WT_STEP_REFLECTION, WT_STEP_DIFFRACTION, WT_STEP_SCATTERING})
+    for (const double x : {0.01, 5e-5}) rows.push_back({{-3, -1, 0}, {-3, 1, 0}, {kind | 0u}, {{x, 0, 0}}});
+  SolvedList list = upload_rows(rows, 1);
+  Occlusion occlusion(context(), uploaded);
+  occlusion(uploaded, ends_of(rows), list);
+  std::vector<bool> blocked;
+  for (const PathRow& row : download_rows(list)) blocked.push_back(row.blocked);
+  // An edge lies on the planes of its faces, which then do not hide it.
+  CHECK(blocked == std::vector{false, false, true, false, true, false});
 }

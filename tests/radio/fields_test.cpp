@@ -240,8 +240,6 @@ TEST_CASE("surfaces of instances: numbers, normals, velocities of their material
   CHECK_THROWS_AS(table.at(5), std::out_of_range);
   CHECK(table.normal(ground, world.state) == glm::dvec3{0, 0, 1});
   CHECK(glm::length(table.normal(side, world.state) - glm::dvec3{0, 1, 0}) < 1e-15);  // turned by a right angle
-  CHECK(table.velocity_m_s(ground, {5, 6, 7}, world.state) == glm::dvec3{0});
-  CHECK(glm::length(table.velocity_m_s(side, {10, 21, 30}, world.state) - glm::dvec3{0.5, 2, 3}) < 1e-15);
 }
 
 TEST_CASE("a surface of an instance reflects as the same surface of a static scene does") {

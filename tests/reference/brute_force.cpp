@@ -1,141 +1,191 @@
 // Image method over all sequences (as in McKown and Hamilton, "Ray tracing as a design tool for radio networks",
-// IEEE Network 5(6), 1991), with no acceleration of any kind.
-// Assumes exact planes: a surface's normal has unit length and its triangles lie in its plane.
+// IEEE Network 5(6), 1991); wedges are met halfway, by sequences of both ends. Assumes what brute_force.hpp says.
 #include "reference/brute_force.hpp"
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <span>
+#include <tuple>
+#include "reference/planes.hpp"
+#include "reference/wedge_points.hpp"
+#include "wavetracer/paths.hpp"
 
 namespace wavetracer::reference {
 namespace {
 
 using glm::dvec3;
 
-constexpr double border_tolerance = 1e-9;  // of a triangle's longest side
-constexpr double plane_distance_m = 1e-4;  // ends nearer to a plane than this are not behind it
-constexpr double same_vertex_m = 1e-4;
-constexpr uint32_t no_surface = 0xFFFFFFFFu;  // the "surface" of a transmitter or receiver
-
-using Sequence = std::vector<uint32_t>;
 using Points = std::vector<dvec3>;
 
-double height(const Surface& surface, const dvec3& point) { return glm::dot(surface.normal, point) - surface.offset_m; }
+// Reflections in a row, as one end sees them. image[k]: the end mirrored by the first k surfaces.
+struct Chain {
+  std::vector<uint32_t> surfaces;
+  Points image;
+};
 
-dvec3 mirrored(const Surface& surface, const dvec3& point) {
-  return point - 2.0 * height(surface, point) * surface.normal;
+struct Vertex {
+  uint8_t kind;  // Interaction
+  uint32_t number;
+  dvec3 point;
+};
+using Path = std::vector<Vertex>;  // ends excluded
+
+// All chains of an end up to a length, the shorter ones first.
+std::vector<Chain> chains(const Scene& scene, const dvec3& end, size_t max_length) {
+  std::vector<Chain> result{{{}, {end}}};
+  for (size_t i = 0; i < result.size() && result[i].surfaces.size() < max_length; ++i)
+    for (uint32_t surface = 0; surface < scene.surfaces.size(); ++surface) {
+      if (!result[i].surfaces.empty() && result[i].surfaces.back() == surface) continue;
+      Chain longer = result[i];
+      longer.surfaces.push_back(surface);
+      longer.image.push_back(mirrored(scene.surfaces[surface], longer.image.back()));
+      result.push_back(std::move(longer));
+    }
+  return result;
 }
 
-// The point is known to lie in the triangle's plane.
-bool inside_triangle(const std::array<dvec3, 3>& corner, const dvec3& point) {
-  const dvec3 normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-  double size = 0;
-  for (int i = 0; i < 3; ++i) size = std::max(size, glm::distance(corner[i], corner[(i + 1) % 3]));
-  for (int i = 0; i < 3; ++i) {
-    const dvec3 side = corner[(i + 1) % 3] - corner[i];
-    const double distance = glm::dot(glm::cross(normal, side), point - corner[i]) / glm::length(side);
-    if (distance < -border_tolerance * size) return false;
+// The reflections of a chain on the way from its end to the target, or nothing if a point is outside of its surface.
+std::optional<Path> unfolded(const Scene& scene, const Chain& chain, dvec3 target) {
+  Path path(chain.surfaces.size());
+  for (size_t k = path.size(); k > 0; --k) {
+    const uint32_t surface = chain.surfaces[k - 1];
+    const auto hit = crossing(scene.surfaces[surface], chain.image[k], target);
+    if (!hit || !inside_surface(scene, surface, *hit)) return std::nullopt;
+    path[k - 1] = {reflection, surface, *hit};
+    target = *hit;
   }
-  return true;
+  return path;
 }
 
-bool inside_surface(const Scene& scene, uint32_t index, const dvec3& point) {
-  const Surface& surface = scene.surfaces[index];
-  for (uint32_t i = 0; i < surface.triangle_count; ++i) {
-    const auto& corners = scene.triangles[scene.surface_triangles[surface.first_triangle + i]];
-    if (inside_triangle({scene.vertices[corners[0]], scene.vertices[corners[1]], scene.vertices[corners[2]]}, point))
-      return true;
+// From the transmitter's chain over the bends at wedges to the receiver's chain.
+std::optional<Path> joined(const Scene& scene, const Chain& from, const Path& bends, const Chain& to) {
+  auto path = unfolded(scene, from, bends.front().point);
+  if (!path) return std::nullopt;
+  const auto rest = unfolded(scene, to, bends.back().point);
+  if (!rest) return std::nullopt;
+  path->insert(path->end(), bends.begin(), bends.end());
+  path->insert(path->end(), rest->rbegin(), rest->rend());
+  return path;
+}
+
+bool bends_rightly(const Scene& scene, const Vertex& vertex, const dvec3& before, const dvec3& after) {
+  if (std::min(glm::distance(before, vertex.point), glm::distance(vertex.point, after)) < same_vertex_m) return false;
+  if (vertex.kind == reflection) {
+    const Surface& surface = scene.surfaces[vertex.number];
+    return height(surface, before) * height(surface, after) > 0;
   }
-  return false;
+  const Wedge& wedge = scene.wedges[vertex.number];
+  return in_free_sector(wedge, vertex.point, before) && in_free_sector(wedge, vertex.point, after);
 }
 
-// Where the line from a to b meets the plane, if that is strictly between them.
-std::optional<dvec3> crossing(const Surface& surface, const dvec3& a, const dvec3& b) {
-  const double from = height(surface, a), to = height(surface, b);
-  if (from * to >= 0) return std::nullopt;
-  return a + (b - a) * (from / (from - to));
-}
-
-bool blocked(const Scene& scene, const dvec3& a, uint32_t a_surface, const dvec3& b, uint32_t b_surface) {
-  for (uint32_t i = 0; i < scene.surfaces.size(); ++i) {
-    const Surface& surface = scene.surfaces[i];
-    if (i == a_surface || i == b_surface) continue;
-    if (std::abs(height(surface, a)) <= plane_distance_m || std::abs(height(surface, b)) <= plane_distance_m) continue;
-    const auto point = crossing(surface, a, b);
-    if (point && inside_surface(scene, i, *point)) return true;
+// The path with its transmissions, or nothing if it is none.
+std::optional<Path> checked(const Scene& scene, const Limits& limits, const dvec3& tx, const Path& bends,
+                            const dvec3& rx) {
+  const auto point = [&](size_t k) { return k == 0 ? tx : k > bends.size() ? rx : bends[k - 1].point; };
+  const auto surface = [&](size_t k) {
+    return k == 0 || k > bends.size() || bends[k - 1].kind != reflection ? no_surface : bends[k - 1].number;
+  };
+  for (size_t k = 1; k <= bends.size(); ++k)
+    if (!bends_rightly(scene, bends[k - 1], point(k - 1), point(k + 1))) return std::nullopt;
+  size_t transmissions = limits.transmission ? limits.max_transmissions : 0;  // left
+  transmissions = std::min(transmissions, limits.max_depth - bends.size());
+  Path path;
+  for (size_t k = 0; k <= bends.size(); ++k) {
+    if (k > 0) path.push_back(bends[k - 1]);
+    const auto passed = passages(scene, point(k), surface(k), point(k + 1), surface(k + 1));
+    if (passed.size() > transmissions) return std::nullopt;
+    transmissions -= passed.size();
+    for (const Passage& passage : passed) path.push_back({transmission, passage.surface, passage.point});
   }
-  return false;
+  return path;
 }
 
-// The reflection points of a sequence, transmitter's side first, or nothing if it is not a path.
-std::optional<Points> solve(const Scene& scene, const Sequence& sequence, const dvec3& tx, const dvec3& rx) {
-  const size_t order = sequence.size();
-  Points image{tx};  // image[k]: the transmitter mirrored by the first k surfaces
-  for (const uint32_t surface : sequence) image.push_back(mirrored(scene.surfaces[surface], image.back()));
-  Points point(order + 2);
-  point.front() = tx;
-  point.back() = rx;
-  for (size_t k = order; k > 0; --k) {
-    const auto hit = crossing(scene.surfaces[sequence[k - 1]], image[k], point[k + 1]);
-    if (!hit || !inside_surface(scene, sequence[k - 1], *hit)) return std::nullopt;
-    point[k] = *hit;
+// All bends at one wedge, or at two, between two chains; the points are found between their last images.
+std::vector<Path> bends_between(const Scene& scene, const Limits& limits, std::span<const uint32_t> wedges,
+                                const Chain& from, const Chain& to) {
+  const dvec3 &a = from.image.back(), &b = to.image.back();
+  const size_t reflections = from.surfaces.size() + to.surfaces.size();
+  std::vector<Path> result;
+  for (const uint32_t first : wedges) {
+    if (const auto p = diffraction_point(scene.wedges[first], a, b)) result.push_back({{diffraction, first, *p}});
+    if (limits.max_diffractions < 2 || reflections + 2 > limits.max_depth) continue;
+    for (const uint32_t second : wedges) {
+      if (second == first) continue;
+      if (const auto p = diffraction_points(scene.wedges[first], scene.wedges[second], a, b))
+        result.push_back({{diffraction, first, (*p)[0]}, {diffraction, second, (*p)[1]}});
+    }
   }
-  for (size_t k = 1; k <= order; ++k) {
-    const Surface& surface = scene.surfaces[sequence[k - 1]];
-    if (height(surface, point[k - 1]) * height(surface, point[k + 1]) <= 0) return std::nullopt;
-  }
-  for (size_t k = 0; k <= order; ++k) {
-    const uint32_t from = k == 0 ? no_surface : sequence[k - 1], to = k == order ? no_surface : sequence[k];
-    if (blocked(scene, point[k], from, point[k + 1], to)) return std::nullopt;
-  }
-  return Points(point.begin() + 1, point.end() - 1);
+  return result;
 }
 
-bool same_points(const Points& a, const Points& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const dvec3& p, const dvec3& q) { return glm::distance(p, q) <= same_vertex_m; });
+bool same_place(const Path& a, const Path& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Vertex& p, const Vertex& q) {
+    return p.kind == q.kind && glm::distance(p.point, q.point) <= same_vertex_m;
+  });
 }
 
-// Counts through all sequences of one length in lexicographic order, those with immediate repeats included.
-bool advance(Sequence& sequence, uint32_t surface_count) {
-  for (size_t k = sequence.size(); k > 0; --k) {
-    if (++sequence[k - 1] < surface_count) return true;
-    sequence[k - 1] = 0;
+bool before(const Path& a, const Path& b) {
+  const auto key = [](const Path& path) {
+    std::vector<uint32_t> kinds, numbers;
+    for (const Vertex& vertex : path) kinds.push_back(vertex.kind), numbers.push_back(vertex.number);
+    return std::tuple(path.size(), kinds, numbers);
+  };
+  return key(a) < key(b);
+}
+
+void append(PathGeometry& paths, uint32_t tx, uint32_t rx, std::vector<Path> found) {
+  std::sort(found.begin(), found.end(), before);
+  std::vector<Path> kept;
+  for (const Path& path : found) {
+    if (std::any_of(kept.begin(), kept.end(), [&](const Path& other) { return same_place(other, path); })) continue;
+    kept.push_back(path);
+    paths.tx.push_back(tx);
+    paths.rx.push_back(rx);
+    for (const Vertex& vertex : path) {
+      paths.surface.push_back(vertex.number);
+      paths.interaction.push_back(vertex.kind);
+      paths.vertex.push_back(vertex.point);
+    }
+    paths.first.push_back(paths.vertex.size());
   }
-  return false;
-}
-
-void append(PathGeometry& paths, uint32_t tx, uint32_t rx, const Sequence& sequence, const Points& points) {
-  paths.tx.push_back(tx);
-  paths.rx.push_back(rx);
-  paths.surface.insert(paths.surface.end(), sequence.begin(), sequence.end());
-  paths.interaction.insert(paths.interaction.end(), sequence.size(), uint8_t{1});  // Interaction::reflection
-  paths.vertex.insert(paths.vertex.end(), points.begin(), points.end());
-  paths.first.push_back(paths.vertex.size());
 }
 
 }  // namespace
 
-PathGeometry brute_force_paths(const Scene& scene, const std::vector<dvec3>& transmitters,
-                               const std::vector<dvec3>& receivers, uint32_t max_order) {
-  const uint32_t surface_count = static_cast<uint32_t>(scene.surfaces.size());
+PathGeometry brute_force_all(const Scene& scene, const Points& transmitters, const Points& receivers,
+                             const Limits& limits) {
+  std::vector<uint32_t> wedges;
+  for (uint32_t i = 0; i < scene.wedges.size() && limits.diffraction; ++i)
+    if (limits.free_edges || scene.wedges[i].surface[0] != scene.wedges[i].surface[1]) wedges.push_back(i);
+  const size_t reflections = limits.reflection ? limits.max_depth : 0;
+  const bool bends = !wedges.empty() && limits.max_diffractions > 0 && limits.max_depth > 0;
   PathGeometry paths;
-  for (uint32_t tx = 0; tx < transmitters.size(); ++tx)
-    for (uint32_t rx = 0; rx < receivers.size(); ++rx)
-      for (uint32_t order = 0; order <= max_order && (order == 0 || surface_count > 0); ++order) {
-        std::vector<Points> kept;
-        Sequence sequence(order, 0);
-        do {
-          if (std::adjacent_find(sequence.begin(), sequence.end()) != sequence.end()) continue;
-          const auto points = solve(scene, sequence, transmitters[tx], receivers[rx]);
-          if (!points ||
-              std::any_of(kept.begin(), kept.end(), [&](const Points& p) { return same_points(p, *points); }))
-            continue;
-          kept.push_back(*points);
-          append(paths, tx, rx, sequence, *points);
-        } while (advance(sequence, surface_count));
-      }
+  for (uint32_t tx = 0; tx < transmitters.size(); ++tx) {
+    const std::vector<Chain> out = chains(scene, transmitters[tx], reflections);
+    for (uint32_t rx = 0; rx < receivers.size(); ++rx) {
+      std::vector<Path> found;
+      const auto keep = [&](const std::optional<Path>& path) {
+        if (!path) return;
+        if (auto complete = checked(scene, limits, transmitters[tx], *path, receivers[rx]))
+          found.push_back(std::move(*complete));
+      };
+      for (const Chain& from : out) keep(unfolded(scene, from, receivers[rx]));
+      for (const Chain& to : bends ? chains(scene, receivers[rx], std::min<size_t>(reflections, limits.max_depth - 1))
+                                   : std::vector<Chain>{})
+        for (const Chain& from : out) {
+          if (from.surfaces.size() + 1 + to.surfaces.size() > limits.max_depth) break;
+          for (const Path& wedge_points : bends_between(scene, limits, wedges, from, to))
+            keep(joined(scene, from, wedge_points, to));
+        }
+      append(paths, tx, rx, std::move(found));
+    }
+  }
   return paths;
+}
+
+PathGeometry brute_force_paths(const Scene& scene, const Points& transmitters, const Points& receivers,
+                               uint32_t max_order) {
+  return brute_force_all(scene, transmitters, receivers, {.max_depth = max_order});
 }
 
 double path_length_m(const PathGeometry& paths, size_t i, const dvec3& transmitter, const dvec3& receiver) {

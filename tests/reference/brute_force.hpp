@@ -1,5 +1,5 @@
-// The slow, obvious oracle: every sequence of surfaces is tried, every leg is tested against every triangle, in double.
-// Shares no code with the ray tracer; meant for scenes of up to about 60 surfaces and 3 reflections.
+// The slow, obvious oracle: every sequence of surfaces and wedges is tried, every leg is tested against every triangle,
+// in double. Shares no code with the ray tracer; meant for scenes of up to about 60 surfaces and 3 interactions.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
@@ -8,18 +8,39 @@
 
 namespace wavetracer::reference {
 
-// All line-of-sight and specular paths with at most max_order reflections, by the image method.
-// Positions and vertices are recentred, as the scene is. Rows are sorted by tx, rx, order, then surfaces.
+// Which paths are wanted. Line of sight always is.
+struct Limits {
+  uint32_t max_depth = 3;  // interactions a path, transmissions included
+  bool reflection = true;
+  bool transmission = false;
+  uint32_t max_transmissions = 2;  // a path
+  bool diffraction = false;
+  uint32_t max_diffractions = 1;  // a path, 1 or 2; two follow each other, with no reflection between them
+  bool free_edges = true;         // wedges of one face diffract
+};
+
+// All paths of reflections, transmissions and diffractions at Scene::wedges within the limits, by the image method and
+// Fermat's principle. Positions and vertices are recentred, as the scene is; numbers are those of PathGeometry. Rows
+// are sorted by tx, rx, number of interactions, then their kinds, then their surfaces and wedges.
 //
 // What counts as a path:
-// - a sequence never names one surface twice in a row;
-// - each point lies inside its surface, borders included (to 1e-9 of the triangle's size), and both neighbours of the
-//   point are on the same side of the surface's plane;
+// - a sequence never names one surface or wedge twice in a row;
+// - each reflection point lies inside its surface, borders included (to 1e-9 of the triangle's size), and both
+//   neighbours of the point are on the same side of the surface's plane;
+// - each diffraction point lies on its edge, ends included, and both neighbours of it are in the wedge's sector of free
+//   space, faces included (to 1e-9 rad), and off the edge's line by more than 1e-4 m;
+// - no leg between reflections, diffractions and ends is shorter than 1e-4 m, unless it is the line of sight;
 // - no leg is blocked. A surface blocks a leg when the leg crosses one of its triangles, both ends of the leg lie on
-//   opposite sides of its plane and farther than 1e-4 m from it, and the leg neither starts nor ends on that surface;
-// - of paths of one transmitter, receiver and order whose vertices agree within 1e-4 m, the first is kept: a point on
+//   opposite sides of its plane and farther than 1e-4 m from it, and the leg neither starts nor ends on that surface.
+//   With transmission such a surface is passed instead, and is an interaction of the path; crossings within 1e-4 m of
+//   parallel planes are one, of the first surface;
+// - of paths of one transmitter, receiver and kind whose vertices agree within 1e-4 m, the first is kept: a point on
 //   the border of two coplanar surfaces is one path.
 // Positions should be generic: a path through the exact corner of two walls is left to rounding.
+PathGeometry brute_force_all(const Scene& scene, const std::vector<glm::dvec3>& transmitters,
+                             const std::vector<glm::dvec3>& receivers, const Limits& limits);
+
+// The same with at most max_order reflections and nothing else.
 PathGeometry brute_force_paths(const Scene& scene, const std::vector<glm::dvec3>& transmitters,
                                const std::vector<glm::dvec3>& receivers, uint32_t max_order);
 

@@ -108,6 +108,78 @@ std::optional<double> distance(const Paths& mine, size_t i, const Paths& theirs,
   return largest;
 }
 
+// The names of interactions whose bits are set, joined by " + ".
+std::string names_of(uint32_t bits) {
+  std::string names;
+  for (const auto& [bit, name] : {std::pair{reflection, "reflection"},
+                                  {diffuse, "scattering"},
+                                  {transmission, "transmission"},
+                                  {diffraction, "diffraction"}})
+    if (bits & bit) names += (names.empty() ? "" : " + ") + std::string(name);
+  return names;
+}
+
+// The interactions of a path besides reflection, or "specular".
+std::string kind_of(const Paths& paths, size_t i) {
+  uint32_t bits = 0;
+  for (const uint8_t kind : interactions(paths, i)) bits |= kind;
+  const std::string names = names_of(bits & ~uint32_t{reflection});
+  return names.empty() ? "specular" : names;
+}
+
+// Adds up what an Agreement says.
+struct Tally {
+  size_t reference = 0, extra = 0;
+  double power_all = 0, power_found = 0, power_extra = 0;
+  std::vector<double> delay_errors, gain_errors, matrix_errors;  // of matched paths
+
+  // Path j of the list, and path i of ours that matches it.
+  void add_reference(const Paths& theirs, size_t j, const Paths& mine, std::optional<size_t> i) {
+    const double p = power(theirs, j);
+    ++reference;
+    power_all += p;
+    if (!i) return;
+    power_found += p;
+    delay_errors.push_back(std::abs(mine.delay_s[*i] - theirs.delay_s[j]) / theirs.delay_s[j]);
+    if (mine.rx_ports != theirs.rx_ports || mine.tx_ports != theirs.tx_ports) return;
+    gain_errors.push_back(std::abs(10 * std::log10(std::max(power(mine, *i), 1e-300) / p)));
+    double difference = 0;
+    for (size_t k = 0; k < 4; ++k) difference += std::norm(mine.a[*i][k] - theirs.a[j][k]);
+    matrix_errors.push_back(std::sqrt(difference / p));
+  }
+
+  void add_extra(const Paths& mine, size_t i) {
+    ++extra;
+    power_extra += power(mine, i);
+  }
+
+  Agreement agreement() const {
+    Agreement result;
+    result.reference = reference;
+    result.found = delay_errors.size();
+    result.mine = result.found + extra;
+    result.recall = static_cast<double>(result.found) / static_cast<double>(std::max<size_t>(reference, 1));
+    result.power_recall = power_found / std::max(power_all, 1e-300);
+    result.extra = extra;
+    result.extra_power_ratio = power_extra / std::max(power_all, 1e-300);
+    result.delay_rel_err_max = percentile(delay_errors, 1);
+    result.gain_err_db_p50 = percentile(gain_errors, 0.5);
+    result.gain_err_db_p99 = percentile(gain_errors, 0.99);
+    result.gain_err_db_max = percentile(gain_errors, 1);
+    result.matrix_rel_err_p50 = percentile(matrix_errors, 0.5);
+    result.matrix_rel_err_p99 = percentile(matrix_errors, 0.99);
+    return result;
+  }
+};
+
+std::string line(const Agreement& a) {
+  return fmt::format(
+      "found {} of {} (recall {:.4f}, of the power {:.6f}), {} extra, delay error max {:.2g}, "
+      "gain error p50 {:.2g} p99 {:.2g} max {:.2g} dB, matrix error p50 {:.2g} p99 {:.2g}",
+      a.found, a.reference, a.recall, a.power_recall, a.extra, a.delay_rel_err_max, a.gain_err_db_p50,
+      a.gain_err_db_p99, a.gain_err_db_max, a.matrix_rel_err_p50, a.matrix_rel_err_p99);
+}
+
 size_t count_duplicates(const Paths& paths) {
   std::set<std::tuple<LinkKey, int64_t, std::vector<int64_t>>> seen;
   size_t duplicates = 0;
@@ -154,55 +226,48 @@ Comparison compare_paths(const Case& reference, const Paths& paths) {
   std::map<LinkKey, std::vector<size_t>> mine;
   for (size_t i = 0; i < paths.size(); ++i) mine[key_of(paths, i)].push_back(i);
   std::vector<bool> used(paths.size(), false);
-  std::vector<double> delay_errors, gain_errors, matrix_errors;
-  double power_all = 0, power_found = 0, power_extra = 0;
+  Comparison result;
+  Tally all;
+  std::map<std::string, Tally> kinds;
   for (size_t j = 0; j < theirs.size(); ++j) {
-    const double p = power(theirs, j);
-    power_all += p;
     std::optional<size_t> best;
     double best_distance = 0;
     for (const size_t i : mine[key_of(theirs, j)]) {
       const auto d = used[i] ? std::nullopt : distance(paths, i, theirs, j);
       if (d && (!best || *d < best_distance)) best = i, best_distance = *d;
     }
-    if (!best) continue;
-    used[*best] = true;
-    power_found += p;
-    delay_errors.push_back(std::abs(paths.delay_s[*best] - theirs.delay_s[j]) / theirs.delay_s[j]);
-    if (paths.rx_ports != theirs.rx_ports || paths.tx_ports != theirs.tx_ports) continue;
-    gain_errors.push_back(std::abs(10 * std::log10(std::max(power(paths, *best), 1e-300) / p)));
-    double difference = 0;
-    for (size_t k = 0; k < 4; ++k) difference += std::norm(paths.a[*best][k] - theirs.a[j][k]);
-    matrix_errors.push_back(std::sqrt(difference / p));
+    if (best)
+      used[*best] = true;
+    else
+      result.missing.push_back(j);
+    for (Tally* tally : {&all, &kinds[kind_of(theirs, j)]}) tally->add_reference(theirs, j, paths, best);
   }
-  for (size_t i = 0; i < paths.size(); ++i)
-    if (!used[i]) power_extra += power(paths, i);
-
-  Comparison result;
-  result.reference = theirs.size();
-  result.found = delay_errors.size();
-  result.mine = paths.size();
-  result.recall = static_cast<double>(result.found) / static_cast<double>(std::max<size_t>(theirs.size(), 1));
-  result.power_recall = power_found / std::max(power_all, 1e-300);
-  result.extra = paths.size() - result.found;
-  result.extra_power_ratio = power_extra / std::max(power_all, 1e-300);
+  for (size_t i = 0; i < paths.size(); ++i) {
+    if (used[i]) continue;
+    result.extra_paths.push_back(i);
+    for (Tally* tally : {&all, &kinds[kind_of(paths, i)]}) tally->add_extra(paths, i);
+  }
+  static_cast<Agreement&>(result) = all.agreement();
+  for (const auto& [kind, tally] : kinds) result.kinds[kind] = tally.agreement();
   result.duplicates = count_duplicates(paths);
-  result.delay_rel_err_max = percentile(delay_errors, 1);
-  result.gain_err_db_p50 = percentile(gain_errors, 0.5);
-  result.gain_err_db_p99 = percentile(gain_errors, 0.99);
-  result.gain_err_db_max = percentile(gain_errors, 1);
-  result.matrix_rel_err_p50 = percentile(matrix_errors, 0.5);
-  result.matrix_rel_err_p99 = percentile(matrix_errors, 0.99);
   return result;
 }
 
 std::string to_string(const Comparison& c) {
-  return fmt::format(
-      "found {} of {} (recall {:.4f}, of the power {:.6f}), {} extra, {} duplicates, delay error max {:.2g}, gain "
-      "error "
-      "p50 {:.2g} p99 {:.2g} max {:.2g} dB, matrix error p50 {:.2g} p99 {:.2g}",
-      c.found, c.reference, c.recall, c.power_recall, c.extra, c.duplicates, c.delay_rel_err_max, c.gain_err_db_p50,
-      c.gain_err_db_p99, c.gain_err_db_max, c.matrix_rel_err_p50, c.matrix_rel_err_p99);
+  std::string text = fmt::format("{}, {} duplicates", line(c), c.duplicates);
+  if (c.kinds.size() > 1)
+    for (const auto& [kind, agreement] : c.kinds) text += fmt::format("\n  {}: {}", kind, line(agreement));
+  return text;
+}
+
+std::string to_string(const Paths& paths, size_t i) {
+  std::string text = fmt::format("tx {} rx {}, {:.4f} ns, {:.2f} dB", paths.tx[i], paths.rx[i], paths.delay_s[i] * 1e9,
+                                 10 * std::log10(std::max(power(paths, i), 1e-300)));
+  const auto points = vertices(paths, i);
+  for (size_t k = 0; k < points.size(); ++k)
+    text += fmt::format(", {} ({:.4f}, {:.4f}, {:.4f})", names_of(interactions(paths, i)[k]), points[k].x, points[k].y,
+                        points[k].z);
+  return text;
 }
 
 }  // namespace wavetracer::reference

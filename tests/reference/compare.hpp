@@ -4,6 +4,7 @@
 #pragma once
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <map>
 #include <string>
 #include <vector>
 #include "wavetracer/paths.hpp"
@@ -23,24 +24,35 @@ struct Case {
 // Throws InputError when the file is missing or not a reference list.
 Case load_case(const std::filesystem::path& json_path);
 
-struct Comparison {
+// How well paths, or those of one kind, agree with the list.
+struct Agreement {
   size_t reference = 0, found = 0, mine = 0;  // paths in the list, those matched, paths compared with it
   double recall = 0;                          // found / reference
   double power_recall = 0;                    // the same, each path weighted by its sum of |a|^2
   size_t extra = 0;                           // paths of ours that match none in the list
   double extra_power_ratio = 0;               // their power over the list's
-  size_t duplicates = 0;                      // ours that repeat another: delay to 1e-13 s, vertices to 1e-4 m
   // Of the matched paths; NaN where there are none (or none with the list's port counts, for gain and matrix).
   double delay_rel_err_max = 0;
   double gain_err_db_p50 = 0, gain_err_db_p99 = 0, gain_err_db_max = 0;
   double matrix_rel_err_p50 = 0, matrix_rel_err_p99 = 0;  // Frobenius norm of the difference over the list's
 };
 
+struct Comparison : Agreement {
+  size_t duplicates = 0;  // ours that repeat another: delay to 1e-13 s, vertices to 1e-4 m
+  // Those of either side, by the interactions besides reflection that their paths contain: "specular" (none),
+  // "transmission", "diffraction", "transmission + diffraction", ...
+  std::map<std::string, Agreement> kinds;
+  std::vector<size_t> missing;      // paths of the list that are not matched, as rows of Case::paths
+  std::vector<size_t> extra_paths;  // ours that are not
+};
+
 // paths: one frame, vertices in file coordinates. Each is matched once, the nearest first.
 Comparison compare_paths(const std::filesystem::path& json_path, const Paths& paths);
 Comparison compare_paths(const Case& reference, const Paths& paths);
 
-// One line for test logs.
+// For test logs: a line about all paths, then one about each kind if there are several.
 std::string to_string(const Comparison& comparison);
+// A path in one line: ends, interactions, delay, gain and vertices.
+std::string to_string(const Paths& paths, size_t i);
 
 }  // namespace wavetracer::reference

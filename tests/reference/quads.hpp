@@ -1,4 +1,4 @@
-// Scenes made of parallelograms, one surface each, for tests whose answers are closed forms.
+// Scenes made of parallelograms, one surface each, and their wedges, for tests whose answers are closed forms.
 // No loader, no welding: what is written down is what the scene holds.
 #pragma once
 #include <glm/vec3.hpp>
@@ -17,5 +17,12 @@ Scene scene_of_quads(const std::vector<Quad>& quads);
 
 // The six walls of a box, in the order x lower, x upper, y lower, y upper, z lower, z upper.
 std::vector<Quad> box_walls(const glm::dvec3& lower, const glm::dvec3& upper);
+
+// The twelve edges of a solid box in free space, whose walls are surfaces first_surface + 0 to 5 in that order. First
+// the four along z, then those along x, then those along y.
+std::vector<Wedge> box_wedges(const glm::dvec3& lower, const glm::dvec3& upper, uint32_t first_surface = 0);
+
+// The four edges of a quad that stands alone, surface number `surface`: half planes, in the order of its corners.
+std::vector<Wedge> free_wedges(const Quad& quad, uint32_t surface);
 
 }  // namespace wavetracer::reference

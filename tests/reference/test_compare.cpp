@@ -32,7 +32,8 @@ void repeat_path(Paths& paths, size_t i) {
 TEST_CASE("every list agrees with itself") {
   const std::pair<const char*, size_t> cases[] = {
       {"box_depth5", 461},     {"box_one_screen", 35}, {"simple_reflector", 2}, {"double_reflector", 4},
-      {"triple_reflector", 7}, {"floor_wall", 4},      {"simple_wedge", 4},     {"street_canyon_cars_specular", 136}};
+      {"triple_reflector", 7}, {"floor_wall", 4},      {"simple_wedge", 4},     {"street_canyon_cars_specular", 136},
+      {"street_canyon_cars_all", 307}};
   for (const auto& [name, paths] : cases) {
     CAPTURE(name);
     const Case reference = load_case(folder / (std::string(name) + ".json"));
@@ -120,6 +121,41 @@ TEST_CASE("single-port paths are matched, their gains are not compared") {
   const Comparison result = compare_paths(reference, mine);
   CHECK(result.recall == 1);
   CHECK(std::isnan(result.gain_err_db_max));
+}
+
+TEST_CASE("kinds of path: counts, and faults that are told apart") {
+  const Case reference = load_case(folder / "street_canyon_cars_all.json");
+  Paths mine = reference.paths;
+  const Comparison same = compare_paths(reference, mine);
+  REQUIRE(same.kinds.size() == 4);
+  CHECK(same.kinds.at("specular").reference == 9);
+  CHECK(same.kinds.at("transmission").reference == 2);
+  CHECK(same.kinds.at("diffraction").reference == 294);
+  CHECK(same.kinds.at("transmission + diffraction").reference == 2);
+  CHECK(same.missing.empty());
+  CHECK(same.extra_paths.empty());
+  CHECK(to_string(same).find("\n  transmission + diffraction: found 2 of 2") != std::string::npos);
+
+  // The first path is diffracted once: moved, it is missing and extra. One other of its kind gets 1 dB.
+  mine.vertex_position_m[0].z += 1;
+  size_t other = 1;
+  while (mine.vertex_interaction[mine.vertex_offset[other]] != diffraction || mine.depth[other] != 1) ++other;
+  for (auto& a : mine.a[other]) a *= std::pow(10, 1.0 / 20);
+  const Comparison result = compare_paths(reference, mine);
+  CHECK(result.missing == std::vector<size_t>{0});
+  CHECK(result.extra_paths == std::vector<size_t>{0});
+  const Agreement& diffracted = result.kinds.at("diffraction");
+  CHECK(diffracted.found == 294 - 1);
+  CHECK(diffracted.extra == 1);
+  CHECK(diffracted.gain_err_db_max == doctest::Approx(1).epsilon(1e-9));
+  CHECK(result.gain_err_db_max == diffracted.gain_err_db_max);
+  for (const char* kind : {"specular", "transmission", "transmission + diffraction"}) {
+    CHECK(result.kinds.at(kind).recall == 1);
+    CHECK(result.kinds.at(kind).extra == 0);
+    CHECK(result.kinds.at(kind).gain_err_db_max < 1e-12);
+  }
+  CHECK(to_string(reference.paths, 0) ==
+        "tx 0 rx 0, 276.7664 ns, -94.07 dB, diffraction (26.1118, 4.7000, 1.4920)");
 }
 
 TEST_CASE("no paths: recall 0, not a crash") {

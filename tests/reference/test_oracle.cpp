@@ -1,6 +1,7 @@
-// Two oracles against each other: brute force on the copied scenes finds the specular paths of the reference lists.
-// Only the orders that brute force reaches are compared; up to there the lists of these scenes are complete.
+// Two oracles against each other: brute force on the copied scenes finds the paths of the reference lists.
+// Of specular lists only the orders that brute force reaches are compared; up to there those lists are complete.
 #include <doctest/doctest.h>
+#include <tuple>
 #include "reference/brute_force.hpp"
 #include "reference/compare.hpp"
 #include "scene/load.hpp"
@@ -35,6 +36,19 @@ Paths geometry_only(const PathGeometry& geometry, const Case& reference, const S
     paths.delay_s.push_back(path_length_m(geometry, i, tx[geometry.tx[i]], rx[geometry.rx[i]]) / speed_of_light_m_s);
   paths.a.resize(geometry.size());
   return paths;
+}
+
+// Paths of all interactions that the list has. Lists have no free edges.
+Comparison compare_all(const Case& reference, const Scene& scene, uint32_t max_depth) {
+  const Limits limits{.max_depth = max_depth,
+                      .reflection = reference.reflection,
+                      .transmission = reference.transmission,
+                      .max_transmissions = max_depth,
+                      .diffraction = reference.diffraction,
+                      .free_edges = false};
+  const PathGeometry geometry = brute_force_all(scene, recentred(reference.transmitters_m, scene),
+                                                recentred(reference.receivers_m, scene), limits);
+  return compare_paths(reference, geometry_only(geometry, reference, scene));
 }
 
 // How many paths the list has with at most max_order interactions, reflections all.
@@ -103,4 +117,37 @@ TEST_CASE("street canyon with cars, order 3: every path of the list") {
   CHECK(result.found == expected);
   CHECK(result.extra == 0);
   CHECK(result.duplicates == 0);
+}
+
+TEST_CASE("a wedge, a floor with a wall, a box with a screen: diffracted and transmitted paths") {
+  const std::tuple<const char*, const char*, size_t> cases[] = {{"simple_wedge", "diffraction", 3},
+                                                                {"floor_wall", "transmission", 1},
+                                                                {"box_one_screen", "transmission", 19}};
+  for (const auto& [name, kind, paths] : cases) {
+    CAPTURE(name);
+    const Case reference = load_case(folder / "oracle" / (std::string(name) + ".json"));
+    const Comparison result = compare_all(reference, load(reference), reference.max_depth);
+    CAPTURE(to_string(result));
+    CHECK(result.found == result.reference);
+    CHECK(result.extra == 0);
+    CHECK(result.duplicates == 0);
+    CHECK(result.delay_rel_err_max < 1e-6);
+    CHECK(result.kinds.at(kind).found == paths);
+  }
+}
+
+TEST_CASE("street canyon with cars, two interactions: every path of the list") {
+  const Case reference = load_case(folder / "oracle" / "street_canyon_cars_all.json");
+  const Comparison result = compare_all(reference, load(reference), 2);
+  CAPTURE(to_string(result));
+  size_t deeper = 0;
+  for (const uint32_t depth : reference.paths.depth) deeper += depth > 2;
+  CHECK(result.reference - deeper == 142);
+  CHECK(result.found == 142);
+  for (const size_t j : result.missing) {
+    CAPTURE(to_string(reference.paths, j));
+    CHECK(reference.paths.depth[j] > 2);
+  }
+  CHECK(result.duplicates == 0);
+  CHECK(result.delay_rel_err_max < 1e-6);
 }

@@ -3,6 +3,7 @@
 // tolerance).
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -66,6 +67,29 @@ TEST_CASE("munich") {
   CHECK(scene.surfaces.size() < 17432);  // what merging without the rule for slivers gives
   CHECK(scene.materials.size() == 5);
   CHECK(scene.report.warnings.empty());
+}
+
+TEST_CASE("edges of the shared scenes that diffract") {
+  if (absent()) return;
+  const auto free_count = [](const Scene& s) {
+    return std::count_if(s.wedges.begin(), s.wedges.end(), [](const Wedge& w) { return w.surface[0] == w.surface[1]; });
+  };
+  const Scene wedge = load("simple_wedge");
+  CHECK(wedge.wedges.size() == 7);
+  CHECK(free_count(wedge) == 6);
+  // Six boxes stand on the ground: 8 edges each, and the four of the ground.
+  const Scene canyon = load("simple_street_canyon");
+  CHECK(canyon.wedges.size() == 6 * 8 + 4);
+  CHECK(free_count(canyon) == 4);
+  CHECK(canyon.report.corner_pieces == 6 * 4);
+  CHECK(load("box_one_screen").wedges.size() == 12 + 4);
+  CHECK(load("floor_wall").wedges.size() == 4 + 4);  // the wall hangs above the floor
+  // Buildings without floors: their feet are free edges of the mesh, and do not diffract where they meet the ground.
+  const Scene munich = load("munich");
+  CHECK(munich.wedges.size() > 25000);
+  CHECK(munich.wedges.size() < 35000);
+  CHECK(free_count(munich) < 1000);
+  CHECK(munich.report.corner_pieces > 6000);
 }
 
 TEST_CASE("a vehicle body without a material") {

@@ -81,6 +81,26 @@ typedef struct {
   wt_uint padding;
 } wt_exact_instance;
 
+// What a vertex of a solved path is: a kind, and the number of a surface (reflection, transmission), wedge or tile.
+#define WT_STEP_KIND 0xC0000000u
+#define WT_STEP_REFLECTION 0u
+#define WT_STEP_TRANSMISSION 0x40000000u
+#define WT_STEP_DIFFRACTION 0x80000000u
+#define WT_STEP_SCATTERING 0xC0000000u
+
+// A wedge of the world (double, recentred), see Wedge in wavetracer/scene.hpp.
+typedef struct {
+  double start[3];
+  double along[3];
+  double face[3];
+  double normal[3];
+  double length;
+  double exterior;      // radians
+  wt_uint surfaces[2];  // numbered through the world
+  wt_uint instance;     // WT_NONE: static
+  wt_uint padding;
+} wt_wedge;
+
 // A candidate: a sequence (trie node or root) with a receiver. back: WT_NONE, or the node of the receiver's own end
 // whose sequence, back to front and without its last surface, which both share, follows that of node.
 typedef struct {
@@ -89,7 +109,32 @@ typedef struct {
   wt_uint back;
 } wt_candidate;
 
-// A solved candidate. Vertex j is three doubles at (index * max_depth + j) * 3, its surface at index * max_depth + j.
+// A prefix of an end that sees a wedge. Ends are transmitters, then the receivers that launch for themselves.
+typedef struct {
+  wt_uint node;    // of the prefix, or a root
+  wt_uint origin;  // the end
+  wt_uint depth;   // reflections
+  wt_uint last;    // surface of the last of them
+  float image[3];  // of the end in all of them
+  float along;     // of the image: where its foot on the edge's line is, from the start of the edge
+  float away;      // and how far from that line
+  float length;    // of the edge
+} wt_wedge_prefix;
+
+// What such prefixes are sorted by: the wedge, then the depth, so that those that are short enough stand together.
+#define WT_WEDGE_KEY(wedge, depth) ((wedge) << 5 | (depth))
+
+// A candidate of a diffracted path: prefixes of a transmitter and of the receiver's end, and one wedge or two (else
+// WT_NONE) between them, in the order from the transmitter.
+typedef struct {
+  wt_uint node;
+  wt_uint back;
+  wt_uint wedges[2];
+  wt_uint receiver;
+} wt_wedge_candidate;
+
+// A solved candidate. Its vertex j is three doubles at (index * max_depth + j) * 3, its surface, with WT_STEP_KIND, at
+// index * max_depth + j.
 typedef struct {
   wt_uint transmitter;
   wt_uint receiver;
@@ -105,6 +150,8 @@ typedef struct {
   wt_uint candidates;     // may exceed the capacity: grow and run again
   wt_uint solved;         // likewise
   wt_uint visible;        // likewise
+  wt_uint wedge_prefixes;    // likewise
+  wt_uint wedge_candidates;  // likewise
 } wt_counters;
 
 #endif

@@ -1,0 +1,101 @@
+// Host side of kernels/scatter.cl.
+// Which receivers a surface may serve holds for all its tiles, so the rows are counted before any is written.
+#include "passes/scatter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+
+Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface_count, uint32_t max_depth)
+    : context_(context),
+      lit_(context.kernel("scatter", "lit")),
+      scatter_(context.kernel("scatter", "scatter")),
+      local_(context.info().simple_local_size()),
+      entries_(context.buffer<uint32_t>(4 * 1024, "lit surfaces")),
+      first_row_(context.buffer<uint32_t>(1024 + 1, "rows of tiles")),
+      count_(context.buffer<uint32_t>(1, "lit surfaces")) {
+  std::vector<double> centres;
+  std::vector<uint32_t> first_centre;  // of each part
+  for (uint32_t part = 0; part < tiles.part_count(); ++part) {
+    first_centre.push_back(static_cast<uint32_t>(centres.size() / 3));
+    for (const Tile& tile : tiles.tiles(part))
+      centres.insert(centres.end(), {tile.centre_m.x, tile.centre_m.y, tile.centre_m.z});
+  }
+  std::vector<uint32_t> tiles_of(4 * size_t{surface_count}, 0);
+  const auto enter = [&](uint32_t part, uint32_t first_surface, uint32_t first_tile) {
+    for (uint32_t k = 0; k < tiles.tiles(part).size(); ++k) {
+      uint32_t* entry = &tiles_of[4 * (size_t{first_surface} + tiles.tiles(part)[k].surface)];
+      if (entry[2]++ > 0) continue;  // tiles of a surface follow each other
+      entry[0] = first_tile + k;
+      entry[1] = first_centre[part] + k;
+    }
+  };
+  enter(0, 0, 0);
+  for (uint32_t i = 0; i < tiles.instances().size(); ++i)
+    enter(1 + tiles.instances()[i].model, tiles.instances()[i].first_surface, tiles.first_tile(i));
+  tiles_of_ = context.buffer(tiles_of, "tiles of surfaces");
+  centres_ = context.buffer(centres, "tiles");
+  solved_.max_depth = std::max(max_depth, 1u);
+  solved_.reserve(context, 1 << 12);
+}
+
+uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
+                           const gpu::Buffer<uint32_t>& nodes, uint32_t node_count) {
+  const uint32_t groups = ends.receiver_capacity / 16;
+  for (;;) {
+    context_.fill(count_, 0, "scatter");
+    const auto capacity = static_cast<uint32_t>(entries_.size() / 4);
+    lit_({size_t{node_count} * groups, local_}, "scatter", trie, nodes, node_count, ends.transmitters,
+         ends.transmitter_count, ends.receivers, ends.links, groups, scene.exact_surfaces, tiles_of_, entries_,
+         capacity, count_);
+    const uint32_t count = count_.read_one(0, "scatter");
+    if (count <= capacity) return count;
+    const size_t larger = size_t{count} + count / 4;
+    entries_ = context_.buffer<uint32_t>(4 * larger, "lit surfaces");
+    first_row_ = context_.buffer<uint32_t>(larger + 1, "rows of tiles");
+  }
+}
+
+std::vector<uint32_t> Scatter::place_rows(uint32_t entry_count) {
+  const std::vector<uint32_t> entries = entries_.read(0, 4 * size_t{entry_count}, "scatter");
+  std::vector<uint32_t> first_row{0};
+  uint64_t rows = 0;
+  for (size_t i = 0; i < entries.size(); i += 4) {
+    rows += static_cast<uint64_t>(std::popcount(entries[i + 2])) * entries[i + 3];
+    first_row.push_back(static_cast<uint32_t>(rows));
+  }
+  const uint64_t row_bytes = 3 * sizeof(double) * solved_.max_depth;  // the largest of the list's buffers
+  const uint64_t most = std::min<uint64_t>(context_.info().max_buffer / row_bytes, 0xFFFFFFFFu);
+  if (rows > most)
+    throw RuntimeError(
+        fmt::format("diffuse scattering has {} paths by tiles to test in this frame, and buffers of {} hold {}: raise "
+                    "trace.tile_m (twice as long tiles are a quarter as many), ask for fewer links, or choose a device "
+                    "with more memory",
+                    rows, context_.info().name, most));
+  if (rows > solved_.headers.size()) solved_.reserve(context_, std::min(rows + rows / 4, most));
+  return first_row;
+}
+
+SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
+                                const gpu::Buffer<uint32_t>& nodes, uint32_t node_count) {
+  solved_.count = 0;
+  const bool any = node_count > 0 && ends.transmitter_count > 0 && ends.receiver_count > 0;
+  const uint32_t entry_count = any ? find_lit(scene, ends, trie, nodes, node_count) : 0;
+  if (entry_count == 0) return solved_;
+  const std::vector<uint32_t> first_row = place_rows(entry_count);
+  first_row_.write(first_row, 0, "scatter");
+  solved_.count = first_row.back();
+  // A search for the entry serves many rows where there are few cores, and neighbours write side by side elsewhere.
+  const uint32_t rows_per_item = context_.info().cpu ? 64 : 1;
+  scatter_({(size_t{solved_.count} + rows_per_item - 1) / rows_per_item, local_}, "scatter", trie, entries_, first_row_,
+           entry_count, solved_.count, rows_per_item, scene.exact_surfaces, tiles_of_, centres_, scene.exact_instances,
+           solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences);
+  return solved_;
+}
+
+}  // namespace wavetracer

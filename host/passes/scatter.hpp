@@ -1,0 +1,40 @@
+// scatter: rows of paths transmitter - tile - receiver, for the tiles of surfaces that a transmitter's rays saw
+// directly. A list of its own, which occlusion and visible take on as they do that of solve.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+#include "scene/tiles.hpp"
+
+namespace wavetracer {
+
+class Scatter {
+ public:
+  // surface_count: of the world. max_depth: interactions that a row has room for, at least one.
+  Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface_count, uint32_t max_depth);
+  // nodes: of the trie, in any order; roots among them are passed over. Rows are in no particular order;
+  // wt_solved::node is that of the tile's surface, seen from the transmitter.
+  // Throws RuntimeError, naming trace.tile_m, where the rows outgrow the buffers of the device.
+  SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
+                         const gpu::Buffer<uint32_t>& nodes, uint32_t node_count);
+
+ private:
+  // Fills entries_, all of them; their number.
+  uint32_t find_lit(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
+                    const gpu::Buffer<uint32_t>& nodes, uint32_t node_count);
+  // Where the rows of each entry begin, and their number after the last; room for them all in the list.
+  std::vector<uint32_t> place_rows(uint32_t entry_count);
+
+  gpu::Context& context_;
+  gpu::Kernel lit_, scatter_;
+  uint32_t local_;
+  gpu::Buffer<uint32_t> tiles_of_;  // four words a surface, see scatter.cl
+  gpu::Buffer<double> centres_;
+  gpu::Buffer<uint32_t> entries_, first_row_, count_;  // four words an entry
+  SolvedList solved_;
+};
+
+}  // namespace wavetracer

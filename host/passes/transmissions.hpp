@@ -1,0 +1,22 @@
+// transmissions: enters the surfaces that solved paths pass through into their rows, in order along the path.
+// Takes the place of occlusion: marks paths that pass more surfaces than they may.
+#pragma once
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+
+namespace wavetracer {
+
+class Transmissions {
+ public:
+  // most: transmissions of a path, no more than interactions of all kinds, of which a row of the list has room for the
+  // most (or for one, where there is none).
+  Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most);
+  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
+
+ private:
+  gpu::Kernel kernel_;
+  uint32_t most_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,33 @@
+// Host side of kernels/wedge_prefixes.cl.
+// One node of the trie a work-item; groups are small, because the ground bounds many wedges and a wall few.
+#include "passes/wedge_prefixes.hpp"
+
+#include "passes/growing_list.hpp"
+
+namespace wavetracer {
+
+WedgePrefixes::WedgePrefixes(gpu::Context& context)
+    : context_(context), kernel_(context.kernel("wedge_prefixes", "wedge_prefixes")) {
+  reserve(1 << 14);
+}
+
+void WedgePrefixes::reserve(size_t entries) {
+  list_ = {context_.buffer<uint32_t>(entries, "wedge keys"), context_.buffer<uint32_t>(entries, "wedge order"),
+           context_.buffer<wt_wedge_prefix>(entries, "wedge prefixes")};
+}
+
+WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedges& wedges, const RadioEnds& ends,
+                                           const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& nodes,
+                                           uint32_t node_count, gpu::Buffer<wt_counters>& counters) {
+  list_.count = fill_list(
+      counters, &wt_counters::wedge_prefixes, "wedge_prefixes", [&] { return list_.keys.size(); },
+      [&] {
+        kernel_({node_count, 64}, "wedge_prefixes", trie, static_cast<uint32_t>(trie.size() - 1), nodes, node_count,
+                ends.transmitters, scene.exact_surfaces, wedges.first(), wedges.of_surfaces(), wedges.wedges(),
+                list_.keys, list_.prefixes, static_cast<uint32_t>(list_.keys.size()), counters);
+      },
+      [&](size_t entries) { reserve(entries); });
+  return list_;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,77 @@
+// Host side of kernels/wedges.cl.
+// One wedge of an instance a work-item; the lists of surfaces do not change with frames.
+#include "passes/wedges.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numbers>
+#include <numeric>
+
+namespace wavetracer {
+
+namespace {
+
+constexpr double half_plane_rad = 2 * std::numbers::pi - 1e-6;
+
+// In the coordinates of its scene, with its surfaces numbered through the world.
+wt_wedge record_of(const Wedge& wedge, uint32_t first_surface, uint32_t instance) {
+  wt_wedge record{};
+  for (int axis = 0; axis < 3; ++axis) {
+    record.start[axis] = wedge.start[axis];
+    record.along[axis] = wedge.along[axis];
+    record.face[axis] = wedge.face[axis];
+    record.normal[axis] = wedge.normal[axis];
+  }
+  record.length = wedge.length_m;
+  record.exterior = wedge.exterior_rad;
+  for (int face = 0; face < 2; ++face) record.surfaces[face] = first_surface + wedge.surface[face];
+  record.instance = instance;
+  return record;
+}
+
+}  // namespace
+
+Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
+               const std::vector<Instance>& instances, bool free_edges)
+    : kernel_(context.kernel("wedges", "wedges")), local_(context.info().simple_local_size()) {
+  std::vector<wt_wedge> records;
+  for (const Wedge& wedge : scene.wedges) records.push_back(record_of(wedge, 0, WT_NONE));
+  static_count_ = static_cast<uint32_t>(records.size());
+  size_t surfaces = scene.surfaces.size();
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    const Scene& model = models[instances[i].model];
+    for (const Wedge& wedge : model.wedges) records.push_back(record_of(wedge, instances[i].first_surface, i));
+    surfaces += model.surfaces.size();
+  }
+  moving_count_ = static_cast<uint32_t>(records.size()) - static_count_;
+
+  std::vector<uint32_t> first(surfaces + 1, 0);
+  const auto visit = [&](const auto& act) {
+    for (uint32_t k = 0; k < records.size(); ++k) {
+      const wt_wedge& wedge = records[k];
+      if (!free_edges && wedge.exterior > half_plane_rad) continue;
+      act(k, wedge.surfaces[0]);
+      if (wedge.surfaces[1] != wedge.surfaces[0]) act(k, wedge.surfaces[1]);
+    }
+  };
+  visit([&](uint32_t, uint32_t surface) { ++first[surface + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<uint32_t> of_surfaces(first.back()), next = first;
+  visit([&](uint32_t wedge, uint32_t surface) { of_surfaces[next[surface]++] = wedge; });
+  diffracting_ = static_cast<uint32_t>(std::ranges::count_if(
+      records, [&](const wt_wedge& wedge) { return free_edges || wedge.exterior <= half_plane_rad; }));
+
+  wedges_ = context.buffer(records, "wedges");
+  models_ = context.buffer(std::vector<wt_wedge>(records.begin() + static_count_, records.end()), "model wedges");
+  first_ = context.buffer(first, "first wedges of surfaces");
+  of_surfaces_ = context.buffer(of_surfaces, "wedges of surfaces");
+}
+
+unsigned Wedges::key_bits() const { return static_cast<unsigned>(std::bit_width(WT_WEDGE_KEY(static_count_ + moving_count_, 31u))); }
+
+void Wedges::operator()(const DeviceScene& scene) {
+  if (moving_count_ > 0)
+    kernel_({moving_count_, local_}, "wedges", scene.exact_instances, models_, static_count_, moving_count_, wedges_);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,36 @@
+// wedges: all wedges of the world on the device, those of instances where they are in a frame, and which surfaces they
+// bound. Static ones come first, then those of each instance as Instance::first_wedge says.
+#pragma once
+#include <vector>
+
+#include "gpu/gpu.hpp"
+#include "passes/device_scene.hpp"
+#include "wavetracer/device/records.h"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/world.hpp"
+
+namespace wavetracer {
+
+class Wedges {
+ public:
+  // free_edges: do half planes count? What does not count keeps its number, and bounds no surface.
+  Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
+         const std::vector<Instance>& instances, bool free_edges);
+  // Moves those of instances to where the frame has them; place has run.
+  void operator()(const DeviceScene& scene);
+
+  uint32_t diffracting() const { return diffracting_; }  // wedges that count
+  unsigned key_bits() const;                             // of WT_WEDGE_KEY
+  const gpu::Buffer<wt_wedge>& wedges() const { return wedges_; }
+  // Wedges of surface s: of_surfaces[first[s] .. first[s + 1]].
+  const gpu::Buffer<uint32_t>& first() const { return first_; }
+  const gpu::Buffer<uint32_t>& of_surfaces() const { return of_surfaces_; }
+
+ private:
+  gpu::Kernel kernel_;
+  uint32_t local_, static_count_ = 0, moving_count_ = 0, diffracting_ = 0;
+  gpu::Buffer<wt_wedge> wedges_, models_;
+  gpu::Buffer<uint32_t> first_, of_surfaces_;
+};
+
+}  // namespace wavetracer

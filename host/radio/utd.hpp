@@ -1,0 +1,63 @@
+// The uniform theory of diffraction at a straight wedge: R. Kouyoumjian and P. Pathak, Proc. IEEE 62(11), 1974, with
+// faces of any material. Assumes Keller's cone: the direction of travel keeps its angle with the edge.
+#pragma once
+#include <array>
+#include <complex>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+
+#include "radio/transfer.hpp"
+
+namespace wavetracer {
+
+// As Wedge (wavetracer/scene.hpp), in the world's axes: free space goes from azimuth 0 (face 0) to exterior_rad
+// (face 1). Any exterior angle from 0.05 pi on; below pi it is a corner, in which waves are reflected several times.
+struct WedgeFrame {
+  glm::dvec3 along, face, normal;
+  double exterior_rad;
+};
+
+struct WedgeFace {
+  std::complex<double> permittivity;  // relative, as slab_coefficients has it; infinite: a perfect conductor
+  double thickness_m;
+};
+
+inline constexpr WedgeFace perfect_conductor{std::numeric_limits<double>::infinity(), 0};
+
+// Whether the direct ray and those reflected at one face reach the receiver, as far as the caller knows. It decides on
+// which side of a shadow boundary the receiver is where the angles, within 1e-6 rad of it, are too close to tell.
+struct LitSides {
+  std::optional<bool> direct;
+  std::array<std::optional<bool>, 2> reflected;  // at face 0, at face 1
+};
+
+// A wave whose field at the edge is E, in components along from (beta', phi'), leaves it along k_out as
+//   coefficient E / sin beta0 * sqrt(s' / (s (s' + s))) exp(-j k s)       (a plane wave: 1 / sqrt(s) instead)
+// in components along to (beta, phi), where beta0 is the angle between edge and directions, s' and s are the lengths
+// before and after the edge: the coefficient, in sqrt(m), is Kouyoumjian and Pathak's, signs included, times sin beta0.
+// phi' is -along x k_in, phi is along x k_out (of unit length), beta' = phi' x k_in and beta = phi x k_out.
+struct Diffraction {
+  std::array<glm::dvec3, 2> from, to;
+  Matrix2 coefficient;
+};
+
+// k_in, k_out: directions of travel, unit length; outside of free space they are taken for the nearest face.
+// distance_m: s s' sin^2 beta0 / (s + s'); of a plane wave, s sin^2 beta0.
+// transmits: direct rays go on through the faces (one face where exterior_rad is 2 pi), and the diffracted wave makes
+// up for what they lose there, not for all of them (W. Burnside and K. Burgener, IEEE Trans. AP 31(1), 1983). Not used
+// below pi, where nothing is in the way of a direct ray.
+//
+// The terms of a face are weighted by its reflection matrix, so that the total field is continuous at every shadow
+// boundary. R. Luebbers (IEEE Trans. AP 32(1), 1984) takes that of face 0 at the incident and that of face 1 at the
+// diffracted azimuth; here it is the mean of his coefficient and of his for the link the other way. So it is
+// reciprocal, does not depend on which face is face 0, and vanishes as the faces of a convex wedge become one plane.
+//
+// A direction, or both, within 1e-9 rad of a face: the reflected ray is one with the direct ray, which the caller
+// counts once, and the coefficient is halved, as Kouyoumjian and Pathak do, whatever the polarisation.
+// Directions along the edge, from where no single point of it diffracts: the coefficient is 0.
+Diffraction diffract(const WedgeFrame& wedge, const std::array<WedgeFace, 2>& faces, const glm::dvec3& k_in,
+                     const glm::dvec3& k_out, double distance_m, double wavelength_m, bool transmits = false,
+                     const LitSides& lit = {});
+
+}  // namespace wavetracer

@@ -1,0 +1,205 @@
+// Faces by probing beside the middle of a piece, sectors by sorting angles.
+// Planes are those of surfaces, so slivers of a wall do not turn its faces.
+#include "scene/wedges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <numbers>
+#include <optional>
+
+#include "scene/edge_pieces.hpp"
+#include "scene/scene_grid.hpp"
+#include "scene/wedge_rows.hpp"
+
+namespace wavetracer {
+namespace {
+
+using glm::dvec3;
+constexpr double pi = std::numbers::pi;
+constexpr double same_angle_rad = 1e-3;
+// A face that ends at a piece may end 2 mm beside it, on either side: twice that far it is there, or it is not.
+constexpr double probe_m = 2 * touch_m;
+constexpr double inside_m = 1e-6;  // probes on the border between two triangles are in both
+constexpr double most_lean = 0.1;  // sine: a plane that leans more does not hold a piece, however short that is
+
+struct HalfPlane {
+  double angle_rad;  // about the piece
+  dvec3 direction;   // unit, from the piece into the face
+  uint32_t surface;
+};
+
+std::vector<Box> triangle_boxes(const Scene& scene) {
+  std::vector<Box> boxes;
+  boxes.reserve(scene.triangles.size());
+  for (const auto& [a, b, c] : scene.triangles) {
+    const dvec3 &p = scene.vertices[a], &q = scene.vertices[b], &r = scene.vertices[c];
+    boxes.push_back({glm::min(glm::min(p, q), r) - probe_m, glm::max(glm::max(p, q), r) + probe_m});
+  }
+  return boxes;
+}
+
+CellLists triangles_by_cell(const SceneGrid& grid, std::span<const Box> boxes) {
+  std::vector<CellLists::Entry> entries;
+  for (uint32_t t = 0; t < boxes.size(); ++t) {
+    grid.visit_box(boxes[t], [&](uint32_t cell) { entries.push_back({cell, t}); });
+  }
+  return {grid.size(), entries};
+}
+
+class FaceFinder {
+ public:
+  explicit FaceFinder(const Scene& scene)
+      : scene_(scene),
+        boxes_(triangle_boxes(scene)),
+        grid_(boxes_),
+        triangles_(triangles_by_cell(grid_, boxes_)),
+        pieces_(split_edges(scene, grid_)) {}
+
+  std::span<const EdgePiece> pieces() const { return pieces_.pieces; }
+
+  // The half planes that leave a piece, by angle; those of one direction are one, that of their lowest surface.
+  std::vector<HalfPlane> faces(const EdgePiece& piece) const {
+    std::vector<HalfPlane> found;
+    add_ending(piece, found);
+    add_passing(piece, found);
+    if (found.empty()) return found;
+    const dvec3 zero = found[0].direction, quarter = glm::cross(piece.along, zero);
+    for (HalfPlane& face : found) {
+      const double angle_rad = std::atan2(glm::dot(face.direction, quarter), glm::dot(face.direction, zero));
+      face.angle_rad = angle_rad < 0 ? angle_rad + 2 * pi : angle_rad;
+    }
+    std::sort(found.begin(), found.end(), [](const HalfPlane& a, const HalfPlane& b) {
+      return a.angle_rad != b.angle_rad ? a.angle_rad < b.angle_rad : a.surface < b.surface;
+    });
+    std::vector<HalfPlane> distinct{found[0]};
+    for (size_t i = 1; i < found.size(); ++i) {
+      if (found[i].angle_rad - found[i - 1].angle_rad > same_angle_rad)
+        distinct.push_back(found[i]);
+      else if (found[i].surface < distinct.back().surface)
+        distinct.back() = found[i];
+    }
+    if (distinct.size() > 1 && found[0].angle_rad + 2 * pi - found.back().angle_rad <= same_angle_rad) {  // across zero
+      if (distinct.back().surface < distinct[0].surface) {
+        distinct[0] = distinct.back();
+        distinct[0].angle_rad -= 2 * pi;
+      }
+      distinct.pop_back();
+    }
+    return distinct;
+  }
+
+ private:
+  // Of triangles with an edge along the piece.
+  void add_ending(const EdgePiece& piece, std::vector<HalfPlane>& found) const {
+    for (uint32_t i = 0; i < piece.edge_count; ++i) {
+      const Edge& edge = scene_.edges[pieces_.edges[piece.first_edge + i]];
+      for (uint32_t k = 0; k < edge.face_count; ++k) {
+        const uint32_t t = scene_.edge_faces[edge.first_face + k], surface = scene_.triangle_surface[t];
+        const std::optional<dvec3> side = across_piece(piece, surface);
+        if (!side) continue;
+        const bool behind = glm::dot(*side, apex_of(t, edge) - scene_.vertices[edge.vertices[0]]) < 0;
+        found.push_back({0, behind ? -*side : *side, surface});
+      }
+    }
+  }
+
+  // Of triangles in whose plane the piece lies, on the sides where they are.
+  void add_passing(const EdgePiece& piece, std::vector<HalfPlane>& found) const {
+    const dvec3 middle = (piece.start + piece.end) / 2.0;
+    for (const uint32_t t : triangles_[grid_.cell_at(middle)]) {
+      if (glm::any(glm::lessThan(middle, boxes_[t].lower)) || glm::any(glm::greaterThan(middle, boxes_[t].upper)))
+        continue;
+      const uint32_t surface = scene_.triangle_surface[t];
+      if (!lies_in(piece.start, surface) || !lies_in(piece.end, surface)) continue;
+      const std::optional<dvec3> side = across_piece(piece, surface);
+      if (!side) continue;
+      for (const dvec3& direction : {*side, -*side}) {
+        if (holds(t, middle + direction * probe_m)) found.push_back({0, direction, surface});
+      }
+    }
+  }
+
+  // In the plane of a surface, normal to a piece that lies in it.
+  std::optional<dvec3> across_piece(const EdgePiece& piece, uint32_t surface) const {
+    const dvec3& normal = scene_.surfaces[surface].normal;
+    if (std::abs(glm::dot(normal, piece.along)) > most_lean) return std::nullopt;
+    return glm::normalize(glm::cross(normal, piece.along));
+  }
+
+  bool lies_in(const dvec3& p, uint32_t surface) const {
+    return std::abs(glm::dot(scene_.surfaces[surface].normal, p) - scene_.surfaces[surface].offset_m) <= touch_m;
+  }
+
+  dvec3 apex_of(uint32_t t, const Edge& edge) const {
+    for (const uint32_t v : scene_.triangles[t]) {
+      if (v != edge.vertices[0] && v != edge.vertices[1]) return scene_.vertices[v];
+    }
+    return scene_.vertices[scene_.triangles[t][0]];
+  }
+
+  // Whether a point that lies in the plane of triangle t is inside of it.
+  bool holds(uint32_t t, const dvec3& p) const {
+    const dvec3& normal = scene_.surfaces[scene_.triangle_surface[t]].normal;
+    bool left = true, right = true;  // of all sides
+    for (size_t k = 0; k < 3; ++k) {
+      const dvec3 &a = scene_.vertices[scene_.triangles[t][k]], &b = scene_.vertices[scene_.triangles[t][(k + 1) % 3]];
+      const double distance_m = glm::dot(normal, glm::cross(b - a, p - a)) / glm::distance(a, b);
+      left &= distance_m >= -inside_m;
+      right &= distance_m <= inside_m;
+    }
+    return left || right;
+  }
+
+  const Scene& scene_;
+  std::vector<Box> boxes_;
+  SceneGrid grid_;
+  CellLists triangles_;
+  EdgePieces pieces_;
+};
+
+// The widest sector between neighbours, from its face 0 to its face 1.
+struct Sector {
+  HalfPlane from, to;
+  double angle_rad;
+};
+
+Sector widest_sector(std::span<const HalfPlane> faces) {
+  Sector widest{faces.back(), faces.front(), faces.front().angle_rad + 2 * pi - faces.back().angle_rad};
+  for (size_t i = 1; i < faces.size(); ++i) {
+    const double angle_rad = faces[i].angle_rad - faces[i - 1].angle_rad;
+    if (angle_rad > widest.angle_rad) widest = {faces[i - 1], faces[i], angle_rad};
+  }
+  return widest;
+}
+
+Wedge wedge_at(const EdgePiece& piece, const Sector& sector) {
+  return {.start = piece.start,
+          .along = piece.along,
+          .length_m = glm::distance(piece.start, piece.end),
+          .face = sector.from.direction,
+          .normal = glm::cross(piece.along, sector.from.direction),
+          .exterior_rad = sector.angle_rad,
+          .surface = {sector.from.surface, sector.to.surface}};
+}
+
+}  // namespace
+
+void find_wedges(Scene& scene) {
+  const FaceFinder finder(scene);
+  scene.report.flat_pieces = scene.report.corner_pieces = 0;
+  std::vector<WedgePiece> found;
+  for (const EdgePiece& piece : finder.pieces()) {
+    const std::vector<HalfPlane> faces = finder.faces(piece);
+    const Sector sector = faces.empty() ? Sector{} : widest_sector(faces);
+    if (sector.angle_rad > pi + same_angle_rad)
+      found.push_back({piece.joints, wedge_at(piece, sector)});
+    else
+      ++(faces.size() > 2 ? scene.report.corner_pieces : scene.report.flat_pieces);
+  }
+  scene.wedges = join_rows(found);
+}
+
+}  // namespace wavetracer

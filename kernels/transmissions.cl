@@ -1,0 +1,74 @@
+// transmissions: the surfaces that the legs of a solved path pass through, entered into its row as interactions. Waves
+// go straight on, so a path with transmissions is one without whose legs are obstructed. lib/legs.clh says by what.
+// Consumes solved paths; rewrites their rows, or sets wt_solved::blocked where that is more than the path may pass.
+#include "lib/legs.clh"
+#pragma OPENCL FP_CONTRACT OFF
+
+typedef struct {
+  double3 point;
+  double along;  // share of its leg
+  uint surface, leg;
+} wt_crossing;
+
+// Is a crossing on the plane of a surface that goes the same way? Then both surfaces are one wall there, as where two
+// buildings touch, or at the border of two patches.
+inline int one_wall(const global wt_exact_surface* surfaces, const wt_crossing* c, uint surface) {
+  const global wt_exact_surface* s = surfaces + surface;
+  const double cosine = wt_dot(wt_normal(surfaces + c->surface), wt_normal(s));
+  return cosine * cosine > 1.0 - 1e-6 && fabs(wt_above(s, c->point)) <= WT_ON_SURFACE_M;
+}
+
+// One path a work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
+kernel void transmissions(const global WT_NODE* nodes, const global WT_NODE* triangles, uint triangle_slots,
+                          float extent_m, const global float4* moving, const global double4* transmitters,
+                          const global double4* receivers, const global wt_exact_surface* surfaces, uint solved_count,
+                          uint max_depth, uint most, global wt_solved* solved, global double* vertices,
+                          global uint* sequences) {
+  const uint i = get_global_id(0);
+  if (i >= solved_count) return;
+  const uint depth = solved[i].depth, allowed = min(most, max_depth - depth);
+  global double* v = vertices + 3 * (size_t)max_depth * i;
+  global uint* s = sequences + (size_t)max_depth * i;
+  wt_crossing crossings[WT_MAX_DEPTH];  // in order along the path
+  uint count = 0;
+  for (uint leg = 0; leg <= depth; ++leg) {
+    const wt_leg l = wt_leg_of(solved + i, leg, v, s, transmitters, receivers);
+    const uint first = count;
+    wt_walk walk = {0.0f, WT_NONE};
+    for (;;) {
+      const uint surface =
+          wt_next_blocking(nodes, triangles, triangle_slots, extent_m, moving, surfaces, &l, &walk);
+      if (surface == WT_NONE) break;
+      uint known = first;
+      while (known < count && !one_wall(surfaces, crossings + known, surface)) ++known;
+      if (known < count) continue;
+      if (count == allowed) {
+        solved[i].blocked = 1;
+        return;
+      }
+      const double a = wt_above(surfaces + surface, l.from), b = wt_above(surfaces + surface, l.to), u = a / (a - b);
+      // Distances of the traversal are float32: of walls that are near each other it may take the second for the first.
+      uint k = count++;
+      for (; k > first && crossings[k - 1].along > u; --k) crossings[k] = crossings[k - 1];
+      crossings[k] = (wt_crossing){l.from + u * (l.to - l.from), u, surface, leg};
+    }
+  }
+  // From the back, so that nothing is written over before it has moved on.
+  uint to = depth + count;
+  solved[i].depth = to;
+  for (uint from = depth; count > 0;) {
+    if (crossings[count - 1].leg == from) {
+      --count;
+      --to;
+      v[3 * to] = crossings[count].point.x;
+      v[3 * to + 1] = crossings[count].point.y;
+      v[3 * to + 2] = crossings[count].point.z;
+      s[to] = WT_STEP_TRANSMISSION | crossings[count].surface;
+    } else {
+      --from;
+      --to;
+      for (uint axis = 0; axis < 3; ++axis) v[3 * to + axis] = v[3 * from + axis];
+      s[to] = s[from];
+    }
+  }
+}

@@ -1,0 +1,44 @@
+// wedge_prefixes: every wedge that some prefix sees. A node of the trie is a prefix and the surface that its rays met
+// next, so it sees the wedges of that surface; a wedge between two such surfaces is listed once. Images are exact, and
+// whether a prefix lies in the free sector of a wedge is decided here.
+#include "lib/wedge.clh"
+#pragma OPENCL FP_CONTRACT OFF
+
+// One node a work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
+// entry WT_WEDGE_KEY is what to sort by, and its prefix is listed.
+kernel void wedge_prefixes(const global ulong* table, uint mask, const global uint* nodes, uint node_count,
+                           const global double4* origins, const global wt_exact_surface* surfaces,
+                           const global uint* first_wedges, const global uint* surface_wedges,
+                           const global wt_wedge* wedges, global uint* keys,
+                           global wt_wedge_prefix* prefixes, uint capacity, global wt_counters* counters) {
+  const uint i = get_global_id(0);
+  if (i >= node_count || (nodes[i] & WT_ROOT)) return;
+  uint chain[WT_MAX_DEPTH], origin;
+  const uint depth = wt_chain(table, nodes[i], chain, &origin) - 1, seen = chain[depth];
+  const uint node = wt_trie_parent(table[nodes[i]]);
+  double3 image = origins[origin].xyz;
+  for (uint k = 0; k < depth; ++k) image = wt_reflected(surfaces + chain[k], image);
+  // The vehicle that carries an antenna hides nothing from it, nor does it diffract.
+  const uint own = depth == 0 ? wt_end_instance(origins[origin]) : WT_NONE;
+  for (uint k = first_wedges[seen]; k < first_wedges[seen + 1]; ++k) {
+    const uint number = surface_wedges[k];
+    const global wt_wedge* w = wedges + number;
+    if (own != WT_NONE && w->instance == own) continue;
+    if (w->surfaces[0] != seen && wt_trie_find(table, mask, node, w->surfaces[0]) != WT_NONE) continue;
+    const double3 q = wt_in_wedge(w, image);
+    if (!(w->length > 0.0) || !wt_in_sector(w, q)) continue;
+    const uint slot = atomic_inc(&counters->wedge_prefixes);
+    if (slot >= capacity) continue;
+    keys[slot] = WT_WEDGE_KEY(number, depth);
+    prefixes[slot].node = node;
+    prefixes[slot].origin = origin;
+    prefixes[slot].depth = depth;
+    prefixes[slot].last = depth > 0 ? chain[depth - 1] : WT_NONE;
+    prefixes[slot].image[0] = (float)image.x;
+    prefixes[slot].image[1] = (float)image.y;
+    prefixes[slot].image[2] = (float)image.z;
+    prefixes[slot].along = (float)q.x;
+    prefixes[slot].away = (float)wt_from_edge(q);
+    prefixes[slot].length = (float)w->length;
+  }
+}

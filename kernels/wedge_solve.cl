@@ -1,0 +1,94 @@
+// wedge_solve: diffracted paths in double. The points on the edges first, from the images of both ends; then the
+// reflections between each end and its edge; keeps what lies inside edges and surfaces, in the free sector of each wedge.
+// Legs are not tested here (occlusion does that).
+#include "lib/fermat.clh"
+#include "lib/reflections.clh"
+#pragma OPENCL FP_CONTRACT OFF
+
+// A surface closer to the point of diffraction than this does not reflect on the way to it: its reflection and the
+// diffraction would be one point.
+#define WT_AT_EDGE_M 1e-6
+
+inline double3 images_of(const global wt_exact_surface* surfaces, const uint* chain, uint depth, double3 end,
+                         double3* images) {
+  images[0] = end;
+  for (uint k = 0; k < depth; ++k) images[k + 1] = wt_reflected(surfaces + chain[k], images[k]);
+  return images[depth];
+}
+
+// Inside of the edge, ends included?
+inline int on_edge(const global wt_wedge* w, double x) {
+  const double tolerance = 1e-9 * (1.0 + w->length);
+  return x >= -tolerance && x <= w->length + tolerance;
+}
+
+// Is the neighbour of a point p of the edge off the line of the edge and in the wedge's free sector?
+inline int in_free_space(const global wt_wedge* w, double3 p, double3 neighbour) {
+  const double3 q = wt_in_wedge(w, neighbour), d = neighbour - p;
+  return wt_dot(d, d) > WT_AT_EDGE_M * WT_AT_EDGE_M && wt_from_edge(q) > wt_rounding(neighbour) && wt_in_sector(w, q);
+}
+
+inline int own_instance(uint instance, double4 end) { return instance != WT_NONE && instance == wt_end_instance(end); }
+
+// The reflections between an end and its edge; 0 where that is no path. A vehicle is no mirror or wedge to its antenna.
+inline int solve_side(const global wt_exact_surface* surfaces, const global double* triangles,
+                      const global wt_exact_instance* instances, const global wt_wedge* w, const uint* chain, uint depth,
+                      double4 end, const double3* images, double3 p, double3* points) {
+  if (own_instance(depth > 0 ? surfaces[chain[0]].instance : w->instance, end)) return 0;
+  if (depth > 0 && fabs(wt_above(surfaces + chain[depth - 1], p)) <= WT_AT_EDGE_M) return 0;
+  if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, p, points)) return 0;
+  return in_free_space(w, p, depth > 0 ? points[depth - 1] : images[0]);
+}
+
+kernel void wedge_solve(const global ulong* table, const global double4* origins, const global double4* receivers,
+                        const global wt_exact_surface* surfaces, const global double* triangles,
+                        const global wt_exact_instance* instances, const global wt_wedge* wedges,
+                        const global wt_wedge_candidate* candidates, uint candidate_count, uint max_depth,
+                        global wt_solved* solved, global double* vertices, global uint* sequences, uint capacity,
+                        global wt_counters* counters) {
+  const uint i = get_global_id(0);
+  if (i >= candidate_count) return;
+  const wt_wedge_candidate c = candidates[i];
+  uint chain[WT_MAX_DEPTH], back_chain[WT_MAX_DEPTH], transmitter, origin;
+  double3 images[WT_MAX_DEPTH + 1], points[WT_MAX_DEPTH], back_images[WT_MAX_DEPTH + 1], back_points[WT_MAX_DEPTH];
+  const uint depth = wt_chain(table, c.node, chain, &transmitter), back = wt_chain(table, c.back, back_chain, &origin);
+  const double4 from = origins[transmitter], to = receivers[c.receiver];
+  const double3 a = images_of(surfaces, chain, depth, from.xyz, images);
+  const double3 b = images_of(surfaces, back_chain, back, to.xyz, back_images);
+  const global wt_wedge* v = wedges + c.wedges[0];
+  const int two = c.wedges[1] != WT_NONE;
+  const global wt_wedge* w = two ? wedges + c.wedges[1] : v;
+  double x, y;
+  if (two) {
+    if (!wt_shortest_over_two(v, w, a, b, &x, &y)) return;
+  } else {
+    x = y = wt_shortest_over(v, a, b);
+  }
+  if (!on_edge(v, x) || !on_edge(w, y)) return;
+  const double3 p = wt_on_edge(v, x), q = wt_on_edge(w, y);
+  if (two && !wt_share_face(v, w) && (!in_free_space(v, p, q) || !in_free_space(w, q, p))) return;
+  if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, p, points)) return;
+  if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;
+
+  const uint slot = atomic_inc(&counters->solved);
+  if (slot >= capacity) return;
+  const uint diffractions = two ? 2 : 1, total = depth + diffractions + back;
+  solved[slot].transmitter = transmitter;
+  solved[slot].receiver = c.receiver;
+  solved[slot].depth = total;
+  solved[slot].blocked = 0;
+  solved[slot].node = WT_NONE;
+  size_t at = (size_t)slot * max_depth;
+  for (uint k = 0; k < depth; ++k, ++at) {
+    vstore3(points[k], at, vertices);
+    sequences[at] = WT_STEP_REFLECTION | chain[k];
+  }
+  for (uint k = 0; k < diffractions; ++k, ++at) {
+    vstore3(k == 0 ? p : q, at, vertices);
+    sequences[at] = WT_STEP_DIFFRACTION | c.wedges[k];
+  }
+  for (uint k = back; k-- > 0; ++at) {
+    vstore3(back_points[k], at, vertices);
+    sequences[at] = WT_STEP_REFLECTION | back_chain[k];
+  }
+}

@@ -1,0 +1,38 @@
+// Planes, triangles and legs in double: the geometry under the brute force, with no acceleration of any kind.
+// Assumes exact planes: a surface's normal has unit length and its triangles lie in its plane.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer::reference {
+
+constexpr double plane_distance_m = 1e-4;     // points nearer to a plane than this are neither before nor behind it
+constexpr double same_vertex_m = 1e-4;        // points nearer to each other than this are one
+constexpr uint32_t no_surface = 0xFFFFFFFFu;  // the "surface" of a transmitter, a receiver or a wedge
+
+// Signed distance from the plane.
+double height(const Surface& surface, const glm::dvec3& point);
+glm::dvec3 mirrored(const Surface& surface, const glm::dvec3& point);
+// Borders included, to 1e-9 of the triangle's size. The point is known to lie in the surface's plane.
+bool inside_surface(const Scene& scene, uint32_t index, const glm::dvec3& point);
+// Where the line from a to b meets the plane, if that is strictly between them.
+std::optional<glm::dvec3> crossing(const Surface& surface, const glm::dvec3& a, const glm::dvec3& b);
+
+// A surface that a leg passes, and where.
+struct Passage {
+  double distance_m = 0;  // from the start of the leg
+  uint32_t surface = 0;
+  glm::dvec3 point{0};
+};
+
+// The surfaces between a and b, nearest to a first; a_surface and b_surface, on which the leg starts and ends, never
+// count, nor does a surface whose plane is within plane_distance_m of a or b. Surfaces that lie on one another, or side
+// by side in one plane, are passed once: crossings of parallel planes within same_vertex_m are one, of the first
+// surface.
+std::vector<Passage> passages(const Scene& scene, const glm::dvec3& a, uint32_t a_surface, const glm::dvec3& b,
+                              uint32_t b_surface);
+
+}  // namespace wavetracer::reference
