@@ -105,9 +105,14 @@ void Discovery::label() {
   if (refinement_) interact_samples_.emplace(context_, keep_ages_, true, true, transmissions_ > 0);
 }
 
+void Discovery::listen(uint64_t rays) {
+  listener_rays_ = rays;
+  listener_generate_.emplace(context_, LaunchDirections(config_.directions, rays, config_.seed));
+}
+
 DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
-                                      DirectionShare share, bool followed) {
-  followed_ = followed;
+                                      DirectionShare share, LaunchedBy by) {
+  by_ = by;
   DiscoveryCounts counts;
   counts.segments_per_depth.assign(segments(), 0);
   const uint64_t total = rays_of(share) * transmitters.size();
@@ -132,6 +137,7 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
 
 DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
                                    uint64_t frame) {
+  by_ = LaunchedBy::transmitters;
   DiscoveryCounts counts;
   counts.segments_per_depth.assign(depth_, 0);
   if (depth_ == 0 || transmitters.empty()) return counts;
@@ -180,6 +186,8 @@ bool Discovery::reserve(uint64_t rays) {
 
 void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch) {
   const uint64_t rays = rays_of(share);
+  const bool sorted = order_ && by_ == LaunchedBy::transmitters && share.stride == 1;
+  GenerateRays& generate = by_ == LaunchedBy::listeners ? *listener_generate_ : generate_;
   rays_.count = 0;
   std::vector<LaunchPart> parts;
   for (uint64_t done = 0; done < batch.count;) {
@@ -187,13 +195,13 @@ void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare
     const Launcher& from = transmitters[launch_index / rays];
     const auto count = static_cast<uint32_t>(std::min(batch.count - done, rays - first));
     const auto sample = static_cast<uint32_t>(done);
-    if (order_ && share.stride == 1) {
+    if (sorted) {
       const gpu::Buffer<uint32_t>& order = order_->launch(first, count);
-      generate_(rays_, from.transmitter, from.position_m, first, count, order, from.source);
+      generate(rays_, from.transmitter, from.position_m, first, count, order, from.source);
       if (label_) (*label_)(rays_, sample, count, sample, order);
     } else {
-      generate_(rays_, from.transmitter, from.position_m, share.phase + share.stride * first, count, share.stride,
-                from.source);
+      generate(rays_, from.transmitter, from.position_m, share.phase + share.stride * first, count, share.stride,
+               from.source);
       if (label_) (*label_)(rays_, sample, count, sample);
     }
     parts.push_back({from.transmitter, sample, count, first, rays, share.phase + share.stride * first, share.stride});

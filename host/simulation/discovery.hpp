@@ -40,6 +40,9 @@ struct DirectionShare {
   uint64_t phase = 0, stride = 1;
 };
 
+// Who launches: transmitters all of trace.rays; listeners what listen() has said, and nobody follows theirs.
+enum class LaunchedBy { transmitters, listeners };
+
 class Discovery {
  public:
   // keep_ages: see passes/sequences.hpp. depth: interactions of a ray, where that is less than trace.max_depth.
@@ -50,10 +53,11 @@ class Discovery {
   RayCache* cache() { return cache_ ? &*cache_ : nullptr; }
   // Rays of launches that are not refined are followed from now on; trails outlives this.
   void follow(RayTrails& trails);
-  // Adds to sequences() what rays from these transmitters meet, in these directions. followed: false keeps these rays
-  // from those that follow().
-  DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
-                             DirectionShare share = {}, bool followed = true);
+  // So many rays a listener from now on.
+  void listen(uint64_t rays);
+  // Adds to sequences() what rays from these ends meet, in these directions.
+  DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& ends, DirectionShare share = {},
+                             LaunchedBy by = LaunchedBy::transmitters);
   // The same with as many rays as trace.recall asks for, at most trace.max_rays a transmitter: a launch that is refined
   // where it still finds something. Needs trace.rays = 0 ("auto").
   // frame: since the last cold one, see Refinement.
@@ -72,13 +76,15 @@ class Discovery {
     uint32_t depth, transmissions;
   };
   void launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch);
+  // Rays of an end in this launch.
   uint64_t rays_of(DirectionShare share) const {
-    return (config_.rays - share.phase + share.stride - 1) / share.stride;
+    const uint64_t rays = by_ == LaunchedBy::listeners ? listener_rays_ : config_.rays;
+    return (rays - share.phase + share.stride - 1) / share.stride;
   }
   void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   // Queues get the planes that say where a ray comes from.
   void label();
-  RayTrails* trails() const { return followed_ ? trails_ : nullptr; }
+  RayTrails* trails() const { return by_ == LaunchedBy::transmitters ? trails_ : nullptr; }
   // Segments of a ray, at most: one more than interactions where receptions are wanted.
   uint32_t segments() const { return depth_ + (trails() && trails()->receives()); }
   void find_hits(const DeviceScene& scene, uint32_t depth);
@@ -100,6 +106,8 @@ class Discovery {
   TraceShape shape_;
   LaunchDirections directions_;
   GenerateRays generate_;
+  uint64_t listener_rays_ = 0;
+  std::optional<GenerateRays> listener_generate_;  // with listeners
   Trace trace_;
   std::optional<Compact> compact_;  // where trace does not count the hits of blocks
   Scan scan_;
@@ -110,7 +118,7 @@ class Discovery {
   std::optional<RayCache> cache_;
   std::optional<LabelRays> label_;  // with a cache or trails
   RayTrails* trails_ = nullptr;
-  bool followed_ = true;
+  LaunchedBy by_ = LaunchedBy::transmitters;
   std::optional<RayOrder> order_;  // with the queues, if the plan has one
   RayQueue rays_, next_;
   std::vector<RayQueue> transmitted_;  // one a depth from 2 on, where rays are transmitted

@@ -44,19 +44,19 @@ uint32_t ray_depth(const TraceConfig& config, const World& world) {
 
 // All directions in a cold frame; after it every stride-th, another set each time: `stride` frames together launch all.
 // Steps of the golden ratio, so that a few frames spread evenly.
-DirectionShare share_of(const TraceConfig& config, uint64_t rays, uint64_t warm_frames) {
+DirectionShare share_of(uint64_t rays, uint64_t refresh_rays, uint64_t warm_frames) {
   if (warm_frames == 0) return {};
-  const uint64_t wanted = config.refresh_rays ? config.refresh_rays : std::max<uint64_t>(rays / refreshed_share, 1);
+  const uint64_t wanted = refresh_rays ? refresh_rays : std::max<uint64_t>(rays / refreshed_share, 1);
   const uint64_t stride = std::max<uint64_t>(rays / wanted, 1);
   auto step = static_cast<uint64_t>(0.6180339887498949 * static_cast<double>(stride)) + 1;
   while (std::gcd(step, stride) != 1) ++step;
   return {warm_frames * step % stride, stride};
 }
 
-// Of those, the part that a listener launches: edges are met by many rays.
-DirectionShare listeners_share(const TraceConfig& config, uint64_t rays, DirectionShare share) {
-  const uint64_t wanted = config.diffraction_rays ? config.diffraction_rays : std::max<uint64_t>(rays / 10, 100000);
-  return {share.phase, share.stride * std::max<uint64_t>(rays / std::min(wanted, rays), 1)};
+// Rays of a listener: edges are met by many rays.
+uint64_t listener_rays(const TraceConfig& config) {
+  const uint64_t wanted = config.diffraction_rays ? config.diffraction_rays : std::max<uint64_t>(config.rays / 10, 100000);
+  return std::min(wanted, config.rays);
 }
 
 void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
@@ -126,10 +126,9 @@ DiscoveryCounts Simulation::State::discover(const WorldState& state) {
     first.insert(first.end(), then.begin(), then.end());
     return discovery->refined(device_scene, first, warm_frames);
   }
-  const DirectionShare share = share_of(trace, discovery->rays(), warm_frames);
-  DiscoveryCounts counts = (*discovery)(device_scene, first, share);
+  DiscoveryCounts counts = (*discovery)(device_scene, first, share_of(trace.rays, trace.refresh_rays, warm_frames));
   if (!then.empty())
-    add((*discovery)(device_scene, then, listeners_share(trace, discovery->rays(), share), false), counts);
+    add((*discovery)(device_scene, then, share_of(listener_rays(trace), 0, warm_frames), LaunchedBy::listeners), counts);
   return counts;
 }
 
@@ -178,6 +177,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.reuse = config.trace.reuse && !sphere && s.world->frame_count() > 1;
   const uint32_t depth = ray_depth(s.trace, *s.world);
   s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse, depth);
+  if (s.trace.diffraction && s.trace.rays > 0) s.discovery->listen(listener_rays(s.trace));
   if (sphere || config.output.waypoints > 0) {
     s.trails.emplace(*s.context, s.trace, config.output.waypoints, s.trace.reflection ? depth : 0,
                      SurfaceTable(s.scene, s.world->models(), s.world->instances()));

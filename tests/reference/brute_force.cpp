@@ -69,11 +69,11 @@ std::optional<Path> joined(const Scene& scene, const Chain& from, const Path& be
 }
 
 bool bends_rightly(const Scene& scene, const Vertex& vertex, const dvec3& before, const dvec3& after) {
-  if (std::min(glm::distance(before, vertex.point), glm::distance(vertex.point, after)) < same_vertex_m) return false;
   if (vertex.kind == reflection) {
     const Surface& surface = scene.surfaces[vertex.number];
     return height(surface, before) * height(surface, after) > 0;
   }
+  if (std::min(glm::distance(before, vertex.point), glm::distance(vertex.point, after)) < same_vertex_m) return false;
   const Wedge& wedge = scene.wedges[vertex.number];
   return in_free_sector(wedge, vertex.point, before) && in_free_sector(wedge, vertex.point, after);
 }

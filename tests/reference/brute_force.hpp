@@ -29,7 +29,7 @@ struct Limits {
 //   neighbours of the point are on the same side of the surface's plane;
 // - each diffraction point lies on its edge, ends included, and both neighbours of it are in the wedge's sector of free
 //   space, faces included (to 1e-9 rad), and off the edge's line by more than 1e-4 m;
-// - no leg between reflections, diffractions and ends is shorter than 1e-4 m, unless it is the line of sight;
+// - no leg that begins or ends at a wedge is shorter than 1e-4 m;
 // - no leg is blocked. A surface blocks a leg when the leg crosses one of its triangles, both ends of the leg lie on
 //   opposite sides of its plane and farther than 1e-4 m from it, and the leg neither starts nor ends on that surface.
 //   With transmission such a surface is passed instead, and is an interaction of the path; crossings within 1e-4 m of
