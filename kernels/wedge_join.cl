@@ -1,6 +1,6 @@
 // wedge_join: candidates of diffracted paths, from prefixes of both ends that see the same wedge, or two wedges.
-// Rejected in float32 where the point of diffraction surely lies beyond the edge's ends. Conservative: the margin covers
-// the rounding of what it is computed from.
+// Rejected in float32 where the point of diffraction surely lies beyond the edge's ends, or a reflection beside its
+// surface. Conservative: the margin covers the rounding of what it is computed from.
 #include "lib/join.clh"
 #include "lib/wedge.clh"
 
@@ -33,19 +33,20 @@ inline int may_reach(const global wt_wedge_prefix* a, const global wt_surface* s
   return a->depth == 0 || wt_may_pass(surfaces + a->last, (float3)(a->image[0], a->image[1], a->image[2]), p);
 }
 
-// One prefix a work-item, in order of their wedges, with all that see the same one. The path crosses the edge where the
-// unfolded one does: between both images' feet on its line, divided as their distances from it (Keller's cone).
+// `lanes` work-items a prefix, in order of their wedges, with all that see the same one. The path crosses the edge where
+// the unfolded one does: between both images' feet on its line, divided as their distances from it (Keller's cone).
 kernel void wedge_join(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
-                       uint count, uint transmitter_count, const global uint* receiver_of_origin,
+                       uint count, uint lanes, uint transmitter_count, const global uint* receiver_of_origin,
                        const global ushort* links, uint groups, uint max_depth, const global wt_wedge* wedges,
                        const global wt_surface* surfaces, global wt_wedge_candidate* out, uint capacity,
                        global wt_counters* counters) {
-  const uint i = get_global_id(0);
+  const uint i = get_global_id(0) / lanes, lane = get_global_id(0) % lanes;
   if (i >= count) return;
   const global wt_wedge_prefix* a = prefixes + order[i];
   if (a->origin >= transmitter_count || a->depth >= max_depth) return;
   const uint wedge = keys[i] >> 5, last = WT_WEDGE_KEY(wedge, max_depth - 1 - a->depth);
-  for (uint j = wt_lower_bound(keys, count, WT_WEDGE_KEY(wedge, 0)); j < count && keys[j] <= last; ++j) {
+  const uint first = wt_lower_bound(keys, count, WT_WEDGE_KEY(wedge, 0));
+  for (uint j = first + lane; j < count && keys[j] <= last; j += lanes) {
     const global wt_wedge_prefix* b = prefixes + order[j];
     const uint receiver = wanted_receiver(a, b, 1, max_depth, receiver_of_origin, links, groups);
     if (receiver == WT_NONE) continue;
@@ -70,17 +71,17 @@ inline int may_see(const global wt_wedge* w, const global wt_wedge* other) {
 }
 
 kernel void wedge_pairs(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
-                        uint count, uint transmitter_count, const global uint* receiver_of_origin,
+                        uint count, uint lanes, uint transmitter_count, const global uint* receiver_of_origin,
                         const global ushort* links, uint groups, uint max_depth, const global wt_wedge* wedges,
                         global wt_wedge_candidate* out, uint capacity, global wt_counters* counters) {
-  const uint i = get_global_id(0);
+  const uint i = get_global_id(0) / lanes, lane = get_global_id(0) % lanes;
   if (i >= count) return;
   const global wt_wedge_prefix* a = prefixes + order[i];
   if (a->origin >= transmitter_count || a->depth + 2 > max_depth) return;
   const uint wedge_a = keys[i] >> 5;
   uint checked = WT_NONE;
   int seen = 0;
-  for (uint j = 0; j < count; ++j) {
+  for (uint j = lane; j < count; j += lanes) {
     const uint wedge_b = keys[j] >> 5;
     if (wedge_b == wedge_a) continue;
     const global wt_wedge_prefix* b = prefixes + order[j];

@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_join.cl.
-// One prefix a work-item; groups are small, because a wedge may be seen by few or by many.
+// On CPUs one prefix a work-item, elsewhere a group: a wedge may be seen by few or by thousands.
 #include "passes/wedge_join.hpp"
 
 #include "passes/growing_list.hpp"
@@ -12,21 +12,23 @@ WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receive
       join_(context.kernel("wedge_join", "wedge_join")),
       with_pairs_(pairs && max_depth >= 2),
       max_depth_(max_depth),
+      lanes_(context.info().cpu ? 1 : 32),
       receiver_of_origin_(context.buffer(receiver_of_origin, "receivers of origins")),
       list_(context.buffer<wt_wedge_candidate>(1 << 14, "wedge candidates")) {
   if (with_pairs_) pairs_ = context.kernel("wedge_join", "wedge_pairs");
 }
 
-uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const Wedges& wedges, const RadioEnds& ends,
-                               gpu::Buffer<wt_counters>& counters) {
+uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const Wedges& wedges,
+                               const RadioEnds& ends, gpu::Buffer<wt_counters>& counters) {
   const uint32_t groups = ends.receiver_capacity / 16;
+  const size_t items = size_t{prefixes.count} * lanes_;
   const auto run = [&] {
     const auto capacity = static_cast<uint32_t>(list_.size());
-    join_({prefixes.count, 32}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count,
-          ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_,
-          wedges.wedges(), scene.surfaces, list_, capacity, counters);
+    join_({items, 32}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
+          ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges(), scene.surfaces,
+          list_, capacity, counters);
     if (with_pairs_)
-      pairs_({prefixes.count, 32}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count,
+      pairs_({items, 32}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
              ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges(), list_,
              capacity, counters);
   };

@@ -13,15 +13,15 @@ class WedgeJoin {
   // receiver_of_origin: of each end that launches, the receiver that it is, or WT_NONE. pairs: paths over two wedges too.
   WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth, bool pairs);
   // prefixes: sorted by their keys. Returns the number of candidates, in list().
-  uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const Wedges& wedges, const RadioEnds& ends,
-                      gpu::Buffer<wt_counters>& counters);
+  uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const Wedges& wedges,
+                      const RadioEnds& ends, gpu::Buffer<wt_counters>& counters);
   const gpu::Buffer<wt_wedge_candidate>& list() const { return list_; }
 
  private:
   gpu::Context& context_;
   gpu::Kernel join_, pairs_;
   bool with_pairs_;
-  uint32_t max_depth_;
+  uint32_t max_depth_, lanes_;
   gpu::Buffer<uint32_t> receiver_of_origin_;
   gpu::Buffer<wt_wedge_candidate> list_;
 };

@@ -63,8 +63,6 @@ class Discovery {
   // frame: since the last cold one, see Refinement.
   DiscoveryCounts refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters, uint64_t frame);
   Sequences& sequences() { return sequences_; }
-  // Directions of the full set, a transmitter.
-  uint64_t rays() const { return config_.rays; }
 
  private:
   // A part of the launch: rays of the transmitters from launch index first (counted over all transmitters) on.

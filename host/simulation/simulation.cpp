@@ -11,6 +11,7 @@
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
+#include "simulation/distinct_paths.hpp"
 #include "simulation/exact_paths.hpp"
 #include "simulation/features.hpp"
 #include "simulation/listeners.hpp"
@@ -137,7 +138,7 @@ PathGeometry Simulation::State::received_paths(const RadioEnds& ends, FrameCount
   counts.sequences = discovery->sequences().collect(ends.transmitter_count) - ends.transmitter_count;
   counts.receptions = trails->receptions();
   host.lap();
-  return trails->paths();
+  return distinct_paths(trails->paths());
 }
 
 Simulation::Simulation(const Config& config, const std::string& device) : state_(std::make_unique<State>()) {
@@ -240,11 +241,11 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   if (cache) out.cache = cache->summary();
   if (s.trails) out.waypoints = s.trails->take_waypoints();
   const bool sphere = s.trails && s.trails->receives();
-  const PathGeometry one_way =
+  PathGeometry one_way =
       sphere ? s.received_paths(ends, out.counts, host_watch)
              : (*s.exact_paths)(s.device_scene, ends, s.discovery->sequences(), out.counts, host_watch);
   ++s.warm_frames;
-  const PathGeometry geometry = with_reversed_twins(one_way, s.world->receiver_of_transmitter(),
+  const PathGeometry geometry = with_reversed_twins(std::move(one_way), s.world->receiver_of_transmitter(),
                                                     s.world->transmitter_of_receiver(), out.world.links);
 
   const double paths_seconds = host_watch.lap();
