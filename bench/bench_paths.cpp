@@ -7,14 +7,13 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
+#include <tuple>
 
 #include "frames.hpp"
 #include "gpu/gpu.hpp"
 #include "json_line.hpp"
+#include "places.hpp"
 #include "reference/compare.hpp"
-#include "scene/city.hpp"
-#include "scene/load.hpp"
-#include "street.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::bench {
@@ -22,9 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double frequency_hz = 5.9e9;
 constexpr uint32_t max_depth = 5;
-constexpr double antenna_height_m = 1.5, radius_m = 300;  // as cars have them; "around the corner", not "out of town"
 constexpr size_t most_transmitters = 10, most_receivers = 100;
 
 struct Case {
@@ -34,70 +31,43 @@ struct Case {
   // sight and specular reflection; measured on 2026-11-21. The CPU: two cores, LLVM 19; the GPU: one NVIDIA H200,
   // OptiX. Antennas stood at other places of the same streets: --peer compares on the same ones.
   std::optional<double> sionna_cpu_s, sionna_gpu_s;
+  uint64_t diffraction_rays = 0;  // of a receiver, in cases with diffraction at wedges, free edges left out
+
+  bool diffraction() const { return diffraction_rays > 0; }
+  std::string links() const { return fmt::format("{}x{}", transmitters, receivers); }
+  std::string interactions() const { return diffraction() ? "reflection, diffraction" : "reflection"; }
 };
 
 const Case cases[] = {
     {1, 1, 100'000, 0.061, 0.0149},   {1, 1, 1'000'000, 0.285, 0.0178}, {1, 1, 10'000'000, 2.63, 0.0505},
     {1, 10, 1'000'000, 1.49, 0.0423}, {1, 100, 1'000'000, 9.8, 0.170},  {1, 100, 10'000'000, {}, 1.46},
     {10, 100, 1'000'000, {}, 1.35},   {10, 100, 10'000'000, {}, 13.2},
+    {1, 1, 1'000'000, {}, {}, 10'000},   {1, 1, 1'000'000, {}, {}, 20'000},   {1, 1, 1'000'000, {}, {}, 100'000},
+    {1, 100, 1'000'000, {}, {}, 10'000}, {1, 100, 1'000'000, {}, {}, 20'000}, {1, 100, 1'000'000, {}, {}, 100'000},
 };
 constexpr uint64_t large_rays = 10'000'000;  // cases of so many are for GPUs, and for --large
+constexpr uint64_t reference_diffraction_rays = 1'000'000;
 
 struct Options {
-  std::string device, shared = WAVETRACER_SHARED, peer, write_links;
+  std::string device, shared = WAVETRACER_SHARED, only, peer, peer_paths, write_links;
   size_t frames = 7;
   uint64_t reference_rays = 30'000'000;
   bool large = false;
 };
 
-struct Place {
-  std::string name;
-  SceneConfig scene;
-  std::vector<RadioEnd> transmitters, receivers;
-};
-
-std::vector<RadioEnd> ends(const char* prefix, const std::vector<glm::dvec3>& points) {
-  std::vector<RadioEnd> result;
-  for (const glm::dvec3& p : points)
-    result.push_back({.name = fmt::format("{}{}", prefix, result.size()), .position_m = {p.x, p.y, p.z}});
-  return result;
-}
-
 Place load_place(const std::string& shared) {
-  Place place;
-  Config config;
-  glm::dvec3 first(45, 90, antenna_height_m);  // a street crossing, in the open
-  const fs::path munich = fs::path(shared) / "scenes" / "munich" / "munich.xml";
-  if (fs::exists(munich)) {
-    place.name = "munich";
-    config.scene.file = munich.string();
-  } else {
-    fmt::print(stderr, "bench_paths: {} is not there, so the generated city is used and there is no baseline\n",
-               munich.string());
-    place.name = "city";
-    config.scene.generate = "--seed 1";
-    const auto& position = example_positions(parse_city_options(config.scene.generate)).front().position_m;
-    first = {position[0], position[1], position[2]};
-  }
-  place.scene = config.scene;
-  // The receivers, then the transmitters after the first one.
-  auto points =
-      street_points(load_scene(config), first, radius_m, antenna_height_m, most_receivers + most_transmitters - 1);
-  const auto border = points.begin() + static_cast<std::ptrdiff_t>(most_receivers);
-  // The nearest receiver leads, so that the single link is one that has paths.
-  std::iter_swap(points.begin(), std::min_element(points.begin(), border, [&](const auto& a, const auto& b) {
-                   return glm::distance(a, first) < glm::distance(b, first);
-                 }));
-  std::vector<glm::dvec3> transmitters{first};
-  transmitters.insert(transmitters.end(), border, points.end());
-  place.transmitters = ends("tx", transmitters);
-  place.receivers = ends("rx", {points.begin(), border});
-  return place;
+  if (const auto munich = munich_place(shared, most_transmitters, most_receivers)) return *munich;
+  fmt::print(stderr,
+             "bench_paths: munich is not in {}/scenes, so the generated city is used and there is no baseline\n",
+             shared);
+  return city_place(most_transmitters, most_receivers);
 }
 
 // What bench/peers/sionna_rt.py reads, so that both solve the same links.
 void write_links(const Place& place, const std::string& file) {
-  nlohmann::ordered_json json{{"scene", place.name}, {"frequency_hz", frequency_hz}, {"max_depth", max_depth}};
+  nlohmann::ordered_json json{{"scene", place.name},
+                              {"frequency_hz", config_of(place, 1, 1).radio.frequency_hz},
+                              {"max_depth", max_depth}};
   for (const RadioEnd& end : place.transmitters) json["transmitters_m"].push_back(end.position_m);
   for (const RadioEnd& end : place.receivers) json["receivers_m"].push_back(end.position_m);
   std::ofstream out(file);
@@ -105,9 +75,7 @@ void write_links(const Place& place, const std::string& file) {
   if (!out.flush()) throw RuntimeError(fmt::format("cannot write {}: is its folder there, and writable?", file));
 }
 
-std::string links_name(size_t transmitters, size_t receivers) { return fmt::format("{}x{}", transmitters, receivers); }
-
-using Peer = std::map<std::pair<std::string, uint64_t>, nlohmann::json>;  // by links and rays
+using Peer = std::map<std::tuple<std::string, uint64_t, std::string>, nlohmann::json>;  // by links, rays, interactions
 
 Peer read_peer(const std::string& file) {
   std::ifstream in(file);
@@ -117,7 +85,8 @@ Peer read_peer(const std::string& file) {
   for (size_t number = 1; std::getline(in, line); number++) {
     try {
       const auto json = nlohmann::json::parse(line);
-      peer[{json.at("links").get<std::string>(), json.at("rays").get<uint64_t>()}] = {
+      const auto interactions = json.at("interactions").get<std::vector<std::string>>();
+      peer[{json.at("links"), json.at("rays"), fmt::format("{}", fmt::join(interactions, ", "))}] = {
           {"name", json.at("device")}, {"seconds", json.at("value").get<double>()}, {"paths", json.at("paths")}};
     } catch (const nlohmann::json::exception& error) {
       throw InputError(
@@ -127,22 +96,29 @@ Peer read_peer(const std::string& file) {
   return peer;
 }
 
-Simulation make_simulation(const Place& place, size_t transmitters, size_t receivers, uint64_t rays,
-                           const std::string& device) {
-  Config config;
-  config.scene = place.scene;
-  config.radio.frequency_hz = frequency_hz;
-  config.trace.rays = rays;
+Simulation make_simulation(const Place& place, const Case& c, const std::string& device) {
+  Config config = config_of(place, c.transmitters, c.receivers);
+  config.trace.rays = c.rays;
   config.trace.max_depth = max_depth;
-  config.transmitters.assign(place.transmitters.begin(),
-                             place.transmitters.begin() + static_cast<std::ptrdiff_t>(transmitters));
-  config.receivers.assign(place.receivers.begin(), place.receivers.begin() + static_cast<std::ptrdiff_t>(receivers));
+  config.trace.diffraction = c.diffraction();
+  config.trace.free_edges = false;
+  config.trace.diffraction_rays = c.diffraction_rays;
   return Simulation(config, device);
+}
+
+// The paths of many more rays.
+reference::Case make_reference(const Place& place, Case c, const Options& options) {
+  c.rays = std::max(c.rays, options.reference_rays);
+  if (c.diffraction()) c.diffraction_rays = std::max(c.diffraction_rays, reference_diffraction_rays);
+  reference::Case result;
+  result.name = c.links();
+  result.paths = make_simulation(place, c, options.device).run_frame(0).paths;
+  return result;
 }
 
 void set_baseline(Result& result, const Case& c, const Place& place, const Peer& peer, bool gpu) {
   if (!peer.empty()) {
-    const auto found = peer.find({links_name(c.transmitters, c.receivers), c.rays});
+    const auto found = peer.find({c.links(), c.rays, c.interactions()});
     if (found == peer.end()) return;
     result.baseline = found->second.at("name");
     result.baseline_value = found->second.at("seconds");
@@ -151,6 +127,52 @@ void set_baseline(Result& result, const Case& c, const Place& place, const Peer&
     result.baseline = gpu ? "Sionna RT 2.2.0 on an H200, 2026-11-21" : "Sionna RT 2.2.0 on a 2-core CPU, 2026-11-21";
     result.baseline_value = seconds;
   }
+}
+
+// Whether path i has a diffraction that is on no wedge of the scene.
+bool off_wedges(const Paths& paths, size_t i, const Scene& scene) {
+  constexpr double tolerance_m = 0.05;  // of float32 points, which are good to some millimetres
+  for (uint64_t k = paths.vertex_offset[i]; k < paths.vertex_offset[i + 1]; k++) {
+    if (paths.vertex_interaction[k] != diffraction) continue;
+    const glm::dvec3 point = paths.vertex_position_m[k] - scene.origin_m;
+    if (std::ranges::none_of(scene.wedges, [&](const Wedge& wedge) {
+          const double along_m = std::clamp(glm::dot(point - wedge.start, wedge.along), 0.0, wedge.length_m);
+          return glm::distance(point, wedge.start + along_m * wedge.along) < tolerance_m;
+        }))
+      return true;
+  }
+  return false;
+}
+
+// How many of the paths that the peer has written for this case are among ours. It takes every mesh by itself, so it
+// diffracts at joints of touching houses too, where their walls together leave no sector of free space wider than pi.
+void compare_with_peer(Result& result, const Case& c, const Paths& paths, const Scene& scene,
+                       const std::string& folder) {
+  const fs::path file = fs::path(folder) / fmt::format("{}_{}_{}.json", c.links(), c.rays,
+                                                       c.diffraction() ? "reflection_diffraction" : "reflection");
+  if (folder.empty() || !fs::exists(file)) return;
+  const reference::Case theirs = reference::load_case(file);
+  const reference::Comparison comparison = reference::compare_paths(theirs, paths);
+  for (const auto& [kind, agreement] : comparison.kinds) {
+    result.detail += fmt::format("; {} of the baseline's {} {} paths, {} more", agreement.found, agreement.reference,
+                                 kind, agreement.extra);
+    result.extra["baseline_recall"][kind] = agreement.recall;
+    result.extra["baseline_power_recall"][kind] = agreement.power_recall;
+  }
+  if (!c.diffraction()) return;
+  const auto off =
+      std::ranges::count_if(comparison.missing, [&](size_t i) { return off_wedges(theirs.paths, i, scene); });
+  result.detail += fmt::format("; {} of the {} others are at no wedge", off, comparison.missing.size());
+  result.extra["baseline_missing"] = comparison.missing.size();
+  result.extra["baseline_missing_off_wedges"] = off;
+}
+
+std::string name_of(const Case& c, const Place& place, uint64_t reference_rays) {
+  std::string name = fmt::format("{}, {} links, {:.0e} rays a transmitter", place.name, c.links(),
+                                 static_cast<double>(c.rays));
+  if (c.diffraction())
+    name += fmt::format(", diffraction, {:.0e} rays a receiver", static_cast<double>(c.diffraction_rays));
+  return fmt::format("{}, error against {:.0e}", name, static_cast<double>(reference_rays));
 }
 
 void run(const Options& options, const std::string& command) {
@@ -164,24 +186,18 @@ void run(const Options& options, const std::string& command) {
   const Peer peer = options.peer.empty() ? Peer{} : read_peer(options.peer);
   const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
   const bool gpu = devices[gpu::choose_device(devices, options.device)].gpu;
-  std::map<std::string, reference::Case> references;  // by links
+  std::map<std::string, reference::Case> references;  // by links and interactions
   for (const Case& c : cases) {
     if (c.rays >= large_rays && !gpu && !options.large) continue;
-    Simulation simulation = make_simulation(place, c.transmitters, c.receivers, c.rays, options.device);
+    if (!options.only.empty() && (options.only == "diffraction") != c.diffraction()) continue;
+    Simulation simulation = make_simulation(place, c, options.device);
     const Frames frames = run_frames(simulation, options.frames);
-    const std::string links = links_name(c.transmitters, c.receivers);
-    reference::Case& reference = references[links];
-    if (reference.name.empty()) {
-      reference.name = links;
-      reference.paths = make_simulation(place, c.transmitters, c.receivers, options.reference_rays, options.device)
-                            .run_frame(0)
-                            .paths;
-    }
+    reference::Case& reference = references[c.links() + c.interactions()];
+    if (reference.name.empty()) reference = make_reference(place, c, options);
     const reference::Comparison comparison = reference::compare_paths(reference, frames.result.paths);
 
     Result result{"paths",
-                  fmt::format("{}, {} links, {:.0e} rays a transmitter, error against {:.0e}", place.name, links,
-                              static_cast<double>(c.rays), static_cast<double>(options.reference_rays)),
+                  name_of(c, place, options.reference_rays),
                   simulation.device().name,
                   frames.median_s,
                   "s a frame",
@@ -191,13 +207,18 @@ void run(const Options& options, const std::string& command) {
                   comparison.reference > 0 ? 1 - comparison.recall : 0,
                   fmt::format("{} paths of {}; {:.6f} of the power; first frame {:.3f} s", comparison.mine,
                               comparison.reference, comparison.power_recall, frames.first_s)};
-    result.extra = {{"links", links},
+    result.extra = {{"links", c.links()},
                     {"rays", c.rays},
                     {"paths", comparison.mine},
                     {"reference_paths", comparison.reference},
                     {"power_recall", comparison.power_recall},
                     {"first_frame_s", frames.first_s}};
+    if (c.diffraction()) {
+      result.extra["interactions"] = c.interactions();
+      result.extra["diffraction_rays"] = c.diffraction_rays;
+    }
     set_baseline(result, c, place, peer, gpu);
+    compare_with_peer(result, c, frames.result.paths, simulation.scene(), options.peer_paths);
     print(result, command);
   }
 }
@@ -214,7 +235,10 @@ int main(int argc, char** argv) {
   app.add_option("--frames", options.frames, "warm frames of which the median counts")->check(CLI::Range(5, 1000));
   app.add_option("--reference-rays", options.reference_rays, "rays a transmitter of the launch that errors refer to");
   app.add_flag("--large", options.large, "on a CPU, too, the cases of 1e7 rays");
+  app.add_option("--only", options.only, "reflection: no case with diffraction; diffraction: no other")
+      ->check(CLI::IsMember({"reflection", "diffraction"}));
   app.add_option("--peer", options.peer, "lines printed by bench/peers/sionna_rt.py: the baseline of this machine");
+  app.add_option("--peer-paths", options.peer_paths, "folder that its --paths has filled: how many of them are found");
   app.add_option("--write-links", options.write_links, "write the places of all antennas to this file, and end");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -4,118 +4,41 @@
     docs/draw_paths.py SCENE.xml out/paths.h5 -o picture.png
     docs/draw_paths.py munich.xml out/paths.h5 -o munich.png --attribution "(c) OpenStreetMap contributors (ODbL)"
 
+    wavetracer scene info --edges SCENE.xml > edges.txt     and then --edges edges.txt: the edges that diffract, too
+
 Needs numpy and h5py; PNG also needs rsvg-convert (Debian: python3-h5py, librsvg2-bin).
 Reads Mitsuba XML scenes of PLY meshes (ascii or binary little endian), as Sionna RT and `wavetracer scene city` write
-them, with z up. Roofs are areas, the taller the brighter; walls, seen from above, are the outlines.
+them, with z up. Roofs are areas, the taller the brighter; walls, seen from above, are the outlines. Points of
+diffraction, of transmission and centres of scattering tiles have marks of their own.
 """
 import argparse
 import math
-import os
 import shutil
 import subprocess
 import sys
-import xml.etree.ElementTree as ET
 from xml.sax.saxutils import escape
 
 import h5py
 import numpy as np
+
+from read_scene import read_edges, read_scene
 
 FONT = "DejaVu Sans, Liberation Sans, Arial, sans-serif"
 # Colour stops of paths run from weak to strong: those of matplotlib's plasma map (CC0), the visible part of it.
 PLASMA = ["#0d0887", "#46039f", "#7201a8", "#9c179e", "#bd3786", "#d8576b", "#ed7953", "#fb9f3a", "#fdca26", "#f0f921"]
 THEMES = {
     "dark": dict(ground="#11151c", low="#1f2630", high="#3a4556", wall="#566377", text="#e8ecf2", faint="#9aa5b5",
-                 halo="#11151c", tx="#ff5d73", rx="#5ad1ff", stops=PLASMA[2:]),
+                 halo="#11151c", tx="#ff5d73", rx="#5ad1ff", diffraction="#3ee08f", transmission="#ffffff",
+                 scattering="#8fb4d8", stops=PLASMA[2:]),
     "light": dict(ground="#f7f6f3", low="#e6e3dc", high="#c3beb2", wall="#8d877a", text="#22262c", faint="#5f666f",
-                  halo="#ffffff", tx="#d4213d", rx="#0b6fa8", stops=PLASMA[:-1][::-1]),
+                  halo="#ffffff", tx="#d4213d", rx="#0b6fa8", diffraction="#00804a", transmission="#000000",
+                  scattering="#4a78a8", stops=PLASMA[:-1][::-1]),
 }
-
-
-# ---- scene ----------------------------------------------------------------------------------------------------------
-
-PLY_TYPES = {"char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
-             "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
-             "double": "f8", "float64": "f8"}
-
-
-def read_ply(path):
-    """Vertices (n, 3) and triangles (m, 3) of a PLY mesh of triangles."""
-    data = open(path, "rb").read()
-    end = data.find(b"end_header")
-    if not data.startswith(b"ply") or end < 0:
-        sys.exit(f"{path}: not a PLY file")
-    body = data.index(b"\n", end) + 1
-    elements, form = [], None
-    for words in (line.split() for line in data[:end].decode("latin-1").splitlines()):
-        if words[:1] == ["format"]:
-            form = words[1]
-        elif words[:1] == ["element"]:
-            elements.append((words[1], int(words[2]), []))
-        elif words[:1] == ["property"]:
-            elements[-1][2].append(words[1:])
-    tables = {}
-    if form == "ascii":
-        lines = data[body:].decode("latin-1").split("\n")
-        for name, count, properties in elements:
-            rows, lines = lines[:count], lines[count:]
-            table = np.array([row.split() for row in rows], dtype=float)
-            tables[name] = table[:, 1:4].astype(int) if properties[0][0] == "list" else table[:, :3]
-    elif form == "binary_little_endian":
-        for name, count, properties in elements:
-            fields = []
-            for i, words in enumerate(properties):
-                if words[0] == "list":  # taken for triangles, which is checked below
-                    fields += [(f"n{i}", "<" + PLY_TYPES[words[1]]), ("corners", "<" + PLY_TYPES[words[2]], 3)]
-                else:
-                    fields.append((words[1], "<" + PLY_TYPES[words[0]]))
-            table = np.frombuffer(data, np.dtype(fields), count, body)
-            body += table.nbytes
-            if "corners" in table.dtype.names:
-                if not np.all(table[table.dtype.names[0]] == 3):
-                    sys.exit(f"{path}: a face is not a triangle; triangulate the mesh")
-                tables[name] = table["corners"].astype(int)
-            else:
-                tables[name] = np.stack([table[axis].astype(float) for axis in "xyz"], axis=1)
-    else:
-        sys.exit(f"{path}: PLY format {form} is not read here; save it as ascii or binary_little_endian")
-    return tables["vertex"], tables["face"]
-
-
-def to_world(shape, path):
-    """The 4 x 4 matrix of a shape's <transform name="to_world">, its steps applied in order."""
-    matrix = np.eye(4)
-    for step in shape.findall("transform[@name='to_world']/*"):
-        triple = [float(v) for v in step.get("value", "").replace(",", " ").split()]
-        x, y, z = triple if len(triple) == 3 else (
-            triple * 3 if triple else (float(step.get(axis, 1 if step.tag == "scale" else 0)) for axis in "xyz"))
-        m = np.eye(4)
-        if step.tag == "translate":
-            m[:3, 3] = x, y, z
-        elif step.tag == "scale":
-            m[:3, :3] = np.diag([x, y, z])
-        elif step.tag == "rotate":  # Rodrigues' formula
-            axis, angle = np.array([x, y, z]) / math.hypot(x, y, z), math.radians(float(step.get("angle")))
-            cross = np.cross(np.eye(3), axis).T
-            m[:3, :3] += math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
-        elif step.tag == "matrix":
-            m = np.array([float(v) for v in step.get("value").split()]).reshape(4, 4)
-        else:
-            sys.exit(f"{path}: the transform <{step.tag}> is not read here")
-        matrix = m @ matrix
-    return matrix
-
-
-def read_scene(path):
-    """The corners (3, 3) of all triangles of a Mitsuba scene, as one array (n, 3, 3)."""
-    meshes = []
-    for shape in ET.parse(path).getroot().iter("shape"):
-        if shape.get("type") != "ply":
-            sys.exit(f"{path}: a shape of type {shape.get('type')} is not read here, only ply")
-        name = shape.find("string[@name='filename']").get("value")
-        vertices, faces = read_ply(os.path.join(os.path.dirname(path), name))
-        matrix = to_world(shape, path)
-        meshes.append((vertices @ matrix[:3, :3].T + matrix[:3, 3])[faces])
-    return np.concatenate(meshes) if meshes else np.zeros((0, 3, 3))
+# Values of /vertices/interaction. Each but reflection has a mark: an outline about the point, filled or as lines.
+REFLECTION = 1
+MARKS = {8: ("diffraction", "m0,-5l5,5l-5,5l-5,-5z", True),
+         4: ("transmission", "m-3.5,-3.5l7,7m0,-7l-7,7", False),
+         2: ("scattering", "m-2.6,-2.6h5.2v5.2h-5.2z", True)}
 
 
 # ---- paths ----------------------------------------------------------------------------------------------------------
@@ -219,8 +142,27 @@ def draw_buildings(view, triangles, theme):
     return out + [f'<path d="{shape}" fill="none" stroke="{theme["wall"]}" stroke-width="1" stroke-linecap="round"/>']
 
 
+def draw_edges(view, edges, theme):
+    """Edges as lines; upright ones are dots from above. Each once."""
+    near = (edges.max(axis=1)[:, :2] > [view.x0, view.y0]) & (edges.min(axis=1)[:, :2] < [view.x1, view.y1])
+    lines = {tuple(np.round(ends, 1).ravel()) for ends in view(edges[near.all(axis=1)])}
+    shape = "".join(f"M{x0:.1f},{y0:.1f}L{x1:.1f},{y1:.1f}" for x0, y0, x1, y1 in sorted(lines))
+    return [f'<path class="edges" d="{shape}" fill="none" stroke="{theme["diffraction"]}" stroke-width="1.2" '
+            f'stroke-opacity="0.5" stroke-linecap="round"/>']
+
+
+def mark(kind, places, theme, opacity=1.0):
+    """The mark of an interaction, at all its places in pixels."""
+    name, outline, filled = MARKS[kind]
+    shape = "".join(f"M{x:.1f},{y:.1f}{outline}" for x, y in places)
+    ink = (f'fill="{theme[name]}" stroke="{theme["halo"]}" stroke-width="0.7"' if filled else
+           f'fill="none" stroke="{theme[name]}" stroke-width="1.6" stroke-linecap="round"')
+    return f'<path class="{name}" d="{shape}" {ink} opacity="{opacity:.2f}"/>'
+
+
 def draw_paths(view, rows, low_db, high_db, theme):
-    out = []
+    """Lines, points of reflection in their colour, and above all lines the other marks, each place once."""
+    out, places = [], {kind: {} for kind in MARKS}
     crowd = min(1.0, (150 / max(len(rows), 1)) ** 0.35)  # many paths are drawn fainter: the strong ones stand out
     for gain_db, points, interactions in rows:
         t = min(max((gain_db - low_db) / (high_db - low_db), 0.0), 1.0)
@@ -229,10 +171,12 @@ def draw_paths(view, rows, low_db, high_db, theme):
         out.append(f'<polyline points="{line}" fill="none" stroke="{fill}" stroke-width="{0.8 + 1.6 * t:.2f}" '
                    f'stroke-opacity="{opacity:.2f}" stroke-linejoin="round"/>')
         for (x, y), kind in zip(view(points[1:-1]), interactions):
-            shape = (f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.8"' if kind == 1 else  # others as squares
-                     f'<rect x="{x - 2.2:.1f}" y="{y - 2.2:.1f}" width="4.4" height="4.4"')
-            out.append(f'{shape} fill="{fill}" fill-opacity="{crowd * (0.5 + 0.5 * t):.2f}"/>')
-    return out
+            if kind == REFLECTION:
+                out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.8" fill="{fill}" '
+                           f'fill-opacity="{crowd * (0.5 + 0.5 * t):.2f}"/>')
+            else:
+                places[kind][round(x, 1), round(y, 1)] = None
+    return out + [mark(kind, found, theme, 0.4 + 0.6 * crowd) for kind, found in places.items() if found]
 
 
 def draw_ends(view, ends, theme, labels):
@@ -263,12 +207,27 @@ def draw_ends(view, ends, theme, labels):
     return out
 
 
-def draw_frame(view, theme, low_db, high_db, title, caption, attribution):
-    """Title, caption, colour bar, scale bar, attribution: on top of the picture, in its corners."""
+def draw_legend(kinds, edges, theme, x, y):
+    """What the marks mean, of those that are drawn, in a row; kinds: interactions."""
+    entries = [(MARKS[kind][0], mark(kind, [(x, y)], theme)) for kind in MARKS if kind in kinds]
+    if edges:
+        entries.append(("edge that diffracts", f'<path d="M{x - 7},{y}h14" stroke="{theme["diffraction"]}" '
+                                               'stroke-width="1.2" stroke-opacity="0.7"/>'))
+    out, right = [], 0
+    for name, shape in entries:
+        out.append(f'<g class="legend" transform="translate({right},0)">{shape}'
+                   f'{text(x + 13, y + 5, name, theme, 14, fill="faint")}</g>')
+        right += 9 * len(name) + 30
+    return out
+
+
+def draw_frame(view, theme, low_db, high_db, title, caption, attribution, kinds, edges):
+    """Title, caption, legend, colour bar, scale bar, attribution: on top of the picture, in its corners."""
     out, w, h = [], view.width, view.height
     if title:
         out.append(text(24, 40, title, theme, 24, weight="bold"))
-    out.append(text(24, 66 if title else 36, caption, theme, 15, fill="faint"))
+    y = 66 if title else 36
+    out += [text(24, y, caption, theme, 15, fill="faint"), *draw_legend(kinds, edges, theme, 31, y + 24)]
     bar, x, y = 260, w - 24 - 260, h - 52
     stops = "".join(f'<stop offset="{i / 20:.2f}" stop-color="{colour(theme["stops"], i / 20)}"/>' for i in range(21))
     out.append(f'<defs><linearGradient id="gain">{stops}</linearGradient></defs>'
@@ -307,9 +266,12 @@ def draw(options):
         + [f"{len(ends[kind])} {kind if len(ends[kind]) != 1 else kind[:-1]}" for kind in ("transmitters", "receivers")]
         + ([f"{frequency_hz / 1e9:g} GHz"] if frequency_hz else []))
     body = [f'<rect width="{view.width}" height="{view.height}" fill="{theme["ground"]}"/>',
-            *draw_buildings(view, read_scene(options.scene), theme), *draw_paths(view, rows, low_db, high_db, theme),
+            *draw_buildings(view, read_scene(options.scene), theme),
+            *(draw_edges(view, read_edges(options.edges), theme) if options.edges else []),
+            *draw_paths(view, rows, low_db, high_db, theme),
             *draw_ends(view, ends, theme, options.labels),
-            *draw_frame(view, theme, low_db, high_db, options.title, caption, options.attribution)]
+            *draw_frame(view, theme, low_db, high_db, options.title, caption, options.attribution,
+                        {kind for row in rows for kind in row[2]}, bool(options.edges))]
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{view.width}" height="{view.height}" '
             f'viewBox="0 0 {view.width} {view.height}" font-family="{FONT}">\n' + "\n".join(body) + "\n</svg>\n")
 
@@ -319,6 +281,7 @@ def main():
     parser.add_argument("scene", help="Mitsuba XML file of the scene")
     parser.add_argument("paths", help="paths.h5 of a run")
     parser.add_argument("-o", "--output", required=True, help="picture to write, .svg or .png")
+    parser.add_argument("--edges", metavar="FILE", help="what `wavetracer scene info --edges SCENE` printed, to draw")
     parser.add_argument("--frame", type=int, default=0, help="frame to draw (default 0)")
     parser.add_argument("--tx", nargs="+", metavar="NAME", help="only these transmitters")
     parser.add_argument("--rx", nargs="+", metavar="NAME", help="only these receivers")

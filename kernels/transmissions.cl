@@ -18,12 +18,35 @@ inline int one_wall(const global wt_exact_surface* surfaces, const wt_crossing* 
   return cosine * cosine > 1.0 - 1e-6 && fabs(wt_above(s, c->point)) <= WT_ON_SURFACE_M;
 }
 
+inline double3 middle(const global wt_surface* s) {
+  return 0.5 * (double3)((double)s->lower[0] + s->upper[0], (double)s->lower[1] + s->upper[1],
+                         (double)s->lower[2] + s->upper[2]);
+}
+
+// Is surface b on the far side of the plane of a, as seen from a point?
+inline int behind(const global wt_exact_surface* a, const global wt_surface* b, double3 from) {
+  return (wt_above(a, from) > 0.0) != (wt_above(a, middle(b)) > 0.0);
+}
+
+// Does the leg pass a before b? Beside the edge of a solid float32 may find that a leg passes both of its faces, which
+// in double misses them: it crosses their planes in the wrong order, and where they lie decides.
+inline int passes_before(const global wt_exact_surface* surfaces, const global wt_surface* boxes, const wt_leg* l,
+                     const wt_crossing* a, const wt_crossing* b) {
+  const double3 apart = a->point - b->point;
+  if (wt_dot(apart, apart) <= WT_ON_SURFACE_M * WT_ON_SURFACE_M) {
+    const int behind_a = behind(surfaces + a->surface, boxes + b->surface, l->from);
+    const int behind_b = behind(surfaces + b->surface, boxes + a->surface, l->from);
+    if (behind_a != behind_b) return behind_a;
+  }
+  return a->along < b->along;
+}
+
 // One path a work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
 kernel void transmissions(const global WT_NODE* nodes, const global WT_NODE* triangles, uint triangle_slots,
                           float extent_m, const global float4* moving, const global double4* transmitters,
-                          const global double4* receivers, const global wt_exact_surface* surfaces, uint solved_count,
-                          uint max_depth, uint most, global wt_solved* solved, global double* vertices,
-                          global uint* sequences) {
+                          const global double4* receivers, const global wt_exact_surface* surfaces,
+                          const global wt_surface* boxes, uint solved_count, uint max_depth, uint most,
+                          global wt_solved* solved, global double* vertices, global uint* sequences) {
   const uint i = get_global_id(0);
   if (i >= solved_count) return;
   const uint depth = solved[i].depth, allowed = min(most, max_depth - depth);
@@ -48,9 +71,11 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_NODE* tri
       }
       const double a = wt_above(surfaces + surface, l.from), b = wt_above(surfaces + surface, l.to), u = a / (a - b);
       // Distances of the traversal are float32: of walls that are near each other it may take the second for the first.
+      const wt_crossing c = {l.from + u * (l.to - l.from), u, surface, leg};
       uint k = count++;
-      for (; k > first && crossings[k - 1].along > u; --k) crossings[k] = crossings[k - 1];
-      crossings[k] = (wt_crossing){l.from + u * (l.to - l.from), u, surface, leg};
+      for (; k > first && passes_before(surfaces, boxes, &l, &c, crossings + k - 1); --k)
+        crossings[k] = crossings[k - 1];
+      crossings[k] = c;
     }
   }
   // From the back, so that nothing is written over before it has moved on.

@@ -1,6 +1,6 @@
 // wedge_solve: diffracted paths in double. The points on the edges first, from the images of both ends; then the
-// reflections between each end and its edge; keeps what lies inside edges and surfaces, in the free sector of each wedge.
-// Legs are not tested here (occlusion does that).
+// reflections between each end and its edge; keeps what lies inside edges and surfaces, in the free sector of each
+// wedge. Legs are not tested here (occlusion does that).
 #include "lib/fermat.clh"
 #include "lib/reflections.clh"
 #pragma OPENCL FP_CONTRACT OFF
@@ -32,8 +32,8 @@ inline int own_instance(uint instance, double4 end) { return instance != WT_NONE
 
 // The reflections between an end and its edge; 0 where that is no path. A vehicle is no mirror or wedge to its antenna.
 inline int solve_side(const global wt_exact_surface* surfaces, const global double* triangles,
-                      const global wt_exact_instance* instances, const global wt_wedge* w, const uint* chain, uint depth,
-                      double4 end, const double3* images, double3 p, double3* points) {
+                      const global wt_exact_instance* instances, const global wt_wedge* w, const uint* chain,
+                      uint depth, double4 end, const double3* images, double3 p, double3* points) {
   if (own_instance(depth > 0 ? surfaces[chain[0]].instance : w->instance, end)) return 0;
   if (depth > 0 && fabs(wt_above(surfaces + chain[depth - 1], p)) <= WT_AT_EDGE_M) return 0;
   if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, p, points)) return 0;
@@ -66,6 +66,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   }
   if (!on_edge(v, x) || !on_edge(w, y)) return;
   const double3 p = wt_on_edge(v, x), q = wt_on_edge(w, y);
+  if (two && wt_dot(q - p, q - p) <= WT_AT_EDGE_M * WT_AT_EDGE_M) return;  // edges that meet, at their corner
   if (two && !wt_share_face(v, w) && (!in_free_space(v, p, q) || !in_free_space(w, q, p))) return;
   if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, p, points)) return;
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;

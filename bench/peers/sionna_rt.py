@@ -7,6 +7,7 @@
 
 Line of sight and specular reflections, as bench_paths; --diffraction and --transmission add those, on the same links:
        sionna_rt.py links.json munich.xml --diffraction --only 1x1 --only 1x100 --rays 1e6
+--paths FOLDER also writes the paths of each case there, for `bench_paths --peer-paths`.
 "error" is the share of paths that are missed, among the distinct ones that the largest launch for the same links finds;
 null for that launch itself.
 Paths that Sionna RT reports twice count once; so do those of coplanar neighbours, which have one length.
@@ -45,18 +46,46 @@ def load(scene_file, links, tx_count, rx_count):
     return scene
 
 
-def distinct_paths(paths):
-    """(link, interactions, delay) of every path, each once, sorted."""
-    valid = paths.valid.numpy()  # rx, tx, path
-    links = np.arange(valid.shape[0] * valid.shape[1]).reshape(valid.shape[:2] + (1,))
-    link = np.broadcast_to(links, valid.shape)[valid]
-    kinds = np.moveaxis(paths.interactions.numpy(), 0, -1)[valid]  # depth, rx, tx, path: 0 where there is none
-    delay = paths.tau.numpy()[valid]
+def distinct(paths):
+    """(receiver, transmitter, path) of every path, each once, sorted by link, interactions and delay."""
+    kinds = np.moveaxis(paths.interactions.numpy(), 0, -1)  # rx, tx, path, depth: 0 where there is none
+    delay = paths.tau.numpy()
+    rows = sorted((rx, tx, tuple(kinds[rx, tx, path].tolist()), float(delay[rx, tx, path]), path)
+                  for rx, tx, path in np.argwhere(paths.valid.numpy()).tolist())
     found = []
-    for row in sorted(zip(link.tolist(), map(tuple, kinds.tolist()), delay.tolist())):
-        if not (found and found[-1][:2] == row[:2] and same_delay(found[-1][2], row[2])):
+    for row in rows:
+        if not (found and found[-1][:3] == row[:3] and same_delay(found[-1][3], row[3])):
             found.append(row)
-    return found
+    return [(rx, tx, path) for rx, tx, _, _, path in found]
+
+
+def distinct_paths(paths):
+    """(receiver, transmitter, interactions, delay) of every path, each once, sorted."""
+    kinds, delay = np.moveaxis(paths.interactions.numpy(), 0, -1), paths.tau.numpy()
+    return [(*i[:2], tuple(kinds[i].tolist()), float(delay[i])) for i in distinct(paths)]
+
+
+def write_paths(file, paths, links, rays, interactions, tx_count, rx_count):
+    """The distinct paths as a reference list (tests/reference/README.md) of V ports; the H ports are 0."""
+    kinds = np.moveaxis(paths.interactions.numpy(), 0, -1)
+    vertices = np.moveaxis(paths.vertices.numpy(), 0, -2)  # rx, tx, path, depth, xyz
+    real, imaginary = (part.numpy()[:, 0, :, 0] for part in paths.a)  # of rx, antenna, tx, antenna, path
+    angles = {"aod_theta_phi_rad": (paths.theta_t.numpy(), paths.phi_t.numpy()),
+              "aoa_theta_phi_rad": (paths.theta_r.numpy(), paths.phi_r.numpy())}
+    delay = paths.tau.numpy()
+    rows = []
+    for i in distinct(paths):
+        count = int(np.count_nonzero(kinds[i]))
+        row = {"rx": i[0], "tx": i[1], "tau_s": float(delay[i]), "interactions": kinds[i][:count].tolist(),
+               "vertices_m": vertices[i][:count].tolist(),
+               "a_re": [[float(real[i]), 0], [0, 0]], "a_im": [[float(imaginary[i]), 0], [0, 0]]}
+        rows.append(row | {name: [float(theta[i]), float(phi[i])] for name, (theta, phi) in angles.items()})
+    file.write_text(json.dumps({
+        "case": file.stem, "scene": links["scene"], "frequency_hz": links["frequency_hz"],
+        "max_depth": links["max_depth"], "reflection": True, "transmission": "transmission" in interactions,
+        "diffraction": "diffraction" in interactions,
+        "solver": f"Sionna RT {importlib.metadata.version('sionna-rt')}, {rays} rays a transmitter",
+        "tx_m": links["transmitters_m"][:tx_count], "rx_m": links["receivers_m"][:rx_count], "paths": rows}))
 
 
 def same_delay(a, b):
@@ -103,7 +132,7 @@ def device_name():
 
 
 def measure(solver, scene, links, rays, interactions, runs):
-    """Seconds of the first solve, median seconds of warm ones, and the distinct paths."""
+    """Seconds of the first solve, median seconds of warm ones, and the paths of the last."""
 
     def once():
         return solve(solver, scene, links, rays, interactions)
@@ -111,11 +140,11 @@ def measure(solver, scene, links, rays, interactions, runs):
     first, _ = once()
     once()  # the second solve still compiles
     seconds = [once()[0] for _ in range(runs)]  # no result outlives its solve
-    return first, statistics.median(seconds), distinct_paths(once()[1])
+    return first, statistics.median(seconds), once()[1]
 
 
 def count_with(paths, kind):
-    return sum(int(kind) in kinds for _, kinds, _ in paths)
+    return sum(int(kind) in kinds for _, _, kinds, _ in paths)
 
 
 def main():
@@ -129,6 +158,7 @@ def main():
     parser.add_argument("--rays", type=float, help="only cases of this many rays a transmitter, such as 1e6")
     parser.add_argument("--diffraction", action="store_true", help="paths with a diffraction at a wedge, too")
     parser.add_argument("--free-edges", action="store_true", help="with --diffraction: at edges of one face, too")
+    parser.add_argument("--paths", type=pathlib.Path, metavar="FOLDER", help="write the paths of each case there")
     parser.add_argument("--transmission", action="store_true", help="paths through surfaces, too")
     arguments = parser.parse_args()
     if arguments.free_edges and not arguments.diffraction:
@@ -147,7 +177,11 @@ def main():
         if (arguments.only and name not in arguments.only) or arguments.rays not in (None, rays):
             continue
         scene = load(arguments.scene, links, tx_count, rx_count)
-        first, median, paths = measure(solver, scene, links, rays, interactions, arguments.runs)
+        first, median, solved = measure(solver, scene, links, rays, interactions, arguments.runs)
+        if arguments.paths:
+            file = arguments.paths / f"{name}_{rays}_{'_'.join(interactions).replace(' ', '_')}.json"
+            write_paths(file, solved, links, rays, interactions, tx_count, rx_count)
+        paths = distinct_paths(solved)
         results.append((name, rays, first, median, paths))
         print(f"sionna_rt.py: {name}, {rays} rays: {median:.3f} s, {len(paths)} paths", file=sys.stderr)
     largest = {name: (rays, paths) for name, rays, _, _, paths in results}

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace wavetracer::app {
 namespace {
@@ -57,6 +60,43 @@ std::string sequence_line(const Run& run, const FrameCounts& n) {
   return fmt::format("sequences  {} distinct, {} candidates, {} solved\n", n.sequences, n.candidates, n.solved);
 }
 
+// line_of_sight -> line of sight
+std::string spaced(std::string_view key) {
+  std::string words(key);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+// What was computed, and of what the configuration asks for beyond that, why not.
+std::string feature_line(const Run& run) {
+  const TraceConfig& trace = run.config.trace;
+  const std::pair<const char*, bool> features[] = {
+      {"reflection", trace.reflection},
+      {"diffraction", trace.diffraction},
+      {"double_diffraction", trace.diffraction && trace.max_diffractions > 1},
+      {"transmission", trace.transmission},
+      {"scattering", trace.scattering}};
+  std::string on, off;
+  for (const auto& [key, asked] : features) {
+    const auto found = run.summary.features.find(key);
+    if (found == run.summary.features.end()) continue;
+    if (found->second.on)
+      on += (on.empty() ? "" : ", ") + spaced(key);
+    else if (asked)
+      off += fmt::format("; no {}: {}", spaced(key), found->second.reason);
+  }
+  return fmt::format("features   {}{}\n", on.empty() ? "line of sight alone" : on, off);
+}
+
+// By their most special interaction, see path_kinds.hpp.
+std::string path_line(const Totals& totals) {
+  std::string kinds;
+  for (size_t i = 0; i < path_kinds.size(); ++i)
+    if (totals.kinds[i] > 0)
+      kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", totals.kinds[i], spaced(path_kinds[i]));
+  return fmt::format("paths      {}{}\n", totals.counts.paths, kinds);
+}
+
 std::string count_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
   const uint64_t traced = traced_segments(totals);
@@ -64,9 +104,7 @@ std::string count_lines(const Run& run, const Totals& totals) {
   if (const double trace_s = sum_seconds(totals, "trace"); trace_s > 0)
     rate = fmt::format(", {}rays/s while tracing", scaled(static_cast<double>(traced) / trace_s));
   return fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", n.rays, traced, n.hits, rate) +
-         cache_line(totals.cache) +
-         sequence_line(run, n) +
-         fmt::format("paths      {}\n", n.paths) + frame_line(run, totals);
+         cache_line(totals.cache) + sequence_line(run, n) + path_line(totals) + frame_line(run, totals);
 }
 
 std::string link_lines(const Run& run, const Results& results) {
@@ -110,7 +148,7 @@ std::string report(const Run& run, const Results& results) {
   if (!run.instances.empty())
     out += fmt::format("vehicles   {} of {} models\n", run.instances.size(), run.models.size());
   if (!run.summary.order.reason.empty()) out += "order      " + run.summary.order.reason + "\n";
-  out += count_lines(run, results.totals) + link_lines(run, results);
+  out += feature_line(run) + count_lines(run, results.totals) + link_lines(run, results);
   out += "written    ";
   for (size_t i = 0; i < results.files.size(); ++i) out += (i == 0 ? "" : ", ") + results.files[i].string();
   return out + "\n";

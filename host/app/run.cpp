@@ -58,6 +58,7 @@ RunSummary summary_of(const Simulation& simulation, const Options& options, cons
   RunSummary summary;
   summary.device = simulation.device();
   summary.order = simulation.order();
+  summary.features = simulation.features();
   summary.setup_seconds = simulation.setup_seconds();
   summary.command_line = command_line;
   summary.frames_asked = range.count();

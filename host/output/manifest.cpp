@@ -28,6 +28,7 @@ Shard decode(const Json& json) {
   const Json& counts = json.at("counts");
   t.counts = {counts.at("rays"),       counts.at("segments"), counts.at("hits"), counts.at("sequences"),
               counts.at("candidates"), counts.at("solved"),   counts.at("paths"), counts.at("receptions")};
+  t.kinds = json.at("kinds").get<PathKindCounts>();
   t.segments_per_depth = json.at("segments_per_depth").get<std::vector<uint64_t>>();
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
@@ -54,6 +55,7 @@ std::string encode_manifest_line(const Shard& shard) {
                     {"hits", t.counts.hits},           {"sequences", t.counts.sequences},
                     {"candidates", t.counts.candidates}, {"solved", t.counts.solved},
                     {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
+  json["kinds"] = t.kinds;  // in the order of path_kinds
   json["segments_per_depth"] = t.segments_per_depth;
   if (t.cache.on) json["cache"] = encode_cache(t.cache);
   json["seconds"] = t.seconds;

@@ -18,6 +18,7 @@ struct RunSummary {
   std::string version = WAVETRACER_VERSION;
   DeviceSummary device;
   OrderSummary order;
+  Features features;
   StageSeconds setup_seconds;  // stages outside the frames: load, build, compile, ...
   std::string command_line;
   uint64_t frames_asked = 1;

@@ -155,8 +155,8 @@ void write_vertices(hdf5::File& file, Frames frames) {
   write_column(file, frames, rows, "/vertices/interaction",
                {"1", "1 reflection, 2 diffuse scattering, 4 transmission, 8 diffraction"}, &Paths::vertex_interaction);
   write_column(file, frames, rows, "/vertices/surface",
-               {"1", "surface of the scene, or of the model of the instance that was hit, or edge for a diffraction; "
-                     "numbers hold for one file"},
+               {"1", "surface of the scene, or of the model of the instance that was hit; of a diffraction the edge, as "
+                     "`wavetracer scene info --edges` numbers them; numbers hold for one file"},
                &Paths::vertex_surface);
   write_column(file, frames, rows, "/vertices/instance",
                {"1", "row of /instances, the vehicle that was hit; 4294967295 for the static scene"},

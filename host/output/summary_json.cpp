@@ -3,6 +3,7 @@
 #include "output/summary_json.hpp"
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 #include "output/cache_json.hpp"
 #include "output/median.hpp"
@@ -39,6 +40,22 @@ Json counts(const Totals& totals) {
   return {{"rays", sum.rays},           {"segments", sum.segments},     {"hits", sum.hits},
           {"sequences", sum.sequences}, {"candidates", sum.candidates}, {"solved", sum.solved},
           {"paths", sum.paths},         {"receptions", sum.receptions}};
+}
+
+Json path_counts(const PathKindCounts& kinds) {
+  Json json;
+  for (size_t i = 0; i < kinds.size(); ++i) json[std::string(path_kinds[i])] = kinds[i];
+  return json;
+}
+
+// Of each: whether it was on, and if not, why.
+Json features(const Features& all) {
+  Json json = Json::object();
+  for (const auto& [name, feature] : all) {
+    json[name] = {{"on", feature.on}};
+    if (!feature.on) json[name]["reason"] = feature.reason;
+  }
+  return json;
 }
 
 // hit_rate: the share of the look-ups that were answered.
@@ -92,7 +109,9 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["shards"] = shards;
   json["repeat_count"] = summary.repeat_count;
   json["repeats_cold"] = summary.repeat_count > 1 && run.config.trace.reuse;
+  json["features"] = features(summary.features);
   json["counts"] = counts(totals);
+  json["paths_by_kind"] = path_counts(totals.kinds);
   json["links"] = totals.links;
   json["segments_per_depth"] = totals.segments_per_depth;
   json["seconds"] = stage_seconds(run, totals, write_seconds);

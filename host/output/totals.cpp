@@ -20,6 +20,10 @@ void add(FrameCounts& sum, const FrameCounts& more) {
   sum.receptions += more.receptions;
 }
 
+void add(PathKindCounts& sum, const PathKindCounts& more) {
+  for (size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
+}
+
 void add(std::vector<uint64_t>& sum, const std::vector<uint64_t>& more) {
   sum.resize(std::max(sum.size(), more.size()), 0);
   for (size_t i = 0; i < more.size(); ++i) sum[i] += more[i];
@@ -41,6 +45,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.vertices = frame.paths.vertex_position_m.size();
   totals.links = frame.world.links.size();
   totals.counts = frame.counts;
+  totals.kinds = count_path_kinds(frame.paths);
   totals.segments_per_depth = frame.segments_per_depth;
   totals.cache = frame.cache;
   for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
@@ -67,6 +72,7 @@ void add(Totals& sum, const Totals& later) {
   sum.vertices += later.vertices;
   sum.links += later.links;
   add(sum.counts, later.counts);
+  add(sum.kinds, later.kinds);
   add(sum.segments_per_depth, later.segments_per_depth);
   add(sum.cache, later.cache);
   for (const auto& [stage, values] : later.seconds)

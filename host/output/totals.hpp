@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 #include "output/output.hpp"
+#include "output/path_kinds.hpp"
 
 namespace wavetracer {
 
@@ -15,6 +16,7 @@ struct Totals {
   double start_s = 0, end_s = 0;
   uint64_t vertices = 0, links = 0;
   FrameCounts counts;
+  PathKindCounts kinds{};  // of counts.paths
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
   std::map<std::string, std::vector<double>> seconds;  // stage -> one value a frame

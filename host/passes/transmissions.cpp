@@ -13,8 +13,8 @@ Transmissions::Transmissions(gpu::Context& context, const DeviceScene& scene, ui
 void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved) {
   kernel_({solved.count, 16}, "transmissions", scene.cpu ? scene.nodes8 : scene.nodes2,
           scene.cpu ? scene.blocks8 : scene.triangles2, scene.triangle_slots, scene.extent_m, scene.moving,
-          ends.transmitters, ends.receivers, scene.exact_surfaces, solved.count, solved.max_depth, most_,
-          solved.headers, solved.vertices, solved.sequences);
+          ends.transmitters, ends.receivers, scene.exact_surfaces, scene.surfaces, solved.count, solved.max_depth,
+          most_, solved.headers, solved.vertices, solved.sequences);
 }
 
 }  // namespace wavetracer

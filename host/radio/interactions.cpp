@@ -34,6 +34,9 @@ std::vector<std::complex<double>> permittivities(const Scene& scene, double freq
 // Directions closer than this to a boundary are worth a question about the other path there, see LitSides.
 constexpr double near_boundary_rad = 2e-6;
 
+// What runs along a face is this far inside of free space: both faces of a half plane lie in one direction.
+constexpr double inside_rad = 1e-12;
+
 // Of face 0 or 1, into free space.
 glm::dvec3 normal_of(const WedgeFrame& frame, int face) {
   if (face == 0) return frame.normal;
@@ -158,11 +161,12 @@ double Interactions::snap_to_shared_face(std::vector<Edge>& edges) const {
   for (int i = 0; i < 4; ++i) {
     const uint32_t surface = wedges_.face_surface(edges[0].place, i / 2);
     if (surface != wedges_.face_surface(edges[1].place, i % 2)) continue;
+    if (glm::dot(normal_of(edges[0].frame, i / 2), normal_of(edges[1].frame, i % 2)) < 0) continue;
     for (int end = 0; end < 2; ++end) {
       Edge& edge = edges[end];
       glm::dvec3& k = end == 0 ? edge.k_out : edge.k_in;
       const glm::dvec3 normal = normal_of(edge.frame, end == 0 ? i / 2 : i % 2);
-      k = glm::normalize(k - glm::dot(k, normal) * normal);
+      k = glm::normalize(k - (glm::dot(k, normal) - (end == 0 ? inside_rad : -inside_rad)) * normal);
     }
     return 2;
   }

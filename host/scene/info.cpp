@@ -42,7 +42,12 @@ std::string range(const Material& m) {
 
 bool is_free(const Wedge& wedge) { return wedge.surface[0] == wedge.surface[1]; }
 
-std::string point(const glm::dvec3& p) { return fmt::format("{:>12.3f} {:>12.3f} {:>9.3f}", p.x, p.y, p.z); }
+// Without the sign of a zero.
+std::string point(glm::dvec3 p) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(p[axis]) < 5e-4) p[axis] = 0;
+  return fmt::format("{:>12.3f} {:>12.3f} {:>9.3f}", p.x, p.y, p.z);
+}
 
 }  // namespace
 

@@ -33,7 +33,9 @@ std::strong_ordering compare_sequences(const PathGeometry& paths, uint32_t a, ui
   return compare(paths.interaction);
 }
 
-bool same_points(const PathGeometry& paths, uint32_t a, uint32_t b) {
+// Where a point of reflection comes near an edge, the diffraction there is another path.
+bool one_path(const PathGeometry& paths, uint32_t a, uint32_t b) {
+  if (!std::ranges::equal(of_path(paths, paths.interaction, a), of_path(paths, paths.interaction, b))) return false;
   const auto x = of_path(paths, paths.vertex, a), y = of_path(paths, paths.vertex, b);
   return std::ranges::equal(x, y, [](const glm::dvec3& p, const glm::dvec3& q) {
     return std::abs(p.x - q.x) <= merge_distance_m && std::abs(p.y - q.y) <= merge_distance_m &&
@@ -64,7 +66,7 @@ size_t keep_distinct(const PathGeometry& paths, std::span<uint32_t> rows) {
   for (size_t at = 1; at < rows.size(); ++at) dropped[at] = compare_sequences(paths, rows[at - 1], rows[at]) == 0;
   for (size_t a = 0; a < by_x.size(); ++a)
     for (size_t b = a + 1; b < by_x.size() && by_x[a].near(by_x[b]); ++b)
-      if (same_points(paths, rows[by_x[a].at], rows[by_x[b].at])) dropped[std::max(by_x[a].at, by_x[b].at)] = 1;
+      if (one_path(paths, rows[by_x[a].at], rows[by_x[b].at])) dropped[std::max(by_x[a].at, by_x[b].at)] = 1;
   size_t kept = 0;
   for (size_t at = 0; at < rows.size(); ++at)
     if (!dropped[at]) rows[kept++] = rows[at];

@@ -18,7 +18,8 @@ bool any_scene(const Scene& scene, const World& world, const Holds& holds) {
 template <class Holds>
 bool any_material(const Scene& scene, const World& world, const Holds& holds) {
   return any_scene(scene, world, [&](const Scene& s) {
-    return std::ranges::any_of(s.surfaces, [&](const Surface& surface) { return holds(s.materials[surface.material]); });
+    return std::ranges::any_of(s.surfaces,
+                               [&](const Surface& surface) { return holds(s.materials[surface.material]); });
   });
 }
 
@@ -56,7 +57,8 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
                                  {!passable, "all materials are half spaces, which nothing passes"}});
   out["scattering"] = feature({{!trace.scattering, "trace.scattering = false"},
                                no_depth,
-                               {!rough, "no material of the scene has a scattering coefficient"}});
+                               {!rough,
+                                "no material of the scene has a scattering coefficient (material.scattering)"}});
   out["instances"] = feature({{world.instances().empty(), "no vehicle has a body"}});
   return out;
 }

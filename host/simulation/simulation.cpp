@@ -56,8 +56,8 @@ DirectionShare share_of(uint64_t rays, uint64_t refresh_rays, uint64_t warm_fram
 
 // Rays of a listener: edges are met by many rays.
 uint64_t listener_rays(const TraceConfig& config) {
-  const uint64_t wanted = config.diffraction_rays ? config.diffraction_rays : std::max<uint64_t>(config.rays / 10, 100000);
-  return std::min(wanted, config.rays);
+  const uint64_t unasked = std::max<uint64_t>(config.rays / 10, 100000);
+  return std::min(config.diffraction_rays ? config.diffraction_rays : unasked, config.rays);
 }
 
 void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
@@ -129,11 +129,13 @@ DiscoveryCounts Simulation::State::discover(const WorldState& state) {
   }
   DiscoveryCounts counts = (*discovery)(device_scene, first, share_of(trace.rays, trace.refresh_rays, warm_frames));
   if (!then.empty())
-    add((*discovery)(device_scene, then, share_of(listener_rays(trace), 0, warm_frames), LaunchedBy::listeners), counts);
+    add((*discovery)(device_scene, then, share_of(listener_rays(trace), 0, warm_frames), LaunchedBy::listeners),
+        counts);
   return counts;
 }
 
-// The thesis' way: rays that pass a receiver's sphere are its paths. Leaves `host` at the time since the device was done.
+// The thesis' way: rays that pass a receiver's sphere are its paths. Leaves `host` at the time since the device was
+// done.
 PathGeometry Simulation::State::received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host) {
   counts.sequences = discovery->sequences().collect(ends.transmitter_count) - ends.transmitter_count;
   counts.receptions = trails->receptions();

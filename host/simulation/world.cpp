@@ -100,7 +100,8 @@ void World::State::add_instances(VehicleModels& vehicles, const Scene& scene) {
     const std::optional<uint32_t> model = vehicles.model_of(type, track.id);
     track_instance.push_back(model ? static_cast<uint32_t>(instances.size()) : no_instance);
     if (!model) continue;
-    instances.push_back({track.id, type.name, *model, static_cast<uint32_t>(next_surface), static_cast<uint32_t>(next_wedge)});
+    instances.push_back({track.id, type.name, *model, static_cast<uint32_t>(next_surface),
+                         static_cast<uint32_t>(next_wedge)});
     instance_track.push_back(k);
     next_surface += vehicles.models()[*model].surfaces.size();
     next_wedge += vehicles.models()[*model].wedges.size();

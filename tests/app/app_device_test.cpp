@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include "program.hpp"
 
@@ -47,6 +48,36 @@ TEST_CASE("a run writes three files and says what it found") {
   for (const char* name : {"out/paths.h5", "out/links.csv", "out/summary.json"})
     CHECK(std::filesystem::file_size(folder.path(name)) > 0);
   CHECK(lines(folder.path("out/links.csv")) == 2);
+}
+
+TEST_CASE("a run says which features it had, why not others, and how many paths of each kind it found") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const auto run = [&](const std::vector<std::string>& sets) {
+    std::vector<std::string> words = {"run", "-c", file, "-o", folder.path("out")};
+    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+    const Outcome outcome = run_program(words);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    return outcome.out;
+  };
+  const auto summary = [&] { return nlohmann::json::parse(std::ifstream(folder.path("out/summary.json"))); };
+  CHECK(contains(run({}), "\nfeatures   reflection\n"));
+  CHECK(summary()["features"]["diffraction"] ==
+        nlohmann::json{{"on", false}, {"reason", "trace.diffraction = false"}});
+  const std::string out = run({"trace.diffraction=true", "trace.transmission=true", "trace.scattering=true"});
+  CHECK(contains(out, "\nfeatures   reflection, diffraction, transmission; no scattering: no material "));
+  CHECK(contains(out, " diffracted\n"));
+  const nlohmann::json after = summary(), kinds = after["paths_by_kind"];
+  CHECK(after["features"]["diffraction"] == nlohmann::json{{"on", true}});
+  CHECK(contains(after["features"]["scattering"]["reason"], "scattering coefficient"));
+  CHECK(kinds["line_of_sight"] == 1);
+  CHECK(kinds["diffracted"] > 0);
+  CHECK(kinds["scattered"] == 0);
+  uint64_t sum = 0;
+  for (const auto& [kind, count] : kinds.items()) sum += count.get<uint64_t>();
+  CHECK(after["counts"]["paths"] == sum);
 }
 
 TEST_CASE("a run with output.waypoints writes a fourth file, and one without takes it away again") {

@@ -3,6 +3,9 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <sstream>
 #include "program.hpp"
 #include "wavetracer/version.hpp"
 
@@ -138,11 +141,67 @@ TEST_CASE("init, then validate") {
 }
 
 TEST_CASE("the configs that come with the program are valid") {
-  for (const std::string name : {"cache", "city", "demo", "drive"}) {
+  for (const std::string name : {"cache", "city", "demo", "drive", "edges"}) {
     const Outcome validate = run_program({"validate", "-c", WAVETRACER_SOURCE "/configs/" + name + ".toml"});
     CAPTURE(validate.err);
     CHECK(validate.code == 0);
   }
+}
+
+TEST_CASE("scene info --edges lists every edge that diffracts, and nothing else") {
+  const Folder folder;
+  const std::string scenes = WAVETRACER_SOURCE "/tests/reference/scenes/";
+  const Outcome wedge = run_program({"scene", "info", scenes + "simple_wedge/simple_wedge.xml", "--edges"});
+  CHECK(wedge.code == 0);
+  CHECK(wedge.err.empty());
+  std::istringstream lines(wedge.out);
+  std::string line;
+  std::getline(lines, line);
+  CHECK(contains(line, "inside, deg"));
+  // Two plates of 30 x 30 m that meet at right angles along z: seven edges, six of them free.
+  size_t count = 0, right_angles = 0;
+  for (; std::getline(lines, line); ++count) {
+    std::istringstream words(line);
+    size_t edge = 0;
+    std::array<double, 8> numbers{};
+    words >> edge;
+    for (double& number : numbers) words >> number;
+    REQUIRE(words);
+    CHECK(edge == count);
+    CHECK(numbers[6] == 30);
+    if (numbers[7] == 0) continue;
+    ++right_angles;
+    CHECK(numbers == std::array<double, 8>{0, 0, -15, 0, 0, 15, 30, 90});
+    CHECK(line.ends_with("1 concrete, 0 concrete"));
+  }
+  CHECK(count == 7);
+  CHECK(right_angles == 1);
+  CHECK_FALSE(contains(wedge.out, "triangles"));
+  CHECK(contains(run_program({"scene", "info", scenes + "simple_wedge/simple_wedge.xml"}).out,
+                 "diffract   7 edges: 1 wedges, 6 free\n"));
+}
+
+TEST_CASE("scene info --edges of a room: its edges diffract nowhere but outside, and a wrong file is refused") {
+  const Folder folder;
+  const std::string box = WAVETRACER_SOURCE "/tests/reference/scenes/box/box.xml";
+  const Outcome room = run_program({"scene", "info", box, "--edges"});
+  CHECK(room.code == 0);
+  CHECK(std::ranges::count(room.out, '\n') == 1 + 12);  // of the outside: twelve, of 270 degrees
+  check(run_program({"scene", "info", folder.path("absent.xml"), "--edges"}), 3, "absent.xml");
+  check(run_program({"scene", "info", folder.file("a.ply", "no mesh"), "--edges"}), 3, "a.ply");
+  check(run_program({"scene", "info", "--edges"}), 2, "file is required");
+  check(run_program({"scene", "info", box, "--edge"}), 2, "--edge");
+}
+
+TEST_CASE("what diffraction and transmission exclude is said before anything is traced") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + "trace.diffraction = true\ntrace.join = true\n" + ends);
+  check(run_program({"run", "-c", file, "-o", folder.path("out")}), 2,
+        file + ":3:14: trace.join = true sends rays half the way, trace.diffraction = true needs them whole");
+  check(run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.join=false", "--set",
+                     "trace.reception=sphere"}),
+        2, "--set trace.reception=sphere: trace.reception = \"sphere\" receives reflected rays alone");
+  CHECK(folder.entries() == 1);
 }
 
 TEST_CASE("scene city writes what scene info reads") {

@@ -25,6 +25,30 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
   CHECK(contains(report(cache), "\ncache      71.5% of 2000 look-ups answered, 12.5% of 400 entries in use\n"));
 }
 
+TEST_CASE("the report names what was computed, and why not what was asked for beyond it") {
+  SampleRun sample;
+  const app::Results results{totals_of(sample.frames()), 8, {}, {}};
+  Run run = sample.run();  // diffraction is off, and by default nobody asks for it
+  const auto report = [&] { return app::report(run, results); };
+  CHECK(contains(report(), "\nfeatures   reflection\n"));
+  sample.config.trace.diffraction = true;
+  CHECK(contains(report(), "\nfeatures   reflection; no diffraction: no edge of the scene diffracts\n"));
+  run.summary.features["diffraction"] = {true, {}};
+  run.summary.features["double_diffraction"] = {true, {}};
+  CHECK(contains(report(), "\nfeatures   reflection, diffraction, double diffraction\n"));
+  sample.config.trace.reflection = false;
+  run.summary.features = {{"reflection", {false, "trace.reflection = false"}}};
+  CHECK(contains(report(), "\nfeatures   line of sight alone\n"));
+}
+
+TEST_CASE("the report counts paths by kind, those that there are") {
+  const SampleRun sample;
+  app::Results results{totals_of(sample.frames()), 8, {}, {}};
+  CHECK(contains(app::report(sample.run(), results), "\npaths      5: 1 line of sight, 1 reflected, 3 transmitted\n"));
+  results.totals = totals_of(sample.empty());
+  CHECK(contains(app::report(sample.run(), results), "\npaths      0\n"));
+}
+
 TEST_CASE("the report counts what was solved, or with spheres what was caught, and lists the files") {
   SampleRun sample;
   const app::Results results{totals_of(sample.frames()), 8, {}, {"out/paths.h5", "out/waypoints.h5"}};

@@ -159,6 +159,39 @@ TEST_CASE("what a path may do: ranges of its keys") {
   check_contains(with("[[material]]\nname = \"brick\"\nscattering = 1.5\n"), "material.scattering = 1.5 is out");
 }
 
+TEST_CASE("diffraction, transmission and scattering are refused beside what follows reflected rays alone") {
+  const auto with = [](const std::string& keys) { return error_of(scene + keys + ends); };
+  const std::string all = "trace.diffraction = true\ntrace.transmission = true\ntrace.scattering = true\n";
+  CHECK(with(all + "trace.rays = \"auto\"\ncache.kind = \"concurrent\"\norder.each_depth = true\n") == "no error");
+  for (const std::string key : {"trace.diffraction", "trace.transmission", "trace.scattering"}) {
+    CAPTURE(key);
+    CHECK(with(key + " = true\ntrace.reception = \"sphere\"\n") ==
+          "a.toml:3:19: trace.reception = \"sphere\" receives reflected rays alone, " + key +
+              " = true asks for more: set it to false, or use trace.reception = \"exact\"");
+    CHECK(with(key + " = false\ntrace.reception = \"sphere\"\n") == "no error");
+    // Tiles need no rays at all.
+    const std::string joined = with(key + " = true\ntrace.join = true\n");
+    if (key == "trace.scattering")
+      CHECK(joined == "no error");
+    else
+      CHECK(joined == "a.toml:3:14: trace.join = true sends rays half the way, " + key +
+                          " = true needs them whole: leave trace.join out, or set " + key + " to false");
+    CHECK(with(key + " = false\ntrace.join = true\n") == "no error");
+  }
+  CHECK(with("trace.transmission = true\noutput.waypoints = 5\n") ==
+        "a.toml:3:20: output.waypoints = 5 follows rays that are reflected, and with trace.transmission = true they "
+        "split: leave output.waypoints out, or set trace.transmission to false");
+  CHECK(with("trace.diffraction = true\ntrace.scattering = true\noutput.waypoints = 5\n") == "no error");
+  // The place is that of the later of the two keys, or of --set.
+  check_contains(with("trace.join = true\ntrace.diffraction = true\n"), "a.toml:3:21: trace.join = true sends");
+  check_contains(error_of(scene + "trace.join = true\n" + ends, {"trace.diffraction=true"}),
+                 "--set trace.diffraction=true: trace.join = true sends");
+  // Each contradiction is told.
+  const std::string both = with("trace.reception = \"sphere\"\n" + all);
+  for (const std::string key : {"trace.diffraction", "trace.transmission", "trace.scattering"})
+    check_contains(both, key + " = true asks for more");
+}
+
 TEST_CASE("orders by name or mnemonic; launch shapes that contradict them are refused") {
   for (const std::string method : {"none", "WS", "Z", "HZ", "H3DH", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "auto"})
     CHECK(error_of(scene + "order.method = \"" + method + "\"\norder.each_depth = true\n" + ends) == "no error");

@@ -94,6 +94,7 @@ SampleRun::SampleRun() {
 Run SampleRun::run() const {
   Run run{config, scene, instances, models, {}};
   run.summary.device = {"Portable Computing Language", "a processor", "3.1", "OpenCL C 1.2", false};
+  run.summary.features = {{"reflection", {true, {}}}, {"diffraction", {false, "no edge of the scene diffracts"}}};
   run.summary.setup_seconds = {{"load", 0.5}, {"trace", 9.0}};
   run.summary.command_line = "wavetracer run -c sample.toml";
   run.summary.repeat_count = 3;

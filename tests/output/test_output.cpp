@@ -138,6 +138,15 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
                                          {"solved", 16},
                                          {"paths", 5},
                                          {"receptions", 6}});
+  // Of five paths of depth 0 to 4, every second vertex is a transmission.
+  CHECK(json["paths_by_kind"] == nlohmann::json{{"line_of_sight", 1},
+                                                {"reflected", 1},
+                                                {"transmitted", 3},
+                                                {"diffracted", 0},
+                                                {"scattered", 0}});
+  CHECK(json["features"] == nlohmann::json{{"reflection", {{"on", true}}},
+                                           {"diffraction", {{"on", false},
+                                                            {"reason", "no edge of the scene diffracts"}}}});
   CHECK(json["segments_per_depth"] == std::vector<int>{2000, 1800, 1200});
   CHECK(json["seconds"]["frame"] == 1.0);
   CHECK(json["seconds"]["solve"] == 0.25);

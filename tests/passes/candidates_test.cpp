@@ -78,3 +78,47 @@ TEST_CASE("far images: four reflections between walls that are kilometres apart"
   CHECK(o.lost == 0);
   CHECK(o.accepted > 100);
 }
+
+TEST_CASE("what listeners see is no candidate, nor is a longer sequence than asked for") {
+  Random random(4);
+  const std::vector<Quad> quads = random_quads(6, 10, 14, random);
+  const std::vector<glm::dvec3> transmitters = random_points(2, 12, random), receivers = random_points(5, 12, random);
+  const DeviceScene scene = make_device_scene(context(), reference::scene_of_quads(quads), false, 12);
+  std::vector<EndState> tx, rx;
+  std::vector<Link> links;
+  for (const glm::dvec3& p : transmitters) tx.push_back({.position_m = p});
+  for (const glm::dvec3& p : receivers) rx.push_back({.position_m = p});
+  for (uint32_t t = 0; t < 2; ++t)
+    for (uint32_t r = 0; r < 5; ++r) links.push_back({t, r});
+  // Ends 2 and 3 are receivers 4 and 1; the trie holds what they see beside what the transmitters do.
+  const RadioEnds ends = make_radio_ends(context(), tx, rx, links, {4, 1});
+  using Found = std::set<std::pair<Sequence, uint32_t>>;
+  const auto listed = [&](uint32_t origins, uint32_t max_reflections) {
+    Sequences set(context(), 1 << 13);
+    enter(set, scene, all_sequences(origins, 6, 3), 3);
+    const uint32_t node_count = set.collect(2);
+    Candidates find(context(), max_reflections);
+    const uint32_t count = find(scene, ends, set.table(), set.nodes(), node_count, set.counters());
+    const std::vector<uint64_t> table = set.table().read();
+    Found out;
+    for (const wt_candidate& c : find.list().read(0, count)) {
+      Sequence s;
+      uint32_t node = c.node;
+      for (; !(node & WT_ROOT); node = static_cast<uint32_t>(table[node] >> 32))
+        s.surfaces.insert(s.surfaces.begin(), static_cast<uint32_t>(table[node]));
+      s.transmitter = node & ~WT_ROOT;
+      CHECK(out.emplace(s, c.receiver).second);
+    }
+    return out;
+  };
+  const Found all = listed(2, WT_MAX_DEPTH);
+  CHECK(all.size() > 100);
+  CHECK(listed(4, WT_MAX_DEPTH) == all);
+  for (const uint32_t most : {0u, 1u, 2u, 3u}) {
+    CAPTURE(most);
+    Found expected;
+    for (const auto& candidate : all)
+      if (candidate.first.surfaces.size() <= most) expected.insert(candidate);
+    CHECK(listed(4, most) == expected);
+  }
+}

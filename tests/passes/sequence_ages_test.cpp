@@ -229,3 +229,44 @@ TEST_CASE("keep renews the sequences of visible solved paths with their prefixes
   renew(known, visible, 2 * set.frame());
   CHECK(aged_contents(set) == known);
 }
+
+TEST_CASE("keep enters joined paths by their reflections, and passes over what they go through") {
+  const DeviceScene scene = any_scene();
+  Sequences set(context(), 4096, true);
+  Random random(15);
+  const std::vector<Sequence> sequences = likely_sequences(60, 8, random);
+  set.begin_frame();
+  meet(set, scene, sequences);
+  Aged known;
+  renew_by_rays(known, sequences, set.frame());
+  set.begin_frame();
+
+  // Joined paths have no node; half of their sequences are new to the set. Transmissions stand anywhere among them.
+  std::vector<Sequence> joined = likely_sequences(40, 8, random);
+  joined.insert(joined.end(), sequences.begin(), sequences.begin() + 40);
+  SolvedList solved;
+  solved.max_depth = 2 * max_depth;
+  std::vector<wt_solved> headers;
+  std::vector<uint32_t> steps;
+  std::vector<Sequence> visible;
+  for (size_t i = 0; i < joined.size(); ++i) {
+    std::vector<uint32_t> row;
+    for (const uint32_t surface : joined[i].surfaces) {
+      if (random() < 0.4) row.push_back(WT_STEP_TRANSMISSION | random.below(8));
+      row.push_back(surface);
+    }
+    const bool blocked = i % 4 == 1;
+    headers.push_back({joined[i].transmitter, 0, static_cast<uint32_t>(row.size()), blocked, WT_NONE});
+    row.resize(solved.max_depth, WT_NONE);
+    steps.insert(steps.end(), row.begin(), row.end());
+    if (!blocked) visible.push_back(joined[i]);
+  }
+  solved.headers = context().buffer(headers, "solved");
+  solved.sequences = context().buffer(steps, "sequences of solved");
+  solved.count = static_cast<uint32_t>(headers.size());
+  set.keep(solved);
+  const size_t before = known.size();
+  renew(known, visible, 2 * set.frame());
+  CHECK(known.size() > before);
+  CHECK(aged_contents(set) == known);
+}

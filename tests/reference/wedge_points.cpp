@@ -1,6 +1,7 @@
 // The length of a path over straight edges is convex in the positions of its points on them, so its derivatives grow,
 // and bisection finds where they vanish. Two edges: the inner minimum is followed while the outer one is sought.
 #include "reference/wedge_points.hpp"
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -51,8 +52,10 @@ std::optional<dvec3> diffraction_point(const Wedge& wedge, const dvec3& a, const
 
 std::optional<std::array<dvec3, 2>> diffraction_points(const Wedge& first, const Wedge& second, const dvec3& a,
                                                        const dvec3& b) {
-  // With q at its best for each p, the derivative by p is that with q held (the envelope theorem).
-  const auto total = [&](double x_m) {
+  // With q at its best for each p, the derivative by p is that with q held (the envelope theorem). Where edges meet
+  // it does not exist, so ends are judged from a nanometre inside.
+  const auto total = [&](double at_m) {
+    const double x_m = std::clamp(at_m, 1e-9, first.length_m - 1e-9);
     const double best_m = vanishing(slope_between(second, at(first, x_m), b), second.length_m);
     return slope(first, x_m, a) + slope(first, x_m, at(second, best_m));
   };

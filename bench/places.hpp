@@ -1,0 +1,26 @@
+// Scenes with antennas in their streets, the same for every benchmark that solves whole frames.
+// Assumes streets at z = 0 of the file's coordinates.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wavetracer/config.hpp"
+
+namespace wavetracer::bench {
+
+struct Place {
+  std::string name;
+  SceneConfig scene;
+  std::vector<RadioEnd> transmitters, receivers;  // at the height of cars; the first receiver is the nearest one
+};
+
+// shared/scenes/munich with antennas around a street crossing; nothing where it is not there.
+std::optional<Place> munich_place(const std::string& shared, size_t transmitters, size_t receivers);
+// The generated city, likewise.
+Place city_place(size_t transmitters, size_t receivers);
+
+// The scene and the first ends of a place at 5.9 GHz, all else as it is by default.
+Config config_of(const Place& place, size_t transmitters, size_t receivers);
+
+}  // namespace wavetracer::bench

@@ -1,0 +1,24 @@
+// How many paths there are of each kind. A path counts once, by its most special interaction: scattered where it
+// scatters anywhere, else diffracted, else transmitted, else reflected; line of sight is a path without any.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include "wavetracer/paths.hpp"
+
+namespace wavetracer {
+
+// Names as files spell them, the least special first.
+constexpr std::array<std::string_view, 5> path_kinds{"line_of_sight", "reflected", "transmitted", "diffracted",
+                                                     "scattered"};
+
+// Of each of path_kinds; they add up to the number of paths.
+using PathKindCounts = std::array<uint64_t, path_kinds.size()>;
+
+// path: a row of paths. Returns an index into path_kinds.
+size_t path_kind(const Paths& paths, size_t path);
+
+PathKindCounts count_path_kinds(const Paths& paths);
+
+}  // namespace wavetracer

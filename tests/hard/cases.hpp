@@ -1,0 +1,42 @@
+// The hard suite: geometry and numbers at their limits, each case with the answer that it must have.
+// A case measures how far the program, run through Simulation, is from that answer; the test and bench_hard share them.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace wavetracer::test {
+
+struct HardCase {
+  std::string name, expectation;
+  double measured = 0, tolerance = 0;
+  std::string unit;
+  bool holds() const { return measured <= tolerance; }  // not if it is NaN
+};
+using HardCases = std::vector<HardCase>;
+
+// device: as for Simulation.
+HardCases shadow_boundaries(const std::string& device);
+HardCases half_planes(const std::string& device);
+HardCases surfaces_and_edges(const std::string& device);
+HardCases meshes(const std::string& device);
+HardCases grazing(const std::string& device);
+HardCases far_away(const std::string& device);
+HardCases many_bounces(const std::string& device);
+HardCases energy(const std::string& device);
+HardCases drives(const std::string& device);
+
+struct HardTopic {
+  const char* name;
+  HardCases (*run)(const std::string& device);
+};
+inline constexpr HardTopic hard_topics[] = {{"shadow boundaries", shadow_boundaries},
+                                            {"half planes", half_planes},
+                                            {"surfaces and edges", surfaces_and_edges},
+                                            {"meshes", meshes},
+                                            {"grazing", grazing},
+                                            {"far away", far_away},
+                                            {"many bounces", many_bounces},
+                                            {"energy", energy},
+                                            {"drives", drives}};
+
+}  // namespace wavetracer::test

@@ -1,0 +1,103 @@
+// What cases of the hard suite share: fields of links summed over their paths, kinds of paths, errors in decibels.
+// Assumes ends with two ports each, V and H, as config_of makes them.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "hard/cases.hpp"
+#include "simulation/run.hpp"
+
+namespace wavetracer::test {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+constexpr double frequency_hz = 5.9e9;  // the default of a configuration
+constexpr double wavelength_m = speed_of_light / frequency_hz;
+
+// h(f) between ports, element 2 r + t from tx port t to rx port r.
+using Response = std::array<Complex, 4>;
+
+// The sum of a exp(-j 2 pi f tau) of the paths from tx to each receiver, of those up to this length.
+inline std::vector<Response> responses(const Paths& paths, uint32_t tx, size_t receivers,
+                                       double longest_m = std::numeric_limits<double>::infinity()) {
+  std::vector<Response> sums(receivers);
+  for (size_t i = 0; i < paths.size(); ++i) {
+    if (paths.tx[i] != tx || paths.delay_s[i] * speed_of_light > longest_m) continue;
+    const Complex turn = std::polar(1.0, -2 * pi * frequency_hz * paths.delay_s[i]);
+    for (size_t k = 0; k < 4; ++k) sums[paths.rx[i]][k] += paths.a[i][k] * turn;
+  }
+  return sums;
+}
+
+inline double friis(double length_m) { return wavelength_m / (4 * pi * length_m); }
+inline double decibels(double amplitude) { return 20 * std::log10(amplitude); }
+
+// The kinds of a path's interactions in order, "" the line of sight: R, S, T, D.
+inline std::string kinds_of(const Paths& paths, size_t i) {
+  std::string out;
+  for (size_t k = paths.vertex_offset[i]; k < paths.vertex_offset[i + 1]; ++k) {
+    const uint8_t kind = paths.vertex_interaction[k];
+    out += kind == reflection ? 'R' : kind == diffuse ? 'S' : kind == transmission ? 'T' : 'D';
+  }
+  return out;
+}
+
+// Rows of one link.
+inline std::vector<size_t> rows_between(const Paths& paths, uint32_t tx, uint32_t rx) {
+  std::vector<size_t> rows;
+  for (size_t i = 0; i < paths.size(); ++i)
+    if (paths.tx[i] == tx && paths.rx[i] == rx) rows.push_back(i);
+  return rows;
+}
+
+// Kinds of a link's paths, sorted by delay, as "LOS R TRT".
+inline std::string kinds_between(const Paths& paths, uint32_t tx, uint32_t rx) {
+  std::string out;
+  for (const size_t i : rows_between(paths, tx, rx)) {
+    const std::string kinds = kinds_of(paths, i);
+    out += (out.empty() ? "" : " ") + (kinds.empty() ? "LOS" : kinds);
+  }
+  return out;
+}
+
+// The largest difference of the paths of two runs, row by row; infinite where their number or kinds differ.
+struct Difference {
+  double gain_db = 0, delay_s = 0;
+};
+inline Difference difference(const Paths& a, const Paths& b) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (a.tx != b.tx || a.rx != b.rx || a.vertex_interaction != b.vertex_interaction) return {never, never};
+  Difference worst;
+  for (size_t i = 0; i < a.size(); ++i) {
+    worst.gain_db = std::max(worst.gain_db, std::abs(a.gain_db[i] - b.gain_db[i]));
+    worst.delay_s = std::max(worst.delay_s, std::abs(a.delay_s[i] - b.delay_s[i]));
+  }
+  return worst;
+}
+
+// Values of the result that are not finite; none should be.
+inline double not_finite(const Paths& paths) {
+  size_t count = 0;
+  const auto look = [&](double x) { count += !std::isfinite(x); };
+  for (size_t i = 0; i < paths.size(); ++i) {
+    for (const double x : {paths.delay_s[i], paths.gain_db[i], paths.doppler_hz[i], paths.aod_theta_rad[i],
+                           paths.aod_phi_rad[i], paths.aoa_theta_rad[i], paths.aoa_phi_rad[i]})
+      look(x);
+    for (const Complex& x : paths.a[i]) look(std::abs(x));
+  }
+  for (const glm::dvec3& p : paths.vertex_position_m) look(p.x + p.y + p.z);
+  return static_cast<double>(count);
+}
+
+inline FrameResult run(const Config& config, const std::string& device) {
+  return Simulation(config, device).run_frame(0);
+}
+
+}  // namespace wavetracer::test

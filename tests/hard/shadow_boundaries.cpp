@@ -1,0 +1,113 @@
+// The total field across the shadow boundaries of free-standing wedges and screens: it must not jump.
+// Geometry in float32 decides within 0.03 mm whether a ray passes an edge, so receivers stand closer than that as well.
+#include <glm/trigonometric.hpp>
+
+#include "hard/responses.hpp"
+
+namespace wavetracer::test {
+namespace {
+
+constexpr double radius_m = 5, skew_m = -1;  // of receivers, from the edge and along it
+constexpr double turned_rad = 0.37;          // of the whole scene about the edge: nothing is round in float32
+
+glm::dvec3 at_azimuth(double rho_m, double azimuth_rad, double z_m) {
+  return {rho_m * std::cos(azimuth_rad + turned_rad), rho_m * std::sin(azimuth_rad + turned_rad), z_m};
+}
+
+// How far receivers stand from the boundary, along the circle about the edge: exactly on it, 1 nm beside it and twice
+// as far each time, to 0.03 mm. The first and the last, at 1 mm, are clear of it on either side.
+std::vector<double> steps() {
+  std::vector<double> out{0};
+  for (double d = 1e-9; d < 4e-5; d *= 2) out.insert(out.end(), {-d, d});
+  out.insert(out.end(), {-1e-3, 1e-3});
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// The field of tx port t at the receivers of a boundary, seen in steps: its largest deviation from the straight line
+// through the fields of the two receivers before, over its size. A jump is there in full; a smooth field leaves its
+// curvature, of which standing waves have most: (2 k 16 um)^2 / 2, below 5e-5.
+double jump(const std::vector<double>& at_m, const std::vector<Response>& h, size_t first, size_t t) {
+  double worst = 0, size = 0;
+  for (size_t i = 3; i + 1 < at_m.size(); ++i) {
+    const double ratio = (at_m[i] - at_m[i - 1]) / (at_m[i - 1] - at_m[i - 2]);
+    double square = 0, field = 0;
+    for (const size_t k : {t, 2 + t}) {
+      const Complex &a = h[first + i - 2][k], &b = h[first + i - 1][k], &c = h[first + i][k];
+      square += std::norm(c - b - ratio * (b - a));
+      field += std::norm(c);
+    }
+    worst = std::max(worst, std::sqrt(square));
+    size = std::max(size, std::sqrt(field));
+  }
+  return worst / size;
+}
+
+size_t geometrical_paths(const Paths& paths, uint32_t tx, uint32_t rx) {
+  size_t count = 0;
+  for (const size_t i : rows_between(paths, tx, rx)) count += kinds_of(paths, i).find('D') == std::string::npos;
+  return count;
+}
+
+struct Boundary {
+  uint32_t tx;
+  double azimuth_rad;
+};
+
+HardCase case_of(const std::string& device, double interior_rad, const std::string& material, bool transmits) {
+  const double exterior_rad = 2 * pi - interior_rad, width_m = 30;
+  std::vector<Quad> faces{{at_azimuth(0, 0, -60), at_azimuth(width_m, 0, 0), {0, 0, 120}}};
+  if (interior_rad > 0) faces.push_back({at_azimuth(0, 0, -60), at_azimuth(width_m, exterior_rad, 0), {0, 0, 120}});
+  // One source that lights face 0 alone, one that lights both. No boundary is at the azimuth of its source, where paths
+  // by the upper and lower rims would end at the corners of the mesh.
+  std::vector<double> sources{0.55 * (pi - interior_rad)};
+  std::vector<Boundary> boundaries{{0, pi + sources[0]}, {0, pi - sources[0]}};
+  if (interior_rad > 0) {
+    sources.push_back(exterior_rad / 2 + 0.13 * interior_rad);
+    boundaries.insert(boundaries.end(), {{1, pi - sources[1]}, {1, 2 * exterior_rad - pi - sources[1]}});
+  }
+  Points transmitters, receivers;
+  for (const double azimuth : sources) transmitters.push_back(at_azimuth(8, azimuth, 3));
+  const std::vector<double> at_m = steps();
+  for (const Boundary& boundary : boundaries)
+    for (const double step : at_m)
+      receivers.push_back(at_azimuth(radius_m, boundary.azimuth_rad + step / radius_m, skew_m));
+
+  const SceneFile file({Part{faces, material}});
+  Config config = config_of(file.path(), transmitters, receivers, 20000, 3);
+  config.trace.diffraction = true;
+  config.trace.diffraction_rays = 1000;
+  config.trace.transmission = transmits;
+  const Paths paths = run(config, device).paths;
+
+  HardCase out{interior_rad > 0 ? fmt::format("{:.0f} degree wedge", glm::degrees(interior_rad)) : "thin screen",
+               "the total field is continuous at its shadow boundaries, V and H", 0, 1e-4, "of the field"};
+  out.name += fmt::format(", {}{}", material, transmits ? ", with transmission" : "");
+  for (size_t b = 0; b < boundaries.size(); ++b) {
+    const auto first = static_cast<uint32_t>(b * at_m.size());
+    const auto last = static_cast<uint32_t>(first + at_m.size() - 1);
+    const uint32_t tx = boundaries[b].tx;
+    const std::vector<Response> h = responses(paths, tx, receivers.size());
+    for (const size_t port : {0, 1}) out.measured = std::max(out.measured, jump(at_m, h, first, port));
+    // What passes the edge or is reflected beside it must be there on one side alone, or this is no boundary. Where
+    // walls transmit, the direct path goes on as another.
+    const bool ends = geometrical_paths(paths, tx, first) != geometrical_paths(paths, tx, last);
+    if (!ends && !(transmits && b == 0)) out.measured = std::numeric_limits<double>::infinity();
+  }
+  return out;
+}
+
+}  // namespace
+
+HardCases shadow_boundaries(const std::string& device) {
+  HardCases cases;
+  for (const double interior_deg : {10, 30, 60, 90, 120, 150, 170})
+    for (const auto& [material, transmits] : {std::pair{"metal", false}, {"concrete", false}, {"glass", true}})
+      cases.push_back(case_of(device, glm::radians(interior_deg), material, transmits));
+  for (const auto& [material, transmits] :
+       {std::pair{"metal", false}, {"concrete", false}, {"concrete", true}, {"glass", true}})
+    cases.push_back(case_of(device, 0, material, transmits));
+  return cases;
+}
+
+}  // namespace wavetracer::test

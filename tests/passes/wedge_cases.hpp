@@ -1,0 +1,71 @@
+// What the tests of the wedge passes share: quads with wedges on the device, ends, and wedges read back.
+// Sequences are listed, not traced; numbers of surfaces are those of the quads.
+#pragma once
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
+
+#include "passes/exact.hpp"
+#include "passes/place.hpp"
+#include "passes/triangles.hpp"
+#include "passes/wedges.hpp"
+#include "reference/quads.hpp"
+
+namespace wavetracer::test {
+
+using reference::Quad;
+
+inline glm::dvec3 vector_of(const double* v) { return {v[0], v[1], v[2]}; }
+
+// As wt_wedge, but a Wedge of the scene.
+inline Wedge wedge_of(const wt_wedge& w) {
+  return {vector_of(w.start), vector_of(w.along), w.length,
+          vector_of(w.face),  vector_of(w.normal), w.exterior, {w.surfaces[0], w.surfaces[1]}};
+}
+
+// Is p in the free sector of the wedge, by angles, and by at least so much (or, if negative, at most so much outside)?
+inline bool in_sector(const Wedge& w, const glm::dvec3& p, double margin_rad = 0) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const glm::dvec3 d = p - w.start;
+  double azimuth = std::atan2(glm::dot(d, w.normal), glm::dot(d, w.face));
+  if (azimuth < 0) azimuth += turn;
+  if (w.exterior_rad > turn - 1e-9) return true;  // a half plane
+  return (azimuth >= margin_rad && azimuth <= w.exterior_rad - margin_rad) || azimuth >= turn + margin_rad;
+}
+
+inline glm::dvec3 mirrored_by(const Surface& s, const glm::dvec3& p) {
+  return p - 2 * (glm::dot(s.normal, p) - s.offset_m) * s.normal;
+}
+
+// A box, two panels whose edges are free, and a ground: surfaces 0 to 5, 6, 7, 8. 12 + 8 wedges.
+inline std::vector<Quad> box_and_panel_quads() {
+  std::vector<Quad> quads = reference::box_walls({-2, -3, 0.4}, {1.7, 2.4, 4.1});
+  quads.push_back({{4.1, -2.2, 0.9}, {0.7, 4.3, 0.2}, {-0.3, 0.4, 3.1}});
+  quads.push_back({{-3.3, 4.6, 1.2}, {4.2, 0.9, -0.4}, {0.5, 0.3, 2.9}});
+  quads.push_back({{-30, -30, 0}, {60, 0, 0}, {0, 60, 0}});
+  return quads;
+}
+
+inline Scene box_and_panels() {
+  const std::vector<Quad> quads = box_and_panel_quads();
+  Scene scene = reference::scene_of_quads(quads);
+  scene.wedges = reference::box_wedges({-2, -3, 0.4}, {1.7, 2.4, 4.1});
+  for (const uint32_t panel : {6u, 7u})
+    for (const Wedge& w : reference::free_wedges(quads[panel], panel)) scene.wedges.push_back(w);
+  return scene;
+}
+
+// Of a node of the trie or a root.
+inline Sequence sequence_of(const std::vector<uint64_t>& table, uint32_t node) {
+  Sequence s;
+  for (; !(node & WT_ROOT); node = static_cast<uint32_t>(table[node] >> 32))
+    s.surfaces.insert(s.surfaces.begin(), static_cast<uint32_t>(table[node]));
+  s.transmitter = node & ~WT_ROOT;
+  return s;
+}
+
+inline bool share_face(const Wedge& v, const Wedge& w) {
+  return v.surface[0] == w.surface[0] || v.surface[0] == w.surface[1] || v.surface[1] == w.surface[0] ||
+         v.surface[1] == w.surface[1];
+}
+
+}  // namespace wavetracer::test
