@@ -143,7 +143,12 @@ TEST_CASE("with transmission rays that hit also go on straight behind the surfac
       rays.back().node = WT_ROOT | (i % 5);
     }
     const Step without(scene, rays), step(scene, rays, false, true), last(scene, rays, true, true);
-    CHECK(step.next == without.next);  // what is reflected is the same to the last bit
+    // What is reflected is the same to the last bit; a node is its slot, and who comes to a slot first may differ.
+    const auto without_nodes = [](std::vector<Ray> of) {
+      for (Ray& ray : of) ray.node = 0;
+      return of;
+    };
+    CHECK(without_nodes(step.next) == without_nodes(without.next));
     CHECK(last.next.empty());
     CHECK(last.behind == step.behind);
     REQUIRE(step.behind.size() == step.next.size());
