@@ -29,7 +29,8 @@ struct Case {
   uint64_t rays;
   // Seconds a warm solve of Sionna RT 2.2.0 (Mitsuba 3.9, Dr.Jit) in munich, 5.9 GHz, isotropic V, depth 5, line of
   // sight and specular reflection; measured on 2026-11-21. The CPU: two cores, LLVM 19; the GPU: one NVIDIA H200,
-  // OptiX. Antennas stood at other places of the same streets: --peer compares on the same ones.
+  // OptiX. Antennas stood at other places of the same streets: --peer compares on the same ones. Those with diffraction
+  // stood at these places, on 2026-11-22.
   std::optional<double> sionna_cpu_s, sionna_gpu_s;
   uint64_t diffraction_rays = 0;  // of a receiver, in cases with diffraction at wedges, free edges left out
 
@@ -42,8 +43,10 @@ const Case cases[] = {
     {1, 1, 100'000, 0.061, 0.0149},   {1, 1, 1'000'000, 0.285, 0.0178}, {1, 1, 10'000'000, 2.63, 0.0505},
     {1, 10, 1'000'000, 1.49, 0.0423}, {1, 100, 1'000'000, 9.8, 0.170},  {1, 100, 10'000'000, {}, 1.46},
     {10, 100, 1'000'000, {}, 1.35},   {10, 100, 10'000'000, {}, 13.2},
-    {1, 1, 1'000'000, {}, {}, 10'000},   {1, 1, 1'000'000, {}, {}, 20'000},   {1, 1, 1'000'000, {}, {}, 100'000},
-    {1, 100, 1'000'000, {}, {}, 10'000}, {1, 100, 1'000'000, {}, {}, 20'000}, {1, 100, 1'000'000, {}, {}, 100'000},
+    // With diffraction.
+    {1, 1, 1'000'000, 0.966, {}, 10'000},  {1, 1, 1'000'000, 0.966, {}, 20'000},
+    {1, 1, 1'000'000, 0.966, {}, 100'000}, {1, 100, 1'000'000, 11.5, {}, 10'000},
+    {1, 100, 1'000'000, 11.5, {}, 20'000}, {1, 100, 1'000'000, 11.5, {}, 100'000},
 };
 constexpr uint64_t large_rays = 10'000'000;  // cases of so many are for GPUs, and for --large
 constexpr uint64_t reference_diffraction_rays = 1'000'000;
@@ -124,7 +127,8 @@ void set_baseline(Result& result, const Case& c, const Place& place, const Peer&
     result.baseline_value = found->second.at("seconds");
     result.extra["baseline_paths"] = found->second.at("paths");
   } else if (const auto seconds = gpu ? c.sionna_gpu_s : c.sionna_cpu_s; seconds && place.name == "munich") {
-    result.baseline = gpu ? "Sionna RT 2.2.0 on an H200, 2026-11-21" : "Sionna RT 2.2.0 on a 2-core CPU, 2026-11-21";
+    result.baseline = fmt::format("Sionna RT 2.2.0 on {}, {}", gpu ? "an H200" : "a 2-core CPU",
+                                  c.diffraction() ? "2026-11-22" : "2026-11-21");
     result.baseline_value = seconds;
   }
 }
