@@ -37,6 +37,8 @@ constexpr double near_boundary_rad = 2e-6;
 // What runs along a face is this far inside of free space: both faces of a half plane lie in one direction.
 constexpr double inside_rad = 1e-12;
 
+bool is_half_plane(const WedgeFrame& frame) { return frame.exterior_rad > 2 * std::numbers::pi - 1e-9; }
+
 // Of face 0 or 1, into free space.
 glm::dvec3 normal_of(const WedgeFrame& frame, int face) {
   if (face == 0) return frame.normal;
@@ -136,10 +138,9 @@ LitSides Interactions::lit_sides(const PathGeometry& geometry, size_t path, cons
 
 void Interactions::diffract_at(const Edge& edge, const LitSides& lit, Transfer& transfer) const {
   const double distance_m = edge.before_m * edge.after_m / (edge.before_m + edge.after_m) * edge.sine2();
-  const bool half_plane = edge.frame.exterior_rad > 2 * std::numbers::pi - 1e-9;
   const Diffraction wave =
       diffract(edge.frame, {face_of(edge.place, 0), face_of(edge.place, 1)}, edge.k_in, edge.k_out, distance_m,
-               wavelength_m_, most_transmissions_ >= (half_plane ? 1u : 2u), lit);
+               wavelength_m_, most_transmissions_ >= (is_half_plane(edge.frame) ? 1u : 2u), lit);
   transfer.map(wave.from, wave.to, wave.coefficient);
 }
 
@@ -155,7 +156,8 @@ double Interactions::spreading(const std::vector<Edge>& edges, double length_m) 
 }
 
 // The leg between two edges of one face runs along it, whatever rounding says: with the reflected wave it is one wave,
-// and is counted as such at both of its ends, which is once too often. Returns the factor that makes up for it.
+// and is counted as such at both of its ends, which is once too often. Along a sheet of two free edges one wave runs on
+// each side; their signs differ at either end, so both arrive as the same. Returns the factor that makes up for it.
 double Interactions::snap_to_shared_face(std::vector<Edge>& edges) const {
   if (edges.size() < 2) return 1;
   for (int i = 0; i < 4; ++i) {
@@ -168,7 +170,7 @@ double Interactions::snap_to_shared_face(std::vector<Edge>& edges) const {
       const glm::dvec3 normal = normal_of(edge.frame, end == 0 ? i / 2 : i % 2);
       k = glm::normalize(k - (glm::dot(k, normal) - (end == 0 ? inside_rad : -inside_rad)) * normal);
     }
-    return 2;
+    return is_half_plane(edges[0].frame) && is_half_plane(edges[1].frame) ? 4 : 2;
   }
   return 1;
 }
