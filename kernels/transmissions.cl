@@ -65,7 +65,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_NODE* tri
       uint known = first;
       while (known < count && !one_wall(surfaces, crossings + known, surface)) ++known;
       if (known < count) continue;
-      if (count == allowed) {
+      if (count == allowed || surfaces[surface].opaque) {
         solved[i].blocked = 1;
         return;
       }

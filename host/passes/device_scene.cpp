@@ -52,6 +52,12 @@ std::vector<double> surface_corners(const Scene& scene) {
   return corners;
 }
 
+void mark_opaque(DeviceScene& scene, const std::vector<bool>& opaque) {
+  std::vector<wt_exact_surface> surfaces = scene.exact_surfaces.read();
+  for (size_t i = 0; i < surfaces.size(); ++i) surfaces[i].opaque = opaque.at(i);
+  scene.exact_surfaces.write(surfaces);
+}
+
 void DeviceScene::require_stack(const std::string& name, uint32_t entries) {
   const uint32_t step = name == "WT_BVH8_STACK" ? 64 : 32;
   std::string& size = definitions[name];

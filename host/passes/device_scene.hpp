@@ -40,6 +40,10 @@ struct DeviceScene {
 // The corners of the triangles of all surfaces, grouped by surface, nine doubles each.
 std::vector<double> surface_corners(const Scene& scene);
 
+// Marks the surfaces that no wave passes: a flag for each surface of the world, those of instances included, so after
+// place has made room for them.
+void mark_opaque(DeviceScene& scene, const std::vector<bool>& opaque);
+
 // Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred
 // coordinate of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.
 DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m = 0);

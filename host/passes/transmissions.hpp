@@ -1,5 +1,5 @@
 // transmissions: enters the surfaces that solved paths pass through into their rows, in order along the path.
-// Takes the place of occlusion: marks paths that pass more surfaces than they may.
+// Takes the place of occlusion: marks paths that pass more surfaces than they may, or one that nothing passes.
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"

@@ -1,6 +1,6 @@
 // The wave of one path, interaction by interaction.
-// Spreading: 1 / L of a path of length L without edges; with edges, which are lines of sources, the method of stationary
-// phase over the points on them: 1 / (product of the legs between ends and edges) / sqrt(det H), H the second
+// Spreading: 1 / L of a path of length L without edges; with edges, which are lines of sources, by stationary phase
+// over the points on them: 1 / (product of the legs between ends and edges) / sqrt(det H), H the second
 // derivatives of the length. It is that of K-P for one edge (sqrt(s' / (s (s + s'))) / s'), and symmetric for two.
 #include "radio/interactions.hpp"
 

@@ -3,8 +3,9 @@
 #include "simulation/features.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+
+#include "radio/opacity.hpp"
 
 namespace wavetracer {
 
@@ -38,7 +39,8 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
   const bool closed = any_scene(scene, world, [](const Scene& s) {
     return std::ranges::any_of(s.wedges, [](const Wedge& w) { return w.exterior_rad < 2 * std::numbers::pi - 1e-6; });
   });
-  const bool passable = any_material(scene, world, [](const Material& m) { return std::isfinite(m.thickness_m); });
+  const bool passable =
+      any_material(scene, world, [&](const Material& m) { return !is_opaque(m, config.radio.frequency_hz); });
   const bool rough = any_material(scene, world, [](const Material& m) { return m.scattering > 0; });
   const std::pair<bool, const char*> no_depth{trace.max_depth == 0, "trace.max_depth = 0"};
 
@@ -54,7 +56,7 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
                                        {trace.max_depth < 2, "trace.max_depth = 1"}});
   out["transmission"] = feature({{!trace.transmission, "trace.transmission = false"},
                                  no_depth,
-                                 {!passable, "all materials are half spaces, which nothing passes"}});
+                                 {!passable, "all materials are metals or half spaces, which nothing passes"}});
   out["scattering"] = feature({{!trace.scattering, "trace.scattering = false"},
                                no_depth,
                                {!rough,

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "radio/fields.hpp"
+#include "radio/opacity.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
 #include "simulation/distinct_paths.hpp"
@@ -165,6 +166,9 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
     s.place.emplace(*s.context, s.world->models(), s.world->instances(), s.device_scene);
     (*s.place)(s.device_scene, s.world->state(0).instances);
   }
+  if (s.trace.transmission)
+    mark_opaque(s.device_scene, opaque_surfaces(s.scene, s.world->models(), s.world->instances(),
+                                                config.radio.frequency_hz));
   s.setup["build"] = watch.lap();
   OrderChoice order;
   if (config.order.method == "auto") {

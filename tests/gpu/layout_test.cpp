@@ -38,7 +38,7 @@ const std::vector<Record> records{
     {"wt_exact_surface",
      sizeof(wt_exact_surface),
      {FIELD(wt_exact_surface, normal), FIELD(wt_exact_surface, offset), FIELD(wt_exact_surface, first_triangle),
-      FIELD(wt_exact_surface, triangle_count), FIELD(wt_exact_surface, instance), FIELD(wt_exact_surface, padding)}},
+      FIELD(wt_exact_surface, triangle_count), FIELD(wt_exact_surface, instance), FIELD(wt_exact_surface, opaque)}},
     {"wt_model_surface",
      sizeof(wt_model_surface),
      {FIELD(wt_model_surface, normal), FIELD(wt_model_surface, offset), FIELD(wt_model_surface, lower),

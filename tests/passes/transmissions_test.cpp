@@ -157,6 +157,19 @@ TEST_CASE("limits: transmissions of a path, and interactions of all kinds") {
   CHECK(pass(walls, bent, 3, 4).steps == std::vector{passed(0), WT_STEP_DIFFRACTION | 5, passed(1), passed(2)});
 }
 
+TEST_CASE("a surface that nothing passes blocks, and no other does") {
+  DeviceScene scene = make_device_scene(context(), reference::scene_of_quads({wall(0), wall(1), wall(2)}), false, 4000);
+  mark_opaque(scene, {false, true, false});
+  const auto blocked = [&](double from, double to) {
+    return pass(scene, {{{from, 0.1, 0.2}, {to, 0.3, 0.4}, {}, {}}}, 8, 8).front().blocked;
+  };
+  CHECK_FALSE(blocked(-1, 0.5));
+  CHECK_FALSE(blocked(1.5, 2.5));
+  CHECK(blocked(0.5, 1.5));
+  CHECK(blocked(-1, 2.5));
+  CHECK(blocked(2.5, -1));
+}
+
 TEST_CASE("through vehicles as through the same triangles in the scene, but for the antennas' own") {
   const Traffic traffic(12, 31);
   const Scene baked = traffic.baked();

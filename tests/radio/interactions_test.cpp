@@ -55,7 +55,7 @@ TEST_CASE("a hard wave over two edges of one face: half of it on each side that 
     CAPTURE(strip);
     const test::World world = two_edges(strip);
     const double k = 2 * pi / world.wavelength_m(), n = strip ? 2 : 1.5;
-    // Azimuths from the face towards its free side: the transmitter's about the first edge, the receiver's about the other.
+    // Azimuths from the face towards its free side: the transmitter's about one edge, the receiver's about the other.
     const auto azimuth = [](double x, double y) { return std::atan2(y, x) + (y < 0 ? 2 * pi : 0); };
     const double in = azimuth(-6, strip ? 4 : -4), out = azimuth(-5, strip ? 3 : -3);
     std::complex<double> sum = hard(n, 0, in, k) * hard(n, out, 0, k);

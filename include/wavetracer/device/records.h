@@ -57,7 +57,7 @@ typedef struct {
   wt_uint first_triangle;  // into the list of surface triangles (nine doubles each)
   wt_uint triangle_count;
   wt_uint instance;  // whose model coordinates the triangles are in; WT_NONE: those of the scene
-  wt_uint padding;
+  wt_uint opaque;    // not 0: no wave passes it
 } wt_exact_surface;
 
 // A surface of a model, in model coordinates.
