@@ -60,7 +60,9 @@ TEST_CASE("two diffractions") {
 }
 
 TEST_CASE("through walls as well: one transmission, and two with two diffractions") {
-  for (const Place& place : places())
+  for (Place place : places()) {
+    // Nothing passes metal, and brute force knows no materials.
+    for (Mesh& mesh : place.meshes) mesh.material = "concrete";
     for (const auto& [most, diffractions] : {std::pair{1u, 1u}, {2u, 2u}}) {
       CAPTURE(most);
       TraceConfig trace = diffracting(1000000, 3);
@@ -69,6 +71,7 @@ TEST_CASE("through walls as well: one transmission, and two with two diffraction
       trace.max_diffractions = diffractions;
       CHECK(check(place, trace) > 15 * diffractions);
     }
+  }
 }
 
 TEST_CASE("without reflection, and at depth 1, edges alone") {
