@@ -14,8 +14,8 @@ inline void zero_counter(gpu::Context& context, gpu::Buffer<wt_counters>& counte
   context.fill(counters, &zero, sizeof zero, offset, sizeof zero, stage);
 }
 
-// capacity(): of the list now; run(): the kernel; reserve(n): room for n entries, what was there may be lost.
-// Returns the length of the list. kept: entries from before, which the counter begins with.
+// capacity(): of the list now; run(): the kernel; reserve(n): room for n entries, of which `kept` are from before, stay
+// as they are and are what the counter begins with; others may be lost. Returns the length of the list.
 template <class Capacity, class Run, class Reserve>
 uint32_t fill_list(gpu::Buffer<wt_counters>& counters, wt_uint wt_counters::*counter, const char* stage,
                    const Capacity& capacity, const Run& run, const Reserve& reserve, uint32_t kept = 0) {

@@ -4,6 +4,8 @@
 
 #include <bit>
 
+#include "passes/growing_list.hpp"
+
 namespace wavetracer {
 
 Join::Join(gpu::Context& context, const std::vector<uint32_t>& receiver_of_transmitter, uint32_t max_depth)
@@ -35,18 +37,18 @@ PrefixList& Join::prefixes(const DeviceScene& scene, const RadioEnds& ends, cons
 uint32_t Join::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint32_t>& nodes,
                           gpu::Buffer<wt_candidate>& candidates, uint32_t candidate_count,
                           gpu::Buffer<wt_counters>& counters) {
-  for (;;) {
+  const auto run = [&] {
     join_({list_.count, 64}, "join", list_.keys, list_.order, list_.count, static_cast<uint32_t>(scene.surfaces.size()),
           nodes, list_.prefixes, receiver_of_transmitter_, ends.links, ends.receiver_capacity / 16, max_depth_,
           scene.surfaces, candidates, static_cast<uint32_t>(candidates.size()), counters);
-    wt_counters now = counters.read_one(0, "join");
-    if (now.candidates <= candidates.size()) return now.candidates;
-    auto larger = context_.buffer<wt_candidate>(size_t{now.candidates} + now.candidates / 4, "candidates");
+  };
+  const auto reserve = [&](size_t entries) {
+    auto larger = context_.buffer<wt_candidate>(entries, "candidates");
     context_.copy(candidates, larger, candidate_count * sizeof(wt_candidate), "join");
     candidates = larger;
-    now.candidates = candidate_count;
-    counters.write(std::vector{now}, 0, "join");
-  }
+  };
+  return fill_list(counters, &wt_counters::candidates, "join", [&] { return candidates.size(); }, run, reserve,
+                   candidate_count);
 }
 
 }  // namespace wavetracer
