@@ -18,5 +18,11 @@ void add_validate(CLI::App& program);
 void add_init(CLI::App& program);
 void add_scene(CLI::App& program);
 void add_bench(CLI::App& program, Invocation& invocation);
+void add_view(CLI::App& program);
+void add_plot(CLI::App& program);
+void add_convert(CLI::App& program);
+void add_merge(CLI::App& program, Invocation& invocation);
+void add_serve(CLI::App& program, Invocation& invocation);
+void add_documentation(CLI::App& program);
 
 }  // namespace wavetracer::app

@@ -43,6 +43,12 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_init(program);
   wavetracer::app::add_scene(program);
   wavetracer::app::add_bench(program, invocation);
+  wavetracer::app::add_view(program);
+  wavetracer::app::add_plot(program);
+  wavetracer::app::add_convert(program);
+  wavetracer::app::add_merge(program, invocation);
+  wavetracer::app::add_serve(program, invocation);
+  wavetracer::app::add_documentation(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -105,6 +105,7 @@ struct Simulation::State {
   OrderSummary order;
   Features features;
 
+  FrameResult solve(uint32_t frame, WorldState frame_world);
   void begin_frame();
   DiscoveryCounts discover(const WorldState& state);
   PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
@@ -228,38 +229,46 @@ const Features& Simulation::features() const { return state_->features; }
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup; }
 
 FrameResult Simulation::run_frame(uint32_t frame) {
-  State& s = *state_;
+  Stopwatch watch;
+  WorldState world = state_->world->state(frame);
+  const double poses_seconds = watch.lap();
+  FrameResult out = state_->solve(frame, std::move(world));
+  out.seconds["poses"] = poses_seconds;
+  out.seconds["frame"] += poses_seconds;
+  return out;
+}
+
+// One frame of this world, from poses to fields.
+FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world) {
   FrameResult out;
   out.frame = frame;
-  s.context->reset_profile();
+  context->reset_profile();
   Stopwatch watch, host_watch;
 
-  out.world = s.world->state(frame);
-  const double poses_seconds = host_watch.lap();
-  if (s.place) (*s.place)(s.device_scene, out.world.instances);
-  const RadioEnds ends = make_radio_ends(*s.context, out.world.transmitters, out.world.receivers, out.world.links,
-                                          s.origins.listeners);
-  s.begin_frame();
-  RayCache* const cache = s.discovery->cache();
+  out.world = std::move(frame_world);
+  if (place) (*place)(device_scene, out.world.instances);
+  const RadioEnds ends = make_radio_ends(*context, out.world.transmitters, out.world.receivers, out.world.links,
+                                          origins.listeners);
+  begin_frame();
+  RayCache* const cache = discovery->cache();
   if (cache) cache->begin_frame(out.world);
-  if (s.trails) s.trails->begin_frame(frame, ends, out.world);
-  const DiscoveryCounts found = s.discover(out.world);
+  if (trails) trails->begin_frame(frame, ends, out.world);
+  const DiscoveryCounts found = discover(out.world);
   if (cache) out.cache = cache->summary();
-  if (s.trails) out.waypoints = s.trails->take_waypoints();
-  const bool sphere = s.trails && s.trails->receives();
+  if (trails) out.waypoints = trails->take_waypoints();
+  const bool sphere = trails && trails->receives();
   PathGeometry one_way =
-      sphere ? s.received_paths(ends, out.counts, host_watch)
-             : (*s.exact_paths)(s.device_scene, ends, s.discovery->sequences(), out.counts, host_watch);
-  ++s.warm_frames;
-  const PathGeometry geometry = with_reversed_twins(std::move(one_way), s.world->receiver_of_transmitter(),
-                                                    s.world->transmitter_of_receiver(), out.world.links);
+      sphere ? received_paths(ends, out.counts, host_watch)
+             : (*exact_paths)(device_scene, ends, discovery->sequences(), out.counts, host_watch);
+  ++warm_frames;
+  const PathGeometry geometry = with_reversed_twins(std::move(one_way), world->receiver_of_transmitter(),
+                                                    world->transmitter_of_receiver(), out.world.links);
 
   const double paths_seconds = host_watch.lap();
-  out.paths = s.fields->compute(frame, geometry, out.world);
+  out.paths = fields->compute(frame, geometry, out.world);
   const double fields_seconds = host_watch.lap(), frame_seconds = watch.lap();
 
-  out.seconds = s.context->profile();
-  out.seconds["poses"] = poses_seconds;
+  out.seconds = context->profile();
   out.seconds["paths"] = paths_seconds;
   out.seconds["fields"] = fields_seconds;
   out.seconds["frame"] = frame_seconds;
@@ -269,7 +278,7 @@ FrameResult Simulation::run_frame(uint32_t frame) {
     out.warnings.push_back(
         fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: "
                     "{:.0f}% of the sequences found were met by one ray alone",
-                    s.config.trace.max_rays, s.config.trace.recall, 100 * found.share_once));
+                    config.trace.max_rays, config.trace.recall, 100 * found.share_once));
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
   out.counts.paths = out.paths.size();

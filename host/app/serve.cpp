@@ -1,0 +1,9 @@
+// `wavetracer serve`.
+// Stub.
+#include "app/commands.hpp"
+
+namespace wavetracer::app {
+
+void add_serve(CLI::App&, Invocation&) {}
+
+}  // namespace wavetracer::app

@@ -1,0 +1,21 @@
+// The list of formats.
+// Assumes nothing of the run.
+#include "convert/convert.hpp"
+#include <array>
+
+namespace wavetracer {
+
+std::span<const Exporter> exporters() {
+  static constexpr std::array<Exporter, 7> list{{
+      {"sionna", ".npz", "NumPy arrays in the layout of Sionna RT's Paths", export_sionna},
+      {"deepmimo", "", "a scenario folder as DeepMIMO loads it", export_deepmimo},
+      {"ns3", "", "a scenario folder of ns-3's QdChannelModel", export_ns3},
+      {"matlab", ".mat", "MATLAB 7.3 (HDF5), one struct of arrays", export_matlab},
+      {"vtk", "", "a folder for ParaView: scene.vtp, paths and ends a frame, and a .pvd with their times", export_vtk},
+      {"glb", ".glb", "glTF 2.0 binary: scene, vehicles and paths of one frame", export_glb},
+      {"kml", ".kml", "Google Earth: ends, vehicles and paths, with times", export_kml},
+  }};
+  return list;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,2 @@
+// Stub.
+#include "live/serve.hpp"

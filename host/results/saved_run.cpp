@@ -1,0 +1,289 @@
+// Offsets and indices of the file are checked once, at opening or with the frame that uses them.
+// Assumes one thread: the HDF5 library is not thread safe.
+#include "results/saved_run.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include "output/hdf5_read.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+using hdf5::NumberColumn;
+
+std::vector<glm::dvec3> vectors(const std::vector<double>& values) {
+  std::vector<glm::dvec3> out(values.size() / 3);
+  for (size_t i = 0; i < out.size(); ++i) out[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return out;
+}
+
+// Rows [first[i], first[i + 1]) of a table of `rows` rows belong to i.
+void check_offsets(const std::vector<uint64_t>& first, uint64_t rows, const std::string& what) {
+  if (first.empty() || first.front() != 0 || first.back() != rows || !std::is_sorted(first.begin(), first.end()))
+    throw RuntimeError(what + " does not go up from 0 to the number of rows that it counts");
+}
+
+// Where the rows of each frame begin in a table that is sorted by frame number.
+std::vector<uint64_t> first_rows(const std::vector<uint32_t>& frame, const std::vector<uint32_t>& numbers,
+                                 const std::string& what) {
+  if (!std::is_sorted(frame.begin(), frame.end())) throw RuntimeError(what + " is not sorted");
+  std::vector<uint64_t> first;
+  for (const uint32_t number : numbers)
+    first.push_back(std::lower_bound(frame.begin(), frame.end(), number) - frame.begin());
+  first.push_back(frame.size());
+  if (first.front() != 0) throw RuntimeError(what + " names frames that there are not");
+  return first;
+}
+
+void check_below(const std::vector<uint32_t>& indices, size_t count, const std::string& what) {
+  if (std::any_of(indices.begin(), indices.end(), [=](uint32_t i) { return i >= count; }))
+    throw RuntimeError(what + " names a row that there is not");
+}
+
+fs::path paths_file(const fs::path& path) {
+  std::error_code ignored;
+  const bool folder = fs::is_directory(path, ignored);
+  const fs::path file = folder ? path / "paths.h5" : path;
+  if (!fs::exists(file, ignored))
+    throw InputError(fmt::format("{}: {}; name the folder that `wavetracer run -o` has written to, or the paths.h5 in it",
+                                 path.string(), folder ? "holds no paths.h5" : "there is no such file"));
+  return file;
+}
+
+std::vector<RadioEnd> read_ends(const hdf5::File& file, const std::string& group) {
+  const std::vector<std::string> names = hdf5::read_strings(file, group + "/name");
+  std::vector<RadioEnd> ends(names.size());
+  const auto texts = [&](const char* name, std::string RadioEnd::*field) {
+    const std::vector<std::string> values = hdf5::read_strings(file, group + "/" + name);
+    if (values.size() != ends.size()) throw RuntimeError(group + "/" + name + " is not as long as name");
+    for (size_t i = 0; i < ends.size(); ++i) ends[i].*field = values[i];
+  };
+  const auto triples = [&](const char* name, std::array<double, 3> RadioEnd::*field) {
+    const NumberColumn<double> column(file, group + "/" + name, {3});
+    if (column.rows() != ends.size()) throw RuntimeError(group + "/" + name + " is not as long as name");
+    const std::vector<glm::dvec3> values = vectors(column.read());
+    for (size_t i = 0; i < ends.size(); ++i) ends[i].*field = {values[i].x, values[i].y, values[i].z};
+  };
+  for (size_t i = 0; i < ends.size(); ++i) ends[i].name = names[i];
+  texts("antenna", &RadioEnd::antenna);
+  texts("polarization", &RadioEnd::polarization);
+  triples("position_m", &RadioEnd::position_m);
+  triples("orientation_deg", &RadioEnd::orientation_deg);
+  triples("velocity_m_s", &RadioEnd::velocity_m_s);
+  return ends;
+}
+
+}  // namespace
+
+struct SavedRun::State {
+  fs::path path;
+  hdf5::File file;
+  std::string version, device, config;
+  double frequency_hz = 0;
+  std::vector<RadioEnd> transmitters, receivers;
+  std::vector<SavedInstance> instances;
+  uint32_t rx_ports = 1, tx_ports = 1;
+  std::vector<uint32_t> numbers;
+  std::vector<double> times_s;
+  std::vector<uint64_t> first_path, first_pose, first_link;
+
+  explicit State(const fs::path& where) : path(where), file(hdf5::File::open_to_read(where)) {
+    read_root();
+    read_world();
+    read_index();
+  }
+
+  void read_root() {
+    if (hdf5::root_text(file, "format") != "wavetracer paths") throw RuntimeError("its format is not \"wavetracer paths\"");
+    version = hdf5::root_text(file, "version");
+    if (const double format = hdf5::root_number(file, "format_version"); format != 1)
+      throw RuntimeError(fmt::format("it has version {} of the format, written by wavetracer {}; this program reads "
+                                     "version 1",
+                                     format, version));
+    device = hdf5::root_text(file, "device");
+    config = hdf5::root_text(file, "config");
+    frequency_hz = hdf5::root_number(file, "frequency_hz");
+    if (!(frequency_hz > 0) || !std::isfinite(frequency_hz)) throw RuntimeError("its frequency is not above zero");
+  }
+
+  void read_world() {
+    transmitters = read_ends(file, "/transmitters");
+    receivers = read_ends(file, "/receivers");
+    const auto ids = hdf5::read_strings(file, "/instances/id"), types = hdf5::read_strings(file, "/instances/type"),
+               models = hdf5::read_strings(file, "/instances/model");
+    if (types.size() != ids.size() || models.size() != ids.size())
+      throw RuntimeError("/instances has columns of unequal length");
+    for (size_t i = 0; i < ids.size(); ++i) instances.push_back({ids[i], types[i], models[i]});
+  }
+
+  void read_index() {
+    numbers = NumberColumn<uint32_t>(file, "/frames/frame").read();
+    times_s = NumberColumn<double>(file, "/frames/time_s").read();
+    first_path = NumberColumn<uint64_t>(file, "/frames/path_offset").read();
+    if (numbers.empty() || times_s.size() != numbers.size() || first_path.size() != numbers.size() + 1)
+      throw RuntimeError("/frames has no rows, or columns of unequal length");
+    if (std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) != numbers.end())
+      throw RuntimeError("/frames/frame does not go up");
+    check_offsets(first_path, NumberColumn<double>(file, "/paths/delay_s").rows(), "/frames/path_offset");
+    first_pose = first_rows(NumberColumn<uint32_t>(file, "/poses/frame").read(), numbers, "/poses/frame");
+    first_link = first_rows(NumberColumn<uint32_t>(file, "/links/frame").read(), numbers, "/links/frame");
+    const NumberColumn<double> a(file, "/paths/a_re", {0, 0});
+    const auto ports = [&](size_t axis) {
+      if (a.shape()[axis] < 1 || a.shape()[axis] > 2) throw RuntimeError("/paths/a_re has no port, or more than two");
+      return static_cast<uint32_t>(a.shape()[axis]);
+    };
+    rx_ports = ports(1);
+    tx_ports = ports(2);
+  }
+
+  void read_columns(size_t row, Paths& paths) const;
+  void read_coefficients(size_t row, Paths& paths) const;
+  void read_vertices(size_t row, Paths& paths) const;
+  void read_poses(size_t row, SavedFrame& frame) const;
+  void read_motion(size_t row, SavedFrame& frame) const;
+  void read_links(size_t row, SavedFrame& frame) const;
+};
+
+void SavedRun::State::read_columns(size_t row, Paths& paths) const {
+  const uint64_t first = first_path[row], count = first_path[row + 1] - first;
+  const auto numbers_of = [&](const char* name) {
+    return NumberColumn<uint32_t>(file, std::string("/paths/") + name).read(first, count);
+  };
+  const auto values_of = [&](const char* name) {
+    return NumberColumn<double>(file, std::string("/paths/") + name).read(first, count);
+  };
+  paths.frame = numbers_of("frame");
+  paths.tx = numbers_of("tx");
+  paths.rx = numbers_of("rx");
+  paths.depth = numbers_of("depth");
+  paths.delay_s = values_of("delay_s");
+  paths.gain_db = values_of("gain_db");
+  paths.aod_theta_rad = values_of("aod_theta_rad");
+  paths.aod_phi_rad = values_of("aod_phi_rad");
+  paths.aoa_theta_rad = values_of("aoa_theta_rad");
+  paths.aoa_phi_rad = values_of("aoa_phi_rad");
+  paths.doppler_hz = values_of("doppler_hz");
+  check_below(paths.tx, transmitters.size(), "/paths/tx");
+  check_below(paths.rx, receivers.size(), "/paths/rx");
+}
+
+void SavedRun::State::read_coefficients(size_t row, Paths& paths) const {
+  const uint64_t first = first_path[row], count = first_path[row + 1] - first;
+  const size_t ports = size_t{rx_ports} * tx_ports;
+  const std::vector<double> re = NumberColumn<double>(file, "/paths/a_re", {rx_ports, tx_ports}).read(first, count),
+                            im = NumberColumn<double>(file, "/paths/a_im", {rx_ports, tx_ports}).read(first, count);
+  paths.rx_ports = rx_ports;
+  paths.tx_ports = tx_ports;
+  paths.a.resize(count);
+  for (size_t i = 0; i < count; ++i)
+    for (size_t k = 0; k < ports; ++k) paths.a[i][k] = {re[i * ports + k], im[i * ports + k]};
+}
+
+void SavedRun::State::read_vertices(size_t row, Paths& paths) const {
+  const uint64_t first = first_path[row], count = first_path[row + 1] - first;
+  paths.vertex_offset = NumberColumn<uint64_t>(file, "/paths/vertex_offset").read(first, count + 1);
+  const uint64_t base = paths.vertex_offset.front(), end = paths.vertex_offset.back();
+  if (end < base) throw RuntimeError("/paths/vertex_offset goes down");
+  const uint64_t vertices = end - base;
+  for (uint64_t& offset : paths.vertex_offset) offset -= base;
+  check_offsets(paths.vertex_offset, vertices, "/paths/vertex_offset");
+  for (size_t i = 0; i < count; ++i)
+    if (paths.depth[i] != paths.vertex_offset[i + 1] - paths.vertex_offset[i])
+      throw RuntimeError("/paths/depth is not the number of vertices of the path");
+  paths.vertex_position_m = vectors(NumberColumn<double>(file, "/vertices/position_m", {3}).read(base, vertices));
+  paths.vertex_interaction = NumberColumn<uint8_t>(file, "/vertices/interaction").read(base, vertices);
+  paths.vertex_surface = NumberColumn<uint32_t>(file, "/vertices/surface").read(base, vertices);
+  paths.vertex_instance = NumberColumn<uint32_t>(file, "/vertices/instance").read(base, vertices);
+  for (const uint32_t instance : paths.vertex_instance)
+    if (instance != no_instance && instance >= instances.size())
+      throw RuntimeError("/vertices/instance names a row that there is not");
+}
+
+void SavedRun::State::read_poses(size_t row, SavedFrame& frame) const {
+  const uint64_t first = first_pose[row], count = first_pose[row + 1] - first;
+  const std::vector<uint32_t> instance = NumberColumn<uint32_t>(file, "/poses/instance").read(first, count);
+  check_below(instance, instances.size(), "/poses/instance");
+  const std::vector<glm::dvec3>
+      position = vectors(NumberColumn<double>(file, "/poses/position_m", {3}).read(first, count)),
+      velocity = vectors(NumberColumn<double>(file, "/poses/velocity_m_s", {3}).read(first, count));
+  const std::vector<double> rotation = NumberColumn<double>(file, "/poses/rotation", {3, 3}).read(first, count);
+  for (size_t i = 0; i < count; ++i) {
+    SavedPose pose{instance[i], position[i], velocity[i]};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) pose.rotation[c][r] = rotation[9 * i + 3 * r + c];  // glm: by column
+    frame.poses.push_back(pose);
+  }
+}
+
+void SavedRun::State::read_motion(size_t row, SavedFrame& frame) const {
+  const auto of = [&](const std::string& name, size_t ends) {
+    const NumberColumn<double> column(file, "/frames/" + name, {ends, 3});
+    return vectors(column.read(row, 1));
+  };
+  frame.transmitter_position_m = of("transmitter_position_m", transmitters.size());
+  frame.transmitter_velocity_m_s = of("transmitter_velocity_m_s", transmitters.size());
+  frame.receiver_position_m = of("receiver_position_m", receivers.size());
+  frame.receiver_velocity_m_s = of("receiver_velocity_m_s", receivers.size());
+}
+
+void SavedRun::State::read_links(size_t row, SavedFrame& frame) const {
+  const uint64_t first = first_link[row], count = first_link[row + 1] - first;
+  const std::vector<uint32_t> tx = NumberColumn<uint32_t>(file, "/links/tx").read(first, count),
+                              rx = NumberColumn<uint32_t>(file, "/links/rx").read(first, count);
+  check_below(tx, transmitters.size(), "/links/tx");
+  check_below(rx, receivers.size(), "/links/rx");
+  for (size_t i = 0; i < count; ++i) frame.links.push_back({tx[i], rx[i]});
+}
+
+SavedRun::SavedRun(const fs::path& path) {
+  const fs::path file = paths_file(path);
+  try {
+    state_ = std::make_unique<State>(file);
+  } catch (const RuntimeError& e) {
+    throw InputError(fmt::format("{}: cannot be read as the paths.h5 of a run: {}", file.string(), e.what()));
+  }
+}
+
+SavedRun::~SavedRun() = default;
+SavedRun::SavedRun(SavedRun&&) noexcept = default;
+SavedRun& SavedRun::operator=(SavedRun&&) noexcept = default;
+
+const fs::path& SavedRun::file() const { return state_->path; }
+const std::string& SavedRun::version() const { return state_->version; }
+const std::string& SavedRun::device() const { return state_->device; }
+const std::string& SavedRun::config_text() const { return state_->config; }
+double SavedRun::frequency_hz() const { return state_->frequency_hz; }
+const std::vector<RadioEnd>& SavedRun::transmitters() const { return state_->transmitters; }
+const std::vector<RadioEnd>& SavedRun::receivers() const { return state_->receivers; }
+const std::vector<SavedInstance>& SavedRun::instances() const { return state_->instances; }
+uint32_t SavedRun::rx_ports() const { return state_->rx_ports; }
+uint32_t SavedRun::tx_ports() const { return state_->tx_ports; }
+size_t SavedRun::frame_count() const { return state_->numbers.size(); }
+uint32_t SavedRun::number(size_t row) const { return state_->numbers.at(row); }
+double SavedRun::time_s(size_t row) const { return state_->times_s.at(row); }
+uint64_t SavedRun::path_count() const { return state_->first_path.back(); }
+uint64_t SavedRun::path_count(size_t row) const { return state_->first_path.at(row + 1) - state_->first_path.at(row); }
+
+SavedFrame SavedRun::frame(size_t row) const {
+  const State& s = *state_;
+  SavedFrame out;
+  out.number = s.numbers.at(row);
+  out.time_s = s.times_s.at(row);
+  try {
+    s.read_columns(row, out.paths);
+    s.read_coefficients(row, out.paths);
+    s.read_vertices(row, out.paths);
+    s.read_poses(row, out);
+    s.read_motion(row, out);
+    s.read_links(row, out);
+  } catch (const RuntimeError& e) {
+    throw InputError(fmt::format("{}: frame {}: {}", s.path.string(), out.number, e.what()));
+  }
+  return out;
+}
+
+}  // namespace wavetracer

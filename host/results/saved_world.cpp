@@ -1,0 +1,45 @@
+// Assumes that the configuration's paths are absolute, as runs write them.
+// Vehicles are matched by their id, because a run of a part of the frames lists the same vehicles.
+#include "results/saved_world.hpp"
+#include <fmt/format.h>
+#include <map>
+#include "config/config_file.hpp"
+#include "scene/load.hpp"
+#include "simulation/world.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+
+SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
+  SavedWorld out;
+  out.instance_model.assign(run.instances().size(), no_instance);
+  const auto attempt = [&out](const std::string& what, const auto& action) {
+    try {
+      action();
+      return true;
+    } catch (const Error& e) {
+      out.warnings.push_back(fmt::format("{}: {}", what, e.what()));
+      return false;
+    }
+  };
+  if (!attempt("the run's configuration cannot be used", [&] {
+        out.config = parse_config(run.config_text(), run.file().string());
+      }))
+    return out;
+  Config config = out.config;
+  config.trace.diffraction = config.trace.diffraction || with_wedges;
+  if (!attempt("the scene cannot be shown", [&] { out.scene = load_scene(config); })) return out;
+  if (run.instances().empty()) return out;
+  attempt("vehicles are shown without their bodies", [&] {
+    const World world(out.config, out.scene);
+    std::map<std::string, uint32_t> model_of;
+    for (const Instance& instance : world.instances()) model_of.emplace(instance.id, instance.model);
+    out.models = world.models();
+    for (size_t i = 0; i < run.instances().size(); ++i)
+      if (const auto found = model_of.find(run.instances()[i].id); found != model_of.end())
+        out.instance_model[i] = found->second;
+  });
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,2 @@
+// Stub.
+#include "viewer/view.hpp"
