@@ -1,15 +1,31 @@
-# Install: the program, the libraries, the headers, and a package for find_package(wavetracer).
-get_property(targets GLOBAL PROPERTY WAVETRACER_TARGETS)
-install(TARGETS ${targets} EXPORT wavetracer_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/wavetracer DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
-install(FILES ${CMAKE_BINARY_DIR}/include/wavetracer/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wavetracer)
-if(TARGET wavetracer)
-  install(TARGETS wavetracer RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
+# Install: the program, the shared library, its headers, a package for find_package(wavetracer) and one for pkg-config.
+# Man pages and completions are installed by documentation.cmake. All of it may be moved to another prefix.
 include(CMakePackageConfigHelpers)
+install(TARGETS wavetracer RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS wavetracer_library EXPORT wavetracer_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+
+# Those for kernels (device/) and between passes stay here.
+file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/include/wavetracer/*.h ${CMAKE_SOURCE_DIR}/include/wavetracer/*.hpp)
+list(FILTER headers EXCLUDE REGEX path_geometry.hpp)
+install(FILES ${headers} ${CMAKE_BINARY_DIR}/include/wavetracer/version.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wavetracer)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/wavetracer)
 configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/wavetracerConfig.cmake.in ${CMAKE_BINARY_DIR}/wavetracerConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/wavetracer)
+  INSTALL_DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/wavetracerConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(EXPORT wavetracer_targets NAMESPACE wavetracer:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/wavetracer)
-install(FILES ${CMAKE_BINARY_DIR}/wavetracerConfig.cmake ${CMAKE_BINARY_DIR}/wavetracerConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/wavetracer)
+install(EXPORT wavetracer_targets NAMESPACE wavetracer:: DESTINATION ${package})
+install(FILES ${CMAKE_BINARY_DIR}/wavetracerConfig.cmake ${CMAKE_BINARY_DIR}/wavetracerConfigVersion.cmake DESTINATION ${package})
+
+file(RELATIVE_PATH prefix_from_pc "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+configure_file(${CMAKE_SOURCE_DIR}/cmake/wavetracer.pc.in ${CMAKE_BINARY_DIR}/wavetracer.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/wavetracer.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# Configurations that run as they are, and the examples of the library.
+install(FILES ${CMAKE_SOURCE_DIR}/configs/demo.toml ${CMAKE_SOURCE_DIR}/configs/cache.toml ${CMAKE_SOURCE_DIR}/configs/city.toml
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
+  PATTERN __pycache__ EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/docs/library.md
+              ${CMAKE_SOURCE_DIR}/docs/configuration.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -46,14 +46,18 @@ MARKS = {8: ("diffraction", "m0,-5l5,5l-5,5l-5,-5z", True),
 def read_paths(path, frame, tx_names, rx_names):
     """The ends and the paths (gain_db, points (k, 3), interactions) of one frame, strongest last."""
     with h5py.File(path, "r") as file:
+        row = np.nonzero(file["frames/frame"][...] == frame)[0]
+        if len(row) == 0:
+            sys.exit(f"{path}: there is no frame {frame} in it")
         ends = {}
         for kind, wanted in (("transmitters", tx_names), ("receivers", rx_names)):
             names = [n.decode() if isinstance(n, bytes) else n for n in file[kind]["name"][...]]
             unknown = set(wanted or []) - set(names)
             if unknown:
                 sys.exit(f"{path}: there is no {', '.join(sorted(unknown))} among its {kind}: {', '.join(names)}")
-            ends[kind] = {i: (name, file[kind]["position_m"][i]) for i, name in enumerate(names)
-                          if not wanted or name in wanted}
+            position = file["frames"][kind[:-1] + "_position_m"][row[0]]  # NaN: absent
+            ends[kind] = {i: (name, position[i]) for i, name in enumerate(names)
+                          if (not wanted or name in wanted) and np.isfinite(position[i]).all()}
         column = {name: file["paths"][name][...] for name in ("frame", "tx", "rx", "gain_db", "vertex_offset")}
         position, interaction = file["vertices/position_m"][...], file["vertices/interaction"][...]
         frequency_hz = float(np.ravel(file.attrs["frequency_hz"])[0]) if "frequency_hz" in file.attrs else None

@@ -1,9 +1,162 @@
-// `wavetracer convert`.
-// Stub.
+// `wavetracer convert`: a run in the format of another program, or a map as a scene.
+// What INPUT is decides its content; what is written decides --to, or the suffix of -o where it says enough.
+#include "convert/convert.hpp"
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <memory>
 #include "app/commands.hpp"
+#include "app/frame_range.hpp"
+#include "config/spelling.hpp"
+#include "imports/imports.hpp"
+#include "output/pending_file.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
+namespace {
 
-void add_convert(CLI::App&) {}
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string input, format, output, frames, projection;
+  bool list = false;
+  ImportOptions import;
+};
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const Exporter& exporter : exporters()) names.push_back(exporter.name);
+  return names;
+}
+
+std::string formats_in_words() {
+  std::string words;
+  for (const std::string& name : format_names()) words += (words.empty() ? "" : ", ") + name;
+  return words;
+}
+
+void print_list() {
+  for (const Exporter& exporter : exporters())
+    std::cout << fmt::format("{:<10}{:<8}{}\n", exporter.name, *exporter.suffix ? exporter.suffix : "folder",
+                             exporter.doc);
+}
+
+const Exporter& named_exporter(const std::string& name) {
+  for (const Exporter& exporter : exporters())
+    if (name == exporter.name) return exporter;
+  throw ConfigError(fmt::format("--to {}: there is no such format{}; formats are {}", name,
+                                config::hint(name, format_names()), formats_in_words()));
+}
+
+const Exporter& chosen_exporter(const Options& options) {
+  const std::string suffix = fs::path(options.output).extension().string();
+  const Exporter* by_suffix = nullptr;
+  for (const Exporter& exporter : exporters())
+    if (*exporter.suffix && suffix == exporter.suffix) by_suffix = &exporter;
+  if (options.format.empty()) {
+    if (by_suffix) return *by_suffix;
+    throw ConfigError(
+        fmt::format("-o {}: its suffix names no format; add --to with one of {}", options.output, formats_in_words()));
+  }
+  const Exporter& exporter = named_exporter(options.format);
+  if (by_suffix && by_suffix != &exporter)
+    throw ConfigError(fmt::format("-o {}: that is the suffix of {}, but --to says {}; {}", options.output,
+                                  by_suffix->name, exporter.name,
+                                  *exporter.suffix ? fmt::format("name it {}", exporter.suffix) : "name a folder"));
+  return exporter;
+}
+
+// OUT is made of one kind; what stands there must not be of another.
+void check_output(const Exporter& exporter, const fs::path& output) {
+  std::error_code ignored;
+  if (!fs::exists(output, ignored)) return;
+  const bool folder = fs::is_directory(output, ignored);
+  if (*exporter.suffix && folder)
+    throw ConfigError(fmt::format("-o {}: is a folder, but {} is a file; name one such as {}", output.string(),
+                                  exporter.name, (output / (std::string("run") + exporter.suffix)).string()));
+  if (!*exporter.suffix && !folder)
+    throw ConfigError(
+        fmt::format("-o {}: is a file, but {} is a folder; name another", output.string(), exporter.name));
+}
+
+// Rows of the frames that --frames names by their numbers.
+void choose_rows(const SavedRun& run, const std::string& text, ExportOptions& options) {
+  const size_t count = run.frame_count();
+  options.first_row = 0;
+  options.last_row = count - 1;
+  if (text.empty()) return;
+  const uint32_t first = run.number(0), last = run.number(count - 1);
+  const FrameRange range = parse_frames(text, uint64_t{last} + 1);
+  while (options.first_row < count && run.number(options.first_row) < range.first) ++options.first_row;
+  while (options.last_row > 0 && run.number(options.last_row) > range.last) --options.last_row;
+  if (options.first_row == count || run.number(options.last_row) > range.last || options.first_row > options.last_row)
+    throw ConfigError(fmt::format("--frames {}: {} has frames {} to {}", text, run.file().string(), first, last));
+}
+
+void export_run(const Options& options) {
+  const Exporter& exporter = chosen_exporter(options);
+  check_output(exporter, options.output);
+  const SavedRun run(options.input);
+  ExportOptions what;
+  what.output = options.output;
+  what.projection = options.projection;
+  choose_rows(run, options.frames, what);
+  PendingDirectory parent(what.output.has_parent_path() ? what.output.parent_path() : fs::path("."));
+  std::vector<std::string> warnings;
+  const Written written = exporter.write(run, what, warnings);
+  parent.keep();
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << "\n";
+  std::cout << "written    " << written.front().string();
+  if (written.size() > 1) std::cout << " and " << written.size() - 1 << (written.size() > 2 ? " files" : " file");
+  std::cout << "\n";
+}
+
+void import_map(const Options& options) {
+  for (const auto& [flag, value] : {std::pair{"--frames", &options.frames}, {"--projection", &options.projection}})
+    if (!value->empty()) throw ConfigError(fmt::format("{}: is for runs, and {} is a map", flag, options.input));
+  if (!options.format.empty() && options.format != "mitsuba")
+    throw ConfigError(
+        fmt::format("--to {}: a map becomes a scene (mitsuba), which the formats of runs are not", options.format));
+  ImportOptions import = options.import;
+  import.output = options.output;
+  const ImportSummary summary = import_city(options.input, import);
+  for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
+  std::cout << describe(summary);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("convert", "A run in the format of another program, or a map of a city as a scene");
+  const auto options = std::make_shared<Options>();
+  command->add_option("INPUT", options->input, "The folder of a run or its paths.h5; or .osm, .osm.pbf, .poly.xml");
+  command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
+  command->add_option("-o,--output", options->output, "File or folder to write, by the format");
+  command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all where not given");
+  command->add_option("--projection", options->projection,
+                      "kml: PROJ string of the scene's coordinates, where no georeference.json has it");
+  command->add_flag("--list", options->list, "List the formats of --to");
+  ImportOptions& import = options->import;
+  const char* maps = "Maps";
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command->add_option(name, value, help)->group(maps);
+  };
+  add("--net", import.net, "OSM: the .net.xml that netconvert made of the map, whose coordinates the scene takes");
+  add("--level-height", import.level_height_m, "Metres a level of a building")->capture_default_str();
+  add("--default-height", import.default_height_m, "Metres of buildings without a height")->capture_default_str();
+  add("--margin", import.margin_m, "Metres of ground beyond the outermost buildings")->capture_default_str();
+  add("--wall-material", import.wall_material, "ITU material where the map does not say")->capture_default_str();
+  add("--roof-material", import.roof_material, "ITU material where the map does not say")->capture_default_str();
+  add("--ground-material", import.ground_material, "ITU material of the ground")->capture_default_str();
+  command->add_flag("!--no-ground", import.ground, "Buildings alone")->group(maps);
+  command->callback([options] {
+    if (options->list) return print_list();
+    if (options->input.empty()) throw ConfigError("convert: name what to convert: the folder of a run, or a map");
+    if (options->output.empty()) throw ConfigError("convert: say where to write with -o");
+    if (is_import(options->input)) return import_map(*options);
+    export_run(*options);
+  });
+}
 
 }  // namespace wavetracer::app

@@ -1,20 +1,20 @@
-// The loop over shards and their frames.
+// The loop over units and their frames.
 // Assumes that catch_interrupts() was called, so that an interrupt waits for the frame in progress.
 #include "app/drive.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <optional>
+#include "app/folder_hold.hpp"
 #include "app/interrupt.hpp"
 #include "app/solve_frame.hpp"
+#include "app/team.hpp"
 #include "output/shards.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
 namespace {
 
-// The frames of the shard that begins with `first`.
-FrameRange shard_of(uint32_t first, uint32_t last, uint32_t shard_frames) {
-  const uint64_t end = (uint64_t{first} / shard_frames + 1) * shard_frames;
-  return {first, static_cast<uint32_t>(std::min<uint64_t>(end - 1, last))};
-}
+constexpr uint32_t most_blocks = 32;
 
 void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std::string& directory,
                        Progress& progress) {
@@ -27,18 +27,6 @@ void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std
     progress.line(fmt::format("--resume: {} of {} frames are there", done, all));
 }
 
-// Its frames, all of them unless interrupted.
-std::vector<FrameResult> solve_shard(Simulation& simulation, const FrameRange& range, const RunIdentity& asked,
-                                     Progress& progress) {
-  std::vector<FrameResult> frames;
-  simulation.forget();
-  for (uint64_t frame = range.first; frame <= range.last && !interrupted(); ++frame) {
-    progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count());
-    frames.push_back(solve_frame(simulation, static_cast<uint32_t>(frame), asked.repeat).result);
-  }
-  return frames;
-}
-
 void keep_links(Results& results, const std::vector<FrameResult>& frames) {
   if (frames.empty()) return;
   const FrameResult& last = frames.back();
@@ -48,31 +36,76 @@ void keep_links(Results& results, const std::vector<FrameResult>& frames) {
 
 }  // namespace
 
-Results drive(Simulation& simulation, const Run& run, const RunIdentity& identity, bool resume, Progress& progress) {
-  const std::string& directory = run.config.output.directory;
-  Shards shards(directory, identity);
-  if (resume) {
+uint32_t block_count(const Config& config) {
+  const auto transmitters = static_cast<uint32_t>(config.transmitters.size());
+  if (const std::string why = block_obstacle(config); !why.empty() && transmitters > 1)
+    throw ConfigError(
+        fmt::format("this run is one frame, which several processes cannot share: {}; run one process "
+                    "alone",
+                    why));
+  return std::clamp(transmitters, 1u, most_blocks);
+}
+
+Units units_of(const DriveTask& task) {
+  return {task.identity.first, task.identity.last, task.run.config.output.shard_frames, task.blocks};
+}
+
+std::vector<FrameResult> solve_unit(const DriveTask& task, const Unit& unit, Progress& progress) {
+  std::vector<FrameResult> frames;
+  const RunIdentity& asked = task.identity;
+  task.simulation.forget();
+  if (unit.blocks > 1) {
+    const uint64_t all = task.run.config.transmitters.size();
+    const TransmitterRange range{static_cast<uint32_t>(all * unit.block / unit.blocks),
+                                 static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
+    if (!interrupted()) frames.push_back(solve_frame(task.simulation, unit.first, asked.repeat, range).result);
+    return frames;
+  }
+  for (uint64_t frame = unit.first; frame <= unit.last && !interrupted(); ++frame) {
+    progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count());
+    frames.push_back(solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat).result);
+  }
+  return frames;
+}
+
+bool compute_unit(const DriveTask& task, const Unit& unit, Shards& shards, Progress& progress) {
+  const std::vector<FrameResult> frames = solve_unit(task, unit, progress);
+  if (frames.size() < unit.frames()) return false;
+  shards.write(task.run, frames, unit.block, unit.blocks);
+  progress.line(fmt::format("{}: {} paths", unit_words(unit), totals_of(frames).counts.paths));
+  return true;
+}
+
+Results drive(const DriveTask& task, Progress& progress) {
+  const std::string& directory = task.run.config.output.directory;
+  const ProcessInfo process = this_process("", 0);
+  Shards shards(directory, task.identity);
+  check_not_in_use(shards.folder(), process.job);
+  if (task.resume) {
     shards.resume();
-    say_what_is_there(shards, identity, directory, progress);
+    say_what_is_there(shards, task.identity, directory, progress);
   }
   Results results;
+  std::optional<FolderHold> folder;
   std::vector<FrameResult> frames;
-  for (uint64_t first = identity.first; first <= identity.last && !interrupted();) {
-    const FrameRange range = shard_of(static_cast<uint32_t>(first), identity.last, run.config.output.shard_frames);
-    first = uint64_t{range.last} + 1;
-    if (shards.finished(range.first)) continue;
-    frames = solve_shard(simulation, range, identity, progress);
+  const Units units = units_of(task);
+  for (uint64_t index = 0; index < units.count() && !interrupted(); ++index) {
+    const Unit unit = units.at(index);
+    if (shards.finished(unit)) continue;
+    frames = solve_unit(task, unit, progress);
     keep_links(results, frames);
-    if (frames.size() < range.count()) break;
-    shards.write(run, frames);
-    progress.line(fmt::format("frames {} to {}: {} paths", range.first, range.last, totals_of(frames).counts.paths));
+    if (frames.size() < unit.frames()) break;
+    if (!folder) folder.emplace(directory, process);
+    shards.write(task.run, frames);
+    folder->keep();
+    progress.line(fmt::format("{}: {} paths", unit_words(unit), totals_of(frames).counts.paths));
     frames.clear();
   }
   results.totals = shards.totals();
   add(results.totals, totals_of(frames));
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
-    results.files = shards.merge(run, frames);
+    results.files = shards.merge(task.run, frames);
   }
   return results;
 }

@@ -1,18 +1,46 @@
-// A run of many frames: shard by shard to the disk, so that memory stays flat and a killed run goes on where it was.
-// A shard begins at an absolute multiple of output.shard_frames, and cold, so it depends on the configuration alone.
+// A run in units, shards of frames or blocks of transmitters: unit by unit to the disk, so that memory stays flat, a
+// killed run goes on where it was, and any number of processes can share it (output/units.hpp).
 #pragma once
 #include "app/frame_range.hpp"
 #include "app/progress.hpp"
+#include "app/ranks.hpp"
 #include "app/report.hpp"
 #include "output/manifest.hpp"
 #include "output/output.hpp"
+#include "output/process_files.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::app {
 
-// Computes the frames that no finished shard holds and writes all outputs. Of a run that is interrupted these are the
-// frames so far; totals.frames of the results says how many, and nothing is written where there are none.
-// run: that of the simulation.
-Results drive(Simulation& simulation, const Run& run, const RunIdentity& identity, bool resume, Progress& progress);
+// The blocks that a frame of this configuration is shared by: as many as there are transmitters, at most 32, whoever
+// computes them. Throws ConfigError where its links belong together.
+uint32_t block_count(const Config& config);
+
+struct DriveTask {
+  Simulation& simulation;
+  const Run& run;  // that of the simulation
+  RunIdentity identity;
+  bool resume = false;
+  uint32_t blocks = 1;  // more than one: of the one frame
+};
+
+// This process alone: computes the frames that no finished shard holds and writes all outputs. Of a run that is
+// interrupted these are the frames so far; totals.frames of the results says how many, and nothing is written where
+// there are none.
+Results drive(const DriveTask& task, Progress& progress);
+
+// What one of several processes has done.
+struct Shared {
+  Results results;       // of all of them, where this one has merged; else without frames
+  uint64_t missing = 0;  // units that no process could compute, or that were left when this one was interrupted
+};
+
+// With the other ranks of its job: takes units that nobody has until all are finished, and merges if it is the first to
+// see that. Units of ranks that die are taken over, once.
+// me: has its file in the folder.
+Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessInfo& me, Progress& progress);
+
+// Part K of N: the units u with u mod N = K, and no outputs. Processes need not know of each other.
+Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress);
 
 }  // namespace wavetracer::app

@@ -5,9 +5,9 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include "app/build_info.hpp"
 #include "app/commands.hpp"
 #include "config/config_file.hpp"
-#include "wavetracer/version.hpp"
 
 namespace {
 
@@ -33,7 +33,7 @@ int fail(ExitCode code, const std::string& message) {
 int run_program(int argc, char** argv) {
   CLI::App program{"Radio channels between moving vehicles by ray tracing on OpenCL"};
   program.name("wavetracer");
-  program.set_version_flag("--version", "wavetracer " WAVETRACER_VERSION);
+  program.set_version_flag("--version", wavetracer::app::build_info);
   program.require_subcommand(0, 1);  // none is reported below, after a misspelt one
   program.footer([] { return wavetracer::field_help(); });
   wavetracer::app::Invocation invocation{command_line(argc, argv)};

@@ -1,9 +1,88 @@
-// `wavetracer merge`.
-// Stub.
+// `wavetracer merge`: parts of a run that several processes or machines have written, made one.
+// It needs no device and none of the run's input files.
+#include <fmt/format.h>
+#include <algorithm>
+#include <iostream>
+#include <memory>
 #include "app/commands.hpp"
+#include "app/inputs.hpp"
+#include "app/progress.hpp"
+#include "output/merge_folders.hpp"
+#include "output/process_files.hpp"
 
 namespace wavetracer::app {
+namespace {
 
-void add_merge(CLI::App&, Invocation&) {}
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> directories;
+  std::string output;
+  bool partial = false;
+};
+
+// The folder that the outputs go to; in another one than the parts' no shards may lie that do not belong to them.
+fs::path target_of(const Options& options) {
+  if (options.output.empty()) {
+    if (options.directories.size() > 1)
+      throw ConfigError("merge: several folders of parts; name the one for the results with -o");
+    return fs::absolute(options.directories.front()).lexically_normal();
+  }
+  const fs::path target = fs::absolute(options.output).lexically_normal();
+  const bool source = std::any_of(options.directories.begin(), options.directories.end(), [&](const auto& directory) {
+    std::error_code none;
+    return fs::equivalent(directory, target, none);
+  });
+  if (!source && !manifests_in(target / "shards").empty())
+    throw ConfigError(
+        fmt::format("merge: {} holds parts itself; name it among the folders, or choose another one", target.string()));
+  return target;
+}
+
+std::string missing_words(const FoundParts& found) {
+  std::string out;
+  for (size_t i = 0; i < found.missing.size() && i < 10; ++i) out += (i ? ", " : "") + unit_words(found.missing[i]);
+  if (found.missing_count > 10) out += fmt::format(" and {} more", found.missing_count - 10);
+  return out;
+}
+
+void merge(const Options& options, Invocation& invocation) {
+  Progress progress;
+  const fs::path target = target_of(options);
+  check_output_folder(target);
+  for (const std::string& directory : options.directories) check_not_in_use(fs::path(directory) / "shards", "");
+  const FoundParts found = find_parts({options.directories.begin(), options.directories.end()});
+  for (const std::string& damaged : found.damaged) progress.line("damaged: " + damaged);
+  if (found.missing_count > 0) {
+    progress.line("missing: " + missing_words(found));
+    invocation.code = ExitCode::partial;
+    if (!options.partial) {
+      progress.line("nothing was written; compute what is missing, or write what is there with --partial");
+      return;
+    }
+  }
+  const auto files = merge_found(found, target, invocation.command_line);
+  const Totals totals = totals_of(found.shards);
+  std::cout << fmt::format("merged     {} parts: {} frames, {} links, {} paths\n", found.shards.size(), totals.frames,
+                           totals.links, totals.counts.paths);
+  std::cout << "written    ";
+  for (size_t i = 0; i < files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << files[i].string();
+  std::cout << std::endl;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("merge", "Join the parts of a run that several processes have written");
+  const auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->directories, "Folders of parts, as run --shard or an interrupted run leaves them")
+      ->required();
+  command->add_option("-o,--output", options->output, "Folder for the results; of one DIR that folder itself");
+  command->add_flag("--partial", options->partial, "Write what is there, even if parts are missing");
+  command->footer(
+      "Exit code 5: parts are missing. All DIR must be of one run: configuration, --frames, --repeat, version "
+      "and kind of device.");
+  command->callback([options, &invocation] { merge(*options, invocation); });
+}
 
 }  // namespace wavetracer::app

@@ -1,9 +1,57 @@
-// `wavetracer plot`.
-// Stub.
+// `wavetracer plot`: figures of a run, each with its data and the gnuplot script that drew it.
+// Needs no device; without gnuplot data and scripts are still written.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <filesystem>
+#include <iostream>
+#include <memory>
 #include "app/commands.hpp"
+#include "plots/plots.hpp"
 
 namespace wavetracer::app {
+namespace {
 
-void add_plot(CLI::App&) {}
+struct Options {
+  std::string run, folder, format = "svg";
+  std::optional<uint32_t> frame;
+  plots::PlotChoice choice;
+};
+
+void plot(Options options) {
+  options.choice.link.frame = options.frame;
+  options.choice.format = options.format == "svg"   ? plots::Format::svg
+                          : options.format == "png" ? plots::Format::png
+                                                    : plots::Format::pdf;
+  const SavedRun run(options.run);
+  const std::filesystem::path folder =
+      options.folder.empty() ? run.file().parent_path() / "plots" : std::filesystem::path(options.folder);
+  const plots::PlotReport report = plots::plot_run(run, options.choice, folder);
+  for (const std::string& warning : report.warnings) std::cerr << "wavetracer: warning: " << warning << "\n";
+  for (const std::filesystem::path& file : report.files) std::cout << file.string() << "\n";
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("plot", "Draw figures of a run with gnuplot");
+  const auto options = std::make_shared<Options>();
+  command->add_option("run", options->run, "Folder of a run, or its paths.h5")->required();
+  command->add_option("-o,--output", options->folder, "Folder for the figures; plots in that of the run if not given");
+  command
+      ->add_option("--what", options->choice.what,
+                   fmt::format("Some of {}, separated by commas; all that suit the run if not given",
+                               fmt::join(plots::plot_names, ", ")))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--tx", options->choice.link.tx, "Name of a transmitter; the strongest links if not given");
+  command->add_option("--rx", options->choice.link.rx, "Name of a receiver");
+  command->add_option("--grid", options->choice.grid, "Name of a [[receiver_grid]], of --what coverage");
+  command->add_option(
+      "--frame", options->frame,
+      "Number of the frame that figures of one frame show; that of the strongest link if not given, and "
+      "the first for coverage");
+  command->add_option("--format", options->format, "svg, png or pdf")->check(CLI::IsMember({"svg", "png", "pdf"}));
+  command->callback([options] { plot(*options); });
+}
 
 }  // namespace wavetracer::app

@@ -5,10 +5,12 @@
 #include <unistd.h>
 #include <cstdlib>
 #include <iostream>
+#include <utility>
 
 namespace wavetracer::app {
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1), colour_(false) {
+Progress::Progress(std::string prefix)
+    : prefix_(std::move(prefix)), terminal_(isatty(STDERR_FILENO) == 1), colour_(false) {
   const char* no_color = std::getenv("NO_COLOR");
   colour_ = terminal_ && (no_color == nullptr || *no_color == '\0');
 }
@@ -20,7 +22,7 @@ void Progress::clear_bar() {
 
 void Progress::line(const std::string& text) {
   clear_bar();
-  std::cerr << (colour_ ? "\x1b[2m" + text + "\x1b[0m" : text) << std::endl;
+  std::cerr << (colour_ ? "\x1b[2m" + prefix_ + text + "\x1b[0m\n" : prefix_ + text + "\n") << std::flush;
 }
 
 void Progress::bar(const std::string& what, uint64_t done, uint64_t total) {

@@ -8,7 +8,8 @@ namespace wavetracer::app {
 
 class Progress {
  public:
-  Progress();
+  // prefix: before each line, which of several processes it is.
+  explicit Progress(std::string prefix = "");
   ~Progress() { clear_bar(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -16,6 +17,7 @@ class Progress {
   void bar(const std::string& what, uint64_t done, uint64_t total);
 
  private:
+  std::string prefix_;
   bool terminal_, colour_;
   size_t bar_width_ = 0;  // characters of the bar on the screen
   void clear_bar();

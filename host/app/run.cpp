@@ -1,13 +1,20 @@
 // `wavetracer run`: config in, paths out.
 // The checks that need no device come first, so that a mistake costs no time.
 #include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include "app/commands.hpp"
+#include "app/devices_option.hpp"
 #include "app/drive.hpp"
+#include "app/folder_hold.hpp"
 #include "app/frame_range.hpp"
 #include "app/inputs.hpp"
 #include "app/interrupt.hpp"
+#include "app/launch.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/solve_frame.hpp"
@@ -22,21 +29,26 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string file, directory, frames, device;
+  std::string file, directory, frames, device, devices, shard;
   std::vector<std::string> sets;
-  uint32_t repeat = 1;
+  uint32_t repeat = 1, processes = 0;
   bool resume = false;
+  bool launches() const { return !devices.empty() || processes > 0; }
 };
 
 bool has_vehicles(const Config& config) {
   return !config.trajectories.file.empty() || !config.trajectories.generate.empty() || !config.tracks.empty();
 }
 
-Config configuration(const Options& options) {
+// shared: by several processes, in parts that can be resumed even where there is one frame.
+Config configuration(const Options& options, bool shared) {
   Config config = load_config(options.file, options.sets);
+  if (!config.live_vehicles.empty())
+    throw ConfigError(options.file + ": its [[live_vehicle]] tables wait for poses: start `wavetracer serve -c " +
+                      options.file + "`, or give trajectories instead of them");
   if (!has_vehicles(config)) {
     parse_frames(options.frames, 1);
-    if (options.resume)
+    if (options.resume && !shared)
       throw ConfigError("--resume: nothing to resume, because a run without trajectories is one frame; leave it out");
   }
   if (!options.directory.empty()) {
@@ -49,8 +61,12 @@ Config configuration(const Options& options) {
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
   Config elsewhere = config;
   elsewhere.output.directory.clear();  // a folder that was moved is still that of its run
-  return {summary.version, gpu::fnv1a_128(resolved_config(elsewhere)), summary.device.gpu ? "gpu" : "cpu",
-          range.first,     range.last,                                 summary.repeat_count};
+  return {summary.version,
+          gpu::fnv1a_128(resolved_config(elsewhere)),
+          summary.device.gpu ? "gpu" : "cpu",
+          range.first,
+          range.last,
+          summary.repeat_count};
 }
 
 RunSummary summary_of(const Simulation& simulation, const Options& options, const FrameRange& range,
@@ -88,33 +104,129 @@ std::string unfinished(const Run& run, const Results& results, const Options& op
                      options.repeat);
 }
 
+// The shards' job of `run --shard`: parts of one run may be written side by side.
+std::string job_of(const ShardChoice& part, const RunIdentity& identity) {
+  return fmt::format("{} shards of {}", part.count, identity.config);
+}
+
+void check_options(const Options& options, const Ranks& ranks) {
+  if (options.shard.empty()) return;
+  parse_shard(options.shard);
+  if (options.launches())
+    throw ConfigError("--shard is for processes that are started one by one; leave out --devices and --processes");
+  if (ranks.size > 1)
+    throw ConfigError(
+        fmt::format("--shard: this process is rank {} of {} already, which share the run by themselves; "
+                    "leave out --shard",
+                    ranks.rank, ranks.size));
+}
+
+// Children do the work; their options are these, but for those that made them children.
+void launch_children(const Options& options, const Config& config, Invocation& invocation, Progress& progress) {
+  const std::vector<gpu::DeviceInfo> there = gpu::list_devices();
+  Launch launch;
+  launch.arguments = {"run", "-c", options.file, "-o", config.output.directory};
+  for (const std::string& set : options.sets) launch.arguments.insert(launch.arguments.end(), {"--set", set});
+  if (!options.frames.empty()) launch.arguments.insert(launch.arguments.end(), {"--frames", options.frames});
+  if (options.resume) launch.arguments.push_back("--resume");
+  launch.arguments.insert(launch.arguments.end(), {"--repeat", std::to_string(options.repeat)});
+  if (options.devices.empty())
+    launch.devices = {std::to_string(gpu::choose_device(there, options.device))};
+  else
+    for (const size_t device : choose_devices(there, options.devices, options.device))
+      launch.devices.push_back(std::to_string(device));
+  launch.processes = options.processes > 0 ? options.processes : static_cast<uint32_t>(launch.devices.size());
+  if (launch.processes < launch.devices.size())
+    throw ConfigError(fmt::format("--processes {}: there are {} devices, which want one each", launch.processes,
+                                  launch.devices.size()));
+  launch.command_line = invocation.command_line;
+  progress.line(launch.devices.size() == 1
+                    ? fmt::format("{} processes on device {}", launch.processes, launch.devices[0])
+                    : fmt::format("{} processes on {} devices", launch.processes, launch.devices.size()));
+  invocation.code = app::launch(launch, progress);
+}
+
+// The device of a rank: ranks of one host take turns.
+std::string device_of(const Options& options, const Ranks& ranks) {
+  if (ranks.size == 1 || ranks.launched) return options.device;
+  const std::vector<size_t> devices = choose_devices(gpu::list_devices(), options.devices, options.device);
+  return std::to_string(devices[ranks.local_rank % devices.size()]);
+}
+
+// Part of a run that others compute, too.
+std::optional<Results> run_shared(const DriveTask& task, const Options& options, const Ranks& ranks,
+                                  const ProcessInfo* me, Invocation& invocation, Progress& progress) {
+  if (me) {
+    Shared shared = drive_together(task, ranks, *me, progress);
+    if (shared.missing > 0) invocation.code = interrupted() ? ExitCode::interrupted : ExitCode::partial;
+    if (shared.results.totals.frames == 0) return std::nullopt;
+    return shared.results;
+  }
+  const ShardChoice part = parse_shard(options.shard);
+  const std::string& directory = task.run.config.output.directory;
+  FolderHold folder(directory, this_process(job_of(part, task.identity), part.index));
+  const Shared shared = drive_part(task, part, progress);
+  folder.keep();
+  if (shared.missing > 0) {
+    invocation.code = ExitCode::interrupted;
+    progress.line(fmt::format("interrupted; {} parts of --shard {} are left; go on with --resume", shared.missing,
+                              options.shard));
+  } else {
+    progress.line(
+        fmt::format("--shard {} is done; when all are, `wavetracer merge {}` writes the results, of several "
+                    "folders `wavetracer merge -o OUT DIR...`",
+                    options.shard, directory));
+  }
+  return std::nullopt;
+}
+
 void run(const Options& options, Invocation& invocation) {
-  const Config config = configuration(options);
+  const Ranks ranks = ranks_of_this_process();
+  if (ranks.launched) prctl(PR_SET_PDEATHSIG, SIGTERM);  // who is nobody's child any more stops after its frame
+  check_options(options, ranks);
+  const bool launching = options.launches() && ranks.size == 1, part = !options.shard.empty(),
+             together = ranks.size > 1;
+  const Config config = configuration(options, launching || part || together);
   check_inputs(config);
   check_output_folder(config.output.directory);
+  if (!part && !together) check_not_in_use(fs::path(config.output.directory) / "shards", "");
   catch_interrupts();
-  Progress progress;
-  progress.line("loading the scene, compiling the kernels");
-  Simulation simulation(config, options.device);
+  Progress progress(together ? fmt::format("rank {}: ", ranks.rank) : "");
+  if (launching) return launch_children(options, config, invocation, progress);
+  take_share_of_cores(ranks);
+  std::optional<FolderHold> folder;
+  if (together) folder.emplace(config.output.directory, this_process(ranks.job, ranks.rank));
+  if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
+  Simulation simulation(config, device_of(options, ranks));
   const FrameRange range = parse_frames(options.frames, simulation.frame_count());
+  const char* const launched_as = ranks.launched ? std::getenv("WAVETRACER_COMMAND") : nullptr;
   Run run{simulation.config(), simulation.scene(), simulation.instances(), simulation.models(),
-          summary_of(simulation, options, range, invocation.command_line)};
+          summary_of(simulation, options, range, launched_as ? launched_as : invocation.command_line)};
   double ready = 0;
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
   progress.line(fmt::format("ready after {:.2f} s on {}; {} rays from each transmitter ({})", ready,
                             run.summary.device.name, rays_in_words(config.trace), run.config.transmitters.size()));
 
   const bool moving = simulation.frame_count() > 1;
-  if (options.resume && !moving) progress.line("--resume: nothing to go on with, because this drive has one frame");
-  const Results results =
-      moving ? drive(simulation, run, identity_of(config, run.summary, range), options.resume, progress)
-             : run_still(simulation, run, progress);
+  if (options.resume && !moving && !part && !together)
+    progress.line("--resume: nothing to go on with, because this drive has one frame");
+  const DriveTask task{simulation, run, identity_of(config, run.summary, range), options.resume,
+                       moving || (!part && !together) ? 1 : block_count(run.config)};
+  Results results;
+  if (part || together) {
+    if (folder) folder->keep();
+    const auto shared = run_shared(task, options, ranks, folder ? &folder->process() : nullptr, invocation, progress);
+    if (!shared) return;
+    results = *shared;
+  } else {
+    results = moving ? drive(task, progress) : run_still(simulation, run, progress);
+  }
   std::vector<std::string> warnings = run.summary.warnings;
   add_warnings(warnings, results.totals.warnings);
   for (const std::string& warning : warnings) progress.line("warning: " + warning);
   if (results.totals.frames > 0) std::cout << report(run, results) << std::flush;
   const bool whole = moving && results.totals.frames == run.summary.frames_asked;
-  if (interrupted() && !whole) {
+  if (interrupted() && !whole && !together) {
     invocation.code = ExitCode::interrupted;
     progress.line(unfinished(run, results, options, moving));
   }
@@ -132,6 +244,15 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("--device", options->device, "Index, or part of a platform's or device's name");
   command->add_option("--repeat", options->repeat, "Solve each frame N times and report the median times")
       ->check(CLI::Range(1, 1000000));
+  command->add_option("--devices", options->devices,
+                      "all, gpu, cpu or indices as 0,1,2: a process on each shares the run. With mpirun or srun: those "
+                      "that the ranks of a host take in turn");
+  command
+      ->add_option("--processes", options->processes,
+                   "So many processes, in turn on --devices or all on --device; they divide the cores")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--shard", options->shard,
+                      "K/N: only part K, from 0 to N - 1, of N parts, on any machine; `wavetracer merge` joins them");
   command->add_flag("--resume", options->resume, "Go on with a drive that was interrupted, in the same folder");
   command->footer([] { return field_help(); });
   command->callback([options, &invocation] { run(*options, invocation); });

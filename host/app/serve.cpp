@@ -1,9 +1,47 @@
-// `wavetracer serve`.
-// Stub.
+// `wavetracer serve`: poses in, channels out, over a socket, until a signal ends it.
+// Standard output says where it listens, once it does; everything else goes to standard error.
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
 #include "app/commands.hpp"
+#include "app/inputs.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "config/config_file.hpp"
+#include "live/serve.hpp"
 
 namespace wavetracer::app {
+namespace {
 
-void add_serve(CLI::App&, Invocation&) {}
+struct Options {
+  std::string file;
+  std::vector<std::string> sets;
+  live::ServeOptions serve;
+};
+
+void serve(const Options& options) {
+  const Config config = load_config(options.file, options.sets);
+  check_inputs(config);
+  catch_interrupts();
+  Progress progress;
+  live::serve(
+      config, options.serve, interrupted, [&](const std::string& text) { progress.line(text); },
+      [](const std::string& name) { std::cout << "listening on " << name << std::endl; });
+  progress.line("ended");
+}
+
+}  // namespace
+
+void add_serve(CLI::App& program, Invocation&) {
+  CLI::App* command = program.add_subcommand("serve", "Answer the poses of a running simulator with channels");
+  const auto options = std::make_shared<Options>();
+  command->add_option("-c,--config", options->file, "Config file (TOML) with [[live_vehicle]]")->required();
+  command->add_option("--listen", options->serve.listen, "unix:PATH or tcp:ADDRESS:PORT")->capture_default_str();
+  command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
+  command->add_option("--device", options->serve.device, "Index, or part of a platform's or device's name");
+  command->add_option("--token-file", options->serve.token_file,
+                      "File of the secret that clients must show; needed beyond loopback");
+  command->callback([options] { serve(*options); });
+}
 
 }  // namespace wavetracer::app

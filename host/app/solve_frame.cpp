@@ -9,7 +9,8 @@
 
 namespace wavetracer::app {
 
-SolvedFrame solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats) {
+SolvedFrame solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats,
+                        std::optional<TransmitterRange> block) {
   SolvedFrame solved;
   FrameResult& result = solved.result;
   std::map<std::string, std::vector<double>> samples;
@@ -17,7 +18,7 @@ SolvedFrame solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats
   const bool must_agree = cache.kind == "none" || cache.key == "exact";
   do {
     if (repeats > 1) simulation.forget();
-    FrameResult next = simulation.run_frame(frame);
+    FrameResult next = block ? simulation.run_block(frame, *block) : simulation.run_frame(frame);
     if (must_agree && solved.repeated > 0 && next.counts.paths != result.counts.paths)
       next.warnings.push_back(
           fmt::format("repeat {} found {} paths, the one before {}: the device is not to be trusted", solved.repeated,

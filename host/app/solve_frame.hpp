@@ -1,6 +1,7 @@
 // One frame of a run, as often as --repeat asks for.
 // An interrupt ends it after the repeat in progress, so there is always a result.
 #pragma once
+#include <optional>
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::app {
@@ -11,6 +12,8 @@ struct SolvedFrame {
 };
 
 // Where frames reuse sequences and there is more than one repeat, each of them begins cold.
-SolvedFrame solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats);
+// block: the links of these transmitters alone.
+SolvedFrame solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats,
+                        std::optional<TransmitterRange> block = {});
 
 }  // namespace wavetracer::app

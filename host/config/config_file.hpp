@@ -1,28 +1,11 @@
-// Config files: TOML text in, a checked Config out; and the texts of `init` and `--help`.
-// All errors of a file are found in one go and thrown as one ConfigError, one `file:line:column: ...` a line.
+// Config files: the public functions of wavetracer/config_file.hpp, and the text of `--help`.
+// All of them are driven by the field table of fields.hpp.
 #pragma once
-#include <filesystem>
-#include <string>
-#include <string_view>
-#include <vector>
-#include "wavetracer/config.hpp"
+#include "wavetracer/config_file.hpp"
 
 namespace wavetracer {
 
-// Reads the file; `sets` are `key=value` texts of `--set`, applied after it in their order. A value is TOML, and text
-// that is none is a string. Paths in the file are relative to its folder, paths in `sets` to the current one.
-Config load_config(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
-
-// The same for text in memory; file_name stands in the messages, and its folder is where relative paths start.
-Config parse_config(std::string_view toml, const std::string& file_name, const std::vector<std::string>& sets = {});
-
-// A config file of every key with its meaning, unit, range and default; it is a small example that runs as it is.
-std::string commented_config();
-
 // One paragraph a key, for `--help`.
 std::string field_help();
-
-// Every key with its value in this Config, as a config file that reads back the same.
-std::string resolved_config(const Config& config);
 
 }  // namespace wavetracer

@@ -149,16 +149,16 @@ void check_materials(const std::vector<MaterialConfig>& materials, Found& out) {
 }
 
 void check_ends(const Config& config, Found& out) {
-  const auto check = [&](const std::string& role, const std::vector<RadioEnd>& ends) {
+  const auto check = [&](const std::string& role, bool none) {
     const auto has_role = [&](const MountConfig& m) { return m.role == role || m.role == "both"; };
-    if (ends.empty() && std::none_of(config.mounts.begin(), config.mounts.end(), has_role))
+    if (none && std::none_of(config.mounts.begin(), config.mounts.end(), has_role))
       out.push_back({{},
                      fmt::format("no [[{0}]]: add one with name and position_m, or a [[mount]] with name and role = "
                                  "\"{0}\" or \"both\" for vehicles",
                                  role)});
   };
-  check("transmitter", config.transmitters);
-  check("receiver", config.receivers);
+  check("transmitter", config.transmitters.empty());
+  check("receiver", config.receivers.empty() && config.receiver_grids.empty());
 }
 
 void check_trajectories(const Config& config, Found& out) {
@@ -166,9 +166,11 @@ void check_trajectories(const Config& config, Found& out) {
   if (!t.file.empty() && !t.generate.empty())
     out.push_back({{"trajectories.generate", "trajectories.file"},
                    "trajectories.file and trajectories.generate exclude each other: empty one of them"});
-  if (t.file.empty() && t.generate.empty() && config.tracks.empty() && !config.mounts.empty())
+  if (t.file.empty() && t.generate.empty() && config.tracks.empty() && config.live_vehicles.empty() &&
+      !config.mounts.empty())
     out.push_back({{"mount.0"},
-                   "[[mount]] needs vehicles: give trajectories.file, trajectories.generate or a [[track]]"});
+                   "[[mount]] needs vehicles: give trajectories.file, trajectories.generate, a [[track]] or, for "
+                   "`wavetracer serve`, a [[live_vehicle]]"});
   for (size_t i = 0; i < config.tracks.size(); ++i) {
     const auto& waypoints = config.tracks[i].waypoints;
     for (size_t k = 1; k < waypoints.size(); ++k)
@@ -198,6 +200,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_ends(config, out);
   const auto transmitters = check_names("transmitter", "name", config.transmitters, &RadioEnd::name, {}, out);
   check_names("receiver", "name", config.receivers, &RadioEnd::name, transmitters, out);
+  check_names("receiver_grid", "name", config.receiver_grids, &ReceiverGridConfig::name, {}, out);
   check_names("material", "name", config.materials, &MaterialConfig::name, {}, out);
   check_names("mount", "name", config.mounts, &MountConfig::name, {}, out);
   check_names("vehicle_type", "name", config.vehicle_types, &VehicleTypeConfig::name, {}, out);

@@ -52,11 +52,18 @@ Field polarization_field(const Member& member, auto polarization) {
 // Of cache_fields.cpp.
 Table cache_table();
 
+// Of live_fields.cpp: what comes in at run time.
+Table live_table();
+Table live_vehicle_table();
+
 // Of scene_fields.cpp: what stands.
 Table scene_table();
 Table material_table();
 Table transmitter_table();
 Table receiver_table();
+
+// Of grid_fields.cpp.
+Table receiver_grid_table();
 
 // Of vehicle_fields.cpp: what moves.
 Table trajectories_table();

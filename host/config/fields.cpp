@@ -189,6 +189,7 @@ const std::vector<Table>& tables() {
       order_table(),
       launch_table(),
       cache_table(),
+      live_table(),
       {.name = "output",
        .doc = "What is written.",
        .fields = {{.name = "directory",
@@ -211,9 +212,11 @@ const std::vector<Table>& tables() {
       material_table(),
       transmitter_table(),
       receiver_table(),
+      receiver_grid_table(),
       mount_table(),
       vehicle_type_table(),
       track_table(),
+      live_vehicle_table(),
   };
   return all;
 }

@@ -1,9 +1,306 @@
-// Stub.
+// glTF 2.0: the scene object by object, vehicles, paths of the first frame, ends; with several frames an animation.
+// The root node turns z up to glTF's y up and carries the scene's origin, so nodes below it are in file axes: a reader
+// that applies nodes in double has file coordinates (x, -z, y), and float32 vertices stay near zero.
+#include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
+#include <optional>
 #include "convert/convert.hpp"
-#include "wavetracer/error.hpp"
+#include "convert/glb_file.hpp"
+#include "convert/glb_tracks.hpp"
+#include "convert/vtk_glb_kml.hpp"
+#include "results/saved_world.hpp"
 
 namespace wavetracer {
+namespace {
 
-Written export_glb(const SavedRun&, const ExportOptions&, Warnings&) { throw RuntimeError("glb: not built yet"); }
+using nlohmann::json;
+
+// Colours of materials as people expect them, linear.
+json base_colour(const std::string& material) {
+  static constexpr struct {
+    const char* name;
+    std::array<double, 3> colour;
+  } known[] = {{"brick", {0.35, 0.11, 0.07}},          {"glass", {0.25, 0.45, 0.55}},
+               {"metal", {0.35, 0.38, 0.42}},          {"wood", {0.30, 0.17, 0.07}},
+               {"marble", {0.60, 0.56, 0.50}},         {"asphalt_concrete", {0.05, 0.05, 0.055}},
+               {"wet_ground", {0.08, 0.10, 0.06}},     {"medium_dry_ground", {0.13, 0.13, 0.08}},
+               {"very_dry_ground", {0.25, 0.20, 0.12}}};
+  for (const auto& entry : known)
+    if (material == entry.name) return {entry.colour[0], entry.colour[1], entry.colour[2], 1.0};
+  return {0.32, 0.32, 0.31, 1.0};  // as concrete
+}
+
+uint8_t linear_byte(uint8_t srgb) {
+  const double s = srgb / 255.0;
+  return static_cast<uint8_t>(std::lround(255 * (s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4))));
+}
+
+class Writer {
+ public:
+  Writer(const SavedRun& run, const SavedWorld& world) : run_(run), world_(world) {
+    root_ = group("wavetracer");
+    const glm::dvec3& o = world.scene.origin_m;
+    node(root_)["matrix"] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, o.x, o.z, -o.y, 1};
+    file_.add("scenes", {{"nodes", {root_}}});
+  }
+
+  void add_scene();
+  void add_vehicles(const std::vector<Track>& tracks);
+  void add_ends(const std::vector<Track>& transmitters, const std::vector<Track>& receivers);
+  void add_paths(const SavedFrame& frame, Warnings& warnings);
+  // times_s: of the frames that all tracks have keys of.
+  void set_times(std::vector<float> times_s) { times_s_ = std::move(times_s); }
+  void write(const std::filesystem::path& path) { file_.write(path); }
+
+ private:
+  json& node(size_t index) { return file_.root()["nodes"][index]; }
+  size_t group(const std::string& name) { return file_.add("nodes", {{"name", name}}); }
+  size_t child(size_t parent, json element) {
+    const size_t index = file_.add("nodes", std::move(element));
+    node(parent)["children"].push_back(index);
+    return index;
+  }
+  size_t material(const Material& material);
+  size_t line_material();
+  json primitive(const Scene& scene, const std::vector<uint32_t>& triangles, const glm::dvec3& offset_m);
+  json primitives(const Scene& scene, std::vector<uint32_t> triangles, const glm::dvec3& offset_m);
+  void add_moving(size_t parent, const std::string& name, const Track& track, std::optional<size_t> mesh);
+  void animate(size_t node, const Track& track);
+  void channel(size_t node, const char* path, size_t times, size_t values, const char* interpolation);
+  size_t marker(const char* name, GlbFile::Colour colour);
+
+  const SavedRun& run_;
+  const SavedWorld& world_;
+  GlbFile file_;
+  size_t root_ = 0;
+  std::vector<float> times_s_;
+  std::vector<std::pair<Material, size_t>> materials_;
+  std::optional<size_t> line_material_, all_times_;
+};
+
+// One a radio material, under its name; its law stands in extras, so that a custom one is not lost.
+size_t Writer::material(const Material& material) {
+  for (const auto& [known, index] : materials_)
+    if (known == material) return index;
+  json law{{"a", material.a}, {"b", material.b}, {"c", material.c}, {"d", material.d}};
+  if (std::isfinite(material.thickness_m)) law["thickness_m"] = material.thickness_m;
+  if (material.scattering > 0) law["scattering"] = material.scattering;
+  const size_t index =
+      file_.add("materials",
+                {{"name", material.name},
+                 {"doubleSided", true},
+                 {"pbrMetallicRoughness",
+                  {{"baseColorFactor", base_colour(material.name)}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}},
+                 {"extras", std::move(law)}});
+  materials_.emplace_back(material, index);
+  return index;
+}
+
+// Of paths and markers: the colours of their vertices, whatever the light.
+size_t Writer::line_material() {
+  if (!line_material_) {
+    file_.root()["extensionsUsed"] = {"KHR_materials_unlit"};
+    line_material_ = file_.add("materials", {{"name", "lines"},
+                                             {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}},
+                                             {"extensions", {{"KHR_materials_unlit", json::object()}}}});
+  }
+  return *line_material_;
+}
+
+// Triangles of one material. They name each vertex once; normals are left out, which means flat shading.
+json Writer::primitive(const Scene& scene, const std::vector<uint32_t>& triangles, const glm::dvec3& offset_m) {
+  std::vector<uint32_t> used;
+  for (const uint32_t t : triangles) used.insert(used.end(), scene.triangles[t].begin(), scene.triangles[t].end());
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<glm::vec3> positions;
+  for (const uint32_t vertex : used) positions.emplace_back(scene.vertices[vertex] + offset_m);
+  std::vector<uint32_t> indices;
+  for (const uint32_t t : triangles)
+    for (const uint32_t vertex : scene.triangles[t])
+      indices.push_back(static_cast<uint32_t>(std::ranges::lower_bound(used, vertex) - used.begin()));
+  const uint32_t of = scene.surfaces[scene.triangle_surface[triangles.front()]].material;
+  return {{"attributes", {{"POSITION", file_.add_positions(positions)}}},
+          {"indices", file_.add_indices(indices)},
+          {"material", material(scene.materials[of])}};
+}
+
+// One a material, in the order in which they are first met.
+json Writer::primitives(const Scene& scene, std::vector<uint32_t> triangles, const glm::dvec3& offset_m) {
+  const auto material_of = [&](uint32_t t) { return scene.surfaces[scene.triangle_surface[t]].material; };
+  std::ranges::stable_sort(triangles, {}, material_of);
+  json out = json::array();
+  for (size_t first = 0; first < triangles.size();) {
+    size_t last = first;
+    while (last < triangles.size() && material_of(triangles[last]) == material_of(triangles[first])) ++last;
+    out.push_back(primitive(
+        scene, {triangles.begin() + static_cast<ptrdiff_t>(first), triangles.begin() + static_cast<ptrdiff_t>(last)},
+        offset_m));
+    first = last;
+  }
+  return out;
+}
+
+void Writer::add_scene() {
+  const Scene& scene = world_.scene;
+  if (scene.triangles.empty()) return;
+  std::vector<std::vector<uint32_t>> of_object(scene.objects.size());
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t) of_object[scene.triangle_object[t]].push_back(t);
+  const size_t parent = child(root_, {{"name", "scene"}});
+  for (size_t i = 0; i < of_object.size(); ++i) {
+    if (of_object[i].empty()) continue;
+    const std::string& name = scene.objects[i];
+    const size_t mesh =
+        file_.add("meshes", {{"name", name}, {"primitives", primitives(scene, std::move(of_object[i]), {})}});
+    child(parent, {{"name", name}, {"mesh", mesh}});
+  }
+}
+
+void Writer::channel(size_t target, const char* path, size_t times, size_t values, const char* interpolation) {
+  json& animations = file_.root()["animations"];
+  if (animations.empty()) animations.push_back({{"name", "frames"}});
+  json& samplers = animations[0]["samplers"];
+  samplers.push_back({{"input", times}, {"output", values}, {"interpolation", interpolation}});
+  animations[0]["channels"].push_back(
+      {{"sampler", samplers.size() - 1}, {"target", {{"node", target}, {"path", path}}}});
+}
+
+// Positions and rotations where they change; what is absent has the size 0.
+void Writer::animate(size_t target, const Track& track) {
+  if (!all_times_) all_times_ = file_.add_times(times_s_);
+  std::vector<float> times_s;
+  std::vector<glm::vec3> positions, scales;
+  std::vector<glm::vec4> rotations;
+  glm::dquat last(1, 0, 0, 0);
+  for (size_t i = 0; i < track.keys.size(); ++i) {
+    const auto& key = track.keys[i];
+    scales.emplace_back(key ? 1.0f : 0.0f);
+    if (!key) continue;
+    const glm::dquat q = glm::dot(key->rotation, last) < 0 ? -key->rotation : key->rotation;  // the short way round
+    times_s.push_back(times_s_[i]);
+    positions.emplace_back(key->position_m - world_.scene.origin_m);
+    rotations.emplace_back(q.x, q.y, q.z, q.w);
+    last = q;
+  }
+  const auto moves = [](const auto& values) {
+    return std::ranges::adjacent_find(values, std::not_equal_to<>()) != values.end();
+  };
+  const bool gaps = !track.always_present();
+  if (moves(positions) || moves(rotations)) {
+    const size_t times = gaps ? file_.add_times(times_s) : *all_times_;
+    if (moves(positions)) channel(target, "translation", times, file_.add_translations(positions), "LINEAR");
+    if (moves(rotations)) channel(target, "rotation", times, file_.add_rotations(rotations), "LINEAR");
+  }
+  if (gaps) channel(target, "scale", *all_times_, file_.add_translations(scales), "STEP");
+}
+
+void Writer::add_moving(size_t parent, const std::string& name, const Track& track, std::optional<size_t> mesh) {
+  if (!track.ever_present()) return;
+  const auto& key = *std::ranges::find_if(track.keys, [](const auto& k) { return k.has_value(); });
+  const glm::dvec3 p = key->position_m - world_.scene.origin_m;
+  const glm::dquat& q = key->rotation;
+  json element{{"name", name}, {"translation", {p.x, p.y, p.z}}, {"rotation", {q.x, q.y, q.z, q.w}}};
+  if (mesh) element["mesh"] = *mesh;
+  if (!track.keys.front()) element["scale"] = {0, 0, 0};
+  const size_t index = child(parent, std::move(element));
+  if (track.keys.size() > 1) animate(index, track);
+}
+
+void Writer::add_vehicles(const std::vector<Track>& tracks) {
+  if (tracks.empty()) return;
+  const size_t parent = child(root_, {{"name", "vehicles"}});
+  std::vector<std::optional<size_t>> mesh_of(world_.models.size());
+  for (size_t i = 0; i < tracks.size(); ++i) {
+    const uint32_t m = world_.instance_model[i];
+    std::optional<size_t> mesh;
+    if (m != no_instance && !world_.models[m].triangles.empty() && tracks[i].ever_present()) {
+      const Scene& model = world_.models[m];
+      std::vector<uint32_t> all(model.triangles.size());
+      for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+      if (!mesh_of[m])
+        mesh_of[m] = file_.add("meshes", {{"name", std::filesystem::path(model.file).stem().string()},
+                                          {"primitives", primitives(model, std::move(all), model.origin_m)}});
+      mesh = mesh_of[m];
+    }
+    add_moving(parent, run_.instances()[i].id, tracks[i], mesh);
+  }
+}
+
+// An octahedron of lines, a metre in radius: no triangles, which a ray tracer would take for a body.
+size_t Writer::marker(const char* name, GlbFile::Colour colour) {
+  const std::vector<glm::vec3> corners{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  const std::vector<uint32_t> edges{0, 1, 1, 2, 2, 3, 3, 0, 4, 0, 4, 1, 4, 2, 4,
+                                    3, 5, 0, 5, 1, 5, 2, 5, 3, 0, 2, 1, 3, 4, 5};  // and the axes
+  const json primitive{{"attributes",
+                        {{"POSITION", file_.add_positions(corners)},
+                         {"COLOR_0", file_.add_colours(std::vector(corners.size(), colour))}}},
+                       {"indices", file_.add_indices(edges)},
+                       {"material", line_material()},
+                       {"mode", 1}};
+  return file_.add("meshes", {{"name", name}, {"primitives", {primitive}}});
+}
+
+void Writer::add_ends(const std::vector<Track>& transmitters, const std::vector<Track>& receivers) {
+  const auto add = [this](const char* kind, GlbFile::Colour colour, const auto& ends, const auto& tracks) {
+    if (tracks.empty()) return;
+    const size_t parent = child(root_, {{"name", kind}}), mesh = marker(kind, colour);
+    for (size_t i = 0; i < tracks.size(); ++i) add_moving(parent, ends[i].name, tracks[i], mesh);
+  };
+  add("transmitters", {255, 26, 43, 255}, run_.transmitters(), transmitters);
+  add("receivers", {26, 163, 255, 255}, run_.receivers(), receivers);
+}
+
+void Writer::add_paths(const SavedFrame& frame, Warnings& warnings) {
+  GainScale scale;
+  scale.add(frame.paths);
+  json extras{{"frame", frame.number}, {"time_s", frame.time_s}, {"paths", frame.paths.size()}};
+  if (!scale.empty()) {
+    extras["brightest_db"] = scale.strongest_db();
+    extras["darkest_db"] = scale.weakest_db();
+  }
+  const size_t parent = child(root_, {{"name", "paths"}, {"extras", std::move(extras)}});
+  std::vector<glm::vec3> positions;
+  std::vector<GlbFile::Colour> colours;
+  std::vector<uint32_t> legs;
+  size_t left_out = 0;
+  for (size_t i = 0; i < frame.paths.size(); ++i) {
+    const std::vector<glm::dvec3> points = path_points(frame, i);
+    if (points.empty()) ++left_out;
+    const Rgb c = gain_colour(scale.place(frame.paths.gain_db[i]));
+    for (size_t k = 0; k < points.size(); ++k) {
+      if (k > 0)
+        for (const size_t end : {positions.size() - 1, positions.size()}) legs.push_back(static_cast<uint32_t>(end));
+      positions.emplace_back(points[k] - world_.scene.origin_m);
+      colours.push_back({linear_byte(c[0]), linear_byte(c[1]), linear_byte(c[2]), 255});
+    }
+  }
+  if (left_out > 0)
+    warnings.push_back(fmt::format("glb: {} paths with points that are not finite are left out", left_out));
+  if (positions.empty()) return;
+  const json primitive{
+      {"attributes", {{"POSITION", file_.add_positions(positions)}, {"COLOR_0", file_.add_colours(colours)}}},
+      {"indices", file_.add_indices(legs)},
+      {"material", line_material()},
+      {"mode", 1}};
+  node(parent)["mesh"] = file_.add("meshes", {{"name", "paths"}, {"primitives", {primitive}}});
+}
+
+}  // namespace
+
+Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& warnings) {
+  const SavedWorld world = load_saved_world(run);
+  warnings.insert(warnings.end(), world.warnings.begin(), world.warnings.end());
+  const SavedFrame first = run.frame(options.first_row);
+  const Tracks tracks(run, options.first_row, options.last_row, first);
+  Writer writer(run, world);
+  writer.set_times(tracks.times_s);
+  writer.add_scene();
+  writer.add_vehicles(tracks.vehicles);
+  writer.add_paths(first, warnings);
+  writer.add_ends(tracks.transmitters, tracks.receivers);
+  writer.write(options.output);
+  return {options.output};
+}
 
 }  // namespace wavetracer

@@ -1,9 +1,171 @@
-// Stub.
+// A scenario of ns-3's QdChannelModel (https://github.com/signetlabdei/qd-channel), as its reader of
+// NodesPosition.csv parses it: a channel between every two nodes, a step a frame, in degrees but for the phase.
+#include <fmt/format.h>
+#include <cmath>
+#include <map>
+#include <numbers>
 #include "convert/convert.hpp"
+#include "convert/ns3_nodes.hpp"
+#include "convert/pending_folder.hpp"
+#include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
+namespace {
 
-Written export_ns3(const SavedRun&, const ExportOptions&, Warnings&) { throw RuntimeError("ns3: not built yet"); }
+using Rows = std::vector<uint32_t>;
+
+double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+
+// One line of comma-separated values, each read back as the same double.
+template <typename Value>
+std::string line(const Rows& rows, Value value) {
+  std::string out;
+  for (const uint32_t row : rows) out += fmt::format("{}{}", out.empty() ? "" : ",", value(row));
+  return out + "\n";
+}
+
+// The model forms 10^(gain / 20) exp(j (phase - 2 pi f delay)): its phase is that of `a`, without the carrier's.
+// reversed: the same paths walked from the receiver to the transmitter.
+std::string step_text(const Paths& paths, const Rows& rows, bool reversed) {
+  if (rows.empty()) return "0\n";
+  const auto angle = [&](const std::vector<double>& radians) {
+    return line(rows, [&](uint32_t row) { return degrees(radians[row]); });
+  };
+  const std::string departure = angle(paths.aod_theta_rad) + angle(paths.aod_phi_rad),
+                    arrival = angle(paths.aoa_theta_rad) + angle(paths.aoa_phi_rad);
+  return fmt::format("{}\n", rows.size()) + line(rows, [&](uint32_t row) { return paths.delay_s[row]; }) +
+         line(rows, [&](uint32_t row) { return 20 * std::log10(std::abs(paths.a[row][0])); }) +
+         line(rows, [&](uint32_t row) { return std::arg(paths.a[row][0]); }) +
+         (reversed ? arrival + departure : departure + arrival);
+}
+
+// The paths between all pairs of nodes in one frame. A coefficient of exactly zero has no gain in decibels and is none.
+class FrameLinks {
+ public:
+  explicit FrameLinks(const Paths& paths) : paths_(paths) {
+    LinkGroups groups = group_by_link(paths.tx, paths.rx);
+    for (size_t g = 0; g < groups.size(); ++g) {
+      const auto rows = groups.rows(g);
+      Rows& kept = rows_[{paths.tx[rows[0]], paths.rx[rows[0]]}];
+      for (const uint32_t row : rows)
+        if (paths.a[row][0] != 0.0) kept.push_back(row);
+    }
+  }
+
+  // Of the link from one node to another; of the link back where that one was not computed.
+  std::string text(const Ns3Node& from, const Ns3Node& to, bool forward_known) const {
+    return forward_known ? step_text(paths_, rows(from, to), false) : step_text(paths_, rows(to, from), true);
+  }
+
+ private:
+  Rows rows(const Ns3Node& from, const Ns3Node& to) const {
+    if (!from.transmitter || !to.receiver) return {};
+    const auto found = rows_.find({*from.transmitter, *to.receiver});
+    return found == rows_.end() ? Rows{} : found->second;
+  }
+
+  const Paths& paths_;
+  std::map<std::pair<size_t, size_t>, Rows> rows_;
+};
+
+// Whether the link from one node to another, row by row, was asked for in any of the frames.
+std::vector<bool> known_links(const SavedRun& run, const ExportOptions& options, const std::vector<Ns3Node>& nodes) {
+  std::map<size_t, size_t> node_of_tx, node_of_rx;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].transmitter) node_of_tx[*nodes[i].transmitter] = i;
+    if (nodes[i].receiver) node_of_rx[*nodes[i].receiver] = i;
+  }
+  std::vector<bool> known(nodes.size() * nodes.size());
+  for (size_t row = options.first_row; row <= options.last_row; ++row)
+    for (const Link& link : run.frame(row).links) {
+      const auto from = node_of_tx.find(link.tx), to = node_of_rx.find(link.rx);
+      if (from != node_of_tx.end() && to != node_of_rx.end()) known[from->second * nodes.size() + to->second] = true;
+    }
+  return known;
+}
+
+double step_s(const SavedRun& run, const ExportOptions& options, Warnings& warnings) {
+  const size_t steps = options.last_row - options.first_row;
+  if (steps == 0) {
+    warnings.push_back("ns3: one frame is one step, of 1 s");
+    return 1;
+  }
+  const double step = (run.time_s(options.last_row) - run.time_s(options.first_row)) / static_cast<double>(steps);
+  if (!(step > 0)) throw InputError("ns3: the times of the frames do not go up");
+  for (size_t row = options.first_row; row < options.last_row; ++row)
+    if (std::abs(run.time_s(row + 1) - run.time_s(row) - step) > 1e-6 * step) {
+      warnings.push_back(
+          fmt::format("ns3: its steps are of equal length; frames are not, and become steps of {} s", step));
+      break;
+    }
+  return step;
+}
+
+std::string parameters(const SavedRun& run, size_t nodes, size_t steps, double step) {
+  return fmt::format(
+      "ParameterName\tParameterValue\nmobilitySwitch\t1\nmobilityType\t2\nnumberOfNodes\t{}\n"
+      "numberOfTimeDivisions\t{}\ntotalTimeDuration\t{}\ncarrierFrequency\t{}\n",
+      nodes, steps, static_cast<double>(steps) * step, run.frequency_hz());
+}
+
+std::string positions(const std::vector<Ns3Node>& nodes) {
+  std::string out;
+  for (const Ns3Node& node : nodes)
+    out += fmt::format("{},{},{}\n", node.position_m.x, node.position_m.y, node.position_m.z);
+  return out;
+}
+
+void warn(const SavedRun& run, const std::vector<Ns3Node>& nodes, bool reversed, Warnings& warnings) {
+  const auto say = [&](const std::string& text) { warnings.push_back("ns3: " + text); };
+  if (run.rx_ports() > 1 || run.tx_ports() > 1)
+    say("it knows one polarisation; the first ports of antennas are written (V, or +45 degrees)");
+  bool patterns = false;
+  for (const auto* ends : {&run.transmitters(), &run.receivers()})
+    for (const RadioEnd& end : *ends) patterns = patterns || end.antenna != "isotropic";
+  if (patterns) say("gains include the antennas of the run, and ns-3 adds its own; trace with isotropic ones");
+  if (reversed) say("links that were computed one way only are written the other way as well, by reciprocity");
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].late)
+      say(fmt::format("{} is absent at first; its position is that of its first frame", nodes[i].name));
+    for (size_t k = 0; k < i; ++k)
+      if (nodes[k].position_m == nodes[i].position_m) {
+        say(fmt::format("{} and {} begin at one place, and ns-3 tells nodes apart by that", nodes[k].name,
+                        nodes[i].name));
+        break;
+      }
+  }
+  if (!run.instances().empty())
+    say("nodes stand still to it; their movement, and Doppler, are in the channels of the steps alone");
+}
+
+}  // namespace
+
+Written export_ns3(const SavedRun& run, const ExportOptions& options, Warnings& warnings) {
+  const std::vector<Ns3Node> nodes = find_nodes(run, options);
+  if (nodes.size() < 2) throw InputError("ns3: the run has fewer than two nodes, so no channel");
+  const std::vector<bool> known = known_links(run, options, nodes);
+  const size_t steps = options.last_row - options.first_row + 1;
+  const double step = step_s(run, options, warnings);
+
+  PendingFolder folder(options.output);
+  folder.append("Input/paraCfgCurrent.txt", parameters(run, nodes.size(), steps, step));
+  folder.append("Output/Ns3/NodesPosition/NodesPosition.csv", positions(nodes));
+  bool reversed = false;
+  for (size_t row = options.first_row; row <= options.last_row; ++row) {
+    const SavedFrame frame = run.frame(row);
+    const FrameLinks links(frame.paths);
+    for (size_t i = 0; i < nodes.size(); ++i)
+      for (size_t k = 0; k < nodes.size(); ++k) {
+        if (i == k) continue;
+        const bool forward = known[i * nodes.size() + k], back = known[k * nodes.size() + i];
+        reversed = reversed || (!forward && back);
+        folder.append(fmt::format("Output/Ns3/QdFiles/Tx{}Rx{}.txt", i, k),
+                      links.text(nodes[i], nodes[k], forward || !back));
+      }
+  }
+  warn(run, nodes, reversed, warnings);
+  return {folder.commit()};
+}
 
 }  // namespace wavetracer

@@ -1,2 +1,55 @@
-// Stub.
+// Cities of OpenStreetMap (.osm, .osm.pbf) and SUMO (.poly.xml) as scenes: extruded buildings on flat ground.
+// Nothing is assumed of a file; what cannot be used is left out, counted and reported.
 #pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wavetracer {
+
+struct ImportOptions {
+  std::filesystem::path output;                                        // folder; created
+  double level_height_m = 3;                                           // of building:levels
+  double default_height_m = 10;                                        // of buildings without height and levels
+  bool ground = true;                                                  // a rectangle at z = 0 under all buildings
+  double margin_m = 50;                                                // ground beyond the outermost buildings
+  std::string ground_material = "concrete";                            // ITU names
+  std::string wall_material = "concrete", roof_material = "concrete";  // where the file does not say
+  // OpenStreetMap only: the .net.xml that SUMO's netconvert made of the same map. The scene then has its coordinates,
+  // which are those of the vehicles; without it a transverse Mercator projection about the middle of the city.
+  std::filesystem::path net;
+};
+
+struct ImportSummary {
+  std::filesystem::path scene;               // OUTPUT/city.xml
+  uint64_t buildings = 0;                    // solids of whole buildings
+  uint64_t parts = 0;                        // solids of building:part
+  uint64_t courtyards = 0;                   // holes in either
+  uint64_t triangles = 0;                    // the ground included
+  std::map<std::string, uint64_t> left_out;  // reason -> how many
+  std::map<std::string, uint64_t> guessed;   // what was assumed of buildings that stay -> how many
+  glm::dvec2 lower_m{0}, upper_m{0};         // of the buildings, in the coordinates of the scene
+  glm::dvec2 offset_m{0};   // scene = projected coordinates (OSM) or those of SUMO (.poly.xml, net) + this
+  std::string attribution;  // to be shown with the data; empty where the source asks for none
+  std::vector<std::string> warnings;
+};
+
+// Whether the file is a map that import_city() reads: OSM XML, OSM PBF, or SUMO's polygons; by its first bytes. False
+// for folders and files that are not there.
+bool is_import(const std::filesystem::path& file);
+
+// Writes OUTPUT/city.xml, OUTPUT/meshes/*.ply and OUTPUT/georeference.json, the scene file last.
+// Throws InputError for the map, ConfigError for options, RuntimeError where nothing can be written.
+ImportSummary import_city(const std::filesystem::path& file, const ImportOptions& options);
+
+// The same from memory; `name` stands in messages.
+ImportSummary import_city(std::string_view content, const std::string& name, const ImportOptions& options);
+
+// What came out, what was left out, the attribution, and how to use the scene: lines for a terminal.
+std::string describe(const ImportSummary& summary);
+
+}  // namespace wavetracer

@@ -1,2 +1,38 @@
-// Stub.
+// The order in which things are checked, opened and made.
+// Clients that connect while the kernels compile wait in the listener's queue.
 #include "live/serve.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+
+#include "live/token.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::live {
+
+void serve(const Config& config, const ServeOptions& options, const std::function<bool()>& stop, const Log& log,
+           const std::function<void(const std::string&)>& ready) {
+  if (config.live_vehicles.empty())
+    throw ConfigError(fmt::format("{}: no [[live_vehicle]]: a server needs to know how many vehicles of which types may "
+                                  "come; add one with type and count",
+                                  config.file));
+  const Endpoint endpoint = parse_endpoint(options.listen);
+  const std::string token = options.token_file.empty() ? "" : read_token(options.token_file);
+  if (token.empty() && !endpoint.loopback)
+    throw ConfigError(fmt::format("--listen {}: others than this machine can connect there: give --token-file, or listen "
+                                  "on unix:PATH or tcp:127.0.0.1:PORT",
+                                  options.listen));
+  std::signal(SIGPIPE, SIG_IGN);
+  const Listener listener(endpoint);
+  log("loading the scene, compiling the kernels");
+  Simulation simulation(config, options.device);
+  for (const std::string& warning : simulation.warnings()) log("warning: " + warning);
+  simulation.run_frame(0);  // with nobody there: buffers are made, drivers finish compiling
+  simulation.forget();
+  Server server(simulation, listener, token, log);
+  ready(listener.name());
+  server.run(stop);
+}
+
+}  // namespace wavetracer::live

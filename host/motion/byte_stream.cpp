@@ -34,7 +34,7 @@ ByteStream::ByteStream(const std::filesystem::path& path) : file_(path.string())
   errno = 0;
   const gzFile stream = gzopen(path.c_str(), "rb");
   if (!stream) throw InputError(fmt::format("{}: cannot be opened: {}", file_, std::strerror(errno)));
-  handle_ = std::make_unique<Handle>(stream);
+  handle_.reset(new Handle{stream});
 }
 
 ByteStream::~ByteStream() = default;

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> output_names{"paths.h5", "waypoints.h5", "links.csv", "summary.json"};
-constexpr std::string_view manifest_name = "manifest.jsonl", shard_prefix = "frames_";
+constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_name = "run.json";
 
 // Files of the folder for which `which` holds of their names.
 template <typename Which>
@@ -35,7 +35,7 @@ bool is_output(const std::string& name) { return std::ranges::find(output_names,
 
 bool is_temporary(const std::string& name) {
   if (!name.ends_with(".tmp")) return false;
-  return name.starts_with(manifest_name) || name.starts_with(shard_prefix) ||
+  return name.starts_with(manifest_prefix) || name.starts_with(shard_prefix) || name.starts_with(record_name) ||
          std::ranges::any_of(output_names, [&](std::string_view output) { return name.starts_with(output); });
 }
 
@@ -53,10 +53,10 @@ void remove_shards(const fs::path& directory, std::span<const PendingFile> excep
   const fs::path folder = directory / "shards";
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return;
-  remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_name); });
+  remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_prefix); });
   sync_folder(folder);  // no manifest may list the files that go now
   remove_files(folder, [except](const std::string& name) {
-    return name.starts_with(shard_prefix) && std::ranges::none_of(except, [&](const PendingFile& file) {
+    return (name.starts_with(shard_prefix) || name == record_name) && std::ranges::none_of(except, [&](const PendingFile& file) {
              return file.temporary().filename() == name;
            });
   });

@@ -12,7 +12,7 @@ namespace wavetracer {
 // Outputs of a run, but for those that these files are about to replace.
 void remove_outputs(const std::filesystem::path& directory, std::span<const PendingFile> replaced = {});
 
-// The manifest, then the shards that it lists, but for these files on their way; then their folder, if that is all.
+// The manifests, then the shards that they list, but for these files on their way; then their folder, if that is all.
 void remove_shards(const std::filesystem::path& directory, std::span<const PendingFile> except = {});
 
 // What killed runs were writing into this very folder. No file may be on its way there.

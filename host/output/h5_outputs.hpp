@@ -1,5 +1,5 @@
-// The HDF5 files of a run: what each is called, whole and in shards, and how it is written at once or merged of parts.
-// A file in memory, or a block of rows while parts are merged, is all that is held.
+// The HDF5 files of a run: what each is called, whole and in shards, and how it is written at once.
+// A file in memory is all that is held.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -20,10 +20,7 @@ struct H5Output {
 // Those that runs of this configuration write: paths.h5, and with output.waypoints waypoints.h5.
 std::span<const H5Output> h5_outputs(const Config& config);
 
-// Synced, but not in place. Both throw RuntimeError.
+// Synced, but not in place. Throws RuntimeError.
 PendingFile write_whole(const H5Output& output, const Run& run, Frames frames, const std::filesystem::path& path);
-// parts: those of consecutive frames, in their order, at least one.
-PendingFile merge_parts(const H5Output& output, const Run& run, std::span<const std::filesystem::path> parts,
-                        const std::filesystem::path& path);
 
 }  // namespace wavetracer

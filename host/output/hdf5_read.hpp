@@ -1,11 +1,17 @@
 // Datasets of a file that may be anybody's: shapes and types are checked before memory is taken for them.
 // Throws RuntimeError with the dataset's path and what is wrong with it.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 #include "output/hdf5.hpp"
 
 namespace wavetracer::hdf5 {
+
+// Lets a child process do what reads a file, whose exceptions do not matter here. The library (1.10) faults on some
+// damaged files; so that ends the child, and is a RuntimeError that says so, instead of this process. No other thread may
+// be at work with the library meanwhile.
+void rehearse(const std::function<void()>& reading);
 
 // A dataset of numbers, (rows, inner...), converted to T as it is read.
 template <typename T>

@@ -2,7 +2,10 @@
 // Assumes that only this program writes manifests; what is not understood is an error, not a guess.
 #include "output/manifest.hpp"
 #include <fmt/format.h>
+#include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include "output/cache_json.hpp"
 #include "wavetracer/error.hpp"
@@ -10,30 +13,72 @@
 namespace wavetracer {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+// nlohmann turns numbers into others without a word.
+template <typename T>
+T whole(const Json& json) {
+  if (!json.is_number_unsigned() || json.get<uint64_t>() > std::numeric_limits<T>::max())
+    throw Json::type_error::create(302, fmt::format("{} is no count", json.dump()), &json);
+  return json.get<T>();
+}
+
+std::vector<uint64_t> whole_numbers(const Json& json) {
+  std::vector<uint64_t> out;
+  for (const Json& value : json) out.push_back(whole<uint64_t>(value));
+  return out;
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw Json::other_error::create(501, what, nullptr); }
+
+// Names lead to files of the folder and nowhere else.
+void check_files(const Shard& shard) {
+  const std::string stem = unit_name(shard.unit) + ".";
+  if (shard.files.size() < 2 || shard.files.size() > 3) refuse("not the files of a shard");
+  for (const ShardFile& file : shard.files)
+    if (!file.name.starts_with(stem) || file.name.find('/') != std::string::npos)
+      refuse("\"" + file.name + "\" is no file of this shard");
+}
 
 Shard decode(const Json& json) {
   Shard shard;
   const Json& run = json.at("run");
-  shard.run = {run.at("version"), run.at("config"), run.at("device_kind"),
-               run.at("first"),   run.at("last"),   run.at("repeat")};
+  shard.run = {run.at("version"),
+               run.at("config"),
+               run.at("device_kind"),
+               whole<uint32_t>(run.at("first")),
+               whole<uint32_t>(run.at("last")),
+               whole<uint32_t>(run.at("repeat"))};
   Totals& t = shard.totals;
-  t.first = json.at("first");
-  t.last = json.at("last");
+  t.first = whole<uint32_t>(json.at("first"));
+  t.last = whole<uint32_t>(json.at("last"));
+  if (t.first > t.last || t.first < shard.run.first || t.last > shard.run.last)
+    refuse("frames that are not of its run");
+  shard.unit = {t.first, t.last, 0, 1};
+  if (json.contains("blocks")) {
+    shard.unit.block = whole<uint32_t>(json.at("block"));
+    shard.unit.blocks = whole<uint32_t>(json.at("blocks"));
+    if (shard.unit.block >= shard.unit.blocks || t.first != t.last) refuse("a block that cannot be");
+  }
   t.frames = uint64_t{t.last} - t.first + 1;
   t.start_s = json.at("start_s");
   t.end_s = json.at("end_s");
-  t.vertices = json.at("vertices");
-  t.links = json.at("links");
+  t.vertices = whole<uint64_t>(json.at("vertices"));
+  t.links = whole<uint64_t>(json.at("links"));
   const Json& counts = json.at("counts");
-  t.counts = {counts.at("rays"),       counts.at("segments"), counts.at("hits"), counts.at("sequences"),
-              counts.at("candidates"), counts.at("solved"),   counts.at("paths"), counts.at("receptions")};
-  t.kinds = json.at("kinds").get<PathKindCounts>();
-  t.segments_per_depth = json.at("segments_per_depth").get<std::vector<uint64_t>>();
+  const auto count = [&](const char* name) { return whole<uint64_t>(counts.at(name)); };
+  t.counts = {count("rays"),       count("segments"), count("hits"),  count("sequences"),
+              count("candidates"), count("solved"),   count("paths"), count("receptions")};
+  const std::vector<uint64_t> kinds = whole_numbers(json.at("kinds"));
+  if (kinds.size() != t.kinds.size()) refuse("other kinds of paths than those of this version");
+  std::ranges::copy(kinds, t.kinds.begin());
+  t.segments_per_depth = whole_numbers(json.at("segments_per_depth"));
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
-  for (const Json& file : json.at("files")) shard.files.push_back({file.at("name"), file.at("bytes")});
+  for (const Json& file : json.at("files")) shard.files.push_back({file.at("name"), whole<uint64_t>(file.at("bytes"))});
+  check_files(shard);
   return shard;
 }
 
@@ -47,13 +92,16 @@ std::string encode_manifest_line(const Shard& shard) {
   Json json;
   json["first"] = t.first;
   json["last"] = t.last;
+  if (shard.unit.blocks > 1) {
+    json["block"] = shard.unit.block;
+    json["blocks"] = shard.unit.blocks;
+  }
   json["start_s"] = t.start_s;
   json["end_s"] = t.end_s;
   json["vertices"] = t.vertices;
   json["links"] = t.links;
-  json["counts"] = {{"rays", t.counts.rays},           {"segments", t.counts.segments},
-                    {"hits", t.counts.hits},           {"sequences", t.counts.sequences},
-                    {"candidates", t.counts.candidates}, {"solved", t.counts.solved},
+  json["counts"] = {{"rays", t.counts.rays},           {"segments", t.counts.segments},     {"hits", t.counts.hits},
+                    {"sequences", t.counts.sequences}, {"candidates", t.counts.candidates}, {"solved", t.counts.solved},
                     {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
   json["kinds"] = t.kinds;  // in the order of path_kinds
   json["segments_per_depth"] = t.segments_per_depth;
@@ -66,23 +114,45 @@ std::string encode_manifest_line(const Shard& shard) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::vector<Shard> read_manifest(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return {};
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw RuntimeError(fmt::format("cannot read {}; check its permissions", file.string()));
+std::vector<Shard> decode_manifest(std::string_view text, const std::string& name) {
   std::vector<Shard> shards;
-  std::string line;
-  for (size_t number = 1; std::getline(in, line) && !in.eof(); ++number) {
+  for (size_t number = 1; !text.empty(); ++number) {
+    const size_t end = text.find('\n');
+    if (end == std::string_view::npos) break;  // half written
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end + 1);
     try {
       shards.push_back(decode(Json::parse(line)));
     } catch (const Json::exception& error) {
-      if (in.peek() == std::ifstream::traits_type::eof()) break;
-      throw RuntimeError(fmt::format("{}:{}: not a line that this version writes ({}); run again without --resume",
-                                     file.string(), number, error.what()));
+      if (text.empty()) break;
+      throw RuntimeError(
+          fmt::format("{}:{}: not a line that this version writes ({}); remove the file and run again, "
+                      "or run without --resume",
+                      name, number, error.what()));
     }
   }
   return shards;
+}
+
+std::vector<Shard> read_manifest(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  std::ifstream in(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw RuntimeError(fmt::format("cannot read {}; check its permissions", file.string()));
+  return decode_manifest(text, file.string());
+}
+
+std::vector<fs::path> manifests_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("manifest.") && name.ends_with(".jsonl") && entry.is_regular_file(none))
+      out.push_back(entry.path());
+  }
+  std::ranges::sort(out);
+  return out;
 }
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Order makes it safe to be killed anywhere: files of a shard first, then its line in the manifest. What the manifest
-// does not list is rubbish; what it lists is whole.
+// Order makes it safe to be killed anywhere: files of a shard first, then its line in the manifest. What no manifest
+// lists is rubbish; what one lists is whole. Where two list a unit, both hold the same.
 #include "output/shards.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,7 +7,9 @@
 #include "output/earlier_run.hpp"
 #include "output/h5_outputs.hpp"
 #include "output/links_csv.hpp"
+#include "output/merge_outputs.hpp"
 #include "output/pending_file.hpp"
+#include "output/run_record.hpp"
 #include "output/summary_json.hpp"
 #include "wavetracer/error.hpp"
 
@@ -18,14 +20,15 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 const char* const manifest_name = "manifest.jsonl";
+const char* const record_name = "run.json";
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 // The files of these frames, synced but not in place. Small enough for memory.
-std::vector<PendingFile> pending_files(const Run& run, Frames frames, const fs::path& folder) {
-  const std::string stem = fmt::format("frames_{:06}_{:06}", frames.front().frame, frames.back().frame);
+std::vector<PendingFile> pending_files(const Run& run, Frames frames, const Unit& unit, const fs::path& folder) {
+  const std::string stem = unit_name(unit);
   std::vector<PendingFile> files;
   for (const H5Output& output : h5_outputs(run.config))
     files.push_back(write_whole(output, run, frames, folder / (stem + output.part_suffix)));
@@ -37,9 +40,10 @@ std::vector<PendingFile> pending_files(const Run& run, Frames frames, const fs::
 void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder) {
   const auto differs = [&](const std::string& what, const auto& was, const auto& is) {
     if (was != is)
-      throw ConfigError(fmt::format("--resume: the shards in {} were written with {} {}, this run has {}; run it as "
-                                    "before, or without --resume to replace them, or choose another folder with -o",
-                                    folder.string(), what, was, is));
+      throw ConfigError(
+          fmt::format("the shards in {} were written with {} {}, this run has {}; run it as before, or "
+                      "choose another folder with -o, or remove the shards",
+                      folder.string(), what, was, is));
   };
   differs("version", there.version, asked.version);
   differs("a configuration whose hash is", there.config, asked.config);
@@ -48,6 +52,17 @@ void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs
   differs("--repeat", there.repeat, asked.repeat);
 }
 
+std::vector<Shard> all_lines(const fs::path& folder) {
+  std::vector<Shard> out;
+  for (const fs::path& file : manifests_in(folder)) {
+    std::vector<Shard> lines = read_manifest(file);
+    std::ranges::move(lines, std::back_inserter(out));
+  }
+  return out;
+}
+
+}  // namespace
+
 bool is_whole(const Shard& shard, const fs::path& folder) {
   return std::all_of(shard.files.begin(), shard.files.end(), [&](const ShardFile& file) {
     std::error_code error;
@@ -55,88 +70,134 @@ bool is_whole(const Shard& shard, const fs::path& folder) {
   });
 }
 
-}  // namespace
+Totals totals_of(const ShardMap& shards) {
+  Totals sum;
+  for (const auto& [key, shard] : shards)
+    if (shard.unit.blocks > 1)
+      add_block(sum, shard.totals);
+    else
+      add(sum, shard.totals);
+  return sum;
+}
+
+MergeParts parts_of(const ShardMap& shards, const std::function<fs::path(const Shard&)>& folder_of) {
+  MergeParts parts;
+  for (const auto& [key, shard] : shards) {
+    parts.of_one_frame = shard.unit.blocks > 1;
+    parts.files.resize(shard.files.size());
+    for (size_t i = 0; i < shard.files.size(); ++i) parts.files[i].push_back(folder_of(shard) / shard.files[i].name);
+  }
+  return parts;
+}
 
 Shards::Shards(fs::path directory, RunIdentity run)
-    : directory_(std::move(directory)), folder_(directory_ / "shards"), run_(std::move(run)) {}
+    : directory_(std::move(directory)),
+      folder_(directory_ / "shards"),
+      manifest_(folder_ / manifest_name),
+      run_(std::move(run)) {}
+
+void Shards::take(std::vector<Shard> lines) {
+  for (const Shard& shard : lines) check_same_run(shard.run, run_, folder_);
+  for (Shard& shard : lines)
+    if (!finished(shard.unit) && is_whole(shard, folder_)) shards_.emplace(key(shard.unit), std::move(shard));
+}
 
 size_t Shards::resume() {
-  shards_ = read_manifest(folder_ / manifest_name);
-  if (shards_.empty()) return 0;
-  for (const Shard& shard : shards_) check_same_run(shard.run, run_, folder_);
+  std::vector<Shard> lines = all_lines(folder_);
+  if (lines.empty()) return 0;
+  take(std::move(lines));
   fresh_ = false;
-  std::erase_if(shards_, [this](const Shard& shard) { return !is_whole(shard, folder_); });
-  std::sort(shards_.begin(), shards_.end(),
-            [](const Shard& a, const Shard& b) { return a.totals.first < b.totals.first; });
-  save_manifest();  // without a torn line, after which nothing can be appended
+  std::vector<Shard> whole;
+  for (const auto& [key, shard] : shards_) whole.push_back(shard);
+  save(whole);  // without a torn line, after which nothing can be appended
+  for (const fs::path& file : manifests_in(folder_))
+    if (file != manifest_) fs::remove(file);
   remove_temporaries(folder_);
   remove_temporaries(directory_);
   return shards_.size();
 }
 
-bool Shards::finished(uint32_t first_frame) const {
-  return std::any_of(shards_.begin(), shards_.end(),
-                     [=](const Shard& shard) { return shard.totals.first == first_frame; });
+void Shards::clear() {
+  remove_shards(directory_);
+  remove_outputs(directory_);
+  remove_temporaries(directory_);
 }
 
-Totals Shards::totals() const {
-  Totals sum;
-  for (const Shard& shard : shards_) add(sum, shard.totals);
-  return sum;
+void Shards::share(const std::string& name, bool keep) {
+  manifest_ = folder_ / fmt::format("manifest.{}.jsonl", name);
+  shared_ = true;
+  fresh_ = false;
+  own_ = read_manifest(manifest_);
+  if (!keep) own_.clear();
+  std::error_code none;
+  if (fs::exists(manifest_, none)) save(own_);
+  look();
 }
 
-void Shards::save_manifest() const {
+void Shards::write_record(const Run& run) const {
+  const std::string record = encode_run_record(run);
+  PendingFile(folder_ / record_name, bytes(record)).commit();
+}
+
+void Shards::look() { take(all_lines(folder_)); }
+
+Totals Shards::totals() const { return totals_of(shards_); }
+
+void Shards::save(const std::vector<Shard>& lines) const {
   std::string text;
-  for (const Shard& shard : shards_) text += encode_manifest_line(shard);
-  PendingFile(folder_ / manifest_name, bytes(text)).commit();
+  for (const Shard& shard : lines) text += encode_manifest_line(shard);
+  PendingFile(manifest_, bytes(text)).commit();
 }
 
-void Shards::write(const Run& run, Frames frames) {
+void Shards::note(const Shard& shard) {
+  std::error_code none;
+  if (fresh_ || !fs::exists(manifest_, none))
+    save({shard});
+  else
+    append_to_file(manifest_, bytes(encode_manifest_line(shard)));
+  fresh_ = false;
+}
+
+void Shards::write(const Run& run, Frames frames, uint32_t block, uint32_t blocks) {
   const Clock::time_point start = Clock::now();
   PendingDirectory directory(directory_), folder(folder_);
-  std::vector<PendingFile> files = pending_files(run, frames, folder_);
-  Shard shard{run_, totals_of(frames), {}};
+  const Unit unit{frames.front().frame, frames.back().frame, block, blocks};
+  std::vector<PendingFile> files = pending_files(run, frames, unit, folder_);
+  Shard shard{run_, unit, totals_of(frames), {}};
   for (const PendingFile& file : files)
     shard.files.push_back({file.path().filename().string(), fs::file_size(file.temporary())});
+  const std::string record = encode_run_record(run);
+  std::error_code none;
+  if (fresh_ || !fs::exists(folder_ / record_name, none)) files.emplace_back(folder_ / record_name, bytes(record));
   if (fresh_) {
     remove_shards(directory_, files);
-    remove_outputs(directory_);
     remove_temporaries(directory_);
   }
+  if (fresh_ || shared_) remove_outputs(directory_);
   commit_together(files);
   directory.keep();
   folder.keep();
-  const auto place = std::upper_bound(shards_.begin(), shards_.end(), shard, [](const Shard& a, const Shard& b) {
-    return a.totals.first < b.totals.first;
-  });
-  shards_.insert(place, shard);
-  if (std::exchange(fresh_, false))
-    save_manifest();
-  else
-    append_to_file(folder_ / manifest_name, bytes(encode_manifest_line(shard)));
+  note(shard);
+  shards_.insert_or_assign(key(unit), std::move(shard));
   write_seconds_ += since(start);
 }
 
 std::vector<fs::path> Shards::merge(const Run& run, Frames unfinished) {
   const Clock::time_point start = Clock::now();
   PendingDirectory directory(directory_);
+  MergeParts parts = parts_of(shards_, [this](const Shard&) { return folder_; });
   std::vector<PendingFile> parts_on_the_way;
-  if (!unfinished.empty()) parts_on_the_way = pending_files(run, unfinished, directory_);
-  // Of file i of a shard, all there are.
-  const auto parts = [&](size_t i) {
-    std::vector<fs::path> out;
-    for (const Shard& shard : shards_) out.push_back(folder_ / shard.files.at(i).name);
-    if (!unfinished.empty()) out.push_back(parts_on_the_way.at(i).temporary());
-    return out;
-  };
-  std::vector<PendingFile> files;
-  const std::span<const H5Output> outputs = h5_outputs(run.config);
-  for (size_t i = 0; i < outputs.size(); ++i)
-    files.push_back(merge_parts(outputs[i], run, parts(i), directory_ / outputs[i].name));
-  join_links_csv(parts(outputs.size()), files.emplace_back(directory_ / "links.csv"));
-  files.back().sync();
+  if (!unfinished.empty()) {
+    const Unit unit{unfinished.front().frame, unfinished.back().frame, 0, 1};
+    parts_on_the_way = pending_files(run, unfinished, unit, directory_);
+    parts.files.resize(parts_on_the_way.size());
+    for (size_t i = 0; i < parts_on_the_way.size(); ++i) parts.files[i].push_back(parts_on_the_way[i].temporary());
+  }
+  std::vector<PendingFile> files =
+      merge_outputs(run.config, parts, directory_,
+                    [&run](const H5Output& output, hdf5::File& head) { output.encode_head(run, head); });
   Totals totals = this->totals();
-  add(totals, totals_of(unfinished));
+  add(totals, wavetracer::totals_of(unfinished));
   const std::string summary = encode_summary_json(run, totals, write_seconds_ + since(start), shards_.size());
   files.emplace_back(directory_ / "summary.json", bytes(summary));
   if (fresh_) remove_shards(directory_);

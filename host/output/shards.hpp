@@ -1,13 +1,26 @@
-// A drive on disk: shards of whole files as it goes, and at the end the same outputs as those of a run of one frame.
-// DIR/shards holds frames_FIRST_LAST.h5, .csv and with output.waypoints .waypoints.h5, each a paths.h5, links.csv or
-// waypoints.h5 of its frames, and the manifest.
+// A run on disk, unit by unit: shards of frames (or blocks of transmitters) as it goes, and at the end the same outputs
+// as those of a run that is written at once. DIR/shards holds UNIT.h5, .csv and with output.waypoints .waypoints.h5,
+// each a paths.h5, links.csv or waypoints.h5 of its frames, run.json, and the manifests of who wrote them.
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <utility>
 #include <vector>
 #include "output/manifest.hpp"
+#include "output/merge_parts.hpp"
 #include "output/output.hpp"
 
 namespace wavetracer {
+
+// By first frame and block.
+using ShardMap = std::map<std::pair<uint32_t, uint32_t>, Shard>;
+
+Totals totals_of(const ShardMap& shards);
+// Their files, in the order of their units.
+MergeParts parts_of(const ShardMap& shards, const std::function<std::filesystem::path(const Shard&)>& folder_of);
+// All files of the shard are in the folder, in full length.
+bool is_whole(const Shard& shard, const std::filesystem::path& folder);
 
 class Shards {
  public:
@@ -15,16 +28,29 @@ class Shards {
   Shards(std::filesystem::path directory, RunIdentity run);
 
   // Takes over the finished shards of the run that was interrupted in this folder; 0 where there is none. A shard whose
-  // files are gone or cut short is not finished. Throws ConfigError where they are of another run.
+  // files are gone or cut short is not finished. Throws ConfigError where they are of another run. No other process may
+  // be writing there.
   size_t resume();
-  bool finished(uint32_t first_frame) const;
+  // Removes what any run left in the folder. No other process may be writing there.
+  void clear();
+  // From now on other processes write there, too: what they have finished is looked at, and this one notes what it
+  // writes in a manifest of its own, manifest.NAME.jsonl. keep: what an earlier process of this name wrote counts.
+  // Throws ConfigError where something there is of another run.
+  void share(const std::string& name, bool keep);
+  // Writes run.json, which else the first unit does.
+  void write_record(const Run& run) const;
+  // Reads again what other processes have finished.
+  void look();
+
+  bool finished(const Unit& unit) const { return shards_.contains(key(unit)); }
   // Of the finished shards.
   Totals totals() const;
   size_t count() const { return shards_.size(); }
+  const std::filesystem::path& folder() const { return folder_; }
 
-  // Writes a shard and notes it in the manifest. The first one of a run that does not resume takes the place of all
-  // that an earlier run left in the folder.
-  void write(const Run& run, Frames frames);
+  // Writes a unit and notes it in the manifest. The first one of a run that neither resumes nor shares takes the place
+  // of all that an earlier run left in the folder.
+  void write(const Run& run, Frames frames, uint32_t block = 0, uint32_t blocks = 1);
 
   // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
   // the first frames of the one that was interrupted. At least one frame is needed. Of finished shards, memory holds a
@@ -32,13 +58,19 @@ class Shards {
   std::vector<std::filesystem::path> merge(const Run& run, Frames unfinished);
 
  private:
-  std::filesystem::path directory_, folder_;
+  static ShardMap::key_type key(const Unit& unit) { return {unit.first, unit.block}; }
+
+  std::filesystem::path directory_, folder_, manifest_;
   RunIdentity run_;
-  bool fresh_ = true;          // nothing in the folder is of this run
-  std::vector<Shard> shards_;  // sorted by frames
+  bool fresh_ = true;  // nothing in the folder is of this run
+  bool shared_ = false;
+  ShardMap shards_;
+  std::vector<Shard> own_;  // lines of manifest_, where it is shared
   double write_seconds_ = 0;
 
-  void save_manifest() const;
+  void take(std::vector<Shard> shards);
+  void save(const std::vector<Shard>& lines) const;
+  void note(const Shard& shard);
 };
 
 }  // namespace wavetracer

@@ -80,6 +80,19 @@ void add(Totals& sum, const Totals& later) {
   add_warnings(sum.warnings, later.warnings);
 }
 
+void add_block(Totals& sum, const Totals& more) {
+  const bool empty = sum.frames == 0;
+  std::map<std::string, std::vector<double>> seconds = sum.seconds;
+  for (const auto& [stage, values] : more.seconds) {
+    std::vector<double>& all = seconds[stage];
+    all.resize(std::max(all.size(), values.size()), 0);
+    for (size_t i = 0; i < values.size(); ++i) all[i] += values[i];
+  }
+  add(sum, more);
+  if (!empty) sum.frames -= more.frames;
+  sum.seconds = std::move(seconds);
+}
+
 Totals totals_of(Frames frames) {
   Totals sum;
   for (const FrameResult& frame : frames) add(sum, totals_of(frame));

@@ -26,6 +26,8 @@ struct Totals {
 Totals totals_of(Frames frames);
 // `later` follows `sum`; either may be empty.
 void add(Totals& sum, const Totals& later);
+// `more` is of other links of the same frame: its seconds are added to those of the frame. `sum` may be empty.
+void add_block(Totals& sum, const Totals& more);
 
 // Segments that the device traced: those that no ray cache answered.
 uint64_t traced_segments(const Totals& totals);

@@ -1,2 +1,128 @@
-// Stub.
+// A figure that is asked for and cannot be is an error; one that is not asked for and does not suit is left out.
+// Assumes that names of grids are those of the run's configuration.
 #include "plots/plots.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
+#include "config/spelling.hpp"
+#include "plots/coverage_plot.hpp"
+#include "plots/link_plots.hpp"
+#include "results/saved_world.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::plots {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t shown_links = 6;  // lines that can be told apart
+
+class Plotter {
+ public:
+  Plotter(const SavedRun& run, const PlotChoice& choice, const fs::path& folder)
+      : run_(run), choice_(choice), folder_(folder), world_(load_saved_world(run)) {
+    report_.warnings = world_.warnings;
+    for (const ReceiverGridConfig& grid : world_.config.receiver_grids) grids_.push_back(grid.name);
+  }
+
+  PlotReport plot() {
+    check_choice();
+    if (std::any_of(plot_names.begin(), plot_names.end() - 1, [&](auto name) { return asked(name); })) plot_links();
+    if (asked("coverage")) plot_coverage();
+    return std::move(report_);
+  }
+
+ private:
+  const SavedRun& run_;
+  const PlotChoice& choice_;
+  const fs::path& folder_;
+  SavedWorld world_;
+  std::vector<std::string> grids_;
+  PlotReport report_;
+
+  bool by_name(std::string_view name) const { return std::ranges::find(choice_.what, name) != choice_.what.end(); }
+  bool asked(std::string_view name) const { return choice_.what.empty() || by_name(name); }
+
+  // Whether a figure is drawn: it is asked for, and suits. `unfit`: what is wrong where it does not.
+  bool wanted(std::string_view name, bool suits, const std::string& unfit) const {
+    if (by_name(name) && !suits) throw ConfigError(fmt::format("--what {}: {}", name, unfit));
+    return asked(name) && suits;
+  }
+
+  void check_choice() const {
+    const std::vector<std::string> known(plot_names.begin(), plot_names.end());
+    for (const std::string& name : choice_.what)
+      if (std::ranges::find(known, name) == known.end())
+        throw ConfigError(fmt::format("--what \"{}\" is no plot, there are {}{}", name, fmt::join(known, ", "),
+                                      config::hint(name, known)));
+    if (!choice_.grid.empty() && std::ranges::find(grids_, choice_.grid) == grids_.end())
+      throw ConfigError(fmt::format("--grid \"{}\" is the name of no [[receiver_grid]] of the run, it has {}{}",
+                                    choice_.grid, grids_.empty() ? "none" : fmt::format("{}", fmt::join(grids_, ", ")),
+                                    config::hint(choice_.grid, grids_)));
+    if (run_.path_count() == 0)
+      throw InputError(
+          fmt::format("{}: the run found no path at all, so there is nothing to plot; look at the places of "
+                      "its antennas, and at trace.max_depth",
+                      run_.file().string()));
+  }
+
+  void add(const Figure& figure) {
+    const Drawn drawn = draw(figure, choice_.format, folder_);
+    report_.files.insert(report_.files.end(), drawn.files.begin(), drawn.files.end());
+    if (!drawn.problem.empty() && std::ranges::find(report_.warnings, drawn.problem) == report_.warnings.end())
+      report_.warnings.push_back(figure.name + ": " + drawn.problem);
+  }
+
+  void plot_links() {
+    // A grid hears a transmitter too, but its receivers are shown as a map unless one of them is named.
+    const bool by_default = choice_.what.empty() && choice_.link.rx.empty() && !grids_.empty();
+    LinkSeries series;
+    try {
+      series = link_series(run_, choice_.link, grids_, shown_links);
+    } catch (const InputError&) {
+      if (!by_default) throw;
+    }
+    if (series.links.empty()) {
+      if (!by_default)
+        throw ConfigError("only receivers of grids have paths: name one with --rx, or use --what coverage");
+      return;
+    }
+    const bool drive = run_.frame_count() > 1;
+    const std::string still = "the run has one frame only, and nothing changes with time";
+    if (wanted("gain", drive, still)) add(gain_figure(run_, series));
+    if (wanted("delay-time", drive, still)) add(delay_time_figure(run_, series));
+    const std::vector<PathPoint> paths = series.paths_of_frame();
+    const std::string none = fmt::format("{} has no path in frame {}: choose another one with --frame",
+                                         link_name(run_, series.links.front()), series.frame);
+    if (wanted("pdp", !paths.empty(), none)) add(delay_figure(run_, series));
+    if (wanted("angles", !paths.empty(), none)) add(angle_figure(run_, series));
+    const bool moving = std::ranges::any_of(paths, [](const PathPoint& p) { return p.doppler_hz != 0; });
+    if (wanted("doppler", !paths.empty() && (moving || by_name("doppler")), none)) add(doppler_figure(run_, series));
+    if (paths.empty() && choice_.what.empty()) report_.warnings.push_back(none);
+  }
+
+  void plot_coverage() {
+    if (!wanted("coverage", !grids_.empty(), "the run has no [[receiver_grid]]")) return;
+    const auto tx = find_end(run_.transmitters(), choice_.link.tx, "--tx");
+    const SavedFrame frame = run_.frame(choice_.link.frame ? find_frame(run_, *choice_.link.frame) : 0);
+    for (size_t k = 0; k < grids_.size(); ++k) {
+      if (!choice_.grid.empty() && grids_[k] != choice_.grid) continue;
+      const std::vector<CoverageCell> cells = coverage_cells(run_, frame, grids_[k], tx);
+      if (std::ranges::all_of(cells, [](const CoverageCell& c) { return std::isnan(c.path_gain_db); }))
+        report_.warnings.push_back(fmt::format("coverage: no path to the grid \"{}\" in frame {}{}", grids_[k],
+                                               frame.number, tx ? " from \"" + choice_.link.tx + "\"" : ""));
+      else
+        add(coverage_figure(run_, frame, k == 0 ? "coverage" : fmt::format("coverage_{}", k + 1), grids_[k], cells, tx,
+                            world_.scene));
+    }
+  }
+};
+
+}  // namespace
+
+PlotReport plot_run(const SavedRun& run, const PlotChoice& choice, const fs::path& folder) {
+  return Plotter(run, choice, folder).plot();
+}
+
+}  // namespace wavetracer::plots

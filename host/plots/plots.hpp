@@ -1,2 +1,34 @@
-// Stub.
+// Plots of a run: which figures suit it, and drawing them.
+// Assumes nothing of the run but what SavedRun has checked; the scene is drawn where it can still be loaded.
 #pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+#include "plots/figure.hpp"
+#include "plots/link_series.hpp"
+#include "results/saved_run.hpp"
+
+namespace wavetracer::plots {
+
+// By the names that --what takes; those are the names of the files too.
+constexpr std::array<std::string_view, 6> plot_names{"gain", "pdp", "delay-time", "doppler", "angles", "coverage"};
+
+struct PlotChoice {
+  std::vector<std::string> what;  // of plot_names; empty: all that suit the run
+  LinkChoice link;
+  std::string grid;  // of coverage; empty: every grid of the run
+  Format format = Format::svg;
+};
+
+struct PlotReport {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> warnings;  // what is missing, why, and what to do
+};
+
+// Throws ConfigError for names that the run does not have and for plots that do not suit it, InputError for a run
+// without paths, RuntimeError where a file cannot be written.
+PlotReport plot_run(const SavedRun& run, const PlotChoice& choice, const std::filesystem::path& folder);
+
+}  // namespace wavetracer::plots

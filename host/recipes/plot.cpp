@@ -1,16 +1,9 @@
 // Both axes are logarithmic. Times are divided by the rays, because a factor of two is thin on an axis of four decades.
-// Assumes gnuplot 5, and POSIX with posix_spawn_file_actions_addchdir_np to start it.
+// Assumes gnuplot 5.
 #include "recipes/plot.hpp"
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <set>
 #include "recipes/table.hpp"
-
-extern char** environ;
 
 namespace wavetracer::recipes {
 namespace {
@@ -48,12 +41,6 @@ std::string panel(const std::string& name, const std::vector<Series>& series, co
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out;
-}
-
 std::string plot_script(const std::string& name, const std::string& title, const std::vector<Series>& series) {
   std::string text = fmt::format(
       "# Draws {0}.csv; run it in its folder: gnuplot {0}.gp\n"
@@ -86,26 +73,6 @@ std::string plot_script(const std::string& name, const std::string& title, const
       "set lmargin at screen 0.48\nset rmargin at screen 0.82\nset key at screen 0.99, 0.86 right top Left reverse\n" +
       panel(name, series, "sort paid", "paid_s");
   return text + "unset multiplot\n";
-}
-
-std::string run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
-  std::string program = "gnuplot", file = script;
-  std::array<char*, 3> arguments = {program.data(), file.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t process = 0;
-  const int problem = posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  const std::string again = fmt::format("; then run `gnuplot {}` in {}", script, folder.string());
-  if (problem == ENOENT)
-    return "gnuplot is not installed, so the plot is not drawn: install it (Debian: apt-get install gnuplot-nox)" +
-           again;
-  if (problem != 0) return fmt::format("gnuplot cannot be started, {}{}", std::strerror(problem), again);
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  return "gnuplot failed, so the plot is not drawn: see what it says above" + again;
 }
 
 }  // namespace wavetracer::recipes

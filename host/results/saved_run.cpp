@@ -140,6 +140,7 @@ struct SavedRun::State {
     tx_ports = ports(2);
   }
 
+  SavedFrame read_frame(size_t row) const;
   void read_columns(size_t row, Paths& paths) const;
   void read_coefficients(size_t row, Paths& paths) const;
   void read_vertices(size_t row, Paths& paths) const;
@@ -239,9 +240,23 @@ void SavedRun::State::read_links(size_t row, SavedFrame& frame) const {
   for (size_t i = 0; i < count; ++i) frame.links.push_back({tx[i], rx[i]});
 }
 
+SavedFrame SavedRun::State::read_frame(size_t row) const {
+  SavedFrame out;
+  out.number = numbers.at(row);
+  out.time_s = times_s.at(row);
+  read_columns(row, out.paths);
+  read_coefficients(row, out.paths);
+  read_vertices(row, out.paths);
+  read_poses(row, out);
+  read_motion(row, out);
+  read_links(row, out);
+  return out;
+}
+
 SavedRun::SavedRun(const fs::path& path) {
   const fs::path file = paths_file(path);
   try {
+    hdf5::rehearse([&file] { State(file).read_frame(0); });
     state_ = std::make_unique<State>(file);
   } catch (const RuntimeError& e) {
     throw InputError(fmt::format("{}: cannot be read as the paths.h5 of a run: {}", file.string(), e.what()));
@@ -269,21 +284,11 @@ uint64_t SavedRun::path_count() const { return state_->first_path.back(); }
 uint64_t SavedRun::path_count(size_t row) const { return state_->first_path.at(row + 1) - state_->first_path.at(row); }
 
 SavedFrame SavedRun::frame(size_t row) const {
-  const State& s = *state_;
-  SavedFrame out;
-  out.number = s.numbers.at(row);
-  out.time_s = s.times_s.at(row);
   try {
-    s.read_columns(row, out.paths);
-    s.read_coefficients(row, out.paths);
-    s.read_vertices(row, out.paths);
-    s.read_poses(row, out);
-    s.read_motion(row, out);
-    s.read_links(row, out);
+    return state_->read_frame(row);
   } catch (const RuntimeError& e) {
-    throw InputError(fmt::format("{}: frame {}: {}", s.path.string(), out.number, e.what()));
+    throw InputError(fmt::format("{}: frame {}: {}", state_->path.string(), number(row), e.what()));
   }
-  return out;
 }
 
 }  // namespace wavetracer

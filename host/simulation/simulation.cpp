@@ -15,6 +15,7 @@
 #include "simulation/distinct_paths.hpp"
 #include "simulation/exact_paths.hpp"
 #include "simulation/features.hpp"
+#include "simulation/link_block.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/order_choice.hpp"
 #include "simulation/placement.hpp"
@@ -22,6 +23,8 @@
 #include "simulation/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
 #include "simulation/world.hpp"
+#include "wavetracer/error.hpp"
+#include "wavetracer/live.hpp"
 
 namespace wavetracer {
 
@@ -105,9 +108,9 @@ struct Simulation::State {
   OrderSummary order;
   Features features;
 
-  FrameResult solve(uint32_t frame, WorldState frame_world);
+  FrameResult solve(uint32_t frame, WorldState frame_world, const LinkBlock* block = nullptr);
   void begin_frame();
-  DiscoveryCounts discover(const WorldState& state);
+  DiscoveryCounts discover(const WorldState& state, const LinkBlock* block);
   PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
 };
 
@@ -122,9 +125,13 @@ void Simulation::State::begin_frame() {
 }
 
 // With diffraction listeners launch too, and what both ends see meets at the edge.
-DiscoveryCounts Simulation::State::discover(const WorldState& state) {
+DiscoveryCounts Simulation::State::discover(const WorldState& state, const LinkBlock* block) {
   std::vector<Launcher> first = sending(state), then;
   if (trace.diffraction) then = listening(state, origins);
+  if (block) {
+    first = launchers_of(*block, first);
+    then = launchers_of(*block, then);
+  }
   if (trace.rays == 0) {
     first.insert(first.end(), then.begin(), then.end());
     return discovery->refined(device_scene, first, warm_frames);
@@ -182,7 +189,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
              order.plan.launch.local_size, order.reason};
   const bool sphere = config.trace.reception == "sphere";
   // A sphere receives what this frame's rays meet.
-  s.reuse = config.trace.reuse && !sphere && s.world->frame_count() > 1;
+  s.reuse = config.trace.reuse && !sphere && (s.world->frame_count() > 1 || s.world->live());
   const uint32_t depth = ray_depth(s.trace, *s.world);
   s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse, depth);
   if (s.trace.diffraction && s.trace.rays > 0) s.discovery->listen(listener_rays(s.trace));
@@ -238,8 +245,48 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   return out;
 }
 
-// One frame of this world, from poses to fields.
-FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world) {
+std::string block_obstacle(const Config& config) {
+  if (config.trace.rays == 0) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
+  if (config.trace.reception != "exact") return "trace.reception = \"" + config.trace.reception + "\"";
+  if (config.cache.kind != "none") return "all transmitters share one ray cache (cache.kind)";
+  if (config.output.waypoints > 0) return "output.waypoints follows the rays of all transmitters";
+  return {};
+}
+
+FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters) {
+  State& s = *state_;
+  if (const std::string why = block_obstacle(s.config); !why.empty())
+    throw ConfigError("a frame of this configuration cannot be cut into blocks of transmitters: " + why);
+  forget();
+  Stopwatch watch;
+  WorldState world = s.world->state(frame);
+  const LinkBlock block = make_link_block(world.links, transmitters, s.world->receiver_of_transmitter(),
+                                          s.world->transmitter_of_receiver(), s.origins);
+  const double poses_seconds = watch.lap();
+  FrameResult out = s.solve(frame, std::move(world), &block);
+  forget();
+  out.seconds["poses"] = poses_seconds;
+  out.seconds["frame"] += poses_seconds;
+  return out;
+}
+
+LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) {
+  Stopwatch watch;
+  WorldState world = state_->world->live_state(traffic, time_s, poses);
+  const double poses_seconds = watch.lap();
+  LiveFrame out;
+  out.result = state_->solve(traffic.frames++, std::move(world));
+  out.result.seconds["poses"] = poses_seconds;
+  out.result.seconds["frame"] += poses_seconds;
+  state_->world->set_names(traffic, out);
+  return out;
+}
+
+const std::vector<LiveType>& Simulation::live_types() const { return state_->world->live_types(); }
+const LiveBounds& Simulation::live_bounds() const { return state_->world->live_bounds(); }
+
+// One frame of this world, from poses to fields. block: the links of it alone.
+FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, const LinkBlock* block) {
   FrameResult out;
   out.frame = frame;
   context->reset_profile();
@@ -247,13 +294,14 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world) {
 
   out.world = std::move(frame_world);
   if (place) (*place)(device_scene, out.world.instances);
-  const RadioEnds ends = make_radio_ends(*context, out.world.transmitters, out.world.receivers, out.world.links,
-                                          origins.listeners);
+  const std::vector<Link>& links = block ? block->solved : out.world.links;
+  const RadioEnds ends =
+      make_radio_ends(*context, out.world.transmitters, out.world.receivers, links, origins.listeners);
   begin_frame();
   RayCache* const cache = discovery->cache();
   if (cache) cache->begin_frame(out.world);
   if (trails) trails->begin_frame(frame, ends, out.world);
-  const DiscoveryCounts found = discover(out.world);
+  const DiscoveryCounts found = discover(out.world, block);
   if (cache) out.cache = cache->summary();
   if (trails) out.waypoints = trails->take_waypoints();
   const bool sphere = trails && trails->receives();
@@ -261,8 +309,12 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world) {
       sphere ? received_paths(ends, out.counts, host_watch)
              : (*exact_paths)(device_scene, ends, discovery->sequences(), out.counts, host_watch);
   ++warm_frames;
-  const PathGeometry geometry = with_reversed_twins(std::move(one_way), world->receiver_of_transmitter(),
-                                                    world->transmitter_of_receiver(), out.world.links);
+  PathGeometry geometry = with_reversed_twins(std::move(one_way), world->receiver_of_transmitter(),
+                                              world->transmitter_of_receiver(), links);
+  if (block) {
+    geometry = paths_of(*block, geometry);
+    out.world.links = block->own;
+  }
 
   const double paths_seconds = host_watch.lap();
   out.paths = fields->compute(frame, geometry, out.world);

@@ -12,7 +12,9 @@
 
 #include "motion/frame_clock.hpp"
 #include "radio/antenna.hpp"
+#include "simulation/live_places.hpp"
 #include "simulation/name_pattern.hpp"
+#include "simulation/receiver_grid.hpp"
 #include "simulation/world_links.hpp"
 #include "simulation/world_models.hpp"
 #include "simulation/world_trajectories.hpp"
@@ -60,6 +62,7 @@ struct EndsOfRole {
 }  // namespace
 
 struct World::State {
+  std::optional<LivePlaces> live;
   Trajectories trajectories;  // recentred
   std::optional<FrameClock> clock;
   std::vector<Scene> models;
@@ -80,8 +83,9 @@ struct World::State {
   void set_links(const LinksConfig& config);
   void set_twins();
   void set_clock(const TimeConfig& config);
-  void set_reach();
+  void set_reach(const glm::dvec3& origin_m);
   void warn_outside(const Scene& scene);
+  WorldState state(double time_s, const std::vector<VehicleState>& vehicles) const;
 };
 
 void World::State::add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
@@ -147,7 +151,8 @@ void World::State::add_mounts(const std::vector<MountConfig>& mounts, const glm:
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
     const Track& track = trajectories.tracks[k];
     for (const MountConfig& mount : mounts) {
-      if (!matches(mount.on, track.id) && !matches(mount.on, trajectories.types[track.type].name)) continue;
+      const bool by_id = !live && matches(mount.on, track.id);  // places have no ids that a user would know
+      if (!by_id && !matches(mount.on, trajectories.types[track.type].name)) continue;
       if (const std::string name = track.id + "/" + mount.name; !taken.insert(name).second)
         throw ConfigError(fmt::format("[[mount]] \"{}\": a radio end of the name \"{}\" is there already: rename one",
                                       mount.name, name));
@@ -189,7 +194,7 @@ void World::State::set_twins() {
 }
 
 void World::State::set_clock(const TimeConfig& config) {
-  if (trajectories.tracks.empty()) {
+  if (trajectories.tracks.empty() || live) {
     clock.emplace(0, 0, 1);
     return;
   }
@@ -201,7 +206,7 @@ void World::State::set_clock(const TimeConfig& config) {
   clock.emplace(start_s, end_s, step_s > 0 ? step_s : 1);
 }
 
-void World::State::set_reach() {
+void World::State::set_reach(const glm::dvec3& origin_m) {
   const auto add = [&](const glm::dvec3& lower_m, const glm::dvec3& upper_m, double radius_m) {
     for (int axis = 0; axis < 3; ++axis)
       reach_m = std::max({reach_m, std::abs(lower_m[axis]) + radius_m, std::abs(upper_m[axis]) + radius_m});
@@ -218,7 +223,8 @@ void World::State::set_reach() {
     radius_m[instance_track[i]] = std::max(radius_m[instance_track[i]], glm::length(far_m));
   }
   for (size_t k = 0; k < radius_m.size(); ++k) {
-    const Bounds bounds = bounds_of(trajectories.tracks[k]);
+    const Bounds bounds = live ? Bounds{live->bounds().lower_m - origin_m, live->bounds().upper_m - origin_m}
+                               : bounds_of(trajectories.tracks[k]);
     add(bounds.lower, bounds.upper, radius_m[k]);
   }
 }
@@ -239,19 +245,20 @@ void World::State::warn_outside(const Scene& scene) {
 World::World(const Config& config, const Scene& scene) : state_(std::make_unique<State>()) {
   State& s = *state_;
   VehicleModels vehicles(config);
-  s.trajectories = load_trajectories(config, vehicles);
+  if (!config.live_vehicles.empty()) s.live.emplace(config, vehicles, scene);
+  s.trajectories = s.live ? s.live->tracks() : load_trajectories(config, vehicles);
   for (Track& track : s.trajectories.tracks)
     for (Sample& sample : track.samples) sample.position_m -= scene.origin_m;
   s.warnings = s.trajectories.warnings;
   s.add_standing(s.transmitters, config.transmitters, scene.origin_m);
-  s.add_standing(s.receivers, config.receivers, scene.origin_m);
+  s.add_standing(s.receivers, standing_receivers(config, scene), scene.origin_m);
   s.add_instances(vehicles, scene);
   s.add_mounts(config.mounts, scene.origin_m);
   s.set_links(config.links);
   s.set_twins();
   s.set_clock(config.time);
-  s.set_reach();
-  s.warn_outside(scene);
+  s.set_reach(scene.origin_m);
+  if (!s.live) s.warn_outside(scene);
 }
 
 World::~World() = default;
@@ -269,28 +276,78 @@ const std::vector<uint32_t>& World::receiver_of_transmitter() const { return sta
 const std::vector<uint32_t>& World::transmitter_of_receiver() const { return state_->transmitter_of_receiver; }
 const std::vector<std::string>& World::warnings() const { return state_->warnings; }
 
-WorldState World::state(uint64_t frame) const {
-  const State& s = *state_;
+WorldState World::State::state(double time_s, const std::vector<VehicleState>& vehicles) const {
   WorldState out;
-  out.time_s = time_s(frame);
-  std::vector<VehicleState> vehicles;
-  vehicles.reserve(s.trajectories.tracks.size());
-  for (const Track& track : s.trajectories.tracks) vehicles.push_back(vehicle_at(track, out.time_s));
-  for (size_t i = 0; i < s.instances.size(); ++i) {
-    const auto& [pose, present] = vehicles[s.instance_track[i]];
-    const glm::dvec3& origin_m = s.models[s.instances[i].model].origin_m;
+  out.time_s = time_s;
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const auto& [pose, present] = vehicles[instance_track[i]];
+    const glm::dvec3& origin_m = models[instances[i].model].origin_m;
     out.instances.push_back({position_at(pose, origin_m), glm::mat3_cast(pose.orientation), velocity_at(pose, origin_m),
                              pose.angular_velocity_rad_s, present});
   }
   const auto ends = [&](const EndsOfRole& role) {
     std::vector<EndState> states = role.standing;
-    for (const MountedEnd& end : role.mounted) states.push_back(s.mounted_state(end, vehicles[end.track]));
+    for (const MountedEnd& end : role.mounted) states.push_back(mounted_state(end, vehicles[end.track]));
     return states;
   };
-  out.transmitters = ends(s.transmitters);
-  out.receivers = ends(s.receivers);
-  out.links = s.links(out.transmitters, out.receivers);
+  out.transmitters = ends(transmitters);
+  out.receivers = ends(receivers);
+  out.links = links(out.transmitters, out.receivers);
   return out;
+}
+
+WorldState World::state(uint64_t frame) const {
+  const State& s = *state_;
+  const double time = time_s(frame);
+  std::vector<VehicleState> vehicles;
+  vehicles.reserve(s.trajectories.tracks.size());
+  for (const Track& track : s.trajectories.tracks) vehicles.push_back(vehicle_at(track, time));
+  if (s.live)
+    for (VehicleState& vehicle : vehicles) vehicle.present = false;
+  return s.state(time, vehicles);
+}
+
+bool World::live() const { return state_->live.has_value(); }
+
+const LivePlaces& World::places() const {
+  if (!live()) throw ConfigError("no [[live_vehicle]]: a live world declares how many vehicles of a type there may be");
+  return *state_->live;
+}
+
+const std::vector<LiveType>& World::live_types() const { return places().types(); }
+const LiveBounds& World::live_bounds() const { return places().bounds(); }
+
+WorldState World::live_state(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const {
+  const State& s = *state_;
+  const std::vector<PlacedPose> placed = places().place(traffic, time_s, poses);
+  std::vector<VehicleState> vehicles;
+  vehicles.reserve(s.trajectories.tracks.size());
+  for (const Track& track : s.trajectories.tracks) vehicles.push_back({*pose_at(track, 0), false});
+  for (const auto& [place, pose] : placed) vehicles[place] = {pose, true};
+  return s.state(time_s, vehicles);
+}
+
+void World::set_names(const LiveTraffic& traffic, LiveFrame& frame) const {
+  const State& s = *state_;
+  std::vector<std::string> ids(s.trajectories.tracks.size());
+  for (const auto& [id, vehicle] : traffic.vehicles) ids[vehicle.place] = id;
+  for (const uint32_t track : s.instance_track) frame.instances.push_back(ids[track]);
+  const auto names = [&](const EndsOfRole& role) {
+    std::vector<std::string> out;
+    for (size_t i = 0; i < role.ends.size(); ++i) {
+      const std::string& name = role.ends[i].name;
+      if (i < role.standing.size()) {
+        out.push_back(name);
+        continue;
+      }
+      const uint32_t track = role.mounted[i - role.standing.size()].track;
+      const std::string& place = s.trajectories.tracks[track].id;  // the name is PLACE/MOUNT
+      out.push_back(ids[track].empty() ? "" : ids[track] + name.substr(place.size()));
+    }
+    return out;
+  };
+  frame.transmitters = names(s.transmitters);
+  frame.receivers = names(s.receivers);
 }
 
 }  // namespace wavetracer

@@ -1,11 +1,14 @@
 // What moves: vehicle models, instances, radio ends and links of every frame, from configuration and trajectories.
-// A world without trajectories has one frame, at 0 s.
+// A world without trajectories has one frame, at 0 s. A live world ([[live_vehicle]]) has that frame, with nobody there,
+// and those of poses that come at run time.
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "wavetracer/config.hpp"
+#include "wavetracer/live.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/world.hpp"
 
@@ -36,11 +39,23 @@ class World {
   // Vehicles that are absent, and their antennas, are where they were last or will be first. Throws ConfigError for a
   // frame that there is not.
   WorldState state(uint64_t frame) const;
+
+  bool live() const;
+  const std::vector<LiveType>& live_types() const;
+  const LiveBounds& live_bounds() const;
+  // Of a live world: the vehicles of the traffic after these poses. Throws PoseError, and leaves the traffic as it was;
+  // ConfigError where the world is not live.
+  WorldState live_state(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const;
+  // What ends and instances are called in a frame of this traffic.
+  void set_names(const LiveTraffic& traffic, LiveFrame& frame) const;
+
   // No recentred coordinate of an end or of a corner of an instance is larger than this, in any frame.
   double reach_m() const;
   const std::vector<std::string>& warnings() const;
 
  private:
+  const class LivePlaces& places() const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,2 +1,156 @@
-// Stub.
+// Puts the page together: metadata as JSON, blocks in base64, then the sources of the page in the order of their needs.
+// Names from files stand in the JSON only, and the page shows them as text, never as markup.
 #include "viewer/view.hpp"
+#include <fmt/format.h>
+#include <cmath>
+#include <initializer_list>
+#include "results/saved_world.hpp"
+#include "viewer/blocks.hpp"
+#include "viewer/frame_blocks.hpp"
+#include "viewer/page_files.hpp"
+#include "viewer/scene_blocks.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+using nlohmann::json;
+
+constexpr uint64_t least_frame_bytes = 8'000'000;  // for frames, even where the scene fills the page
+constexpr uint64_t form_bytes = 20'000;            // at most, of index.html, style.css and a warning or two
+
+std::vector<size_t> chosen_rows(const SavedRun& run, const ViewOptions& options) {
+  std::vector<size_t> rows;
+  for (size_t row = 0; row < run.frame_count(); ++row)
+    if (run.number(row) >= options.first_frame && run.number(row) <= options.last_frame) rows.push_back(row);
+  if (rows.empty())
+    throw ConfigError(fmt::format("{}: has no frame from {} to {}; its frames are {} to {}", run.file().string(),
+                                  options.first_frame, options.last_frame, run.number(0),
+                                  run.number(run.frame_count() - 1)));
+  return rows;
+}
+
+bool finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// What float32 coordinates on the page are relative to: the scene's origin, or the middle of the ends.
+glm::dvec3 centre_of(const SavedRun& run, const Scene& scene, size_t row) {
+  if (!scene.vertices.empty()) return scene.origin_m;
+  const SavedFrame frame = run.frame(row);
+  glm::dvec3 sum{0};
+  double count = 0;
+  for (const auto* ends : {&frame.transmitter_position_m, &frame.receiver_position_m})
+    for (const glm::dvec3& p : *ends)
+      if (finite(p)) sum += p, count += 1;
+  const glm::dvec3 centre = sum / std::max(count, 1.0);
+  return finite(centre) ? centre : glm::dvec3{0};
+}
+
+json end_rows(const std::vector<RadioEnd>& ends) {
+  json rows = json::array();
+  for (const RadioEnd& end : ends) rows.push_back({end.name, end.antenna, end.polarization});
+  return rows;
+}
+
+json instance_rows(const SavedRun& run, const SavedWorld& world) {
+  json rows = json::array();
+  for (size_t i = 0; i < run.instances().size(); ++i) {
+    const uint32_t model = world.instance_model[i];
+    rows.push_back({run.instances()[i].id, run.instances()[i].type, model == no_instance ? -1 : int64_t{model}});
+  }
+  return rows;
+}
+
+void warn_of_losses(const FrameBlocks& blocks, ViewPage& page) {
+  if (blocks.shown_paths < blocks.paths)
+    page.warnings.push_back(
+        fmt::format("the page holds the {} strongest of {} paths; fewer frames (--frames) or another "
+                    "limit (--max-paths) show the others",
+                    blocks.shown_paths, blocks.paths));
+  if (blocks.shown_links < blocks.links)
+    page.warnings.push_back(fmt::format("gains over time are there for the {} strongest of {} links of all frames",
+                                        blocks.shown_links, blocks.links));
+}
+
+// Bytes of names that are not UTF-8 become the replacement character.
+std::string meta_text(const json& meta) {
+  return script_text(meta.dump(-1, ' ', true, json::error_handler_t::replace));
+}
+
+struct Mark {
+  std::string_view mark, text;
+};
+
+// The template with its marks, in their order, replaced by their texts.
+std::string filled(std::string_view form, std::initializer_list<Mark> marks) {
+  size_t size = form.size();
+  for (const Mark& mark : marks) size += mark.text.size();
+  std::string out;
+  out.reserve(size);
+  for (const auto& [mark, text] : marks) {
+    const size_t at = form.find(mark);
+    if (at == std::string_view::npos) throw RuntimeError("index.html has no " + std::string(mark));
+    out.append(form.substr(0, at)).append(text);
+    form.remove_prefix(at + mark.size());
+  }
+  return out.append(form);
+}
+
+std::string script(const char* name) { return fmt::format("<script>\n{}</script>\n", page_file(name)); }
+
+}  // namespace
+
+ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
+  const std::vector<size_t> rows = chosen_rows(run, options);
+  const SavedWorld world = load_saved_world(run, true);
+  ViewPage page;
+  page.warnings = world.warnings;
+  page.frames = rows.size();
+  const glm::dvec3 centre = centre_of(run, world.scene, rows.front());
+  const std::string folder = std::filesystem::absolute(run.file()).parent_path().filename().string();
+
+  std::string scripts = "<script>/*\n" + std::string(page_file("three_license.txt")) + "*/\n" +
+                        std::string(page_file("three.min.js")) + "\n</script>\n";
+  for (const char* name : {"data.js", "palette.js", "camera.js", "world.js", "lines.js", "pick.js", "overlay.js",
+                           "filters.js", "details.js", "charts.js", "player.js", "main.js"})
+    scripts += script(name);
+
+  std::string elements;
+  const json scene =
+      add_scene_blocks(world.scene, "scene", world.scene.origin_m - centre, world.config.trace.free_edges, elements);
+  json models = json::array();
+  for (size_t i = 0; i < world.models.size(); ++i)
+    models.push_back(add_scene_blocks(world.models[i], fmt::format("model_{}", i), world.models[i].origin_m,
+                                      world.config.trace.free_edges, elements));
+  json meta = {{"title", options.title.empty() ? folder : options.title},
+               {"version", run.version()},
+               {"device", run.device()},
+               {"frequency_hz", run.frequency_hz()},
+               {"centre_m", {centre.x, centre.y, centre.z}},
+               {"rx_ports", run.rx_ports()},
+               {"tx_ports", run.tx_ports()},
+               {"transmitters", end_rows(run.transmitters())},
+               {"receivers", end_rows(run.receivers())},
+               {"instances", instance_rows(run, world)},
+               {"scene", scene},
+               {"models", models},
+               {"warnings", page.warnings}};
+  const uint64_t taken = form_bytes + scripts.size() + elements.size() + meta_text(meta).size();
+  const uint64_t room = taken + least_frame_bytes < options.max_bytes ? options.max_bytes - taken : least_frame_bytes;
+  const FrameBlocks blocks = add_frame_blocks(run, {rows, options.max_paths, room}, centre, elements);
+  page.paths = blocks.shown_paths;
+  warn_of_losses(blocks, page);
+  meta["frames"] = blocks.frames;
+  meta["gain_range_db"] = {blocks.lowest_db, blocks.highest_db};
+  meta["highest_order"] = blocks.highest_order;
+  meta["links"] = blocks.shown_links;
+  meta["paths"] = {blocks.shown_paths, blocks.paths};
+  meta["warnings"] = page.warnings;
+
+  page.html = filled(page_file("index.html"), {{"/*STYLE*/", page_file("style.css")},
+                                               {"<!--META-->", meta_text(meta)},
+                                               {"<!--BLOCKS-->", elements},
+                                               {"<!--SCRIPTS-->", scripts}});
+  return page;
+}
+
+}  // namespace wavetracer

@@ -41,6 +41,17 @@ struct RadioEnd {  // [[transmitter]] or [[receiver]]
   std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; shifts frequencies, moves nothing
 };
 
+struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the middles of square cells, for coverage
+  std::string name;
+  std::optional<double> x_min_m, x_max_m, y_min_m, y_max_m;  // file coordinates; not given: those of the scene
+  double step_m = 5;           // side of a cell
+  double height_m = 1.5;
+  std::string above = "zero";  // zero: height_m is z; ground: above the lowest surface there
+  std::string antenna = "isotropic";
+  std::string polarization = "V";
+  std::array<double, 3> orientation_deg{0, 0, 0};
+};
+
 // [trajectories]: how vehicles move. Give either file or generate, or [[track]] tables, or nothing: no vehicles.
 struct TrajectoriesConfig {
   std::string file;                         // SUMO FCD or CSV, plain or gzip
@@ -143,6 +154,23 @@ struct OutputConfig {
   uint64_t waypoints = 0;       // samples a transmitter whose waypoints are written, spread evenly; 0: none
 };
 
+struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer serve`
+  std::string type = "passenger";
+  uint32_t count = 1;
+};
+
+struct LiveConfig {  // [live]: what `wavetracer serve` accepts
+  double margin_m = 100;  // vehicles may be as far outside of the scene's box
+  uint32_t max_clients = 8;
+  uint64_t max_message_bytes = 1048576;  // a line
+  uint64_t max_queue_bytes = 67108864;   // unread answers of a client
+  uint32_t max_pending_frames = 4;       // a client, not yet answered
+  double max_rate_hz = 1000;             // messages of a client
+  double message_timeout_s = 5;          // from the first byte of a line to its end, and until hello
+  double idle_timeout_s = 300;           // 0: none
+  double send_timeout_s = 10;            // answers unread
+};
+
 struct Config {
   std::string file;  // the TOML file, empty when built in code
   std::string text;  // its whole text with --set applied, echoed into the outputs
@@ -150,12 +178,15 @@ struct Config {
   RadioConfig radio;
   std::vector<MaterialConfig> materials;
   std::vector<RadioEnd> transmitters, receivers;
+  std::vector<ReceiverGridConfig> receiver_grids;
   TrajectoriesConfig trajectories;
   std::vector<TrackConfig> tracks;
   std::vector<VehicleTypeConfig> vehicle_types;
   std::vector<MountConfig> mounts;
   LinksConfig links;
   TimeConfig time;
+  std::vector<LiveVehicleConfig> live_vehicles;
+  LiveConfig live;
   TraceConfig trace;
   OrderConfig order;
   LaunchConfig launch;

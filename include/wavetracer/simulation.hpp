@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 #include "wavetracer/config.hpp"
@@ -83,6 +84,21 @@ struct Feature {
 // By name: reflection, diffraction, double_diffraction, transmission, scattering, instances. What is off runs no kernel.
 using Features = std::map<std::string, Feature>;
 
+// Transmitters first to end - 1.
+struct TransmitterRange {
+  uint32_t first = 0, end = 0;
+};
+
+// Why frames of this configuration cannot be cut into blocks of transmitters; empty where they can.
+std::string block_obstacle(const Config& config);
+
+// Of a live world, see wavetracer/live.hpp.
+struct LiveBounds;
+struct LiveFrame;
+struct LivePose;
+struct LiveTraffic;
+struct LiveType;
+
 class Simulation {
  public:
   // Loads the scene, builds surfaces and acceleration structures, compiles the kernels.
@@ -96,6 +112,15 @@ class Simulation {
   // Frames of one drive may be asked for in any order; with trace.reuse, what a frame finds depends on the frames since
   // the last forget(). Throws ConfigError for a frame that the world does not have.
   FrameResult run_frame(uint32_t frame);
+  // The links of these transmitters alone, as run_frame() finds them, bit for bit: nothing of earlier frames is reused,
+  // and counts are of the work that was done, which the rays of other ends are part of. Throws ConfigError where the
+  // configuration couples all transmitters, see block_obstacle().
+  FrameResult run_block(uint32_t frame, TransmitterRange transmitters);
+  // A frame of poses that come at run time, in a world with [[live_vehicle]]. Updates the traffic. Throws PoseError, which
+  // leaves all as it was, and ConfigError where there is no [[live_vehicle]].
+  LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
+  const std::vector<LiveType>& live_types() const;
+  const LiveBounds& live_bounds() const;
   // Drops all sequences of earlier frames, and what a ray cache holds: the next frame is cold.
   void forget();
   uint64_t frame_count() const;

@@ -28,7 +28,7 @@ void check(const Outcome& outcome, int code, const std::string& message) {
 TEST_CASE("--version and --help") {
   const Outcome version = run_program({"--version"});
   CHECK(version.code == 0);
-  CHECK(version.out == "wavetracer " WAVETRACER_VERSION "\n");
+  CHECK(version.out.starts_with("wavetracer " WAVETRACER_VERSION "\n"));
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"run", "--help"}}) {
     const Outcome help = run_program(words);
     CHECK(help.code == 0);

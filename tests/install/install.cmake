@@ -1,15 +1,60 @@
-# Runs each step and stops at the first that fails.
-# Expects BUILD, WORK and CONSUMER.
+# Installs, builds the examples of docs/examples against what was installed, runs them, and looks at what they say.
+# Expects BUILD, SOURCE, WORK and VERSION; stops at the first step that fails.
+
+# step(COMMAND...): its output is left in `said`.
 function(step)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "failed: ${ARGV}\n${output}")
+    message(FATAL_ERROR "failed (${result}): ${ARGV}\n${output}")
+  endif()
+  set(said "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect pattern)
+  if(NOT said MATCHES "${pattern}")
+    message(FATAL_ERROR "expected ${pattern} in:\n${said}")
   endif()
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
-step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-step(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=Release)
-step(${CMAKE_COMMAND} --build ${WORK}/build)
-step(${WORK}/prefix/bin/wavetracer --version)
-step(${WORK}/build/consumer)
+set(prefix ${WORK}/prefix)
+step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+# As a user would move it: nothing may remember where it was built or installed first.
+file(RENAME ${prefix} ${WORK}/moved)
+set(prefix ${WORK}/moved)
+step(${prefix}/bin/wavetracer --version)
+expect("^wavetracer ${VERSION}\n.*compiler .*OpenCL ")
+
+# C++, through find_package.
+step(${CMAKE_COMMAND} -S ${SOURCE}/docs/examples/find_package -B ${WORK}/cpp -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
+     -DCMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Werror)
+step(${CMAKE_COMMAND} --build ${WORK}/cpp)
+step(${WORK}/cpp/example ${WORK}/out)
+expect("paths on .*line of sight.*reflection \\(.*written .*/paths.h5")
+foreach(file paths.h5 links.csv summary.json)
+  if(NOT EXISTS ${WORK}/out/${file})
+    message(FATAL_ERROR "${file} was not written")
+  endif()
+endforeach()
+
+# C99, through pkg-config.
+file(GLOB_RECURSE pc ${prefix}/*/wavetracer.pc)
+get_filename_component(pc_folder ${pc} DIRECTORY)
+get_filename_component(library_folder ${pc_folder} DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+step(pkg-config --modversion wavetracer)
+expect("^${VERSION}\n")
+step(pkg-config --cflags --libs wavetracer)
+separate_arguments(flags UNIX_COMMAND "${said}")
+step(cc -std=c99 -Wall -Wextra -Werror -pedantic ${SOURCE}/docs/examples/pkg_config/main.c ${flags} -o ${WORK}/c_example)
+set(ENV{LD_LIBRARY_PATH} ${library_folder})
+step(${WORK}/c_example ${SOURCE}/configs/city.toml trace.rays=20000)
+expect("frame 0: [1-9][0-9]* paths\n.* ns .* dB")
+
+# What the library shows: functions of wavetracer, of C and C++, and nothing of what it is made of.
+file(GLOB library ${library_folder}/libwavetracer.so)
+step(nm --dynamic --defined-only --demangle --format=posix ${library})
+string(REGEX REPLACE "(wavetracer_|wavetracer::|(typeinfo|typeinfo name|vtable) for wavetracer::)[^\n]*\n" "" others "${said}")
+if(NOT others STREQUAL "")
+  message(FATAL_ERROR "foreign symbols are exported:\n${others}")
+endif()

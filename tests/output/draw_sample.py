@@ -21,6 +21,8 @@ def write_paths_h5(case, path):
         for group, key, letter in (("transmitters", "tx_m", "t"), ("receivers", "rx_m", "r")):
             file[f"{group}/name"] = [f"{letter}x{i}" for i in range(len(case[key]))]
             file[f"{group}/position_m"] = np.array(case[key])
+            file[f"frames/{group[:-1]}_position_m"] = np.array(case[key])[None]
+        file["frames/frame"] = np.zeros(1, np.uint32)
         paths = case["paths"]
         file["paths/frame"] = np.zeros(len(paths), np.uint32)
         file["paths/tx"] = np.array([p["tx"] for p in paths], np.uint32)

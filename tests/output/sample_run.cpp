@@ -22,7 +22,7 @@ void add_path(Paths& paths, uint32_t frame, uint32_t tx, uint32_t rx, uint32_t i
     paths.vertex_position_m.push_back({1e6 + i, k / 3.0, 0.25});
     paths.vertex_interaction.push_back(k % 2 ? transmission : reflection);
     paths.vertex_surface.push_back(100 * i + k);
-    paths.vertex_instance.push_back(k == 0 ? no_instance : k);
+    paths.vertex_instance.push_back(k == 0 ? no_instance : k % 2);
   }
   paths.vertex_offset.push_back(paths.vertex_position_m.size());
 }

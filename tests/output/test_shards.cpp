@@ -105,7 +105,7 @@ TEST_CASE("a shard is a paths.h5 and a links.csv of its own") {
   CHECK(names(shards) == std::vector<std::string>{"frames_000003_000009.csv", "frames_000003_000009.h5",
                                                   "frames_000010_000019.csv", "frames_000010_000019.h5",
                                                   "frames_000020_000024.csv", "frames_000020_000024.h5",
-                                                  "manifest.jsonl"});
+                                                  "manifest.jsonl", "run.json"});
   const auto alone = write_outputs(folder.path() / "alone", sample.run(), sample.drive(10, 10));
   CHECK(datasets(shards / "frames_000010_000019.h5") == datasets(alone[0]));
   CHECK(slurp(shards / "frames_000010_000019.csv") == slurp(alone[1]));
@@ -123,7 +123,7 @@ TEST_CASE("with waypoints a shard has a third file, a waypoints.h5 of its own") 
   const SampleRun sample = with_waypoints();
   write_drive(folder.path() / "drive", sample);
   const fs::path shards = folder.path() / "drive" / "shards";
-  CHECK(names(shards).size() == 3 * 3 + 1);
+  CHECK(names(shards).size() == 3 * 3 + 2);
   const auto alone = write_outputs(folder.path() / "alone", sample.run(), sample.drive(10, 10));
   CHECK(datasets(shards / "frames_000010_000019.waypoints.h5") == datasets(alone[1]));
   CHECK(datasets(shards / "frames_000010_000019.h5") == datasets(alone[0]));
@@ -167,14 +167,14 @@ TEST_CASE("a drive that is resumed ends as one that was not interrupted, from ev
     const size_t finished = again.resume();
     CHECK(finished == ((i >= 5 && i <= 8) || i + 1 == states.size() ? 0 : 1));
     for (const auto& cut : cuts)
-      if (!again.finished(cut.first)) write(again, sample, cut);
+      if (!again.finished({cut.first})) write(again, sample, cut);
     const auto merged = again.merge(sample.run(), {});
     CHECK(datasets(merged[0]) == datasets(expected[0]));
     CHECK(datasets(merged[1]) == datasets(expected[1]));
     CHECK(slurp(merged[2]) == slurp(expected[2]));
     CHECK(lines(manifest) == 3);
     CHECK(names(drive) == std::vector<std::string>{"links.csv", "paths.h5", "shards", "summary.json", "waypoints.h5"});
-    CHECK(names(drive / "shards").size() == 10);
+    CHECK(names(drive / "shards").size() == 11);
   }
 }
 
@@ -241,11 +241,12 @@ TEST_CASE("another run replaces all of an earlier one with its first shard, and 
   other.config = "4567";
   Shards shards(folder.path(), other);
   CHECK(fs::exists(old[0]));
-  CHECK(names(folder.path() / "shards").size() == 11);
+  CHECK(names(folder.path() / "shards").size() == 12);
   shards.write(sample.run(), sample.drive(20, 5));
   CHECK(names(folder.path()) == std::vector<std::string>{"shards"});
   CHECK(names(folder.path() / "shards") ==
-        std::vector<std::string>{"frames_000020_000024.csv", "frames_000020_000024.h5", "manifest.jsonl", "notes.txt"});
+        std::vector<std::string>{"frames_000020_000024.csv", "frames_000020_000024.h5", "manifest.jsonl", "notes.txt",
+                                 "run.json"});
   fs::remove(folder.path() / "shards" / "notes.txt");
   write_outputs(folder.path(), sample.run(), sample.frames());  // a run of one frame leaves no shards beside it
   CHECK(names(folder.path()) == std::vector<std::string>{"links.csv", "paths.h5", "summary.json"});
@@ -301,7 +302,7 @@ TEST_CASE("a disk that fills up while shards are written or merged leaves whole 
     Shards again(drive, identity);
     again.resume();
     for (const auto& cut : cuts)
-      if (!again.finished(cut.first)) write(again, sample, cut);
+      if (!again.finished({cut.first})) write(again, sample, cut);
     const auto merged = again.merge(sample.run(), {});
     CHECK(datasets(merged[0]) == datasets(whole[0]));
     CHECK(datasets(merged[1]) == datasets(whole[1]));

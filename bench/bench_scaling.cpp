@@ -1,0 +1,232 @@
+// bench_scaling: frames a second of a drive on 1, 2, 4, ... devices of a host, or on CPUs of 1 process on 1 core and 2
+// processes on 2 cores. Needs the program and nothing else: city and traffic are generated.
+// Assumes POSIX, util-linux's taskset for CPUs, and that the program says "ready after" and "writing to" on stderr.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+
+#include "json_line.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string program, device_kind = "cpu", devices_list;
+  std::vector<uint32_t> counts;
+  double seconds = 25;  // wanted of the run on one device
+  uint64_t rays = 50000;
+  uint32_t frames = 0, vehicles = 100, shard_frames = 5;
+};
+
+// {}: seconds of traffic, shard_frames, rays, vehicles. 10 frames a second.
+constexpr const char* config_text = R"(scene.generate = "--seed 1 --blocks 6x6"
+trajectories.generate = "--seed 1 --blocks 6x6 --vehicles {3} --seconds {0} --step 0.1"
+time.step_s = 0.1
+output.shard_frames = {1}
+trace.rays = {2}
+trace.max_depth = 3
+links.max_distance_m = 150
+[[mount]]
+name = "roof"
+role = "both"
+offset_m = [0.0, 0.0, 1.6]
+)";
+
+// Of one command, seconds since its start.
+struct Times {
+  double ready_s = 0, merging_s = 0, whole_s = 0;
+  double solving_s() const { return merging_s - ready_s; }
+};
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "wavetracer-scaling-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw RuntimeError(fmt::format("cannot make a folder {}: is TMPDIR writable?", name));
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string operator/(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+// command: for the shell. ready: when the first process can trace; merging: when all frames are there.
+Times timed(const std::string& command) {
+  Times times;
+  std::string messages;
+  const auto start = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  FILE* const lines = popen((command + " 2>&1 >/dev/null").c_str(), "r");
+  if (!lines) throw RuntimeError("cannot start " + command);
+  char* line = nullptr;
+  size_t size = 0;
+  while (getline(&line, &size, lines) > 0) {
+    const std::string text = line;
+    if (times.ready_s == 0 && text.find("ready after") != std::string::npos) times.ready_s = elapsed();
+    if (text.find("writing to") != std::string::npos) times.merging_s = elapsed();
+    messages += text;
+  }
+  free(line);
+  const int status = pclose(lines);
+  times.whole_s = elapsed();
+  if (status != 0 || times.ready_s == 0 || times.merging_s == 0)
+    throw RuntimeError(fmt::format("{} ended with {} and said\n{}", command, WEXITSTATUS(status), messages));
+  return times;
+}
+
+// Beside this program, as in a bundle, or where a build folder has it.
+std::string find_program(const std::string& given) {
+  if (!given.empty()) return given;
+  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const fs::path& place : {here / "wavetracer", here.parent_path() / "host" / "app" / "wavetracer"})
+    if (fs::exists(place)) return place.string();
+  throw ConfigError("wavetracer is not beside bench_scaling and not in its build folder; --program names it");
+}
+
+class Scaling {
+ public:
+  Scaling(const Options& options, std::string command) : options_(options), command_(std::move(command)) {
+    program_ = find_program(options.program);
+    gpu_ = options.device_kind == "gpu";
+    if (options.counts.empty()) options_.counts = gpu_ ? std::vector<uint32_t>{1, 2, 4} : std::vector<uint32_t>{1, 2};
+    for (size_t at = 0; at < options.devices_list.size();) {
+      devices_.push_back(options.devices_list.substr(at, options.devices_list.find(',', at) - at));
+      at += devices_.back().size() + 1;
+    }
+    const uint32_t most = *std::ranges::max_element(options_.counts);
+    for (uint32_t i = static_cast<uint32_t>(devices_.size()); gpu_ && i < most; ++i)
+      devices_.push_back(std::to_string(i));
+    if (gpu_ && devices_.size() < most) throw ConfigError("--devices-list names fewer devices than --counts wants");
+  }
+
+  void run() {
+    const uint32_t most = *std::ranges::max_element(options_.counts), shard = options_.shard_frames;
+    write_config(shard);
+    timed(words(1));  // fills the caches of compiled kernels
+    if (options_.frames == 0) {
+      const double frame_s = timed(words(1)).solving_s() / shard;
+      const auto wanted = static_cast<uint32_t>(std::clamp(options_.seconds / frame_s, 1.0, 20000.0));
+      options_.frames = wanted;
+    }
+    // As many shards as all devices take in whole rounds: what is left over would count as a loss of scaling.
+    const uint32_t round = shard * most * 2;
+    options_.frames = std::max(round, options_.frames / round * round);
+    write_config(options_.frames);
+    std::optional<Times> one;
+    for (const uint32_t count : options_.counts) {
+      const Times times = timed(words(count));
+      if (!one) one = times;
+      report(count, times, *one);
+    }
+  }
+
+ private:
+  Options options_;
+  std::string command_, program_;
+  bool gpu_ = false;
+  std::vector<std::string> devices_;
+  TemporaryFolder folder_;
+
+  void write_config(uint32_t frames) const {
+    std::ofstream(folder_ / "drive.toml") << fmt::format(fmt::runtime(config_text), (frames - 1) / 10.0,
+                                                         options_.shard_frames, options_.rays, options_.vehicles);
+  }
+
+  // One device is run as a user would: without --devices.
+  std::string words(uint32_t count) const {
+    const std::string run =
+        fmt::format("{} run -c {} -o {}", quoted(program_), quoted(folder_ / "drive.toml"), quoted(folder_ / "out"));
+    if (gpu_) {
+      const auto list = std::vector(devices_.begin(), devices_.begin() + count);
+      return count == 1 ? run + " --device " + list[0] : fmt::format("{} --devices {}", run, fmt::join(list, ","));
+    }
+    const std::string device = devices_.empty() ? "" : " --device " + devices_[0];
+    return fmt::format("taskset -c 0-{} {}{}{}", count - 1, run, device,
+                       count == 1 ? "" : fmt::format(" --processes {}", count));
+  }
+
+  void report(uint32_t count, const Times& times, const Times& one) const {
+    const auto summary = nlohmann::json::parse(std::ifstream(folder_ / "out" + "/summary.json"));
+    const double frames = options_.frames, first = options_.counts.front(), more = count / first;
+    Result result{"scaling",
+                  fmt::format("drive, {} vehicles, {} rays, {} {}", options_.vehicles, options_.rays, count,
+                              gpu_ ? (count == 1 ? "device" : "devices") : (count == 1 ? "core" : "cores")),
+                  summary.at("device"),
+                  frames / times.whole_s,
+                  "frames/s",
+                  Better::higher,
+                  "",
+                  {},
+                  0,
+                  ""};
+    const double whole = one.whole_s / times.whole_s / more, solving = one.solving_s() / times.solving_s() / more;
+    if (count != options_.counts.front()) {
+      result.baseline = fmt::format("{} times that of {}", more, options_.counts.front());
+      result.baseline_value = more * frames / one.whole_s;
+    }
+    result.detail =
+        fmt::format("efficiency {:.0f}% of the whole command, {:.0f}% of solving; start {:.1f} s, merging {:.1f} s",
+                    100 * whole, 100 * solving, times.ready_s, times.whole_s - times.merging_s);
+    result.extra = {{"processes", count},
+                    {"frames", options_.frames},
+                    {"paths", summary.at("counts").at("paths")},
+                    {"whole_s", times.whole_s},
+                    {"ready_s", times.ready_s},
+                    {"solving_s", times.solving_s()},
+                    {"merging_s", times.whole_s - times.merging_s},
+                    {"efficiency_whole", whole},
+                    {"efficiency_solving", solving}};
+    print(result, command_);
+  }
+};
+
+}  // namespace
+}  // namespace wavetracer::bench
+
+int main(int argc, char** argv) {
+  using namespace wavetracer;
+  CLI::App app("Frames a second of a drive on 1, 2, 4, ... devices");
+  bench::Options options;
+  app.add_option("--program", options.program, "the wavetracer to run; default: beside this program");
+  app.add_option("--device-kind", options.device_kind, "gpu: a process a device; cpu: a process a core")
+      ->check(CLI::IsMember({"cpu", "gpu"}));
+  app.add_option("--devices-list", options.devices_list,
+                 "indices, as `wavetracer devices` counts them; default 0,1,...");
+  app.add_option("--counts", options.counts, "numbers of devices or cores; the first is the baseline")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--seconds", options.seconds, "wanted of the run on one device")->check(CLI::PositiveNumber);
+  app.add_option("--frames", options.frames, "instead of as many as --seconds asks for");
+  app.add_option("--rays", options.rays, "a transmitter");
+  app.add_option("--vehicles", options.vehicles, "that drive, and talk to one another")->check(CLI::Range(2, 10000));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bench::Scaling(options, bench::command_line(argc, argv)).run();
+  } catch (const Error& error) {
+    fmt::print(stderr, "bench_scaling: {}\n", error.what());
+    return static_cast<int>(error.code());
+  }
+  return 0;
+}

@@ -1,0 +1,38 @@
+# `cpack -G DEB` in the build folder: the package wavetracer for Debian 12, with what its libraries need.
+# Assumes dpkg-dev (dpkg-shlibdeps) and gzip. tests/install/clean_system.sh installs it in a system of its own.
+set(WAVETRACER_MAINTAINER "wavetracer maintainers <maintainers@wavetracer.example>" CACHE STRING
+    "name and mail address that packages carry")
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME wavetracer)
+set(CPACK_PACKAGE_CONTACT "${WAVETRACER_MAINTAINER}")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+# pocl-opencl-icd is the device where there is no GPU; gnuplot-nox draws what `plot` and `bench` ask for.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, gnuplot-nox")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, pkgconf, python3-numpy, sumo")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Traces every propagation path between antennas on vehicles and at the
+roadside through a city: reflected, diffracted, transmitted and scattered,
+with exact geometry, delay, complex gain, angles and Doppler shift. Vehicles
+come from SUMO, CSV or built-in traffic; results go to HDF5 and CSV.
+
+Runs on any OpenCL device, also on the CPU with PoCL. This package holds the
+program, the shared library with its headers for C and C++, and a Python
+module.")
+# CPack 3.25 calls ldconfig in scripts of its own; Debian wants the trigger.
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/triggers)
+set(CPACK_STRIP_FILES ON)
+# Folders that CPack makes have the modes that Debian asks for.
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+# The changelog of a Debian package, made of CHANGELOG.md.
+add_custom_command(OUTPUT ${pages}/changelog.gz VERBATIM
+  COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_SOURCE_DIR}/CHANGELOG.md -DOUTPUT=${pages}/changelog "-DMAINTAINER=${WAVETRACER_MAINTAINER}"
+          -P ${CMAKE_SOURCE_DIR}/cmake/debian_changelog.cmake
+  COMMAND gzip -9nf ${pages}/changelog
+  DEPENDS ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/cmake/debian_changelog.cmake)
+add_custom_target(wavetracer_changelog ALL DEPENDS ${pages}/changelog.gz)
+install(FILES ${pages}/changelog.gz ${CMAKE_SOURCE_DIR}/cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+include(CPack)

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""Follows a running SUMO by TraCI, sends its vehicles to `wavetracer serve`, and prints or writes their channels.
+
+    wavetracer serve -c configs/live.toml &
+    python3 docs/examples/sumo_live.py --offset -300 -300 0 --steps 50 -- sumo -n net.net.xml -r routes.rou.xml
+
+What follows `--` is the command that starts SUMO (sumo or sumo-gui). --offset is what to add to SUMO's coordinates to
+get those of the scene. SUMO's angle is a compass bearing and its position the middle of the front bumper: both are
+turned into what the server wants, yaw from +x counter-clockwise and the middle of the vehicle. A vehicle takes a place
+of the type that is called as its vehicle class (passenger, truck, bus, ...), or as --default-type; one that has no
+place, or is outside of the scene, is left out and counted. It needs SUMO's TraCI (Debian: sumo-tools).
+"""
+import argparse
+import json
+import math
+import os
+import sys
+
+from live_client import Server, print_links, read_token
+
+sys.path.append(os.path.join(os.environ.get("SUMO_HOME", "/usr/share/sumo"), "tools"))
+
+
+def pose(traci, name, offset_m):
+    """position_m of the middle of the footprint, orientation (w, x, y, z) and velocity_m_s of a vehicle of SUMO."""
+    front_m = [p + o for p, o in zip(traci.vehicle.getPosition3D(name), offset_m)]
+    yaw = math.radians(90 - traci.vehicle.getAngle(name))
+    pitch = math.radians(traci.vehicle.getSlope(name))  # nose up
+    ahead = [math.cos(pitch) * math.cos(yaw), math.cos(pitch) * math.sin(yaw), math.sin(pitch)]
+    length_m, speed_m_s = traci.vehicle.getLength(name), traci.vehicle.getSpeed(name)
+    c, s, d, t = math.cos(yaw / 2), math.sin(yaw / 2), math.cos(pitch / 2), math.sin(pitch / 2)
+    return {"position_m": [p - length_m / 2 * a for p, a in zip(front_m, ahead)],
+            "orientation": [c * d, s * t, -c * t, s * d],  # yaw about z, then pitch about the vehicle's y
+            "velocity_m_s": [speed_m_s * a for a in ahead]}
+
+
+class Places:
+    """Which vehicles of SUMO the server has room for: those that are there stay, others come as places get free."""
+
+    def __init__(self, world, default_type):
+        self.free = {kind["type"]: kind["places"] for kind in world["types"]}
+        self.lower, self.upper = world["bounds_m"]["lower"], world["bounds_m"]["upper"]
+        self.default_type = default_type
+        self.type_of = {}
+
+    def vehicles(self, traci, offset_m):
+        """The vehicles of this step, and how many had to be left out."""
+        poses = {name: pose(traci, name, offset_m) for name in traci.vehicle.getIDList()}
+        inside = {name: p for name, p in poses.items()
+                  if all(a <= x <= b for a, x, b in zip(self.lower, p["position_m"], self.upper))}
+        for name in [name for name in self.type_of if name not in inside]:
+            self.free[self.type_of.pop(name)] += 1
+        for name in inside:
+            kind = traci.vehicle.getVehicleClass(name)
+            kind = kind if kind in self.free else self.default_type
+            if name not in self.type_of and self.free.get(kind, 0) > 0:
+                self.free[kind] -= 1
+                self.type_of[name] = kind
+        out = [{"id": name, "type": self.type_of[name], **p} for name, p in inside.items() if name in self.type_of]
+        return out, len(poses) - len(out)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--server", default="tcp:127.0.0.1:7710")
+    parser.add_argument("--token-file")
+    parser.add_argument("--offset", type=float, nargs=3, default=[0, 0, 0], metavar=("X", "Y", "Z"))
+    parser.add_argument("--default-type", default="passenger")
+    parser.add_argument("--steps", type=int, default=100)
+    parser.add_argument("--detail", choices=["links", "paths", "vertices"], default="links")
+    parser.add_argument("-o", "--output", help="file for the answers, one line of JSON a step")
+    parser.add_argument("sumo", nargs="+", help="command that starts SUMO")
+    options = parser.parse_args()
+    try:
+        import traci
+    except ImportError:
+        sys.exit("no TraCI: install sumo-tools, or set SUMO_HOME")
+    traci.start(options.sumo)
+    output = open(options.output, "w", encoding="utf-8") if options.output else None
+    try:
+        with Server(options.server, read_token(options.token_file), detail=options.detail) as server:
+            places = Places(server.world, options.default_type)
+            for _ in range(options.steps):
+                traci.simulationStep()
+                vehicles, left_out = places.vehicles(traci, options.offset)
+                answer = server.channels(traci.simulation.getTime(), vehicles)
+                print_links(answer, 3)
+                if left_out:
+                    print(f"  {left_out} vehicles had no place, or were outside of the scene")
+                if output:
+                    output.write(json.dumps({"vehicles": vehicles, **answer}) + "\n")
+    finally:
+        traci.close()
+        if output:
+            output.close()
+
+
+if __name__ == "__main__":
+    main()

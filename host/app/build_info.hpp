@@ -1,0 +1,9 @@
+// What `wavetracer --version` says: the version on its first line, then how and from what the program was built.
+// The text is made by cmake/build_info.cmake, in a file of its own, so that a commit recompiles nothing else.
+#pragma once
+
+namespace wavetracer::app {
+
+extern const char* const build_info;
+
+}  // namespace wavetracer::app

@@ -1,0 +1,86 @@
+// Affinity is the one mechanism: TBB sizes its pool by it, and PoCL is told the number of cores besides.
+// Linux only.
+#include "app/devices_option.hpp"
+#include <fmt/format.h>
+#include <sched.h>
+#include <unistd.h>
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+bool same_kind(const gpu::DeviceInfo& a, const gpu::DeviceInfo& b) { return a.gpu == b.gpu && a.cpu == b.cpu; }
+
+std::vector<size_t> listed(const std::vector<gpu::DeviceInfo>& there, const std::string& text) {
+  std::vector<size_t> out;
+  for (size_t at = 0; at <= text.size();) {
+    const std::string item = text.substr(at, text.find(',', at) - at);
+    at += item.size() + 1;
+    size_t index = 0;
+    const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), index);
+    if (item.empty() || error != std::errc() || end != item.data() + item.size())
+      throw ConfigError(
+          fmt::format("--devices {}: give all, gpu, cpu, or indices as 0,1,2 (`wavetracer devices` lists "
+                      "them); several processes on one device: --processes N",
+                      text));
+    if (std::ranges::find(out, index) != out.end())
+      throw ConfigError(
+          fmt::format("--devices {}: {} is there twice; several processes on one device: --processes N", text, index));
+    gpu::choose_device(there, item);  // throws with the list of those that there are
+    out.push_back(index);
+  }
+  for (const size_t index : out)
+    if (!same_kind(there[index], there[out.front()]))
+      throw ConfigError(fmt::format("--devices {}: {} and {} are not of one kind; give CPUs or GPUs alone", text,
+                                    there[out.front()].name, there[index].name));
+  return out;
+}
+
+template <typename Which>
+std::vector<size_t> indices(const std::vector<gpu::DeviceInfo>& there, const Which& which) {
+  std::vector<size_t> out;
+  for (const gpu::DeviceInfo& device : there)
+    if (which(device)) out.push_back(device.index);
+  return out;
+}
+
+}  // namespace
+
+std::vector<size_t> choose_devices(const std::vector<gpu::DeviceInfo>& there, const std::string& devices,
+                                   const std::string& device) {
+  if (devices == "gpu" || devices == "cpu") {
+    const auto out = indices(there, [&](const gpu::DeviceInfo& d) { return devices == "gpu" ? d.gpu : d.cpu; });
+    if (out.empty())
+      throw DeviceError(
+          fmt::format("--devices {}: there is none; `wavetracer devices` lists those that there are", devices));
+    return out;
+  }
+  if (!devices.empty() && devices != "all") return listed(there, devices);
+  const gpu::DeviceInfo& chosen = there[gpu::choose_device(there, device)];
+  if (device == std::to_string(chosen.index)) return {chosen.index};
+  return indices(there,
+                 [&](const gpu::DeviceInfo& d) { return same_kind(d, chosen) && d.platform == chosen.platform; });
+}
+
+void take_share_of_cores(const Ranks& ranks) {
+  cpu_set_t all;
+  if (ranks.local_size < 2 || sched_getaffinity(0, sizeof all, &all) != 0) return;
+  std::vector<int> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &all)) cores.push_back(core);
+  if (!ranks.launched && static_cast<long>(cores.size()) < sysconf(_SC_NPROCESSORS_ONLN)) return;
+  const size_t n = cores.size(), parts = ranks.local_size, part = ranks.local_rank;
+  const size_t first = n >= parts ? n * part / parts : part % n;
+  const size_t end = n >= parts ? n * (part + 1) / parts : first + 1;
+  cpu_set_t own;
+  CPU_ZERO(&own);
+  for (size_t i = first; i < end; ++i) CPU_SET(cores[i], &own);
+  if (sched_setaffinity(0, sizeof own, &own) != 0) return;
+  for (const char* variable : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"})  // before and since PoCL 6
+    setenv(variable, std::to_string(end - first).c_str(), 0);
+}
+
+}  // namespace wavetracer::app

@@ -1,0 +1,23 @@
+// run --devices and --processes: one child process a device, of this same program, which share the run as ranks do.
+// The parent computes nothing: it passes on messages and Ctrl-C, and says what became of them.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+#include "app/progress.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::app {
+
+struct Launch {
+  std::vector<std::string> arguments;  // of each child, without its device
+  std::vector<std::string> devices;    // of the children in turn, at least one
+  uint32_t processes = 1;
+  std::string command_line;  // as the user typed it, for the outputs
+};
+
+// Returns when all have ended: 0 where the run is whole, even if some died; 130 where it was interrupted, 5 where parts
+// are missing, else the code of the first that failed. Assumes that catch_interrupts() was called.
+ExitCode launch(const Launch& what, Progress& progress);
+
+}  // namespace wavetracer::app

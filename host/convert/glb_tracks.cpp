@@ -1,0 +1,33 @@
+// Rotations as quaternions, which is how glTF has them.
+// Assumes indices as SavedRun checks them.
+#include "convert/glb_tracks.hpp"
+#include <cmath>
+#include "convert/vtk_glb_kml.hpp"
+
+namespace wavetracer {
+
+Tracks::Tracks(const SavedRun& run, size_t first_row, size_t last_row, const SavedFrame& first)
+    : vehicles(run.instances().size()), transmitters(run.transmitters().size()), receivers(run.receivers().size()) {
+  add(first, 0);
+  for (size_t row = first_row + 1; row <= last_row; ++row) {
+    const auto time_s = static_cast<float>(run.time_s(row) - first.time_s);
+    if (time_s > times_s.back() && std::isfinite(time_s)) add(run.frame(row), time_s);
+  }
+}
+
+void Tracks::add(const SavedFrame& frame, float time_s) {
+  times_s.push_back(time_s);
+  for (auto* tracks : {&vehicles, &transmitters, &receivers})
+    for (Track& track : *tracks) track.keys.emplace_back();
+  for (const SavedPose& pose : frame.poses)
+    if (is_finite(pose))
+      vehicles[pose.instance].keys.back() = {pose.position_m, glm::normalize(glm::quat_cast(pose.rotation))};
+  const auto add_ends = [](std::vector<Track>& ends, const std::vector<glm::dvec3>& positions_m) {
+    for (size_t i = 0; i < ends.size(); ++i)
+      if (is_finite(positions_m[i])) ends[i].keys.back() = {.position_m = positions_m[i]};
+  };
+  add_ends(transmitters, frame.transmitter_position_m);
+  add_ends(receivers, frame.receiver_position_m);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,39 @@
+// Where vehicles and ends are in the chosen frames, as keys of an animation.
+// Frames whose time does not go on, or is none, have no key.
+#pragma once
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <vector>
+#include "results/saved_run.hpp"
+
+namespace wavetracer {
+
+// Where a node is, frame by frame; nothing while it is absent.
+struct Track {
+  struct Key {
+    glm::dvec3 position_m{0};
+    glm::dquat rotation{1, 0, 0, 0};
+  };
+  std::vector<std::optional<Key>> keys;
+
+  bool ever_present() const {
+    return std::ranges::any_of(keys, [](const auto& key) { return key.has_value(); });
+  }
+  bool always_present() const {
+    return std::ranges::all_of(keys, [](const auto& key) { return key.has_value(); });
+  }
+};
+
+struct Tracks {
+  std::vector<float> times_s;  // since the first frame
+  std::vector<Track> vehicles, transmitters, receivers;
+
+  // Reads the rows after the first one, a frame at a time. first: the frame of first_row.
+  Tracks(const SavedRun& run, size_t first_row, size_t last_row, const SavedFrame& first);
+
+ private:
+  void add(const SavedFrame& frame, float time_s);
+};
+
+}  // namespace wavetracer

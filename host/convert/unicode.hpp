@@ -1,0 +1,12 @@
+// Names of runs in the encodings of other programs.
+// A byte that is not UTF-8 becomes U+FFFD, so nothing is dropped and nothing fails.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace wavetracer {
+
+std::u32string utf32(std::string_view utf8);
+std::u16string utf16(std::string_view utf8);
+
+}  // namespace wavetracer

@@ -1,0 +1,35 @@
+// Colours are those of matplotlib's plasma map (CC0) without its darkest fifth, which no background shows.
+// Assumes a frame as SavedRun checks it: indices of ends and offsets of vertices are those of rows that there are.
+#include "convert/vtk_glb_kml.hpp"
+
+namespace wavetracer {
+
+std::vector<glm::dvec3> path_points(const SavedFrame& frame, size_t path) {
+  const Paths& paths = frame.paths;
+  std::vector<glm::dvec3> points{frame.transmitter_position_m[paths.tx[path]]};
+  for (size_t k = paths.vertex_offset[path]; k < paths.vertex_offset[path + 1]; ++k)
+    points.push_back(paths.vertex_position_m[k]);
+  points.push_back(frame.receiver_position_m[paths.rx[path]]);
+  if (!std::ranges::all_of(points, [](const glm::dvec3& p) { return is_finite(p); })) points.clear();
+  return points;
+}
+
+Rgb gain_colour(double place) {
+  static constexpr std::array<Rgb, 8> stops{{{0x72, 0x01, 0xa8},
+                                             {0x9c, 0x17, 0x9e},
+                                             {0xbd, 0x37, 0x86},
+                                             {0xd8, 0x57, 0x6b},
+                                             {0xed, 0x79, 0x53},
+                                             {0xfb, 0x9f, 0x3a},
+                                             {0xfd, 0xca, 0x26},
+                                             {0xf0, 0xf9, 0x21}}};
+  const double at = std::clamp(place, 0.0, 1.0) * (stops.size() - 1);
+  const size_t i = std::min(static_cast<size_t>(at), stops.size() - 2);
+  const double part = at - static_cast<double>(i);
+  Rgb out;
+  for (size_t k = 0; k < 3; ++k)
+    out[k] = static_cast<uint8_t>(std::lround(stops[i][k] + (stops[i + 1][k] - stops[i][k]) * part));
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,40 @@
+// Finds the boxes that contain another one: sorted by their left sides, of which only those within the widest box
+// count. Assumes that most boxes are small beside the map; takes linear time where they are not.
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "imports/rings.hpp"
+
+namespace wavetracer::imports {
+
+class BoxIndex {
+ public:
+  void add(const Box& box, size_t what) {
+    entries_.push_back({box, what});
+    widest_ = std::max(widest_, box.upper.x - box.lower.x);
+  }
+  void sort() {
+    std::sort(entries_.begin(), entries_.end(),
+              [](const Entry& a, const Entry& b) { return a.box.lower.x < b.box.lower.x; });
+  }
+  // Calls visit(what) for every box that contains `box`, itself included. sort() comes first.
+  template <class Visit>
+  void containing(const Box& box, const Visit& visit) const {
+    auto entry = std::lower_bound(entries_.begin(), entries_.end(), box.lower.x - widest_,
+                                  [](const Entry& e, int64_t x) { return e.box.lower.x < x; });
+    for (; entry != entries_.end() && entry->box.lower.x <= box.lower.x; ++entry) {
+      if (entry->box.contains(box)) visit(entry->what);
+    }
+  }
+
+ private:
+  struct Entry {
+    Box box;
+    size_t what;
+  };
+  std::vector<Entry> entries_;
+  int64_t widest_ = 0;
+};
+
+}  // namespace wavetracer::imports

@@ -1,0 +1,255 @@
+// Buildings of OpenStreetMap files, XML or PBF, by libosmium; its assembler makes areas of ways and multipolygons.
+// Objects may come in any order, as Overpass writes them. Memory is bounded by the size of the file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <osmium/area/assembler.hpp>
+#include <osmium/index/map/sparse_mem_array.hpp>
+#include <osmium/io/pbf_input.hpp>
+#include <osmium/io/reader.hpp>
+#include <osmium/io/xml_input.hpp>
+#include <set>
+
+#include "imports/map.hpp"
+#include "scene/file.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::imports {
+namespace {
+
+constexpr double widest_map_deg = 2;  // 200 km: a slip, or a country, of which no scene can be made
+constexpr auto kept_tags = std::to_array<const char*>({"building", "building:part", "height", "min_height",
+                                                       "building:levels", "building:min_level", "roof:levels",
+                                                       "roof:shape", "building:material", "roof:material", "location"});
+
+bool is_yes(const osmium::TagList& tags, const char* key) {
+  const char* const value = tags.get_value_by_key(key);
+  return value && std::string_view(value) != "no";
+}
+bool is_building(const osmium::TagList& tags) { return is_yes(tags, "building") || is_yes(tags, "building:part"); }
+
+class OsmReader {
+ public:
+  OsmReader(std::string_view content, const std::string& name)
+      : content_(content), name_(name), is_pbf_(!content.starts_with('<') && root_element(content).empty()) {}
+
+  // Footprints in degrees (longitude, latitude): projected by the caller, who knows the middle only now.
+  Map read() {
+    read_entities(osmium::osm_entity_bits::relation,
+                  [this](const osmium::OSMObject& object) { relation(static_cast<const osmium::Relation&>(object)); });
+    read_entities(osmium::osm_entity_bits::node | osmium::osm_entity_bits::way, [this](osmium::OSMObject& object) {
+      if (object.type() == osmium::item_type::node) {
+        node(static_cast<const osmium::Node&>(object));
+      } else {
+        way(static_cast<const osmium::Way&>(object));
+      }
+    });
+    locations_.sort();
+    std::sort(ways_.begin(), ways_.end(), by_id);
+    std::sort(relations_.begin(), relations_.end(), by_id);
+    ways_.erase(std::unique(ways_.begin(), ways_.end(), same_id), ways_.end());
+    relations_.erase(std::unique(relations_.begin(), relations_.end(), same_id), relations_.end());
+    for (const Entry& entry : ways_) locate(kept_ways_.get<osmium::Way>(entry.offset));
+    for (const Entry& entry : relations_) assemble(kept_relations_.get<osmium::Relation>(entry.offset));
+    for (const Entry& entry : ways_) assemble(kept_ways_.get<osmium::Way>(entry.offset));
+    return std::move(map_);
+  }
+
+ private:
+  struct Entry {
+    osmium::object_id_type id;
+    size_t offset;  // into the buffer
+  };
+  static bool by_id(const Entry& a, const Entry& b) { return a.id < b.id; }
+  static bool same_id(const Entry& a, const Entry& b) { return a.id == b.id; }
+  static constexpr auto growing = osmium::memory::Buffer::auto_grow::yes;
+
+  template <class Visit>
+  void read_entities(osmium::osm_entity_bits::type entities, const Visit& visit) {
+    try {
+      const osmium::io::File file(content_.data(), content_.size(), is_pbf_ ? "pbf" : "osm");
+      osmium::io::Reader reader(file, entities);
+      while (osmium::memory::Buffer buffer = reader.read()) {
+        for (auto& object : buffer.select<osmium::OSMObject>()) visit(object);
+      }
+      reader.close();
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& e) {
+      throw InputError(
+          fmt::format("{}: is no {} file that can be read: {}", name_, is_pbf_ ? "OSM PBF" : "OSM XML", e.what()));
+    }
+  }
+
+  void node(const osmium::Node& node) {
+    // Every node takes a byte at least, compressed ones perhaps half of it: more of them are a trap for the memory.
+    if (++nodes_ > 1000000 + 8 * content_.size()) {
+      throw InputError(fmt::format("{}: holds far more nodes than its size allows: it is damaged", name_));
+    }
+    if (node.visible() && node.location().valid()) locations_.set(index_id(node.id()), node.location());
+  }
+
+  void way(const osmium::Way& way) {
+    const bool building = is_building(way.tags());
+    if (!way.visible() || (!building && !member_ways_.contains(way.id()))) return;
+    if (building && (way.nodes().size() < 4 || !way.is_closed()) && !member_ways_.contains(way.id())) {
+      ++map_.left_out["way that does not close, as clipped at the border of an extract"];
+      return;
+    }
+    ways_.push_back({way.id(), kept_ways_.committed()});
+    kept_ways_.add_item(way);
+    kept_ways_.commit();
+  }
+
+  void relation(const osmium::Relation& relation) {
+    const char* const type = relation.tags().get_value_by_key("type");
+    if (!relation.visible() || !type || std::string_view(type) != "multipolygon" || !is_building(relation.tags())) {
+      return;
+    }
+    for (const auto& member : relation.members()) {
+      if (member.type() == osmium::item_type::way) member_ways_.insert(member.ref());
+    }
+    relations_.push_back({relation.id(), kept_relations_.committed()});
+    kept_relations_.add_item(relation);
+    kept_relations_.commit();
+  }
+
+  void locate(osmium::Way& way) {
+    for (osmium::NodeRef& node : way.nodes()) node.set_location(locations_.get_noexcept(index_id(node.ref())));
+  }
+
+  void assemble(const osmium::Way& way) {
+    if (!is_building(way.tags()) || way.nodes().size() < 4 || !way.is_closed()) return;
+    build(way, "way", [&](osmium::area::Assembler& assembler, osmium::memory::Buffer& out) { assembler(way, out); });
+  }
+
+  void assemble(const osmium::Relation& relation) {
+    std::vector<const osmium::Way*> members;
+    for (const auto& member : relation.members()) {
+      if (member.type() != osmium::item_type::way) continue;
+      const auto found = std::lower_bound(ways_.begin(), ways_.end(), Entry{member.ref(), 0}, by_id);
+      if (found == ways_.end() || found->id != member.ref()) {
+        ++map_.left_out["multipolygon of which a way is missing, as clipped at the border of an extract"];
+        return;
+      }
+      members.push_back(&kept_ways_.get<const osmium::Way>(found->offset));
+    }
+    if (members.empty()) return;
+    build(relation, "relation",
+          [&](osmium::area::Assembler& assembler, osmium::memory::Buffer& out) { assembler(relation, members, out); });
+  }
+
+  template <class Assemble>
+  void build(const osmium::OSMObject& source, const char* kind, const Assemble& assemble) {
+    osmium::memory::Buffer out(1024, growing);
+    osmium::area::Assembler assembler(assembler_config_);
+    assemble(assembler, out);
+    bool any = false;
+    for (const auto& area : out.select<osmium::Area>()) {
+      const bool many = area.num_rings().first > 1;
+      size_t count = 0;
+      for (const osmium::OuterRing& outer : area.outer_rings()) {
+        Footprint footprint;
+        footprint.id = fmt::format("{}_{}", kind, source.id());
+        if (many) footprint.id += fmt::format("_{}", ++count);
+        for (const osmium::NodeRef& node : outer) footprint.outer.push_back({node.lon(), node.lat()});
+        for (const osmium::InnerRing& inner : area.inner_rings(outer)) {
+          RingM& hole = footprint.holes.emplace_back();
+          for (const osmium::NodeRef& node : inner) hole.push_back({node.lon(), node.lat()});
+        }
+        set_tags(footprint, source.tags());
+        map_.footprints.push_back(std::move(footprint));
+        any = true;
+      }
+    }
+    if (any) return;
+    ++map_.left_out[assembler.stats().invalid_locations > 0
+                        ? "outline of which a node is missing, as clipped at the border of an extract"
+                        : "outline that crosses itself or does not close"];
+  }
+
+  static void set_tags(Footprint& footprint, const osmium::TagList& tags) {
+    for (const char* key : kept_tags) {
+      if (const char* const value = tags.get_value_by_key(key)) footprint.tags[key] = value;
+    }
+    footprint.name = tags.get_value_by_key("name", "");
+  }
+
+  static osmium::unsigned_object_id_type index_id(osmium::object_id_type id) {
+    return static_cast<osmium::unsigned_object_id_type>(id);
+  }
+
+  std::string_view content_;
+  const std::string& name_;
+  bool is_pbf_;
+  Map map_;
+  size_t nodes_ = 0;
+  const osmium::area::AssemblerConfig assembler_config_{};
+  osmium::index::map::SparseMemArray<osmium::unsigned_object_id_type, osmium::Location> locations_;
+  std::set<osmium::object_id_type> member_ways_;
+  osmium::memory::Buffer kept_ways_{1 << 16, growing}, kept_relations_{1 << 16, growing};
+  std::vector<Entry> ways_, relations_;
+};
+
+template <class Visit>
+void each_point(Map& map, const Visit& visit) {
+  for (Footprint& footprint : map.footprints) {
+    for (glm::dvec2& p : footprint.outer) visit(p);
+    for (RingM& hole : footprint.holes) {
+      for (glm::dvec2& p : hole) visit(p);
+    }
+  }
+}
+
+// A transverse Mercator projection about the middle of the buildings: true to scale and angle, north is +y.
+Georeference local_projection(Map& map, const std::string& name) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  glm::dvec2 lower(infinity), upper(-infinity);
+  each_point(map, [&](const glm::dvec2& p) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
+  });
+  if (upper.x - lower.x > widest_map_deg || upper.y - lower.y > widest_map_deg) {
+    throw InputError(
+        fmt::format("{}: spans {:.1f} by {:.1f} degrees; cut a city out of it: osmium extract -b "
+                    "WEST,SOUTH,EAST,NORTH {} -o city.osm.pbf",
+                    name, upper.x - lower.x, upper.y - lower.y, name));
+  }
+  return {fmt::format("+proj=tmerc +lat_0={:.6f} +lon_0={:.6f} +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs",
+                      (lower.y + upper.y) / 2, (lower.x + upper.x) / 2),
+          {0, 0},
+          {}};
+}
+
+}  // namespace
+
+bool is_osm(std::string_view first_bytes) {
+  // PBF: the length of a BlobHeader, then its field 1, "OSMHeader".
+  return root_element(first_bytes) == "osm" || first_bytes.substr(0, 15).ends_with("\x0a\x09OSMHeader");
+}
+
+Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options) {
+  Map map = OsmReader(content, name).read();
+  if (map.footprints.empty()) return map;
+  if (options.net.empty()) {
+    map.georeference = local_projection(map, name);
+  } else {
+    const std::string net = read_file(options.net);
+    const auto location = sumo_location(net, options.net.string());
+    if (!location || location->projection.empty()) {
+      throw InputError(
+          fmt::format("{}: has no <location> with a projection; give the .net.xml that netconvert made of "
+                      "the same map",
+                      options.net.string()));
+    }
+    map.georeference = *location;
+  }
+  map.georeference.attribution = osm_attribution;
+  const Projection projection(map.georeference);
+  each_point(map, [&](glm::dvec2& p) { p = projection.scene(p); });
+  return map;
+}
+
+}  // namespace wavetracer::imports

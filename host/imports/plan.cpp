@@ -1,0 +1,214 @@
+// The rules, one function each, in the order of plan_city().
+// Assumes that most footprints are small beside the map, so that sorted boxes find what lies inside of what.
+#include "imports/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "imports/box_index.hpp"
+#include "imports/triangulate.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::imports {
+namespace {
+
+// The shift by whole metres that brings all footprints near the origin; none where they are there already, since the
+// coordinates may be those of vehicles.
+glm::dvec2 shift_to_origin(const Map& map, const std::string& name) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  glm::dvec2 lower(infinity), upper(-infinity);
+  for (const Footprint& footprint : map.footprints) {
+    for (const glm::dvec2& p : footprint.outer) {
+      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
+      upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
+    }
+  }
+  const double reach = std::max({-lower.x, -lower.y, upper.x, upper.y});
+  if (!(reach > largest_coordinate_m)) return {0, 0};
+  if (!(std::max(upper.x - lower.x, upper.y - lower.y) < 2 * largest_coordinate_m - 2)) {
+    throw InputError(
+        fmt::format("{}: the buildings span {:.0f} x {:.0f} km; {:.0f} km is the most; cut a part out of it", name,
+                    (upper.x - lower.x) / 1000, (upper.y - lower.y) / 1000, 2 * largest_coordinate_m / 1000));
+  }
+  return {-std::round((lower.x + upper.x) / 2), -std::round((lower.y + upper.y) / 2)};
+}
+
+Ring shifted_ring(RingM points, const glm::dvec2& shift) {
+  for (glm::dvec2& p : points) p += shift;
+  return make_ring(points);
+}
+
+struct Candidate {
+  Solid solid;
+  const Tags* tags = nullptr;
+  Box box;
+  bool gone = false;
+};
+
+// The same for all ways to write a ring: turning left, from its lowest point on.
+Ring canonical(Ring ring) {
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  return ring;
+}
+
+class Planner {
+ public:
+  Planner(const Map& map, const std::string& name, const ImportOptions& options) : map_(map), options_(options) {
+    plan_.left_out = map.left_out;
+    plan_.offset_m = shift_to_origin(map, name);
+  }
+
+  Plan plan() {
+    take_footprints();
+    drop_repeated_outlines();
+    if (map_.nested_are_courtyards) cut_courtyards();
+    triangulate_all();
+    leave_outlines_to_parts();
+    for (Candidate& c : candidates_) {
+      if (!c.gone) plan_.solids.push_back(std::move(c.solid));
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  void drop(Candidate& candidate, const std::string& reason) {
+    candidate.gone = true;
+    ++plan_.left_out[reason];
+  }
+
+  void take_footprints() {
+    for (const Footprint& footprint : map_.footprints) {
+      Polygon polygon{shifted_ring(footprint.outer, plan_.offset_m), {}};
+      for (const RingM& hole : footprint.holes) polygon.holes.push_back(shifted_ring(hole, plan_.offset_m));
+      if (const std::string_view reason = fault(polygon); !reason.empty()) {
+        ++plan_.left_out[std::string(reason)];
+        continue;
+      }
+      orient(polygon);
+      auto shape = shape_of(footprint.tags, options_, plan_.guessed, plan_.left_out);
+      if (!shape) continue;
+      const Box box = box_of(polygon.outer);
+      candidates_.push_back({{footprint.id,
+                              footprint.name,
+                              says_yes(footprint.tags, "building:part"),
+                              std::move(polygon),
+                              {},
+                              std::move(*shape)},
+                             &footprint.tags,
+                             box});
+    }
+  }
+
+  // A multipolygon and its outer way may both be tagged: the one with courtyards stays.
+  void drop_repeated_outlines() {
+    std::map<Ring, size_t> seen;
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      if (candidates_[i].solid.part) continue;  // parts may stand on one another
+      const auto [entry, is_new] = seen.try_emplace(canonical(candidates_[i].solid.polygon.outer), i);
+      if (is_new) continue;
+      const auto courtyards = [this](size_t k) { return candidates_[k].solid.polygon.holes.size(); };
+      const size_t earlier = entry->second;
+      const bool replaces = courtyards(i) > courtyards(earlier);
+      if (replaces) entry->second = i;
+      drop(candidates_[replaces ? earlier : i], "outline that is there twice");
+    }
+  }
+
+  // A building inside another with the same tags is a courtyard in it, one inside of that a building again. polyconvert
+  // writes inner rings of multipolygons so.
+  void cut_courtyards() {
+    BoxIndex index;
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      if (!candidates_[i].gone && !candidates_[i].solid.part) index.add(candidates_[i].box, i);
+    }
+    index.sort();
+    std::vector<size_t> order(candidates_.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    const auto area = [this](size_t i) { return twice_area(candidates_[i].solid.polygon.outer); };
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return area(a) > area(b); });
+    std::vector<bool> is_hole(candidates_.size());
+    for (const size_t i : order) {
+      if (candidates_[i].gone || candidates_[i].solid.part) continue;
+      size_t parent = i;
+      index.containing(candidates_[i].box, [&](size_t k) {
+        if (k == i || (parent != i && area(k) >= area(parent)) || !encloses(candidates_[k], candidates_[i])) return;
+        parent = k;
+      });
+      if (parent == i || is_hole[parent]) continue;
+      is_hole[i] = cut(candidates_[parent].solid.polygon, candidates_[i].solid.polygon.outer);
+    }
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      if (is_hole[i]) candidates_[i].gone = true;  // counted as a courtyard of another
+    }
+  }
+  static bool encloses(const Candidate& outer, const Candidate& inner) {
+    if (*outer.tags != *inner.tags) return false;
+    const Ring& ring = inner.solid.polygon.outer;
+    return std::all_of(ring.begin(), ring.end(),
+                       [&](const Point& p) { return contains(outer.solid.polygon.outer, p); });
+  }
+  // False, and nothing done, where the hole would touch the border.
+  static bool cut(Polygon& polygon, Ring hole) {
+    std::reverse(hole.begin(), hole.end());
+    polygon.holes.push_back(std::move(hole));
+    if (fault(polygon).empty()) return true;
+    polygon.holes.pop_back();
+    return false;
+  }
+
+  void triangulate_all() {
+    for (Candidate& c : candidates_) {
+      if (c.gone) continue;
+      c.solid.triangles = triangulate(c.solid.polygon);
+      if (c.solid.triangles.empty()) drop(c, "outline that could not be triangulated");
+    }
+  }
+
+  // Simple 3D Buildings: where there are parts, the outline is not built.
+  void leave_outlines_to_parts() {
+    BoxIndex index;
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      if (!candidates_[i].gone && !candidates_[i].solid.part) index.add(candidates_[i].box, i);
+    }
+    index.sort();
+    for (const Candidate& part : candidates_) {
+      if (part.gone || !part.solid.part) continue;
+      const Point inside = point_inside(part.solid);
+      index.containing({inside, inside}, [&](size_t i) {
+        const Polygon& outline = candidates_[i].solid.polygon;
+        if (candidates_[i].gone || !contains(outline.outer, inside)) return;
+        for (const Ring& hole : outline.holes) {
+          if (contains(hole, inside)) return;
+        }
+        drop(candidates_[i], "outline of which the parts are built");
+      });
+    }
+  }
+  // The centroid of the largest triangle.
+  static Point point_inside(const Solid& solid) {
+    std::vector<Point> corners = solid.polygon.outer;
+    for (const Ring& hole : solid.polygon.holes) corners.insert(corners.end(), hole.begin(), hole.end());
+    const auto area = [&](const Triangle& t) { return turn(corners[t[0]], corners[t[1]], corners[t[2]]); };
+    const Triangle t = *std::max_element(solid.triangles.begin(), solid.triangles.end(),
+                                         [&](const Triangle& s, const Triangle& u) { return area(s) < area(u); });
+    return {(corners[t[0]].x + corners[t[1]].x + corners[t[2]].x) / 3,
+            (corners[t[0]].y + corners[t[1]].y + corners[t[2]].y) / 3};
+  }
+
+  const Map& map_;
+  const ImportOptions& options_;
+  Plan plan_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+Plan plan_city(const Map& map, const std::string& name, const ImportOptions& options) {
+  return Planner(map, name, options).plan();
+}
+
+}  // namespace wavetracer::imports

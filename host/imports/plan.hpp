@@ -1,0 +1,32 @@
+// Which solids stand where: footprints checked, courtyards cut out, outlines left to their parts.
+// Assumes a map as its reader gives it; whatever is not built is counted with its reason.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "imports/building_tags.hpp"
+#include "imports/map.hpp"
+#include "imports/rings.hpp"
+#include "scene/raw_scene.hpp"
+
+namespace wavetracer::imports {
+
+struct Solid {
+  std::string id, name;
+  bool part = false;  // of building:part
+  Polygon polygon;
+  std::vector<Triangle> triangles;  // of the polygon
+  Shape shape;
+};
+
+struct Plan {
+  std::vector<Solid> solids;
+  glm::dvec2 offset_m{0, 0};  // coordinates of the solids = those of the map + this; zero where they are small enough
+  std::map<std::string, uint64_t> left_out, guessed;
+};
+
+// Throws InputError where the map is wider than a scene can be.
+Plan plan_city(const Map& map, const std::string& name, const ImportOptions& options);
+
+}  // namespace wavetracer::imports

@@ -1,0 +1,136 @@
+// Exact tests of rings. Crossings are found by a sweep over the edges sorted by their lower x.
+// Assumes nothing: fault() answers before any product can overflow.
+#include "imports/rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wavetracer::imports {
+namespace {
+
+int sign(int64_t value) { return (value > 0) - (value < 0); }
+
+struct Segment {
+  Point a, b;
+  size_t ring = 0, place = 0, ring_size = 0;
+  int64_t lower_x() const { return std::min(a.x, b.x); }
+  int64_t upper_x() const { return std::max(a.x, b.x); }
+};
+
+void append(std::vector<Segment>& out, const Ring& ring, size_t index) {
+  for (size_t i = 0; i < ring.size(); ++i) out.push_back({ring[i], ring[(i + 1) % ring.size()], index, i, ring.size()});
+}
+
+// Whether two edges have more in common than the corner of neighbours.
+bool collide(const Segment& s, const Segment& t) {
+  if (s.ring == t.ring) {
+    if ((s.place + 1) % s.ring_size == t.place) return on_segment(s.a, s.b, t.b) || on_segment(t.a, t.b, s.a);
+    if ((t.place + 1) % t.ring_size == s.place) return on_segment(t.a, t.b, s.b) || on_segment(s.a, s.b, t.a);
+  }
+  return segments_meet(s.a, s.b, t.a, t.b);
+}
+
+bool any_collision(const Polygon& polygon) {
+  std::vector<Segment> segments;
+  append(segments, polygon.outer, 0);
+  for (size_t i = 0; i < polygon.holes.size(); ++i) append(segments, polygon.holes[i], i + 1);
+  std::sort(segments.begin(), segments.end(),
+            [](const Segment& s, const Segment& t) { return s.lower_x() < t.lower_x(); });
+  for (size_t i = 0; i < segments.size(); ++i) {
+    for (size_t j = i + 1; j < segments.size() && segments[j].lower_x() <= segments[i].upper_x(); ++j) {
+      if (collide(segments[i], segments[j])) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool on_segment(const Point& a, const Point& b, const Point& p) {
+  return turn(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+         p.y <= std::max(a.y, b.y);
+}
+
+bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
+  if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y)) return false;
+  const int c_side = sign(turn(a, b, c)), d_side = sign(turn(a, b, d));
+  const int a_side = sign(turn(c, d, a)), b_side = sign(turn(c, d, b));
+  if (c_side * d_side < 0 && a_side * b_side < 0) return true;
+  return on_segment(a, b, c) || on_segment(a, b, d) || on_segment(c, d, a) || on_segment(c, d, b);
+}
+
+Ring make_ring(std::span<const glm::dvec2> points_m) {
+  Ring out;
+  for (const glm::dvec2& p : points_m) {
+    const Point q{std::llround(p.x * grid_per_m), std::llround(p.y * grid_per_m)};
+    if (out.empty() || out.back() != q) out.push_back(q);
+  }
+  while (out.size() > 1 && out.back() == out.front()) out.pop_back();
+  return out;
+}
+
+Box box_of(const Ring& ring) {
+  Box out{ring.front(), ring.front()};
+  for (const Point& p : ring) {
+    out.lower = {std::min(out.lower.x, p.x), std::min(out.lower.y, p.y)};
+    out.upper = {std::max(out.upper.x, p.x), std::max(out.upper.y, p.y)};
+  }
+  return out;
+}
+
+int64_t twice_area(const Ring& ring) {
+  int64_t sum = 0;
+  for (size_t i = 1; i + 1 < ring.size(); ++i) sum += turn(ring[0], ring[i], ring[i + 1]);
+  return sum;
+}
+
+double area_m2(const Polygon& polygon) {
+  int64_t sum = twice_area(polygon.outer);
+  for (const Ring& hole : polygon.holes) sum += twice_area(hole);
+  return static_cast<double>(sum) / (2.0 * grid_per_m * grid_per_m);
+}
+
+void orient(Polygon& polygon) {
+  if (twice_area(polygon.outer) < 0) std::reverse(polygon.outer.begin(), polygon.outer.end());
+  for (Ring& hole : polygon.holes) {
+    if (twice_area(hole) > 0) std::reverse(hole.begin(), hole.end());
+  }
+}
+
+bool contains(const Ring& ring, const Point& p) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Point &a = ring[j], &b = ring[i];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    if ((turn(a, b, p) > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+std::string_view fault(const Polygon& polygon) {
+  size_t corners = polygon.outer.size();
+  for (const Ring& hole : polygon.holes) corners += hole.size();
+  if (corners > max_corners) return "more than 5000 corners";
+  if (polygon.outer.size() < 3) return "fewer than three corners";
+  const Box box = box_of(polygon.outer);
+  constexpr auto limit = static_cast<int64_t>(largest_coordinate_m) * grid_per_m;
+  if (box.lower.x < -limit || box.lower.y < -limit || box.upper.x > limit || box.upper.y > limit) {
+    return "too far from the middle of the map";
+  }
+  if (box.upper.x - box.lower.x > max_size || box.upper.y - box.lower.y > max_size) return "larger than 4 km";
+  for (const Ring& hole : polygon.holes) {
+    if (hole.size() < 3) return "a courtyard of fewer than three corners";
+    if (!box.contains(box_of(hole))) return "a courtyard outside of the building";
+  }
+  if (twice_area(polygon.outer) == 0) return "no area";
+  if (any_collision(polygon)) return "outline that crosses or touches itself";
+  for (size_t i = 0; i < polygon.holes.size(); ++i) {
+    if (!contains(polygon.outer, polygon.holes[i][0])) return "a courtyard outside of the building";
+    for (size_t j = 0; j < polygon.holes.size(); ++j) {
+      if (i != j && contains(polygon.holes[j], polygon.holes[i][0])) return "a courtyard inside of another";
+    }
+  }
+  return {};
+}
+
+}  // namespace wavetracer::imports

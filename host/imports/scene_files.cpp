@@ -1,0 +1,171 @@
+// Prisms: a floor, walls round every ring, a roof; vertices are shared, so that every edge has two faces.
+// Names of objects are those of the map as far as Mitsuba's ids allow.
+#include "imports/scene_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+
+#include "scene/file.hpp"
+#include "scene/ply.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::imports {
+namespace {
+
+constexpr size_t longest_name = 80;  // bytes
+
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
+
+// Whether the text is UTF-8 as XML wants it; overlong forms and surrogates are rare enough to pass.
+bool is_utf8(std::string_view text) {
+  for (size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const size_t more = c < 0x80                ? 0
+                        : c >= 0xC2 && c < 0xE0 ? 1
+                        : c >= 0xE0 && c < 0xF0 ? 2
+                        : c >= 0xF0 && c < 0xF5 ? 3
+                                                : 9;
+    if (more == 9 || i + more >= text.size()) return false;
+    for (size_t k = 1; k <= more; ++k) {
+      if (!is_continuation(text[i + k])) return false;
+    }
+    i += more + 1;
+  }
+  return true;
+}
+
+// "way_123 Bäckerei": ids of Mitsuba hold no dots, and $ starts a parameter.
+std::string object_name(const Solid& solid) {
+  if (solid.name.empty() || !is_utf8(solid.name)) return solid.id;
+  std::string name = solid.name;
+  for (char& c : name) {
+    if (c == '.' || c == '$' || (static_cast<unsigned char>(c) < ' ') || c == 0x7F) c = '_';
+  }
+  if (name.size() > longest_name) {
+    size_t end = longest_name;
+    while (end > 0 && is_continuation(name[end])) --end;
+    name.resize(end);
+  }
+  return solid.id + " " + name;
+}
+
+std::vector<glm::dvec3> corners(const Solid& solid) {
+  std::vector<glm::dvec3> out;
+  const double bottom = solid.shape.bottom_m > 0 ? solid.shape.bottom_m : -foundation_m;
+  for (const double z : {bottom, solid.shape.top_m}) {
+    const auto add = [&](const Ring& ring) {
+      for (const Point& p : ring) {
+        out.emplace_back(static_cast<double>(p.x) / grid_per_m, static_cast<double>(p.y) / grid_per_m, z);
+      }
+    };
+    add(solid.polygon.outer);
+    for (const Ring& hole : solid.polygon.holes) add(hole);
+  }
+  return out;
+}
+
+// A rectangle under all buildings and `margin_m` beyond them.
+SceneMesh ground(const Plan& plan, const ImportOptions& options) {
+  Box box = box_of(plan.solids.front().polygon.outer);
+  for (const Solid& solid : plan.solids) {
+    const Box other = box_of(solid.polygon.outer);
+    box.lower = {std::min(box.lower.x, other.lower.x), std::min(box.lower.y, other.lower.y)};
+    box.upper = {std::max(box.upper.x, other.upper.x), std::max(box.upper.y, other.upper.y)};
+  }
+  const double x0 = static_cast<double>(box.lower.x) / grid_per_m - options.margin_m;
+  const double y0 = static_cast<double>(box.lower.y) / grid_per_m - options.margin_m;
+  const double x1 = static_cast<double>(box.upper.x) / grid_per_m + options.margin_m;
+  const double y1 = static_cast<double>(box.upper.y) / grid_per_m + options.margin_m;
+  return {"ground",
+          "ground",
+          options.ground_material,
+          {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}},
+          {{0, 1, 2}, {0, 2, 3}}};
+}
+
+void append(pugi::xml_node parent, const char* tag, const char* name, const std::string& value) {
+  pugi::xml_node node = parent.append_child(tag);
+  node.append_attribute("name") = name;
+  node.append_attribute("value") = value.c_str();
+}
+
+}  // namespace
+
+std::vector<SceneMesh> extrude(const Solid& solid) {
+  SceneMesh walls{solid.id, object_name(solid), solid.shape.walls, corners(solid), {}};
+  const auto top = static_cast<uint32_t>(walls.vertices.size() / 2);
+  uint32_t first = 0;
+  const auto wall_ring = [&](const Ring& ring) {
+    const auto size = static_cast<uint32_t>(ring.size());
+    for (uint32_t i = 0; i < size; ++i) {
+      const uint32_t p = first + i, q = first + (i + 1) % size;  // the solid is on the left from p to q
+      walls.triangles.push_back({p, q, q + top});
+      walls.triangles.push_back({p, q + top, p + top});
+    }
+    first += size;
+  };
+  wall_ring(solid.polygon.outer);
+  for (const Ring& hole : solid.polygon.holes) wall_ring(hole);
+  for (const Triangle& t : solid.triangles) walls.triangles.push_back({t[0], t[2], t[1]});
+  if (solid.shape.walls == solid.shape.roof) {
+    for (const Triangle& t : solid.triangles) walls.triangles.push_back({t[0] + top, t[1] + top, t[2] + top});
+    return {std::move(walls)};
+  }
+  SceneMesh roof{walls.file + "_roof", walls.name + " roof", solid.shape.roof, {}, solid.triangles};
+  roof.vertices.assign(walls.vertices.begin() + top, walls.vertices.end());
+  return {std::move(walls), std::move(roof)};
+}
+
+std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& options) {
+  std::vector<SceneMesh> out;
+  if (options.ground && !plan.solids.empty()) out.push_back(ground(plan, options));
+  for (const Solid& solid : plan.solids) {
+    for (SceneMesh& mesh : extrude(solid)) out.push_back(std::move(mesh));
+  }
+  return out;
+}
+
+void write_scene(const std::vector<SceneMesh>& meshes, const std::filesystem::path& folder,
+                 const std::string& attribution) {
+  std::error_code error;
+  std::filesystem::create_directories(folder / "meshes", error);
+  if (error) {
+    throw RuntimeError(fmt::format("{}: cannot be created: {}", (folder / "meshes").string(), error.message()));
+  }
+  pugi::xml_document document;
+  if (!attribution.empty()) {
+    document.append_child(pugi::node_comment).set_value((" Map data: " + attribution + " ").c_str());
+  }
+  pugi::xml_node scene = document.append_child("scene");
+  scene.append_attribute("version") = "2.1.0";
+  std::set<std::string> materials;
+  for (const SceneMesh& mesh : meshes) materials.insert(mesh.material);
+  for (const std::string& material : materials) {
+    pugi::xml_node bsdf = scene.append_child("bsdf");
+    bsdf.append_attribute("type") = "itu-radio-material";
+    bsdf.append_attribute("id") = ("mat-itu_" + material).c_str();
+    append(bsdf, "string", "type", material);
+    append(bsdf, "float", "thickness", "0.1");
+  }
+  for (const SceneMesh& mesh : meshes) {
+    const std::string file = "meshes/" + mesh.file + ".ply";
+    write_file(folder / file, format_ply(mesh.vertices, mesh.triangles));
+    pugi::xml_node shape = scene.append_child("shape");
+    shape.append_attribute("type") = "ply";
+    shape.append_attribute("id") = ("mesh-" + mesh.name).c_str();
+    append(shape, "string", "filename", file);
+    append(shape, "boolean", "face_normals", "true");
+    pugi::xml_node reference = shape.append_child("ref");
+    reference.append_attribute("id") = ("mat-itu_" + mesh.material).c_str();
+    reference.append_attribute("name") = "bsdf";
+  }
+  std::ostringstream text;
+  document.save(text, "  ");
+  write_file(folder / "city.xml", text.str());
+}
+
+}  // namespace wavetracer::imports

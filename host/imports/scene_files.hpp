@@ -1,0 +1,31 @@
+// Solids as meshes, and the files of a scene: Mitsuba XML beside meshes/*.ply, as Sionna RT's scenes are.
+// Assumes polygons with their triangles, as plan_city() gives them.
+#pragma once
+#include <filesystem>
+
+#include "imports/plan.hpp"
+#include "scene/raw_scene.hpp"
+
+namespace wavetracer::imports {
+
+constexpr double foundation_m = 1;  // what stands on the ground reaches below it, so that no face lies in its plane
+
+struct SceneMesh {
+  std::string file;      // without folder and suffix
+  std::string name;      // of the object
+  std::string material;  // ITU name
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;
+};
+
+// A closed solid, normals outward: one mesh, or two, walls and roof, where their materials differ.
+std::vector<SceneMesh> extrude(const Solid& solid);
+
+// The ground first, if it is asked for, then all solids. Names of meshes are unique.
+std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& options);
+
+// folder/meshes/*.ply, then folder/city.xml, which names `attribution`. Throws RuntimeError.
+void write_scene(const std::vector<SceneMesh>& meshes, const std::filesystem::path& folder,
+                 const std::string& attribution);
+
+}  // namespace wavetracer::imports

@@ -1,0 +1,179 @@
+// The functions of wavetracer.h, but for the columns: thin, and no exception leaves them.
+// Assumes what the header asks of the caller: no object is used after it was given back.
+#include <atomic>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include "library/handles.hpp"
+#include "wavetracer/config_file.hpp"
+#include "wavetracer/output.hpp"
+
+namespace wavetracer::c_api {
+namespace {
+
+std::atomic<uint64_t> opened{0};
+
+// An error that needs no memory to be made.
+::wavetracer_error* out_of_memory() {
+  static ::wavetracer_error error{WAVETRACER_RUNTIME,
+                                  "out of memory: lower trace.batch_rays or trace.rays, or use a smaller scene"};
+  return &error;
+}
+
+std::string lines(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : "\n") + text;
+  return out;
+}
+
+std::vector<glm::dvec3> file_positions(const std::vector<EndState>& ends, const glm::dvec3& origin_m) {
+  std::vector<glm::dvec3> out;
+  for (const EndState& end : ends)
+    out.push_back(end.present ? origin_m + end.position_m : glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
+  return out;
+}
+
+std::vector<std::complex<double>> packed(const Paths& paths) {
+  const size_t ports = size_t{paths.rx_ports} * paths.tx_ports;
+  std::vector<std::complex<double>> out;
+  out.reserve(paths.size() * ports);
+  for (const auto& a : paths.a) out.insert(out.end(), a.begin(), a.begin() + static_cast<std::ptrdiff_t>(ports));
+  return out;
+}
+
+const char* name_of(const std::vector<RadioEnd>& ends, size_t index) {
+  return index < ends.size() ? ends[index].name.c_str() : nullptr;
+}
+
+}  // namespace
+
+void report(::wavetracer_error** error, ExitCode code, const char* message) noexcept {
+  if (!error) return;
+  try {
+    *error = new ::wavetracer_error{static_cast<int>(code), message};
+  } catch (const std::bad_alloc&) {
+    *error = out_of_memory();
+  }
+}
+
+void report_out_of_memory(::wavetracer_error** error) noexcept {
+  if (error) *error = out_of_memory();
+}
+
+}  // namespace wavetracer::c_api
+
+using namespace wavetracer::c_api;
+using wavetracer::ConfigError;
+
+extern "C" {
+
+int wavetracer_error_code(const wavetracer_error* error) { return error ? error->code : WAVETRACER_OK; }
+const char* wavetracer_error_message(const wavetracer_error* error) { return error ? error->message.c_str() : ""; }
+void wavetracer_error_free(wavetracer_error* error) {
+  if (error != out_of_memory()) delete error;
+}
+
+const char* wavetracer_version(void) { return WAVETRACER_VERSION; }
+
+wavetracer_simulation* wavetracer_open(const char* config, const char* folder, const char* const* sets,
+                                       size_t set_count, const char* device, wavetracer_error** error) {
+  return guarded(error, static_cast<wavetracer_simulation*>(nullptr), [&] {
+    const char* const here = "wavetracer_open";
+    std::vector<std::string> texts;
+    for (size_t i = 0; i < set_count; ++i)
+      texts.emplace_back(&needed((&needed(sets, here, "sets"))[i], here, "one of sets"));
+    const std::string file = (std::filesystem::path(folder ? folder : "") / "config").string();
+    wavetracer::Simulation simulation(wavetracer::parse_config(&needed(config, here, "config"), file, texts),
+                                      device ? device : "");
+    std::string warnings = lines(simulation.warnings());
+    return new wavetracer_simulation{std::move(simulation), std::move(warnings), ++opened};
+  });
+}
+
+void wavetracer_close(wavetracer_simulation* self) { delete self; }
+
+uint32_t wavetracer_frame_count(const wavetracer_simulation* self) {
+  return self ? static_cast<uint32_t>(self->simulation.frame_count()) : 0;
+}
+double wavetracer_time_s(const wavetracer_simulation* self, uint32_t frame) {
+  return frame < wavetracer_frame_count(self) ? self->simulation.time_s(frame)
+                                              : std::numeric_limits<double>::quiet_NaN();
+}
+size_t wavetracer_transmitter_count(const wavetracer_simulation* self) {
+  return self ? self->simulation.config().transmitters.size() : 0;
+}
+size_t wavetracer_receiver_count(const wavetracer_simulation* self) {
+  return self ? self->simulation.config().receivers.size() : 0;
+}
+const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_t index) {
+  return self ? name_of(self->simulation.config().transmitters, index) : nullptr;
+}
+const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index) {
+  return self ? name_of(self->simulation.config().receivers, index) : nullptr;
+}
+const char* wavetracer_device_name(const wavetracer_simulation* self) {
+  return self ? self->simulation.device().name.c_str() : nullptr;
+}
+const char* wavetracer_config_text(const wavetracer_simulation* self) {
+  return self ? self->simulation.config().text.c_str() : nullptr;
+}
+const char* wavetracer_warnings(const wavetracer_simulation* self) { return self ? self->warnings.c_str() : nullptr; }
+
+wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t frame, wavetracer_error** error) {
+  return guarded(error, static_cast<wavetracer_frame*>(nullptr), [&] {
+    wavetracer::Simulation& simulation = needed(self, "wavetracer_run_frame", "self").simulation;
+    if (frame >= simulation.frame_count())
+      throw ConfigError("wavetracer_run_frame: there is no frame " + std::to_string(frame) + ", only " +
+                        std::to_string(simulation.frame_count()) + " counted from 0");
+    auto out = std::make_unique<wavetracer_frame>();
+    out->owner = self->number;
+    out->result = simulation.run_frame(frame);
+    out->warnings = lines(out->result.warnings);
+    out->a = packed(out->result.paths);
+    out->transmitter_position_m = file_positions(out->result.world.transmitters, simulation.scene().origin_m);
+    out->receiver_position_m = file_positions(out->result.world.receivers, simulation.scene().origin_m);
+    return out.release();
+  });
+}
+
+void wavetracer_frame_free(wavetracer_frame* self) { delete self; }
+
+void wavetracer_forget(wavetracer_simulation* self) {
+  if (self) self->simulation.forget();
+}
+
+uint32_t wavetracer_frame_number(const wavetracer_frame* self) { return self ? self->result.frame : 0; }
+uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self) { return self ? self->result.paths.rx_ports : 0; }
+uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self) { return self ? self->result.paths.tx_ports : 0; }
+
+wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self) {
+  if (!self) return {};
+  const wavetracer::FrameCounts& n = self->result.counts;
+  return {n.rays, n.segments, n.hits, n.sequences, n.candidates, n.solved, n.paths};
+}
+
+const char* wavetracer_frame_warnings(const wavetracer_frame* self) { return self ? self->warnings.c_str() : nullptr; }
+
+int wavetracer_write(const wavetracer_simulation* self, const char* folder, const wavetracer_frame* const* frames,
+                     size_t count, wavetracer_error** error) {
+  return guarded(error, 0, [&] {
+    const char* const here = "wavetracer_write";
+    needed(self, here, "self");
+    needed(folder, here, "folder");
+    if (count == 0) throw ConfigError("wavetracer_write: no frames are given");
+    std::vector<wavetracer::FrameResult> results;
+    for (size_t i = 0; i < count; ++i) {
+      const wavetracer_frame& frame = needed((&needed(frames, here, "frames"))[i], here, "one of frames");
+      if (frame.owner != self->number)
+        throw ConfigError("wavetracer_write: frame " + std::to_string(frame.result.frame) +
+                          " is of another simulation");
+      if (!results.empty() && frame.result.frame <= results.back().frame)
+        throw ConfigError("wavetracer_write: frames must be sorted by their number, each once");
+      results.push_back(frame.result);
+    }
+    wavetracer::write_outputs(folder, wavetracer::make_run(self->simulation, count), results);
+    return 1;
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,113 @@
+// The columns of wavetracer.h: one row of a table each, its type and width told by the vector that holds it.
+// Assumes that vectors of glm and of std::complex are their numbers side by side.
+#include <string_view>
+#include "library/handles.hpp"
+
+namespace wavetracer::c_api {
+namespace {
+
+static_assert(sizeof(glm::dvec3) == 3 * sizeof(double) && sizeof(Link) == 2 * sizeof(uint32_t));
+
+template <class T>
+struct Layout;
+template <>
+struct Layout<uint8_t> {
+  static constexpr int type = WAVETRACER_UINT8, width = 1;
+};
+template <>
+struct Layout<uint32_t> {
+  static constexpr int type = WAVETRACER_UINT32, width = 1;
+};
+template <>
+struct Layout<Link> {
+  static constexpr int type = WAVETRACER_UINT32, width = 2;
+};
+template <>
+struct Layout<uint64_t> {
+  static constexpr int type = WAVETRACER_UINT64, width = 1;
+};
+template <>
+struct Layout<double> {
+  static constexpr int type = WAVETRACER_FLOAT64, width = 1;
+};
+template <>
+struct Layout<glm::dvec3> {
+  static constexpr int type = WAVETRACER_FLOAT64, width = 3;
+};
+
+wavetracer_column checked(wavetracer_column column) {
+  static const double nothing = 0;
+  if (!column.data) column.data = &nothing;
+  return column;
+}
+
+template <class T>
+wavetracer_column view(const std::vector<T>& rows) {
+  return checked({rows.data(), rows.size(), Layout<T>::width, Layout<T>::type});
+}
+
+template <auto Member>
+wavetracer_column of_paths(const wavetracer_frame& frame) {
+  return view(frame.result.paths.*Member);
+}
+
+wavetracer_column coefficients(const wavetracer_frame& frame) {
+  const Paths& paths = frame.result.paths;
+  return checked({frame.a.data(), paths.size(), size_t{paths.rx_ports} * paths.tx_ports, WAVETRACER_COMPLEX128});
+}
+
+struct Row {
+  const char* name;
+  wavetracer_column (*read)(const wavetracer_frame&);
+};
+
+constexpr Row rows[] = {
+    {"frame", of_paths<&Paths::frame>},
+    {"tx", of_paths<&Paths::tx>},
+    {"rx", of_paths<&Paths::rx>},
+    {"depth", of_paths<&Paths::depth>},
+    {"delay_s", of_paths<&Paths::delay_s>},
+    {"gain_db", of_paths<&Paths::gain_db>},
+    {"a", coefficients},
+    {"aod_theta_rad", of_paths<&Paths::aod_theta_rad>},
+    {"aod_phi_rad", of_paths<&Paths::aod_phi_rad>},
+    {"aoa_theta_rad", of_paths<&Paths::aoa_theta_rad>},
+    {"aoa_phi_rad", of_paths<&Paths::aoa_phi_rad>},
+    {"doppler_hz", of_paths<&Paths::doppler_hz>},
+    {"vertex_offset", of_paths<&Paths::vertex_offset>},
+    {"vertex_position_m", of_paths<&Paths::vertex_position_m>},
+    {"vertex_interaction", of_paths<&Paths::vertex_interaction>},
+    {"vertex_surface", of_paths<&Paths::vertex_surface>},
+    {"vertex_instance", of_paths<&Paths::vertex_instance>},
+    {"link", [](const wavetracer_frame& frame) { return view(frame.result.world.links); }},
+    {"transmitter_position_m", [](const wavetracer_frame& frame) { return view(frame.transmitter_position_m); }},
+    {"receiver_position_m", [](const wavetracer_frame& frame) { return view(frame.receiver_position_m); }},
+};
+
+}  // namespace
+}  // namespace wavetracer::c_api
+
+using namespace wavetracer::c_api;
+
+extern "C" {
+
+int wavetracer_frame_column(const wavetracer_frame* self, const char* name, wavetracer_column* column,
+                            wavetracer_error** error) {
+  return guarded(error, 0, [&] {
+    const char* const here = "wavetracer_frame_column";
+    const std::string_view wanted = &needed(name, here, "name");
+    needed(self, here, "self");
+    needed(column, here, "column");
+    for (const Row& row : rows) {
+      if (wanted != row.name) continue;
+      *column = row.read(*self);
+      return 1;
+    }
+    throw wavetracer::ConfigError("there is no column \"" + std::string(wanted) + "\"; wavetracer.h lists them");
+  });
+}
+
+size_t wavetracer_column_count(void) { return std::size(rows); }
+const char* wavetracer_column_name(size_t index) { return index < std::size(rows) ? rows[index].name : nullptr; }
+
+}  // extern "C"

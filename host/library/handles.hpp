@@ -1,0 +1,64 @@
+// What the opaque types of wavetracer.h are, and the one place where exceptions end and errors begin.
+// Assumes that a frame is filled once, by wavetracer_run_frame, and read only from then on.
+#pragma once
+#include <complex>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <new>
+#include <string>
+#include <vector>
+#include "wavetracer/error.hpp"
+#include "wavetracer/simulation.hpp"
+#include "wavetracer/wavetracer.h"
+
+struct wavetracer_error {
+  int code;
+  std::string message;
+};
+
+struct wavetracer_simulation {
+  wavetracer::Simulation simulation;
+  std::string warnings;
+  uint64_t number;  // of this process, so that frames know whose they are
+};
+
+struct wavetracer_frame {
+  uint64_t owner;  // wavetracer_simulation::number
+  wavetracer::FrameResult result;
+  std::string warnings;
+  std::vector<std::complex<double>> a;  // packed: ports that are there
+  std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;  // file coordinates
+};
+
+namespace wavetracer::c_api {
+
+// Stores an error, unless error is null.
+void report(::wavetracer_error** error, ExitCode code, const char* message) noexcept;
+void report_out_of_memory(::wavetracer_error** error) noexcept;
+
+// What body returns; where it throws, an error is stored and `failed` returned.
+template <class Body, class Result>
+Result guarded(::wavetracer_error** error, Result failed, const Body& body) noexcept {
+  if (error) *error = nullptr;
+  try {
+    return body();
+  } catch (const Error& e) {
+    report(error, e.code(), e.what());
+  } catch (const std::bad_alloc&) {
+    report_out_of_memory(error);
+  } catch (const std::exception& e) {
+    report(error, ExitCode::runtime, e.what());
+  } catch (...) {
+    report(error, ExitCode::runtime, "unknown exception");
+  }
+  return failed;
+}
+
+// Throws ConfigError where a pointer that is needed is null.
+template <class T>
+T& needed(T* pointer, const char* function, const char* argument) {
+  if (!pointer) throw ConfigError(std::string(function) + ": " + argument + " is null");
+  return *pointer;
+}
+
+}  // namespace wavetracer::c_api

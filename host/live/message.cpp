@@ -1,0 +1,233 @@
+// The parser looks at depth, numbers of values and repeated keys while it reads, before it builds anything of them.
+// Then every object is read by a list of its keys, so that what nobody asked for is refused with the nearest name.
+#include "live/message.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "config/spelling.hpp"
+
+namespace wavetracer::live {
+namespace {
+
+using nlohmann::json;
+
+constexpr int max_depth = 4;            // message, vehicles, vehicle, vector
+constexpr size_t max_id_bytes = 128;    // of ids and types
+constexpr size_t max_token_bytes = 4096;
+constexpr double max_coordinate_m = 1e7, max_time_s = 1e12, max_speed = 1e6;
+constexpr uint64_t max_frame = (1ull << 53) - 1;  // that JSON numbers hold exactly, everywhere
+constexpr size_t max_quoted_bytes = 60;
+
+// What came from a client, cut so that it fits into a message; json::dump would refuse half a character.
+std::string in_quotes(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, max_quoted_bytes)) out += c >= ' ' && c < 127 && c != '"' ? c : '?';
+  return "\"" + out + (text.size() > max_quoted_bytes ? "...\"" : "\"");
+}
+
+[[noreturn]] void refuse(const char* code, const std::string& text) { throw ProtocolError(code, text); }
+
+// Throws while a parser goes through a text that has too much of anything.
+class Watch {
+ public:
+  bool operator()(int depth, json::parse_event_t event, json& value) {
+    using Event = json::parse_event_t;
+    // depth counts the containers around an event; one that starts adds itself.
+    const bool starts = event == Event::object_start || event == Event::array_start;
+    if (starts && depth >= max_depth) refuse("bad_json", fmt::format("arrays and objects nest deeper than {}", max_depth));
+    if (event == Event::object_start) keys_.emplace_back();
+    if (event == Event::object_end) keys_.pop_back();
+    if (event == Event::key) {
+      const auto& key = value.get_ref<const std::string&>();
+      if (!keys_.back().insert(key).second) refuse("bad_json", "the key " + in_quotes(key) + " is there twice");
+    }
+    return true;
+  }
+
+ private:
+  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+};
+
+json parse_json(std::string_view line) {
+  try {
+    Watch watch;
+    return json::parse(line.begin(), line.end(), std::ref(watch));
+  } catch (const json::exception& e) {
+    // nlohmann's texts begin with [json.exception...] and may quote bytes that are no UTF-8.
+    std::string text = e.what();
+    if (const size_t end = text.find("] "); end != text.npos) text.erase(0, end + 2);
+    for (char& c : text)
+      if (c < ' ' || c > '~') c = '?';
+    refuse("bad_json", text.substr(0, 300));
+  }
+}
+
+// The keys of one object, each asked for by name.
+class Object {
+ public:
+  Object(const json& value, std::string where, std::vector<std::string> known)
+      : value_(value), where_(std::move(where)) {
+    if (!value.is_object()) refuse("bad_value", where_ + " is no object");
+    for (const auto& [key, ignored] : value.items())
+      if (std::ranges::find(known, key) == known.end())
+        refuse("unknown_key", fmt::format("{}: {} is no key of it{}", where_, in_quotes(key),
+                                          key.size() <= max_quoted_bytes ? config::hint(key, known) : ""));
+  }
+
+  bool has(const char* key) const { return value_.contains(key); }
+  const json& at(const char* key) const {
+    const auto found = value_.find(key);
+    if (found == value_.end()) refuse("missing_key", fmt::format("{}: \"{}\" is missing", where_, key));
+    return *found;
+  }
+  std::string text(const char* key, size_t max_bytes) const {
+    const json& v = at(key);
+    if (!v.is_string()) refuse("bad_value", name(key) + " is no string");
+    const auto& out = v.get_ref<const std::string&>();
+    if (out.size() > max_bytes) refuse("bad_value", fmt::format("{} has more than {} bytes", name(key), max_bytes));
+    return out;
+  }
+  // One that names a thing: not empty, no control characters.
+  std::string id(const char* key) const {
+    std::string out = text(key, max_id_bytes);
+    if (out.empty()) refuse("bad_value", name(key) + " is empty");
+    if (std::ranges::any_of(out, [](char c) { return (c >= 0 && c < ' ') || c == 127; }))
+      refuse("bad_value", name(key) + " has control characters");
+    return out;
+  }
+  bool flag(const char* key) const {
+    if (!has(key)) return false;
+    if (!at(key).is_boolean()) refuse("bad_value", name(key) + " is neither true nor false");
+    return at(key).get<bool>();
+  }
+  uint64_t count(const char* key, uint64_t most) const {
+    const json& v = at(key);
+    if (!v.is_number_unsigned() || v.get<uint64_t>() > most)
+      refuse("bad_value", fmt::format("{} is no integer from 0 to {}", name(key), most));
+    return v.get<uint64_t>();
+  }
+  double number(const char* key, double most) const { return number(at(key), name(key), most); }
+  template <size_t N>
+  std::array<double, N> numbers(const char* key, double most) const {
+    const json& v = at(key);
+    if (!v.is_array() || v.size() != N) refuse("bad_value", fmt::format("{} is no array of {} numbers", name(key), N));
+    std::array<double, N> out;
+    for (size_t i = 0; i < N; ++i) out[i] = number(v[i], name(key), most);
+    return out;
+  }
+  glm::dvec3 vector(const char* key, double most) const {
+    const auto [x, y, z] = numbers<3>(key, most);
+    return {x, y, z};
+  }
+  // The index of the word among the choices.
+  size_t choice(const char* key, const std::vector<std::string>& choices) const {
+    const std::string word = text(key, max_id_bytes);
+    const auto found = std::ranges::find(choices, word);
+    if (found == choices.end())
+      refuse("bad_value", fmt::format("{} is {}, none of {}{}", name(key), in_quotes(word), fmt::join(choices, ", "),
+                                      config::hint(word, choices)));
+    return static_cast<size_t>(found - choices.begin());
+  }
+
+ private:
+  std::string name(const char* key) const { return fmt::format("{}: \"{}\"", where_, key); }
+  static double number(const json& v, const std::string& name, double most) {
+    if (!v.is_number()) refuse("bad_value", name + " is no number");
+    const double out = v.get<double>();
+    if (!(std::abs(out) <= most)) refuse("bad_value", fmt::format("{} is {}, beyond {}", name, out, most));
+    return out;
+  }
+
+  const json& value_;
+  std::string where_;
+};
+
+Detail detail_of(const Object& object) {
+  return static_cast<Detail>(object.choice("detail", {"links", "paths", "vertices"}));
+}
+
+Hello hello_of(const json& value) {
+  const Object object(value, "hello", {"message", "protocol", "token", "mode", "detail"});
+  Hello out;
+  out.protocol = object.count("protocol", max_frame);
+  if (object.has("token")) out.token = object.text("token", max_token_bytes);
+  if (object.has("mode")) out.free_running = object.choice("mode", {"step", "free"}) == 1;
+  if (object.has("detail")) out.detail = detail_of(object);
+  return out;
+}
+
+// Yaw as trajectories have it, so that the same angle gives the same bits.
+glm::dquat orientation_of(const Object& vehicle) {
+  if (vehicle.has("yaw_deg") == vehicle.has("orientation"))
+    refuse("bad_value", "vehicle: give one of \"yaw_deg\" and \"orientation\"");
+  if (vehicle.has("orientation")) {
+    const auto [w, x, y, z] = vehicle.numbers<4>("orientation", 2);
+    return {w, x, y, z};
+  }
+  const double yaw_rad = vehicle.number("yaw_deg", 1e6) * (std::numbers::pi / 180);
+  return {std::cos(yaw_rad / 2), 0, 0, std::sin(yaw_rad / 2)};
+}
+
+LivePose pose_of(const json& value) {
+  const Object vehicle(value, "vehicle",
+                       {"id", "type", "position_m", "yaw_deg", "orientation", "velocity_m_s", "angular_velocity_rad_s"});
+  LivePose out{.id = vehicle.id("id"),
+               .type = vehicle.id("type"),
+               .position_m = vehicle.vector("position_m", max_coordinate_m),
+               .orientation = orientation_of(vehicle),
+               .velocity_m_s = {},
+               .angular_velocity_rad_s = {}};
+  if (vehicle.has("velocity_m_s")) out.velocity_m_s = vehicle.vector("velocity_m_s", max_speed);
+  if (vehicle.has("angular_velocity_rad_s"))
+    out.angular_velocity_rad_s = vehicle.vector("angular_velocity_rad_s", max_speed);
+  return out;
+}
+
+FrameMessage frame_of(const json& value, size_t max_vehicles) {
+  const Object object(value, "frame", {"message", "frame", "time_s", "vehicles", "cold", "detail"});
+  FrameMessage out;
+  out.frame = object.count("frame", max_frame);
+  try {
+    out.time_s = object.number("time_s", max_time_s);
+    out.cold = object.flag("cold");
+    if (object.has("detail")) out.detail = detail_of(object);
+    const json& vehicles = object.at("vehicles");
+    if (!vehicles.is_array()) refuse("bad_value", "frame: \"vehicles\" is no array");
+    if (vehicles.size() > max_vehicles)
+      refuse("no_place", fmt::format("frame: {} vehicles, and {} places for all types: raise the counts of "
+                                     "[[live_vehicle]]",
+                                     vehicles.size(), max_vehicles));
+    for (const json& vehicle : vehicles) out.vehicles.push_back(pose_of(vehicle));
+  } catch (ProtocolError& error) {
+    error.frame = out.frame;
+    throw;
+  }
+  return out;
+}
+
+}  // namespace
+
+Message parse_message(std::string_view line, size_t max_vehicles) {
+  const json value = parse_json(line);
+  if (!value.is_object()) refuse("bad_json", "a message is an object, {\"message\": ...}");
+  const auto kind = value.find("message");
+  if (kind == value.end()) refuse("missing_key", "\"message\" is missing: give \"hello\", \"frame\" or \"bye\"");
+  if (!kind->is_string()) refuse("bad_value", "\"message\" is no string");
+  const auto& name = kind->get_ref<const std::string&>();
+  if (name == "hello") return hello_of(value);
+  if (name == "frame") return frame_of(value, max_vehicles);
+  if (name == "bye") {
+    Object(value, "bye", {"message"});
+    return Bye{};
+  }
+  refuse("unknown_message", in_quotes(name) + " is none of hello, frame, bye" +
+                                (name.size() <= max_quoted_bytes ? config::hint(name, {"hello", "frame", "bye"}) : ""));
+}
+
+}  // namespace wavetracer::live

@@ -1,0 +1,195 @@
+// poll() over the listener, the solver's eventfd and the clients; then everyone who has something to say is heard.
+// Assumes few clients: each round looks at all of them.
+#include "live/server.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+
+#include "live/answer.hpp"
+#include "live/token.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::live {
+namespace {
+
+constexpr std::chrono::milliseconds longest_wait{100};
+constexpr unsigned most_errors = 100;    // of a client, before it is dropped
+constexpr size_t most_turned_away = 16;  // clients that are told at once why they cannot stay
+
+size_t count_of(const std::vector<LiveType>& types) {
+  size_t out = 0;
+  for (const LiveType& type : types) out += type.count;
+  return out;
+}
+
+}  // namespace
+
+Server::Server(Simulation& simulation, const Listener& listener, std::string token, Log log)
+    : limits_(simulation.config().live),
+      listener_(listener),
+      token_(std::move(token)),
+      world_line_(world_line(simulation)),
+      places_(count_of(simulation.live_types())),
+      log_(std::move(log)),
+      solver_(simulation) {}
+
+void Server::run(const std::function<bool()>& stop) {
+  while (!stop()) {
+    wait(Clock::now());
+    const Clock::time_point now = Clock::now();
+    take_answer(now);
+    for (const auto& client : clients_) {
+      read(*client, now);
+      client->check_time(now);
+    }
+    std::erase_if(clients_, [&](const auto& client) {
+      if (client->gone()) log_(fmt::format("client {} left", client->number()));
+      return client->gone();
+    });
+    give_next();
+  }
+  const Clock::time_point now = Clock::now();
+  for (const auto& client : clients_) client->end(bye_line("the server ends"), now);
+}
+
+// Waits for whatever comes first, and moves bytes.
+void Server::wait(Clock::time_point now) {
+  std::vector<pollfd> polled{{listener_.descriptor(), POLLIN, 0}, {solver_.descriptor(), POLLIN, 0}};
+  auto timeout = std::chrono::duration_cast<Clock::duration>(longest_wait);
+  for (const auto& client : clients_) {
+    polled.push_back({client->descriptor(), client->events(now), 0});
+    if (const auto pause = client->pause(now)) timeout = std::min(timeout, *pause);
+  }
+  const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
+  if (poll(polled.data(), polled.size(), static_cast<int>(milliseconds)) <= 0) return;
+  const Clock::time_point woken = Clock::now();
+  for (size_t i = 0; i < clients_.size(); ++i) {
+    const short events = polled[i + 2].revents;
+    if (events & POLLIN)
+      clients_[i]->receive();
+    else if (events & (POLLHUP | POLLERR | POLLNVAL))
+      clients_[i]->hang_up();
+    if (events & POLLOUT) clients_[i]->send(woken);
+  }
+  if (polled[0].revents) accept(woken);
+}
+
+void Server::accept(Clock::time_point now) {
+  Descriptor socket = listener_.accept();
+  if (*socket < 0) return;
+  const size_t staying = static_cast<size_t>(std::ranges::count(clients_, false, [](auto& c) { return c->ending(); }));
+  if (clients_.size() - staying >= most_turned_away) return;
+  auto client = std::make_unique<Client>(next_number_++, std::move(socket), limits_, now);
+  if (staying >= limits_.max_clients)
+    end(*client, "too_many_clients", fmt::format("{} clients are here already (live.max_clients)", staying), now);
+  else
+    log_(fmt::format("client {} connected", client->number()));
+  clients_.push_back(std::move(client));
+}
+
+void Server::end(Client& client, std::string_view code, const std::string& text, Clock::time_point now) {
+  log_(fmt::format("client {}: {}", client.number(), text));
+  client.end(error_line(code, text, {}, true), now);
+}
+
+void Server::read(Client& client, Clock::time_point now) {
+  do {
+    while (const auto line = client.next_line(now)) handle(client, *line, now);
+  } while (flush_refusals(client, now));  // which makes room for more lines
+}
+
+void Server::handle(Client& client, std::string_view line, Clock::time_point now) {
+  try {
+    Message message = parse_message(line, places_);
+    if (auto* hello = std::get_if<Hello>(&message)) {
+      greet(client, std::move(*hello), now);
+    } else if (std::holds_alternative<Bye>(message)) {
+      client.end(bye_line("as you wish"), now);
+    } else if (!client.hello) {
+      end(client, "hello_first", "the first message is hello", now);
+    } else {
+      queue(client, std::move(std::get<FrameMessage>(message)), now);
+    }
+  } catch (const ProtocolError& error) {
+    if (client.hello)
+      refuse(client, error, now);
+    else
+      end(client, error.code, error.what(), now);
+  }
+}
+
+void Server::greet(Client& client, Hello hello, Clock::time_point now) {
+  if (client.hello) return refuse(client, {"unexpected", "hello was said already"}, now);
+  if (hello.protocol != protocol_version)
+    return end(client, "protocol",
+               fmt::format("protocol {} is not spoken here, {} is", hello.protocol, protocol_version), now);
+  if (!token_.empty() && !same_token(token_, hello.token))
+    return end(client, "token", "hello needs the token of this server", now);
+  client.hello = std::move(hello);
+  client.hello->token.clear();
+  client.say(world_line_, now);
+}
+
+void Server::queue(Client& client, FrameMessage message, Clock::time_point now) {
+  if (client.hello->free_running && !client.pending.empty()) {
+    client.skipped += client.pending.size();
+    client.pending.clear();
+  }
+  client.pending.push_back({std::move(message), now, {}});
+}
+
+// Answers come in the order of frames, refusals among them; a free-running client has no order to keep.
+void Server::refuse(Client& client, const ProtocolError& error, Clock::time_point now) {
+  if (++client.errors >= most_errors) {
+    flush_refusals(client, now);
+    return end(client, "too_many_errors", fmt::format("{} messages were wrong", most_errors), now);
+  }
+  std::string line = error_line(error.code, error.what(), error.frame, false);
+  if (client.hello->free_running)
+    client.say(line, now);
+  else
+    client.pending.push_back({{}, now, std::move(line)});
+}
+
+bool Server::flush_refusals(Client& client, Clock::time_point now) {
+  const size_t before = client.pending.size();
+  while (!client.solving && !client.pending.empty() && !client.pending.front().refusal.empty()) {
+    client.say(client.pending.front().refusal, now);
+    client.pending.pop_front();
+  }
+  return client.pending.size() < before;
+}
+
+void Server::take_answer(Clock::time_point now) {
+  const std::optional<Answer> answer = solver_.take();
+  if (!answer) return;
+  const auto found = std::ranges::find(clients_, answer->client, [](const auto& c) { return c->number(); });
+  if (found != clients_.end()) {
+    (*found)->solving = false;
+    (*found)->say(answer->line, now);
+  }
+  if (answer->fatal) throw RuntimeError("the device failed: " + answer->line);
+}
+
+// In turn: the first client after the last one served that has a frame and room for its answer.
+void Server::give_next() {
+  if (!solver_.idle()) return;
+  const auto ready = [](const auto& c) {
+    return !c->ending() && !c->pending.empty() && c->pending.front().refusal.empty() && c->has_room();
+  };
+  auto next = std::ranges::find_if(clients_, [&](const auto& c) { return c->number() > last_served_ && ready(c); });
+  if (next == clients_.end()) next = std::ranges::find_if(clients_, ready);
+  if (next == clients_.end()) return;
+  Client& client = **next;
+  Client::Pending frame = std::move(client.pending.front());
+  client.pending.pop_front();
+  client.solving = true;
+  last_served_ = client.number();
+  const Detail detail = frame.message.detail.value_or(client.hello->detail);
+  solver_.give({client.number(), std::move(frame.message), detail, std::exchange(client.skipped, 0), frame.received,
+                client.traffic});
+}
+
+}  // namespace wavetracer::live

@@ -1,0 +1,48 @@
+// The protocol: who may speak, what is answered, whose frame is solved next. One thread of sockets, one that solves.
+// Assumes that the simulation has [[live_vehicle]], and is used by nobody else meanwhile.
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "live/client.hpp"
+#include "live/endpoint.hpp"
+#include "live/solver.hpp"
+
+namespace wavetracer::live {
+
+using Log = std::function<void(const std::string&)>;
+
+class Server {
+ public:
+  // token: empty where none is asked for.
+  Server(Simulation& simulation, const Listener& listener, std::string token, Log log);
+  // Until stop() says so, which is asked ten times a second. Throws RuntimeError where the device fails.
+  void run(const std::function<bool()>& stop);
+
+ private:
+  void accept(Clock::time_point now);
+  void read(Client& client, Clock::time_point now);
+  void handle(Client& client, std::string_view line, Clock::time_point now);
+  void greet(Client& client, Hello hello, Clock::time_point now);
+  void queue(Client& client, FrameMessage message, Clock::time_point now);
+  void refuse(Client& client, const ProtocolError& error, Clock::time_point now);
+  void take_answer(Clock::time_point now);
+  void give_next();
+  // Says the refusals that no frame is before any more; false where there was none.
+  bool flush_refusals(Client& client, Clock::time_point now);
+  void wait(Clock::time_point now);
+  void end(Client& client, std::string_view code, const std::string& text, Clock::time_point now);
+
+  const LiveConfig& limits_;
+  const Listener& listener_;
+  std::string token_, world_line_;
+  size_t places_ = 0;
+  Log log_;
+  std::vector<std::unique_ptr<Client>> clients_;
+  uint64_t next_number_ = 1, last_served_ = 0;
+  Solver solver_;
+};
+
+}  // namespace wavetracer::live

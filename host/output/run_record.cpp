@@ -1,0 +1,93 @@
+// JSON both ways.
+// Of vehicles only the number is kept: that is all that summary.json tells.
+#include "output/run_record.hpp"
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr uint64_t most_vehicles = uint64_t{1} << 24, most_bytes = uint64_t{1} << 26;
+
+}  // namespace
+
+std::string encode_run_record(const Run& run) {
+  const RunSummary& s = run.summary;
+  Json json;
+  json["version"] = s.version;
+  json["device"] = {{"platform", s.device.platform},
+                    {"name", s.device.name},
+                    {"driver", s.device.driver},
+                    {"opencl_c", s.device.opencl_c},
+                    {"gpu", s.device.gpu}};
+  json["order"] = {{"asked", run.config.order.method}, {"method", s.order.method},
+                   {"each_depth", s.order.each_depth}, {"launch_shape", s.order.launch_shape},
+                   {"local_size", s.order.local_size}, {"reason", s.order.reason}};
+  json["features"] = Json::object();
+  for (const auto& [name, feature] : s.features)
+    json["features"][name] = {{"on", feature.on}, {"reason", feature.reason}};
+  json["setup_seconds"] = s.setup_seconds;
+  json["command_line"] = s.command_line;
+  json["frames_asked"] = s.frames_asked;
+  json["repeat_count"] = s.repeat_count;
+  json["warnings"] = s.warnings;
+  json["config_file"] = run.config.file;
+  json["reuse"] = run.config.trace.reuse;
+  json["waypoints"] = run.config.output.waypoints;
+  json["cache"] = {{"kind", run.config.cache.kind}, {"key", run.config.cache.key}};
+  json["scene_file"] = run.scene.file;
+  json["scene_warnings"] = run.scene.report.warnings;
+  json["vehicles"] = run.instances.size();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RunRecord decode_run_record(std::string_view text, const std::string& name) try {
+  const Json json = Json::parse(text);
+  RunRecord out;
+  RunSummary& s = out.summary;
+  s.version = json.at("version");
+  const Json& device = json.at("device");
+  s.device = {device.at("platform"), device.at("name"), device.at("driver"), device.at("opencl_c"), device.at("gpu")};
+  const Json& order = json.at("order");
+  out.config.order.method = order.at("asked");
+  s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"), order.at("local_size"),
+             order.at("reason")};
+  for (const auto& [feature, value] : json.at("features").items())
+    s.features[feature] = {value.at("on"), value.at("reason")};
+  s.setup_seconds = json.at("setup_seconds").get<StageSeconds>();
+  s.command_line = json.at("command_line");
+  s.frames_asked = json.at("frames_asked");
+  s.repeat_count = json.at("repeat_count");
+  s.warnings = json.at("warnings").get<std::vector<std::string>>();
+  out.config.file = json.at("config_file");
+  out.config.trace.reuse = json.at("reuse");
+  out.config.output.waypoints = json.at("waypoints");
+  out.config.cache.kind = json.at("cache").at("kind");
+  out.config.cache.key = json.at("cache").at("key");
+  out.scene.file = json.at("scene_file");
+  out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
+  const Json& vehicles = json.at("vehicles");
+  if (!vehicles.is_number_unsigned() || vehicles.get<uint64_t>() > most_vehicles)
+    throw RuntimeError(name + ": \"vehicles\" is no number of vehicles");
+  out.instances.resize(vehicles.get<size_t>());
+  return out;
+} catch (const Json::exception& error) {
+  throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
+}
+
+RunRecord read_run_record(const std::filesystem::path& file) {
+  std::error_code none;
+  if (const uint64_t size = std::filesystem::file_size(file, none); none || size > most_bytes)
+    throw RuntimeError(
+        fmt::format("cannot read {}; it is part of every run that was written in shards", file.string()));
+  std::ifstream in(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  return decode_run_record(text, file.string());
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,34 @@
+// Coverage: the path gain at every receiver of a grid in one frame, as an image over the walls of the scene.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+#include "plots/figure.hpp"
+#include "results/saved_run.hpp"
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer::plots {
+
+// What one receiver of a grid hears.
+struct CoverageCell {
+  uint32_t ix = 0, iy = 0;
+  glm::dvec3 position_m{0};    // file coordinates
+  double path_gain_db = 0;     // of the best transmitter, powers of its paths added; NaN where no path leads
+  std::optional<uint32_t> tx;  // that transmitter
+  uint32_t paths = 0;          // of all transmitters that count
+};
+
+// One entry a receiver, row by row. tx: that one alone counts. Empty where the run has no receiver of that grid. Throws
+// InputError where cells are missing.
+std::vector<CoverageCell> coverage_cells(const SavedRun& run, const SavedFrame& frame, const std::string& grid,
+                                         std::optional<uint32_t> tx);
+
+// Where the triangles of the scene cross the plane z = height_m: segments x0, y0, x1, y1, file coordinates.
+std::vector<std::array<double, 4>> section(const Scene& scene, double height_m);
+
+// name: of the figure's files. At least one cell must have a path.
+Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::string& name, const std::string& grid,
+                       const std::vector<CoverageCell>& cells, std::optional<uint32_t> tx, const Scene& scene);
+
+}  // namespace wavetracer::plots

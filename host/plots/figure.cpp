@@ -1,0 +1,97 @@
+// Sizes are those of a screen; vector formats take 96 pixels for an inch, and PNG twice the pixels, so that it prints.
+// Assumes gnuplot 5.2 or later with cairo terminals, as Debian's gnuplot-nox has them.
+#include "plots/figure.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include "output/pending_file.hpp"
+#include "plots/gnuplot.hpp"
+
+namespace wavetracer::plots {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string_view ending(Format format) { return format == Format::svg ? "svg" : format == Format::png ? "png" : "pdf"; }
+
+std::string terminal(const Figure& figure, Format format) {
+  const double w = figure.width_px, h = figure.height_px;
+  switch (format) {
+    case Format::svg:
+      return fmt::format("svg size {:.0f},{:.0f} font 'sans-serif,13' background 'white'", w, h);
+    case Format::png:
+      return fmt::format(
+          "pngcairo size {:.0f},{:.0f} fontscale 2 linewidth 2 pointscale 2 font 'sans-serif,10' "
+          "background 'white'",
+          2 * w, 2 * h);
+    default:
+      return fmt::format("pdfcairo size {:.2f}in,{:.2f}in font 'sans-serif,10' background 'white'", w / 96, h / 96);
+  }
+}
+
+std::string script(const Figure& figure, Format format) {
+  return fmt::format(
+             "# Draws {0}.{1} from the CSV files beside it; run it in their folder: gnuplot {0}.gp\n"
+             "set encoding utf8\n"
+             "set terminal {2}\n"
+             "set output '{0}.{1}'\n"
+             "set datafile separator ','\n"
+             "set title '{3}' noenhanced\n"
+             "set border 3 linecolor '#444444'\n"
+             "set tics nomirror out\n"
+             "set cblabel offset 1.5,0\n"
+             "set grid linetype 1 linecolor '#dddddd' linewidth 0.5\n",
+             figure.name, ending(format), terminal(figure, format), quoted(figure.title)) +
+         palette() + figure.commands;
+}
+
+}  // namespace
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string palette() {
+  return "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', "
+         "6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725')\n";
+}
+
+std::string colour_range(const std::vector<double>& values_db, double span_db) {
+  double lower = INFINITY, upper = -INFINITY;
+  for (const double value : values_db)
+    if (std::isfinite(value)) {
+      lower = std::min(lower, value);
+      upper = std::max(upper, value);
+    }
+  upper = 5 * std::ceil(upper / 5);
+  lower = std::min(std::max(5 * std::floor(lower / 5), upper - span_db), upper - 5);
+  return fmt::format("set cbrange [{:g}:{:g}]\n", lower, upper);
+}
+
+Drawn draw(const Figure& figure, Format format, const fs::path& folder) {
+  PendingDirectory directory(folder);
+  const std::string commands = script(figure, format);
+  std::vector<PendingFile> files;
+  for (const DataFile& data : figure.data)
+    files.emplace_back(directory.path() / data.name, std::as_bytes(std::span(data.text)));
+  files.emplace_back(directory.path() / (figure.name + ".gp"), std::as_bytes(std::span(commands)));
+  commit_together(files);
+  directory.keep();
+  Drawn out;
+  for (const PendingFile& file : files) out.files.push_back(file.path());
+  const fs::path picture = directory.path() / fmt::format("{}.{}", figure.name, ending(format));
+  std::error_code ignored;
+  fs::remove(picture, ignored);  // an earlier one would belie the new data
+  out.problem = run_gnuplot(directory.path(), figure.name + ".gp");
+  if (out.problem.empty())
+    out.files.push_back(picture);
+  else
+    fs::remove(picture, ignored);  // half drawn
+  return out;
+}
+
+}  // namespace wavetracer::plots

@@ -1,0 +1,45 @@
+// A figure: its data as CSV, a gnuplot script that draws them, and the picture, side by side in one folder.
+// The script reads only the data beside it, so a user can change it and run it again.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wavetracer::plots {
+
+// Whose terminal draws it; also the ending of the picture's file.
+enum class Format { svg, png, pdf };
+
+struct DataFile {
+  std::string name;  // of the file, which begins with that of the figure
+  std::string text;  // CSV with one header row
+};
+
+// As RFC 4180 wants a field: quoted where it holds a comma, a quote or a line end.
+std::string csv_text(const std::string& text);
+
+struct Figure {
+  std::string name;   // of its files, without ending
+  std::string title;  // one line
+  std::vector<DataFile> data;
+  std::string commands;  // gnuplot, after terminal, title and style are set
+  double width_px = 900, height_px = 520;
+};
+
+struct Drawn {
+  std::vector<std::filesystem::path> files;
+  std::string problem;  // why there is no picture, and what to do; else empty
+};
+
+// The colours of numbers, from dark and small to bright and large: viridis (S. van der Walt, N. Smith, 2015, CC0).
+std::string palette();
+
+// The commands of a colour range that covers these decibels, in steps of 5 dB; weaker values than `span_db` below the
+// largest all get the darkest colour. Values that are not finite do not count; at least one must be.
+std::string colour_range(const std::vector<double>& values_db, double span_db);
+
+// Writes data and script, all or none, and draws. Throws RuntimeError where a file cannot be written.
+Drawn draw(const Figure& figure, Format format, const std::filesystem::path& folder);
+
+}  // namespace wavetracer::plots

@@ -1,0 +1,61 @@
+// Cuts by transmitter.
+// Whether a launcher sends or listens is decided in the whole frame: that says how many rays it has.
+#include "simulation/link_block.hpp"
+
+#include <algorithm>
+
+namespace wavetracer {
+
+LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange range,
+                          std::span<const uint32_t> receiver_of_transmitter,
+                          std::span<const uint32_t> transmitter_of_receiver, const Origins& origins) {
+  LinkBlock block{range, {}, {}, std::vector<char>(origins.count(), 0)};
+  const auto launch = [&](uint32_t origin) {
+    if (origin != no_end) block.launches[origin] = 1;
+  };
+  for (const Link& link : links) {
+    if (link.tx < range.first || link.tx >= range.end) continue;
+    block.own.push_back(link);
+    block.solved.push_back(link);
+    launch(link.tx);
+    launch(origins.origin_of_receiver[link.rx]);  // where paths are met from both ends
+    const Link twin{transmitter_of_receiver[link.rx], receiver_of_transmitter[link.tx]};
+    if (twin.tx == no_end || twin.rx == no_end || !std::ranges::binary_search(links, twin)) continue;
+    block.solved.push_back(twin);
+    launch(twin.tx);
+  }
+  std::ranges::sort(block.solved);
+  const auto repeated = std::ranges::unique(block.solved);
+  block.solved.erase(repeated.begin(), repeated.end());
+  return block;
+}
+
+std::vector<Launcher> launchers_of(const LinkBlock& block, const std::vector<Launcher>& launchers) {
+  std::vector<Launcher> out;
+  std::ranges::copy_if(launchers, std::back_inserter(out),
+                       [&](const Launcher& launcher) { return block.launches[launcher.transmitter] != 0; });
+  return out;
+}
+
+PathGeometry paths_of(const LinkBlock& block, const PathGeometry& paths) {
+  const auto row_of = [&](uint32_t transmitter) {
+    return static_cast<size_t>(std::ranges::lower_bound(paths.tx, transmitter) - paths.tx.begin());
+  };
+  const size_t from = row_of(block.range.first), to = row_of(block.range.end);
+  const auto cut = [](const auto& column, size_t begin, size_t end) {
+    const auto at = column.begin();
+    return std::vector(at + static_cast<std::ptrdiff_t>(begin), at + static_cast<std::ptrdiff_t>(end));
+  };
+  const uint64_t base = paths.first[from], last = paths.first[to];
+  PathGeometry out;
+  out.tx = cut(paths.tx, from, to);
+  out.rx = cut(paths.rx, from, to);
+  out.first = cut(paths.first, from, to + 1);
+  for (uint64_t& first : out.first) first -= base;
+  out.surface = cut(paths.surface, base, last);
+  out.interaction = cut(paths.interaction, base, last);
+  out.vertex = cut(paths.vertex, base, last);
+  return out;
+}
+
+}  // namespace wavetracer

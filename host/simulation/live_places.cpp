@@ -1,0 +1,160 @@
+// Who has which place, and how fast. Whatever may be wrong with a pose is found before the traffic changes.
+// Assumes poses of one instant, all from one source.
+#include "simulation/live_places.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "config/spelling.hpp"
+#include "simulation/name_pattern.hpp"
+
+namespace wavetracer {
+namespace {
+
+// Faster than any vehicle on the ground: such a step is a jump, whose speed would shift frequencies by nonsense.
+constexpr double jump_m_s = 150;
+constexpr double most_m_s = 1000, most_rad_s = 100;  // of velocities that are given
+constexpr double unit_tolerance = 1e-3;              // of an orientation's length
+
+bool within(const glm::dvec3& v, double most) {
+  return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;  // false for NaN
+}
+
+// The rotation from one orientation to the other, the shorter way, in a second.
+glm::dvec3 turning(const glm::dquat& from, const glm::dquat& to, double seconds) {
+  glm::dquat turn = to * glm::conjugate(from);
+  if (turn.w < 0) turn = -turn;
+  const glm::dvec3 axis(turn.x, turn.y, turn.z);
+  const double sine = glm::length(axis);
+  return sine > 0 ? axis * (2 * std::atan2(sine, turn.w) / sine / seconds) : glm::dvec3(0);
+}
+
+// Quaternions that are unit up to rounding stay as they are, to the last bit.
+glm::dquat unit(const glm::dquat& q) { return std::abs(glm::dot(q, q) - 1) <= 1e-12 ? q : glm::normalize(q); }
+
+}  // namespace
+
+LivePlaces::LivePlaces(const Config& config, const VehicleModels& vehicles, const Scene& scene)
+    : bounds_{scene.origin_m + scene.lower - config.live.margin_m, scene.origin_m + scene.upper + config.live.margin_m},
+      origin_m_(scene.origin_m) {
+  if (!config.trajectories.file.empty() || !config.trajectories.generate.empty() || !config.tracks.empty())
+    throw ConfigError("[[live_vehicle]] and trajectories exclude each other: with live vehicles all poses come from the "
+                      "client; leave out trajectories.file, trajectories.generate and every [[track]]");
+  for (const LiveVehicleConfig& row : config.live_vehicles) {
+    if (std::ranges::any_of(types_, [&](const LiveType& type) { return type.name == row.type; }))
+      throw ConfigError(fmt::format("[[live_vehicle]] type = \"{}\" is there twice: add up their counts", row.type));
+    const std::optional<VehicleType> known = vehicles.find_type(row.type);
+    if (!known)
+      throw ConfigError(fmt::format("[[live_vehicle]] type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class of "
+                                    "SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
+                                    row.type));
+    LiveType& type = types_.emplace_back(
+        LiveType{row.type, known->length_m, known->width_m, known->height_m, count_, row.count, {}});
+    for (const MountConfig& mount : config.mounts)
+      if (matches(mount.on, row.type)) type.mounts.push_back(mount);
+    count_ += row.count;
+  }
+}
+
+Trajectories LivePlaces::tracks() const {
+  Trajectories out;
+  const glm::dvec3 middle_m = (bounds_.lower_m + bounds_.upper_m) / 2.0;
+  const Sample parked{.position_m = middle_m, .yaw_rad = 0, .pitch_rad = 0, .speed_m_s = 0, .velocity_m_s{0, 0, 0}};
+  for (const LiveType& type : types_) {
+    const auto index = static_cast<uint32_t>(out.types.size());
+    out.types.push_back({type.name, type.length_m, type.width_m, type.height_m});
+    for (uint32_t k = 0; k < type.count; ++k)
+      out.tracks.push_back({fmt::format("{}.{}", type.name, k), index, {parked}, {0}});
+  }
+  return out;
+}
+
+const LiveType& LivePlaces::type_of(const LivePose& pose) const {
+  const auto found = std::ranges::find(types_, pose.type, &LiveType::name);
+  if (found != types_.end()) return *found;
+  std::vector<std::string> names;
+  for (const LiveType& type : types_) names.push_back(type.name);
+  throw PoseError("unknown_type", fmt::format("vehicle \"{}\": \"{}\" is the type of no [[live_vehicle]]{}", pose.id,
+                                              pose.type, config::hint(pose.type, names)));
+}
+
+void LivePlaces::check(const LivePose& pose) const {
+  const auto refuse = [&](const char* code, const std::string& what) {
+    throw PoseError(code, fmt::format("vehicle \"{}\": {}", pose.id, what));
+  };
+  const glm::dvec3 &p = pose.position_m, &lower = bounds_.lower_m, &upper = bounds_.upper_m;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(p[axis] >= lower[axis] && p[axis] <= upper[axis]))
+      refuse("out_of_bounds",
+             fmt::format("position_m [{}, {}, {}] is outside of [{}, {}, {}] to [{}, {}, {}], the scene and live.margin_m "
+                         "around it",
+                         p.x, p.y, p.z, lower.x, lower.y, lower.z, upper.x, upper.y, upper.z));
+  if (!(std::abs(glm::length(pose.orientation) - 1) <= unit_tolerance))
+    refuse("bad_value", fmt::format("orientation has length {}, not 1", glm::length(pose.orientation)));
+  if (!within(pose.velocity_m_s.value_or(glm::dvec3(0)), most_m_s))
+    refuse("bad_value", fmt::format("a component of velocity_m_s is beyond {} m/s", most_m_s));
+  if (!within(pose.angular_velocity_rad_s.value_or(glm::dvec3(0)), most_rad_s))
+    refuse("bad_value", fmt::format("a component of angular_velocity_rad_s is beyond {} rad/s", most_rad_s));
+}
+
+std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s,
+                                          std::span<const LivePose> poses) const {
+  if (!std::isfinite(time_s)) throw PoseError("bad_value", "time_s is not finite");
+  std::set<std::string_view> ids;
+  std::vector<bool> taken(count_, false);
+  for (const LivePose& pose : poses) {
+    if (!ids.insert(pose.id).second)
+      throw PoseError("duplicate_id", fmt::format("vehicle \"{}\" is there twice in one frame", pose.id));
+    check(pose);
+    const LiveType& type = type_of(pose);
+    const auto known = traffic.vehicles.find(pose.id);
+    if (known == traffic.vehicles.end()) continue;
+    const uint32_t place = known->second.place;
+    if (place < type.first_place || place >= type.first_place + type.count)
+      throw PoseError("type_changed", fmt::format("vehicle \"{}\" was of another type in the last frame, now it is of "
+                                                  "\"{}\": give the new one another id, or leave it out for a frame",
+                                                  pose.id, pose.type));
+    taken[place] = true;
+  }
+
+  const double passed_s = time_s - traffic.time_s;
+  LiveTraffic next{{}, time_s, traffic.frames};
+  std::vector<PlacedPose> out;
+  for (const LivePose& pose : poses) {
+    const auto known = traffic.vehicles.find(pose.id);
+    const bool stays = known != traffic.vehicles.end();
+    LiveTraffic::Vehicle now{0, pose.position_m, unit(pose.orientation)};
+    if (stays) {
+      now.place = known->second.place;
+    } else {
+      const LiveType& type = type_of(pose);
+      const auto first = taken.begin() + type.first_place, end = first + type.count, free = std::find(first, end, false);
+      if (free == end)
+        throw PoseError("no_place", fmt::format("vehicle \"{}\": all {} places of type \"{}\" are taken: raise the count "
+                                                "of its [[live_vehicle]]",
+                                                pose.id, type.count, pose.type));
+      *free = true;
+      now.place = static_cast<uint32_t>(free - taken.begin());
+    }
+    Pose placed{pose.position_m - origin_m_, now.orientation, glm::dvec3(0), glm::dvec3(0)};
+    if (stays && passed_s > 0) {
+      const glm::dvec3 velocity_m_s = (pose.position_m - known->second.position_m) / passed_s;
+      if (glm::length(velocity_m_s) <= jump_m_s) {
+        placed.velocity_m_s = velocity_m_s;
+        placed.angular_velocity_rad_s = turning(known->second.orientation, now.orientation, passed_s);
+      }
+    }
+    placed.velocity_m_s = pose.velocity_m_s.value_or(placed.velocity_m_s);
+    placed.angular_velocity_rad_s = pose.angular_velocity_rad_s.value_or(placed.angular_velocity_rad_s);
+    out.push_back({now.place, placed});
+    next.vehicles.emplace(pose.id, now);
+  }
+  traffic = std::move(next);
+  return out;
+}
+
+}  // namespace wavetracer

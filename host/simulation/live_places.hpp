@@ -1,0 +1,43 @@
+// Places of a live world: one a vehicle that may be there, grouped by type, and which vehicle of a client has which.
+// Assumes that instances and ends are made once, so that a vehicle that comes takes a place that is free.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "motion/pose.hpp"
+#include "motion/trajectories.hpp"
+#include "simulation/world_models.hpp"
+#include "wavetracer/live.hpp"
+
+namespace wavetracer {
+
+struct PlacedPose {
+  uint32_t place;  // the index of its track
+  Pose pose;       // recentred
+};
+
+class LivePlaces {
+ public:
+  // Throws ConfigError for a type that nothing knows or that is there twice, and for trajectories beside them.
+  LivePlaces(const Config& config, const VehicleModels& vehicles, const Scene& scene);
+
+  // A track a place, TYPE.NUMBER, of one sample: the middle of the scene, where nobody is present. File coordinates.
+  Trajectories tracks() const;
+  const std::vector<LiveType>& types() const { return types_; }
+  const LiveBounds& bounds() const { return bounds_; }  // file coordinates
+
+  // The vehicles of a frame in their places: those of the last frame keep theirs, others take the first free one of
+  // their type. Updates the traffic; throws PoseError and leaves it as it was.
+  std::vector<PlacedPose> place(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const;
+
+ private:
+  const LiveType& type_of(const LivePose& pose) const;
+  void check(const LivePose& pose) const;
+
+  std::vector<LiveType> types_;
+  LiveBounds bounds_;
+  glm::dvec3 origin_m_;
+  uint32_t count_ = 0;  // of places
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,139 @@
+// The run as the page holds it: metadata in `meta`, frames and scenes decoded from their blocks when they are asked for.
+// Coordinates are float32, in metres, relative to meta.centre_m in the coordinates of the scene file.
+"use strict";
+
+const meta = JSON.parse(document.getElementById("meta").textContent);
+const no_instance = 0xFFFFFFFF;
+const speed_of_light_m_s = 299792458;
+const Kinds = [
+  ["line_of_sight", "line of sight"], ["reflected", "reflected"], ["transmitted", "transmitted"],
+  ["diffracted", "diffracted"], ["scattered", "scattered"],
+];
+const Interactions = {1: "reflection", 2: "scattering", 4: "transmission", 8: "diffraction"};
+
+function block(name) {
+  const element = document.getElementById("block_" + name);
+  const text = atob(element ? element.textContent : "");
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes.buffer;
+}
+
+// Columns of a buffer, one after the other.
+class Columns {
+  constructor(buffer) {
+    this.buffer = buffer;
+    this.at = 0;
+  }
+  take(Type, count) {
+    const column = new Type(this.buffer, this.at, count);
+    this.at += column.byteLength;
+    return column;
+  }
+}
+
+// Paths are sorted by gain, the weakest first.
+function decode_frame(row) {
+  const from = new Columns(block("frame_" + row));
+  const [paths, vertices, poses] = from.take(Uint32Array, 3);
+  const ports = meta.rx_ports * meta.tx_ports;
+  const frame = {row, number: meta.frames[row][0], time_s: meta.frames[row][1] || 0, total: meta.frames[row][2], paths, poses};
+  const take = (name, Type, count) => { frame[name] = from.take(Type, count); };
+  take("transmitter_m", Float32Array, 3 * meta.transmitters.length);
+  take("receiver_m", Float32Array, 3 * meta.receivers.length);
+  take("pose_m", Float32Array, 3 * poses);
+  take("pose_instance", Uint32Array, poses);
+  take("delay_s", Float32Array, paths);
+  take("gain_db", Float32Array, paths);
+  take("doppler_hz", Float32Array, paths);
+  take("a", Float32Array, 2 * ports * paths);
+  take("tx", Uint32Array, paths);
+  take("rx", Uint32Array, paths);
+  take("vertex_end", Uint32Array, paths);
+  take("vertex_m", Float32Array, 3 * vertices);
+  take("vertex_surface", Uint32Array, vertices);
+  take("vertex_instance", Uint32Array, vertices);
+  take("pose_rotation", Int16Array, 4 * poses);
+  for (const name of ["aod_theta", "aod_phi", "aoa_theta", "aoa_phi"]) take(name, Int16Array, paths);
+  take("vertex_interaction", Uint8Array, vertices);
+  frame.kind = new Uint8Array(paths);
+  for (let i = 0; i < paths; ++i) frame.kind[i] = path_kind(frame, i);
+  return frame;
+}
+
+const first_vertex = (frame, i) => (i === 0 ? 0 : frame.vertex_end[i - 1]);
+const order_of = (frame, i) => frame.vertex_end[i] - first_vertex(frame, i);
+// Of a column of angles, in degrees.
+const degrees = (column, i) => column[i] * 180 / 32767;
+
+// An index into Kinds, by the most special interaction.
+function path_kind(frame, i) {
+  let met = 0;
+  for (let k = first_vertex(frame, i); k < frame.vertex_end[i]; ++k) met |= frame.vertex_interaction[k];
+  return met & 2 ? 4 : met & 8 ? 3 : met & 4 ? 2 : met & 1 ? 1 : 0;
+}
+
+// The last few frames that were asked for.
+const decoded = new Map();
+function frame_data(row) {
+  const known = decoded.get(row);
+  if (known) return known;
+  const frame = decode_frame(row);
+  decoded.set(row, frame);
+  if (decoded.size > 4) decoded.delete(decoded.keys().next().value);
+  return frame;
+}
+
+function decode_scene(description) {
+  const read = (name, Type) => new Type(block(description.prefix + "_" + name));
+  return {
+    ...description,
+    vertices: read("vertices", Float32Array), triangles: read("triangles", Uint32Array),
+    triangle_surface: read("triangle_surface", Uint32Array), surface_material: read("surface_material", Uint32Array),
+    surface_object: read("surface_object", Uint32Array), outlines: read("outlines", Uint32Array),
+    wedges: read("wedges", Float32Array), wedge_surface: read("wedge_surface", Uint32Array),
+    wedge_shown: read("wedge_shown", Uint8Array),
+  };
+}
+
+const city = decode_scene(meta.scene);
+const models = meta.models.map(decode_scene);
+
+// Gains of all links in all frames, sorted by frame. What the page's paths leave out counts here.
+const links = (() => {
+  const from = new Columns(block("links"));
+  return {
+    frame: from.take(Uint32Array, meta.links), tx: from.take(Uint32Array, meta.links),
+    rx: from.take(Uint32Array, meta.links), gain_db: from.take(Float32Array, meta.links),
+  };
+})();
+
+// Rows of `links` that belong to a frame: from the first to before the second.
+function links_of_frame(row) {
+  const first = (wanted) => {
+    let low = 0, high = links.frame.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (links.frame[middle] < wanted) low = middle + 1; else high = middle;
+    }
+    return low;
+  };
+  return [first(row), first(row + 1)];
+}
+
+// What a vertex of a path lies on, in words.
+function place_of(frame, k) {
+  const instance = frame.vertex_instance[k], number = frame.vertex_surface[k];
+  const [id, , model] = instance === no_instance ? ["", "", -1] : meta.instances[instance];
+  const scene = instance === no_instance ? city : models[model];
+  const on = instance === no_instance ? "" : ", vehicle " + id;
+  const edge = frame.vertex_interaction[k] === 8;
+  const surfaces = edge ? (scene ? Array.from(scene.wedge_surface.subarray(2 * number, 2 * number + 2)) : []) : [number];
+  const names = [];
+  for (const surface of surfaces) {
+    if (!scene || surface >= scene.surface_material.length) continue;
+    const name = scene.materials[scene.surface_material[surface]] + " of " + scene.objects[scene.surface_object[surface]];
+    if (!names.includes(name)) names.push(name);
+  }
+  return `${edge ? "edge" : "surface"} ${number}${names.length ? ", " + names.join(" and ") : ""}${on}`;
+}

@@ -1,0 +1,100 @@
+// The visible paths of a frame as one object of line segments, in buffers that are written anew on every filter.
+// Frames hold the weakest path first, so the strongest lie on top.
+// A path with a point that is no number, or an absent end, is counted but not drawn.
+"use strict";
+
+// Opacities of a quarter each of the scale of power, the weakest first. Thousands of paths would be one blot otherwise.
+const opacities_of_few = [0.85, 0.85, 0.85, 0.85], opacities_of_many = [0.1, 0.25, 0.6, 0.9];
+const many_paths = 400;
+
+class PathLines {
+  constructor() {
+    this.materials = opacities_of_few.map(
+      () => new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors, transparent: true}));
+    this.object = new THREE.LineSegments(new THREE.BufferGeometry(), this.materials);
+    this.object.frustumCulled = false;
+    this.object.renderOrder = 2;
+    this.reserve(1024);
+    this.visible = new Uint32Array(0);  // rows of the frame that pass the filter
+    this.segments = 0;
+  }
+
+  // Whether paths are to be seen behind houses.
+  through_houses(wanted) {
+    for (const material of this.materials) material.depthTest = !wanted;
+  }
+
+  reserve(segments) {
+    if (this.positions && this.positions.length >= 6 * segments) return;
+    this.positions = new Float32Array(6 * segments);
+    this.colours = new Uint8Array(8 * segments);  // four bytes a point: aligned
+    this.object.geometry.dispose();
+    const geometry = new THREE.BufferGeometry();
+    this.position_attribute = new THREE.BufferAttribute(this.positions, 3);
+    const colours = new THREE.InterleavedBuffer(this.colours, 4);
+    this.colour_buffer = colours;
+    geometry.setAttribute("position", this.position_attribute);
+    geometry.setAttribute("color", new THREE.InterleavedBufferAttribute(colours, 3, 0, true));
+    this.object.geometry = geometry;
+  }
+
+  // wanted: whether row i is shown; by: what its colour says.
+  rebuild(frame, wanted, by) {
+    const rows = new Uint32Array(frame.paths);
+    let count = 0, most = 0;
+    for (let i = 0; i < frame.paths; ++i)
+      if (wanted(frame, i)) {
+        rows[count++] = i;
+        most += order_of(frame, i) + 1;
+      }
+    this.visible = rows.subarray(0, count);
+    this.reserve(most);
+    const [table, key] = path_colours(frame, by);
+    const opacities = count > many_paths ? opacities_of_many : opacities_of_few;
+    this.materials.forEach((material, quarter) => { material.opacity = opacities[quarter]; });
+    const starts = [0, 0, 0, 0, 0];  // segments before each quarter
+    let segment = 0;
+    for (const i of this.visible) {
+      if (!drawable(frame, i)) continue;
+      const colour = table[key(i)], last = order_of(frame, i) + 1;
+      const share = (frame.gain_db[i] - lowest_db) / (highest_db - lowest_db);
+      const quarter = share > 0 ? Math.min(Math.floor(4 * share), 3) : 0;
+      for (let later = quarter + 1; later < 5; ++later) starts[later] = segment + last;
+      for (let k = 0; k < last; ++k, ++segment) {
+        write_point(frame, i, k, this.positions, 6 * segment);
+        write_point(frame, i, k + 1, this.positions, 6 * segment + 3);
+        for (let point = 0; point < 2; ++point)
+          for (let c = 0; c < 3; ++c) this.colours[8 * segment + 4 * point + c] = colour[c];
+      }
+    }
+    this.segments = segment;
+    this.position_attribute.needsUpdate = true;
+    this.colour_buffer.needsUpdate = true;
+    this.object.geometry.clearGroups();
+    for (let quarter = 0; quarter < 4; ++quarter)
+      this.object.geometry.addGroup(2 * starts[quarter], 2 * (starts[quarter + 1] - starts[quarter]), quarter);
+  }
+}
+
+// Point k of path i: the transmitter, its vertices, the receiver.
+function write_point(frame, i, k, out, at) {
+  const first = first_vertex(frame, i), order = frame.vertex_end[i] - first;
+  let from = frame.vertex_m, row = first + k - 1;
+  if (k === 0) [from, row] = [frame.transmitter_m, frame.tx[i]];
+  else if (k > order) [from, row] = [frame.receiver_m, frame.rx[i]];
+  out[at] = from[3 * row];
+  out[at + 1] = from[3 * row + 1];
+  out[at + 2] = from[3 * row + 2];
+}
+
+function points_of(frame, i) {
+  const points = new Float32Array(3 * (order_of(frame, i) + 2));
+  for (let k = 0; 3 * k < points.length; ++k) write_point(frame, i, k, points, 3 * k);
+  return points;
+}
+
+function drawable(frame, i) {
+  if (!finite(frame.transmitter_m, frame.tx[i]) || !finite(frame.receiver_m, frame.rx[i])) return false;
+  for (let k = first_vertex(frame, i); k < frame.vertex_end[i]; ++k) if (!finite(frame.vertex_m, k)) return false;
+  return true;
+}

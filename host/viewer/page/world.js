@@ -1,0 +1,144 @@
+// What stands and drives: the city by material, the vehicles of a frame, edges that diffract.
+// Triangles are shaded flat, both sides alike; outlines are the edges of houses.
+"use strict";
+
+const finite = (column, i) => Number.isFinite(column[3 * i] + column[3 * i + 1] + column[3 * i + 2]);
+
+// The corners of the triangles of a scene, by the name of their material; a damaged index leaves its triangle out.
+function corners_by_material(scene) {
+  const lists = new Map();
+  for (let t = 0; t < scene.triangle_surface.length; ++t) {
+    const name = scene.materials[scene.surface_material[scene.triangle_surface[t]]] || "unknown";
+    if (!lists.has(name)) lists.set(name, []);
+    lists.get(name).push(t);
+  }
+  const corners = new Map();
+  for (const [name, triangles] of lists) {
+    const positions = new Float32Array(9 * triangles.length);
+    triangles.forEach((t, k) => {
+      for (let corner = 0; corner < 3; ++corner) {
+        const vertex = scene.triangles[3 * t + corner];
+        positions.set(scene.vertices.subarray(3 * vertex, 3 * vertex + 3), 9 * k + 3 * corner);
+      }
+    });
+    corners.set(name, positions);
+  }
+  return corners;
+}
+
+function geometry_of(positions) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  return geometry;
+}
+
+function solid(positions, colour) {
+  const geometry = geometry_of(positions);
+  geometry.computeVertexNormals();  // without an index: a normal a triangle
+  const material = new THREE.MeshLambertMaterial({
+    color: colour, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+  });
+  return new THREE.Mesh(geometry, material);
+}
+
+function outlines_of(scene) {
+  const positions = new Float32Array(3 * scene.outlines.length);
+  scene.outlines.forEach((vertex, k) => positions.set(scene.vertices.subarray(3 * vertex, 3 * vertex + 3), 3 * k));
+  return geometry_of(positions);
+}
+
+function edges_of(scene) {
+  const shown = [];
+  scene.wedge_shown.forEach((wanted, k) => { if (wanted) shown.push(...scene.wedges.subarray(6 * k, 6 * k + 6)); });
+  return geometry_of(new Float32Array(shown));
+}
+
+class WorldView {
+  constructor() {
+    this.scene = new THREE.Scene();
+    this.city = new THREE.Group();
+    this.vehicles = new THREE.Group();
+    this.edges = new THREE.Group();
+    this.edges.visible = false;
+    this.scene.add(this.city, this.vehicles, this.edges);
+    this.solids = [];  // [mesh, name of its material]
+    for (const [name, positions] of corners_by_material(city)) {
+      const mesh = solid(positions, "#ffffff");
+      this.solids.push([mesh, name]);
+      this.city.add(mesh);
+    }
+    this.outline_material = new THREE.LineBasicMaterial({transparent: true, opacity: 0.55});
+    this.city.add(new THREE.LineSegments(outlines_of(city), this.outline_material));
+    this.edge_material = new THREE.LineBasicMaterial();
+    this.edges.add(new THREE.LineSegments(edges_of(city), this.edge_material));
+    this.ambient = new THREE.HemisphereLight(0xffffff, 0x8f8f8f, 0.75);
+    this.ambient.position.set(0, 0, 1);
+    this.sun = new THREE.DirectionalLight(0xffffff, 0.45);
+    this.sun.position.set(-0.5, -0.8, 1.2);
+    this.scene.add(this.ambient, this.sun);
+    this.vehicle_material = new THREE.MeshLambertMaterial({side: THREE.DoubleSide});
+    this.bodies = models.map((model) => {
+      const all = [...corners_by_material(model).values()];
+      const positions = new Float32Array(all.reduce((sum, part) => sum + part.length, 0));
+      all.reduce((at, part) => (positions.set(part, at), at + part.length), 0);
+      const geometry = geometry_of(positions);
+      geometry.computeVertexNormals();
+      return [geometry, outlines_of(model)];
+    });
+    // Of a vehicle whose model is not known.
+    const box = new THREE.BoxBufferGeometry(4.5, 1.8, 1.5);
+    box.translate(0, 0, 0.75);
+    this.unknown_body = [box, new THREE.EdgesGeometry(box)];
+    this.instances = new Map();  // those that were present so far
+    this.paint();
+  }
+
+  // After the scheme of colours has changed.
+  paint() {
+    this.scene.background = new THREE.Color(theme().sky);
+    for (const [mesh, name] of this.solids)
+      mesh.material.color.set(material_colour(name)).multiplyScalar(theme().city_light);
+    this.outline_material.color.set(theme().outline);
+    this.edge_material.color.set(theme().wedge);
+    this.vehicle_material.color.set(theme().vehicle);
+  }
+
+  instance(number) {
+    if (!this.instances.has(number)) {
+      const [body, outline] = this.bodies[meta.instances[number][2]] || this.unknown_body;
+      const vehicle = new THREE.Mesh(body, this.vehicle_material);
+      vehicle.add(new THREE.LineSegments(outline, this.outline_material));
+      this.instances.set(number, vehicle);
+      this.vehicles.add(vehicle);
+    }
+    return this.instances.get(number);
+  }
+
+  place(frame) {
+    for (const vehicle of this.instances.values()) vehicle.visible = false;
+    for (let k = 0; k < frame.poses; ++k) {
+      if (!finite(frame.pose_m, k)) continue;
+      const vehicle = this.instance(frame.pose_instance[k]);
+      vehicle.visible = true;
+      vehicle.position.fromArray(frame.pose_m, 3 * k);
+      vehicle.quaternion.fromArray(frame.pose_rotation, 4 * k).normalize();
+    }
+  }
+}
+
+// The box around what the frame is about: ends that are present and vehicles, else the city; arrays of three.
+function box_of(frame) {
+  const lower = [Infinity, Infinity, Infinity], upper = [-Infinity, -Infinity, -Infinity];
+  const grow = (column) => {
+    for (let i = 0; 3 * i < column.length; ++i)
+      if (finite(column, i))
+        for (let axis = 0; axis < 3; ++axis) {
+          lower[axis] = Math.min(lower[axis], column[3 * i + axis]);
+          upper[axis] = Math.max(upper[axis], column[3 * i + axis]);
+        }
+  };
+  for (const column of [frame.transmitter_m, frame.receiver_m, frame.pose_m]) grow(column);
+  if (lower[0] > upper[0]) grow(city.vertices);
+  if (lower[0] > upper[0]) return [[-10, -10, 0], [10, 10, 5]];
+  return [lower, upper];
+}

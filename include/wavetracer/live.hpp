@@ -1,0 +1,68 @@
+// Live worlds: vehicles whose poses come at run time and take the places that the configuration has for their type.
+// Positions are in file coordinates, as in trajectories: the centre of the footprint, on the ground.
+#pragma once
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wavetracer/error.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer {
+
+// A vehicle that is present at an instant.
+struct LivePose {
+  std::string id;    // the caller's own, unique in a frame; the same vehicle keeps it
+  std::string type;  // of a [[live_vehicle]]; may not change while the vehicle stays
+  glm::dvec3 position_m{0};
+  glm::dquat orientation{1, 0, 0, 0};  // w, x, y, z: from the vehicle (x ahead, y left, z up) to the scene; unit
+  // Not given: from the last two poses. 0 where there is no earlier one, where time did not go forward, and where the
+  // vehicle would have been faster than 150 m/s, which is a jump.
+  std::optional<glm::dvec3> velocity_m_s, angular_velocity_rad_s;  // scene axes
+};
+
+// A pose that cannot be placed. Nothing has changed when it is thrown.
+struct PoseError : InputError {
+  // unknown_type, type_changed, no_place, duplicate_id, out_of_bounds, bad_value
+  std::string code;
+  PoseError(std::string error_code, const std::string& message) : InputError(message), code(std::move(error_code)) {}
+};
+
+// The box in which poses are accepted, both ends included; file coordinates.
+struct LiveBounds {
+  glm::dvec3 lower_m{0}, upper_m{0};
+};
+
+// One [[live_vehicle]].
+struct LiveType {
+  std::string name;
+  double length_m = 0, width_m = 0, height_m = 0;
+  uint32_t first_place = 0, count = 0;
+  std::vector<MountConfig> mounts;  // that it carries
+};
+
+// The traffic of one source of poses: which place each of its vehicles has, and its pose in the last frame.
+// Sources may take turns at one Simulation, each with traffic of its own: places are then theirs frame by frame.
+struct LiveTraffic {
+  struct Vehicle {
+    uint32_t place = 0;
+    glm::dvec3 position_m{0};  // file coordinates
+    glm::dquat orientation{1, 0, 0, 0};
+  };
+  std::map<std::string, Vehicle, std::less<>> vehicles;  // of the last frame, by id
+  double time_s = 0;                                     // of the last frame
+  uint32_t frames = 0;                                   // solved so far; the next one's number
+};
+
+// A frame, and what its ends and vehicles are called by who sent the poses. Ends that are absent have empty names.
+struct LiveFrame {
+  FrameResult result;
+  std::vector<std::string> transmitters, receivers;  // VEHICLE/MOUNT, or the name of an end that stands
+  std::vector<std::string> instances;                // vehicle ids
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,51 @@
+// The results of a run and the call that writes them to a folder, as `wavetracer run` does.
+// All frames of one run share their scene, vehicles, radio ends and port counts.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+#include "wavetracer/config.hpp"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/simulation.hpp"
+#include "wavetracer/version.hpp"
+
+namespace wavetracer {
+
+// What is known about a run beyond its world and its frames.
+struct RunSummary {
+  std::string version = WAVETRACER_VERSION;
+  DeviceSummary device;
+  OrderSummary order;
+  Features features;
+  StageSeconds setup_seconds;  // stages outside the frames: load, build, compile, ...
+  std::string command_line;
+  uint64_t frames_asked = 1;
+  uint32_t repeat_count = 1;          // how often each frame was solved; its seconds are medians
+  std::vector<std::string> warnings;  // those of the run; frames bring their own
+};
+
+// What all frames of a run share. It refers to the simulation that it was made of, and may not outlive it.
+struct Run {
+  const Config& config;  // with the ends that are mounted on vehicles
+  const Scene& scene;
+  const std::vector<Instance>& instances;
+  const std::vector<Scene>& models;
+  RunSummary summary;
+};
+
+// Of all that the simulation says of itself; command_line is what the outputs will name as their origin.
+Run make_run(const Simulation& simulation, uint64_t frames_asked = 1, const std::string& command_line = "");
+
+// Consecutive frames, sorted by their number.
+using Frames = std::span<const FrameResult>;
+
+// Writes paths.h5, waypoints.h5 (where output.waypoints asks for it), links.csv and summary.json of a run that fits in
+// memory, in place of all that an earlier run left there, and returns their paths in that order.
+// The folder is created where it is missing. A file appears under its name only when all are whole and on the disk;
+// after a failure neither temporary files nor a folder made here are left. Throws RuntimeError.
+// Not to be called from two threads at once: the HDF5 library is not thread safe.
+std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& directory, const Run& run, Frames frames);
+
+}  // namespace wavetracer

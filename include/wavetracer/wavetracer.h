@@ -1,0 +1,137 @@
+/* libwavetracer for C99, and for every language that calls C: a configuration in, propagation paths out.
+   Assumes 8-bit bytes and IEEE double. For C++ there is wavetracer/wavetracer.hpp.
+
+   Objects are opaque and belong to the caller: what _open and _run_frame return is given back to _close and
+   _frame_free, an error to _error_free, each once; null is allowed there. All text is UTF-8.
+
+   Errors: a function that takes `error` returns null or 0 on failure and then stores an error there, unless `error` is
+   null; on success it stores null. A null object is a failure as well, never a crash.
+
+   Threads: a simulation belongs to one thread at a time, several of them may run in threads of their own; a frame may
+   be read by any number of threads. wavetracer_write is for one thread of the process at a time. */
+#ifndef WAVETRACER_H
+#define WAVETRACER_H
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct wavetracer_simulation wavetracer_simulation; /* a scene on a device */
+typedef struct wavetracer_frame wavetracer_frame;           /* the results of one frame; may outlive its simulation */
+typedef struct wavetracer_error wavetracer_error;
+
+/* Codes of errors: those that the program exits with. */
+enum wavetracer_code {
+  WAVETRACER_OK = 0,
+  WAVETRACER_RUNTIME = 1, /* out of memory, a full disk, a limit met */
+  WAVETRACER_USAGE = 2,   /* a configuration or an argument that is wrong */
+  WAVETRACER_INPUT = 3,   /* a scene, antenna or trajectory file that is wrong */
+  WAVETRACER_DEVICE = 4   /* no OpenCL device, no memory on it, a kernel that does not build */
+};
+
+/* WAVETRACER_OK and "" of null. The text lives as long as the error; it may have several lines. */
+int wavetracer_error_code(const wavetracer_error* error);
+const char* wavetracer_error_message(const wavetracer_error* error);
+void wavetracer_error_free(wavetracer_error* error);
+
+/* Of the library, as "0.2.0"; lives forever. */
+const char* wavetracer_version(void);
+
+/* Loads the scene of a configuration and compiles the kernels.
+   config: TOML text, as in the files of `wavetracer run`. folder: where its relative paths start; null: the current one.
+   sets: set_count texts "key=value" that are applied over it, as those of --set; may be null where set_count is 0.
+   device: an index, or part of a platform's or device's name; null or "": the default choice. */
+wavetracer_simulation* wavetracer_open(const char* config, const char* folder, const char* const* sets, size_t set_count,
+                            const char* device, wavetracer_error** error);
+void wavetracer_close(wavetracer_simulation* self);
+
+/* What was opened; 0, NaN or null where self is null or the index is too large. Texts live until wavetracer_close. */
+uint32_t wavetracer_frame_count(const wavetracer_simulation* self);
+double wavetracer_time_s(const wavetracer_simulation* self, uint32_t frame);
+size_t wavetracer_transmitter_count(const wavetracer_simulation* self);
+size_t wavetracer_receiver_count(const wavetracer_simulation* self);
+const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_t index); /* of a mount: VEHICLE/NAME */
+const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index);
+const char* wavetracer_device_name(const wavetracer_simulation* self);
+const char* wavetracer_config_text(const wavetracer_simulation* self); /* every key with its value, TOML */
+const char* wavetracer_warnings(const wavetracer_simulation* self);    /* one a line; "" where there are none */
+
+/* Solves a frame, 0 to frame_count - 1. With trace.reuse, what a frame finds depends on the frames since the last
+   wavetracer_forget, which makes the next one cold. After a failure of code RUNTIME or DEVICE close the simulation. */
+wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t frame, wavetracer_error** error);
+void wavetracer_frame_free(wavetracer_frame* self);
+void wavetracer_forget(wavetracer_simulation* self);
+
+/* Counts of a frame. */
+typedef struct wavetracer_counts {
+  uint64_t rays;       /* launched */
+  uint64_t segments;   /* rays traced or answered by the cache, all depths */
+  uint64_t hits;       /* of these, that met a surface */
+  uint64_t sequences;  /* distinct sequences of surfaces */
+  uint64_t candidates; /* sequence and receiver pairs that may be paths */
+  uint64_t solved;     /* of these, with all points in their surfaces */
+  uint64_t paths;      /* of these, visible and distinct: the rows of the columns */
+} wavetracer_counts;
+
+/* 0 of null. */
+uint32_t wavetracer_frame_number(const wavetracer_frame* self);
+uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 where any receiver has two */
+uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
+wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 of null */
+const char* wavetracer_frame_warnings(const wavetracer_frame* self);     /* as wavetracer_warnings; lives as the frame */
+
+/* Results are columns with the names of the datasets in paths.h5. */
+enum wavetracer_type {
+  WAVETRACER_UINT8 = 1,
+  WAVETRACER_UINT32 = 2,
+  WAVETRACER_UINT64 = 3,
+  WAVETRACER_FLOAT64 = 4,
+  WAVETRACER_COMPLEX128 = 5 /* two doubles, real and imaginary part */
+};
+
+typedef struct wavetracer_column {
+  const void* data; /* rows * width values without gaps; never null. Lives as long as the frame. */
+  size_t rows;
+  size_t width; /* values a row */
+  int type;     /* enum wavetracer_type */
+} wavetracer_column;
+
+/* One row a path, sorted by frame, tx, rx, delay:
+     frame, tx, rx, depth                                    uint32     frame number, indices of the ends, interactions
+     delay_s, gain_db                                        float64
+     a                                                       complex128 x rx ports x tx ports, row major: coefficient
+                                                             between the ports, without the carrier phase of the delay:
+                                                             h(f) = sum a exp(-j 2 pi f delay_s). Ports that an antenna
+                                                             does not have are 0.
+     aod_theta_rad, aod_phi_rad, aoa_theta_rad, aoa_phi_rad  float64    from +z; from +x towards +y
+     doppler_hz                                              float64
+   Rows vertex_offset[i] to vertex_offset[i + 1] of these are the interactions of path i, from the transmitter on:
+     vertex_offset                                           uint64     one row more than there are paths
+     vertex_position_m                                       float64 x 3, file coordinates
+     vertex_interaction                                      uint8      1 reflection, 2 scattering, 4 transmission,
+                                                             8 diffraction
+     vertex_surface                                          uint32     in its scene or model; of a diffraction the edge
+     vertex_instance                                         uint32     the vehicle; 0xFFFFFFFF: the static scene
+   One row a pair of ends between which paths were wanted:
+     link                                                    uint32 x 2: tx, rx
+   One row an end; NaN while it is absent:
+     transmitter_position_m, receiver_position_m             float64 x 3, file coordinates
+   Returns 1; 0 with an error of code USAGE where there is no such column. */
+int wavetracer_frame_column(const wavetracer_frame* self, const char* name, wavetracer_column* column,
+                            wavetracer_error** error);
+
+/* Names of all columns, 0 to wavetracer_column_count() - 1; null beyond. */
+size_t wavetracer_column_count(void);
+const char* wavetracer_column_name(size_t index);
+
+/* Writes paths.h5, links.csv and summary.json into a folder, as the program does; what an earlier run left there goes.
+   frames: at least one, of this simulation, sorted by their number, each once. Returns 1, or 0 with an error. */
+int wavetracer_write(const wavetracer_simulation* self, const char* folder, const wavetracer_frame* const* frames, size_t count,
+                     wavetracer_error** error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,258 @@
+// Runs that several processes share give the data of one process, bit for bit, whatever the split and whoever dies.
+// Skipped, saying so, where there is no OpenCL device. With mpirun: tests/app/mpirun_test.py.
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include "output/reader.hpp"
+#include "program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using wavetracer::test::datasets;
+using wavetracer::test::slurp;
+
+// A vehicle crosses a room: 20 frames in 7 shards.
+const std::string room = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/room/room.xml"
+trace.rays = 2000
+trace.max_depth = 2
+output.shard_frames = 3
+output.waypoints = 10
+time.step_s = 0.1
+[[transmitter]]
+name = "lamp"
+position_m = [1, 1, 2.5]
+[[receiver]]
+name = "desk"
+position_m = [7, 5, 1]
+[[track]]
+id = "truck"
+type = "passenger"
+waypoints = [[0, 3, 2, 0], [1.9, 5, 4, 0]]
+[[vehicle_type]]
+name = "passenger"
+length_m = 1.5
+width_m = 0.8
+height_m = 0.6
+[[mount]]
+name = "roof"
+role = "receiver"
+offset_m = [0, 0, 0.8]
+)";
+
+// One frame of a city: ends that stand, some of which send and receive at one place, with one port and two, and
+// antennas of both roles on vehicles.
+const std::string city = R"(scene.generate = "--seed 1 --blocks 2x2"
+trace.rays = 20000
+trace.max_depth = 3
+links.i2i = true
+links.max_distance_m = 150
+[[transmitter]]
+name = "mast"
+position_m = [8, 8, 6]
+polarization = "VH"
+[[transmitter]]
+name = "lamp"
+position_m = [-60, 3, 5]
+[[transmitter]]
+name = "tower"
+position_m = [3, 70, 9]
+[[receiver]]
+name = "mast-rx"
+position_m = [8, 8, 6]
+polarization = "VH"
+[[receiver]]
+name = "walker"
+position_m = [50, -3, 1.5]
+[[track]]
+id = "a"
+type = "passenger"
+waypoints = [[0, -40, -3, 0], [0.01, -39.9, -3, 0]]
+[[track]]
+id = "b"
+type = "passenger"
+waypoints = [[0, 3, -40, 0], [0.01, 3, -39.9, 0]]
+[[mount]]
+name = "roof"
+role = "both"
+offset_m = [0, 0, 1.6]
+[time]
+end_s = 0
+step_s = 0.1
+)";
+
+Outcome run(const std::string& file, const std::string& out, std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"run", "-c", file, "-o", out});
+  return run_program(more);
+}
+
+// All that is written but times, and names of commands.
+void check_same(const fs::path& found, const fs::path& expected, bool work_too) {
+  for (const char* file : {"paths.h5", "waypoints.h5"}) {
+    if (!fs::exists(expected / file)) continue;
+    const auto a = datasets(found / file), b = datasets(expected / file);
+    REQUIRE(a.size() == b.size());
+    for (const auto& [name, value] : b) {
+      CAPTURE(name);
+      CHECK(a.at(name) == value);
+    }
+  }
+  CHECK(slurp(found / "links.csv") == slurp(expected / "links.csv"));
+  CHECK(slurp(expected / "links.csv").size() > 200);
+  const auto a = nlohmann::json::parse(slurp(found / "summary.json")),
+             b = nlohmann::json::parse(slurp(expected / "summary.json"));
+  for (const char* key : {"frames", "first_frame", "last_frame", "links", "paths_by_kind", "features", "frames_asked",
+                          "vehicles", "start_s", "end_s", "warnings", "device", "repeat_count"}) {
+    CAPTURE(key);
+    CHECK(a[key] == b[key]);
+  }
+  CHECK(a["counts"]["paths"] == b["counts"]["paths"]);
+  if (work_too) CHECK(a["counts"] == b["counts"]);
+  if (work_too) CHECK(a["segments_per_depth"] == b["segments_per_depth"]);
+}
+
+// What processes need among themselves is gone when they are done.
+void check_tidy(const fs::path& out) {
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    const std::string name = entry.path().filename().string();
+    CAPTURE(name);
+    CHECK_FALSE(name.ends_with(".tmp"));
+    CHECK(name.find(".claim.") == std::string::npos);
+    CHECK_FALSE(name.starts_with("process_"));
+  }
+}
+
+void wait_for(const Program& program, const std::string& message) {
+  for (int i = 0; i < 30000 && !contains(program.messages(), message); ++i) std::this_thread::sleep_for(2ms);
+}
+
+}  // namespace
+
+TEST_CASE("two processes, or parts in two folders, write what one process writes") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  REQUIRE(run(file, folder.path("one")).code == 0);
+  const Outcome two = run(file, folder.path("two"), {"--processes", "2"});
+  CAPTURE(two.err);
+  REQUIRE(two.code == 0);
+  CHECK(contains(two.out, "frames     20 from 0 to 1.9 s"));
+  CHECK(contains(two.err, "rank 0: "));
+  CHECK(contains(two.err, "rank 1: "));
+  check_same(folder.path("two"), folder.path("one"), true);
+  check_tidy(folder.path("two"));
+
+  for (const std::string part : {"0/3", "2/3", "1/3"}) {
+    const Outcome outcome = run(file, folder.path("part" + part.substr(0, 1)), {"--shard", part});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(contains(outcome.err, "wavetracer merge"));
+    CHECK_FALSE(fs::exists(folder.path("part" + part.substr(0, 1)) + "/paths.h5"));
+  }
+  const Outcome missing =
+      run_program({"merge", "-o", folder.path("merged"), folder.path("part0"), folder.path("part2")});
+  CHECK(missing.code == 5);
+  CHECK(contains(missing.err, "missing: frames 3 to 5, frames 12 to 14"));
+  CHECK_FALSE(fs::exists(folder.path("merged")));
+  const Outcome merged = run_program(
+      {"merge", "-o", folder.path("merged"), folder.path("part1"), folder.path("part0"), folder.path("part2")});
+  CAPTURE(merged.err);
+  REQUIRE(merged.code == 0);
+  check_same(folder.path("merged"), folder.path("one"), true);
+  const Outcome partial =
+      run_program({"merge", "--partial", "-o", folder.path("some"), folder.path("part0"), folder.path("part2")});
+  CHECK(partial.code == 5);
+  CHECK(wavetracer::test::Reader(folder.path("some/paths.h5")).shape("/frames/frame") == std::vector<hsize_t>{14});
+
+  // A single process goes on where a part has left the folder, and another configuration is refused.
+  const Outcome rest = run(file, folder.path("part1"), {"--resume"});
+  CHECK(rest.code == 0);
+  check_same(folder.path("part1"), folder.path("one"), true);
+  const Outcome other = run(file, folder.path("part0"), {"--shard", "1/3", "--set", "trace.rays=2001"});
+  CHECK(other.code == 2);
+  CHECK(contains(other.err, "a configuration whose hash is"));
+}
+
+TEST_CASE("blocks of transmitters of one frame: every link as in the whole frame, whatever is computed") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city);
+  const std::vector<std::vector<std::string>> cases = {
+      {},
+      {"trace.diffraction=true", "trace.max_diffractions=2"},
+      {"trace.diffraction=true", "trace.transmission=true", "trace.scattering=true"},
+      {"trace.join=true"}};
+  for (size_t i = 0; i < cases.size(); ++i) {
+    CAPTURE(i);
+    std::vector<std::string> sets;
+    for (const std::string& set : cases[i]) sets.insert(sets.end(), {"--set", set});
+    const std::string one = folder.path("one" + std::to_string(i)), many = folder.path("many" + std::to_string(i));
+    const Outcome alone = run(file, one, sets);
+    CAPTURE(alone.err);
+    REQUIRE(alone.code == 0);
+    for (const char* part : {"1/2", "0/2"}) {
+      std::vector<std::string> words = sets;
+      words.insert(words.end(), {"--shard", part});
+      const Outcome outcome = run(file, many, words);
+      CAPTURE(outcome.err);
+      REQUIRE(outcome.code == 0);
+      CHECK(contains(outcome.err, "block "));
+    }
+    const Outcome merged = run_program({"merge", many});
+    CAPTURE(merged.err);
+    REQUIRE(merged.code == 0);
+    check_same(many, one, false);
+    const auto summary = nlohmann::json::parse(slurp(fs::path(many) / "summary.json"));
+    CHECK(summary["shards"] == 5);  // transmitters: three stand, two are on vehicles
+    CHECK(summary["counts"]["paths"] > 20);
+  }
+  const Outcome shared = run(file, folder.path("shared"), {"--processes", "2"});
+  CAPTURE(shared.err);
+  CHECK(shared.code == 0);
+  check_same(folder.path("shared"), folder.path("one0"), false);
+  const Outcome refused = run(file, folder.path("no"), {"--processes", "2", "--set", "trace.rays=auto"});
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err, "looks at the rays of all transmitters together"));
+}
+
+TEST_CASE("a process that is killed loses its part, which another takes over; --resume repairs what is left") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  REQUIRE(run(file, folder.path("one"), {"--repeat", "150"}).code == 0);
+  const std::string out = folder.path("out");
+  Program parent({"run", "-c", file, "-o", out, "--processes", "2", "--repeat", "150"});
+  wait_for(parent, ": frames ");  // one part is done, others on their way
+  pid_t victim = 0;
+  for (const auto& entry : fs::directory_iterator(out + "/shards"))
+    if (const std::string name = entry.path().filename().string(); name.starts_with("process_"))
+      victim = nlohmann::json::parse(slurp(entry.path()))["pid"];
+  REQUIRE(victim > 1);
+  REQUIRE(kill(victim, SIGKILL) == 0);
+  const Outcome outcome = parent.wait();
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "was ended by signal 9"));
+  check_same(out, folder.path("one"), true);
+
+  Program again({"run", "-c", file, "-o", out, "--processes", "2", "--repeat", "150"});
+  wait_for(again, ": frames ");
+  const Outcome refused = run(file, out, {"--repeat", "150"});
+  CHECK(refused.code == 1);
+  CHECK(contains(refused.err, "writes there; wait until it is done"));
+  again.signal(SIGINT);
+  const Outcome stopped = again.wait();
+  CAPTURE(stopped.err);
+  CHECK(stopped.code == 130);
+  const Outcome resumed = run(file, out, {"--processes", "3", "--repeat", "150", "--resume"});
+  CAPTURE(resumed.err);
+  CHECK(resumed.code == 0);
+  CHECK(contains(resumed.err, "of 7 parts are there"));
+  check_same(out, folder.path("one"), true);
+  check_tidy(out);
+}

@@ -1,0 +1,69 @@
+// [[receiver_grid]]: what is read, what is refused and where, and that a resolved config reads back the same.
+// Texts are written here by hand; lines and columns are counted in them.
+#include <doctest/doctest.h>
+
+#include "config/texts.hpp"
+
+using namespace wavetracer;
+using test::check_contains;
+using test::ends;
+using test::error_of;
+using test::scene;
+
+namespace {
+
+const std::string grid = "[[receiver_grid]]\nname = \"map\"\n";
+const std::string transmitter = "[[transmitter]]\nname = \"t\"\nposition_m = [0, 0, 6]\n";
+
+}  // namespace
+
+TEST_CASE("every key of a grid is read, and its defaults are those of the struct") {
+  const Config c = parse_config(scene + ends + grid +
+                                    "x_min_m = -10\nx_max_m = 20.5\ny_min_m = 0\ny_max_m = 1e3\nstep_m = 2.5\n"
+                                    "height_m = 1\nabove = \"ground\"\nantenna = \"dipole\"\npolarization = \"VH\"\n"
+                                    "orientation_deg = [90, 0, 0]\n[[receiver_grid]]\nname = \"plain\"\n",
+                                "/data/a.toml");
+  REQUIRE(c.receiver_grids.size() == 2);
+  const ReceiverGridConfig &g = c.receiver_grids[0], &plain = c.receiver_grids[1];
+  CHECK(g.name == "map");
+  CHECK(*g.x_min_m == -10);
+  CHECK(*g.x_max_m == 20.5);
+  CHECK(*g.y_min_m == 0);
+  CHECK(*g.y_max_m == 1000);
+  CHECK(g.step_m == 2.5);
+  CHECK(g.height_m == 1);
+  CHECK(g.above == "ground");
+  CHECK(g.antenna == "dipole");
+  CHECK(g.polarization == "VH");
+  CHECK(g.orientation_deg == std::array<double, 3>{90, 0, 0});
+  CHECK_FALSE((plain.x_min_m || plain.x_max_m || plain.y_min_m || plain.y_max_m));
+  CHECK(plain.above == "zero");
+  CHECK(plain.step_m == ReceiverGridConfig{}.step_m);
+}
+
+TEST_CASE("the resolved config of grids reads back the same") {
+  const Config c = parse_config(scene + ends + grid + "x_min_m = 0.1\n", "/data/a.toml");
+  const Config d = parse_config(c.text, "/elsewhere/b.toml");
+  CHECK(d.text == c.text);
+  REQUIRE(d.receiver_grids.size() == 1);
+  CHECK(*d.receiver_grids[0].x_min_m == 0.1);
+  CHECK_FALSE(d.receiver_grids[0].x_max_m.has_value());
+}
+
+TEST_CASE("a grid takes the place of receivers") {
+  CHECK(error_of(scene + transmitter + grid) == "no error");
+  check_contains(error_of(scene + transmitter), "no [[receiver]]: add one");
+  check_contains(error_of(scene + grid), "no [[transmitter]]: add one");
+}
+
+TEST_CASE("values that are no such thing, with their place") {
+  check_contains(error_of(scene + ends + "[[receiver_grid]]\nstep_m = 5\n"),
+                 "a.toml:8:1: [[receiver_grid]] has no name");
+  check_contains(error_of(scene + ends + grid + "step_m = 0\n"),
+                 "a.toml:10:10: receiver_grid.step_m = 0 is out of range");
+  check_contains(error_of(scene + ends + grid + "above = \"sea\"\n"), "a.toml:10:9: receiver_grid.above = \"sea\"");
+  check_contains(error_of(scene + ends + grid + "stepp_m = 1\n"), "did you mean \"receiver_grid.step_m\"?");
+  check_contains(error_of(scene + ends + grid + "x_min_m = inf\n"), "receiver_grid.x_min_m = inf is out of range");
+  check_contains(error_of(scene + ends + "[receiver_grid]\nname = \"map\"\n"), "write [[receiver_grid]]");
+  check_contains(error_of(scene + ends + grid + grid), "a.toml:11:8: receiver_grid.name = \"map\" is taken");
+}

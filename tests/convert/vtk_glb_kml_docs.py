@@ -1,0 +1,37 @@
+"""Runs the examples of docs/formats.md as they stand there: the conversions, then every block of Python.
+Run as vtk_glb_kml_docs.py PROGRAM RUN OUTPUT; a block whose package is missing is skipped, and said so."""
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+program, run, output = (os.path.abspath(path) for path in sys.argv[1:4])
+page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../docs/formats.md")
+blocks = re.findall(r"^```(\w+)\n(.*?)^```$", open(page, encoding="utf-8").read(), re.DOTALL | re.MULTILINE)
+shutil.rmtree(output, ignore_errors=True)
+os.makedirs(os.path.join(output, "out"))
+os.symlink(run, os.path.join(output, "out/demo"))
+
+done = failed = 0
+for kind, text in blocks:
+    if kind == "sh":
+        for words in map(shlex.split, text.splitlines()):
+            assert words[0] == "wavetracer" and words[1] in ("run", "convert"), words
+            if words[1] == "convert":  # the run is there already
+                subprocess.run([program, *words[1:]], cwd=output, check=True, stdout=subprocess.DEVNULL)
+                done += 1
+        continue
+    assert kind == "python", kind
+    result = subprocess.run([sys.executable, "-c", text], cwd=output, capture_output=True, text=True)
+    name = re.search(r'"(?:out/)?demo[^"]*"|"demo[^"]*"', text).group()
+    if result.returncode == 0 and result.stdout:
+        done += 1
+    elif "ModuleNotFoundError" in result.stderr:
+        print(f"{name}: left out, {result.stderr.splitlines()[-1]}")
+    else:
+        failed += 1
+        print(f"{name}: fails or prints nothing\n{result.stdout}{result.stderr}")
+assert done > 10, done
+sys.exit(f"{failed} examples of docs/formats.md fail" if failed else print(f"docs/formats.md: {done} examples run"))

@@ -1,0 +1,85 @@
+// Paths are straight lines with made-up points along them; places of vehicles and ends are those of the world.
+#include "vtk_glb_kml_run.hpp"
+#include <cmath>
+#include <limits>
+#include "config/config_file.hpp"
+#include "output/output.hpp"
+#include "scene/load.hpp"
+#include "simulation/world.hpp"
+
+namespace wavetracer::test {
+namespace {
+
+constexpr const char* text = R"(
+scene.generate = "--seed 1 --blocks 2x2"
+links.v2v = true
+time = {start_s = 0.0, end_s = 0.5, step_s = 0.1}
+[[material]]
+name = "brick"
+permittivity = 4.0
+[[transmitter]]
+name = "<rsu> & \"co\" é"
+position_m = [8.0, 7.5, 6.0]
+[[receiver]]
+name = "sign"
+position_m = [-8.0, 7.5, 2.25]
+[[track]]
+id = "car<1>"
+waypoints = [[0.0, -40.0, -3.0, 0.0], [0.5, -30.0, -3.0, 0.0]]
+[[track]]
+id = "lorry"
+type = "truck"
+waypoints = [[0.3, -3.0, 30.0, 0.0], [0.4, -3.0, 29.0, 0.0]]
+[[mount]]
+name = "roof"
+on = "car*"
+offset_m = [0.0, 0.0, 1.6]
+)";
+
+void add_path(Paths& paths, const WorldState& world, const glm::dvec3& origin_m, uint32_t frame, uint32_t i) {
+  const uint32_t depth = i % 4;
+  const glm::dvec3 from = world.transmitters[0].position_m + origin_m, to = world.receivers[1].position_m + origin_m;
+  paths.frame.push_back(frame);
+  paths.tx.push_back(0);
+  paths.rx.push_back(1);
+  paths.depth.push_back(depth);
+  paths.delay_s.push_back(1e-7 + 1e-10 * i);
+  paths.gain_db.push_back(i == 0 ? -std::numeric_limits<double>::infinity() : -80.25 - 0.05 * i);
+  paths.a.push_back({std::pow(10.0, paths.gain_db.back() / 20)});
+  for (auto* angle : {&paths.aod_theta_rad, &paths.aod_phi_rad, &paths.aoa_theta_rad, &paths.aoa_phi_rad})
+    angle->push_back(0.5);
+  paths.doppler_hz.push_back(3.0 * i - 7);
+  for (uint32_t k = 0; k < depth; ++k) {
+    const double part = (k + 1.0) / (depth + 1.0);
+    paths.vertex_position_m.push_back(from + (to - from) * part + glm::dvec3(0, 0, 0.01 * i));
+    paths.vertex_interaction.push_back(k == 1 ? diffraction : k == 2 ? transmission : reflection);
+    paths.vertex_surface.push_back(k);
+    paths.vertex_instance.push_back(k == 2 ? 0 : no_instance);
+  }
+  paths.vertex_offset.push_back(paths.vertex_position_m.size());
+}
+
+}  // namespace
+
+void write_geometry_run(const std::filesystem::path& folder) {
+  Config config = parse_config(text, "/geometry.toml");
+  const Scene scene = load_scene(config);
+  const World world(config, scene);
+  config.transmitters = world.transmitters();
+  config.receivers = world.receivers();
+  std::vector<FrameResult> frames;
+  for (uint32_t number = first_frame; number < first_frame + frame_count; ++number) {
+    FrameResult frame;
+    frame.frame = number;
+    frame.world = world.state(number);
+    const uint32_t row = number - first_frame, rows = row + 1 == frame_count ? rows_of_last_frame : 1 + 10 * row;
+    for (uint32_t i = 0; i < rows; ++i) add_path(frame.paths, frame.world, scene.origin_m, number, i);
+    frame.counts.paths = rows;
+    frame.segments_per_depth = {1};
+    frame.seconds = {{"frame", 0.1}};
+    frames.push_back(std::move(frame));
+  }
+  write_outputs(folder, Run{config, scene, world.instances(), world.models(), {}}, frames);
+}
+
+}  // namespace wavetracer::test

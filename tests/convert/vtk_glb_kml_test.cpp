@@ -1,0 +1,125 @@
+// The exports of geometry: what our own loader reads back, and what they refuse. The files stay in the build folder,
+// where vtk_check.py, glb_check.py and kml_check.py read them as other programs do.
+#include <doctest/doctest.h>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <map>
+#include "convert/convert.hpp"
+#include "convert/kml_text.hpp"
+#include "results/saved_world.hpp"
+#include "scene/file.hpp"
+#include "scene/load.hpp"
+#include "vtk_glb_kml_run.hpp"
+#include "wavetracer/error.hpp"
+
+using namespace wavetracer;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests/convert_geometry";
+constexpr const char* projection = "+proj=tmerc +lat_0=48.137 +lon_0=11.575 +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m";
+
+const SavedRun& run() {
+  static const SavedRun saved = [] {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    test::write_geometry_run(folder / "run");
+    return SavedRun(folder / "run");
+  }();
+  return saved;
+}
+
+ExportOptions options(const std::string& name) { return {folder / name, 0, run().frame_count() - 1, {}}; }
+
+// Triangles, area and bounding box of what has one material.
+struct Amount {
+  size_t triangles = 0;
+  double area_m2 = 0;
+  glm::dvec3 lower{1e9}, upper{-1e9};
+
+  void add(const std::array<glm::dvec3, 3>& p) {
+    ++triangles;
+    area_m2 += glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) / 2;
+    for (const glm::dvec3& v : p) lower = glm::min(lower, v), upper = glm::max(upper, v);
+  }
+};
+
+void add(std::map<std::string, Amount>& amounts, const Scene& scene, const auto& position) {
+  for (size_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto& [a, b, c] = scene.triangles[t];
+    amounts[scene.materials[scene.surfaces[scene.triangle_surface[t]].material].name].add(
+        {position(scene.vertices[a]), position(scene.vertices[b]), position(scene.vertices[c])});
+  }
+}
+
+}  // namespace
+
+TEST_CASE("our own loader reads a .glb back: triangles, areas, extents and materials of scene and vehicles") {
+  Warnings warnings;
+  const size_t row = 2;  // the lorry is there since the row before
+  ExportOptions one = options("one.glb");
+  one.first_row = one.last_row = row;
+  CHECK(export_glb(run(), one, warnings) == Written{one.output});
+  CHECK(warnings.empty());
+
+  const SavedWorld world = load_saved_world(run());
+  std::map<std::string, Amount> expected, found;
+  add(expected, world.scene, [&](const glm::dvec3& v) { return world.scene.origin_m + v; });
+  const SavedFrame frame = run().frame(row);
+  REQUIRE(frame.poses.size() == 2);
+  for (const SavedPose& pose : frame.poses) {
+    const Scene& model = world.models.at(world.instance_model[pose.instance]);
+    add(expected, model, [&](const glm::dvec3& v) { return pose.position_m + pose.rotation * (model.origin_m + v); });
+  }
+  const Scene read = load_scene_file(one.output, {}, world.config.materials);
+  add(found, read, [&](const glm::dvec3& v) { return read.origin_m + v; });
+  CHECK(expected.contains("metal"));
+  REQUIRE(found.size() == expected.size());
+  for (const auto& [name, amount] : expected) {
+    CAPTURE(name);
+    REQUIRE(found.contains(name));
+    CHECK(found[name].triangles == amount.triangles);
+    CHECK(found[name].area_m2 == doctest::Approx(amount.area_m2).epsilon(1e-5));
+    CHECK(glm::distance(found[name].lower, amount.lower) < 1e-4);  // float32 at 100 m
+    CHECK(glm::distance(found[name].upper, amount.upper) < 1e-4);
+  }
+  for (const std::string& object : world.scene.objects) CHECK(std::ranges::count(read.objects, object) == 1);
+}
+
+TEST_CASE("files for the scripts: a drive as .glb, a folder for ParaView, a .kml with the strongest paths") {
+  Warnings warnings;
+  CHECK(export_glb(run(), options("drive.glb"), warnings).size() == 1);
+  const Written vtk = export_vtk(run(), options("vtk"), warnings);
+  CHECK(vtk.size() == 1 + 2 + 3 * test::frame_count);
+  for (const fs::path& file : vtk) CHECK(fs::exists(file));
+  CHECK_THROWS_AS(export_vtk(run(), options("vtk"), warnings), InputError);  // the folder is there already
+  CHECK(warnings.empty());
+
+  ExportOptions kml = options("drive.kml");
+  kml.projection = projection;
+  CHECK(export_kml(run(), kml, warnings).size() == 1);
+  REQUIRE(warnings.size() == 1);  // 1200 - 1000
+  CHECK(warnings[0].find("the 1000 strongest paths of each frame are written, 200 are left out") != std::string::npos);
+}
+
+TEST_CASE("a .kml needs to know where on the earth the scene is") {
+  Warnings warnings;
+  CHECK_THROWS_WITH_AS(export_kml(run(), options("nowhere.kml"), warnings), doctest::Contains("--projection"),
+                       InputError);
+  ExportOptions bad = options("nowhere.kml");
+  bad.projection = "+proj=nonsense";
+  CHECK_THROWS_AS(export_kml(run(), bad, warnings), InputError);
+  CHECK(!fs::exists(bad.output));
+  for (const auto& entry : fs::directory_iterator(folder)) CHECK(entry.path().extension() != ".tmp");
+}
+
+TEST_CASE("names in XML: escaped, and nothing that a parser rejects") {
+  CHECK(xml_text("<a href=\"x\">&'") == "&lt;a href=&quot;x&quot;&gt;&amp;&apos;");
+  CHECK(xml_text("\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x9A\x97") == "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x9A\x97");
+  CHECK(xml_text(std::string_view("\0\x01\x1F\x7F", 4)) == "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\x7F");
+  CHECK(xml_text("\xFF|\xEF\xBF\xBF|\xED\xA0\x80") ==
+        "\xEF\xBF\xBD|\xEF\xBF\xBD|\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");  // no byte of UTF-8, U+FFFF, a surrogate
+}

@@ -1,0 +1,16 @@
+// Fuzz target: configurations, from TOML text to checked values and back to text.
+// What is accepted must be accepted again as it is written out.
+#include "config/config_file.hpp"
+#include "fuzz/fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace wavetracer;
+  Config config;
+  bool accepted = false;
+  fuzz::accept_or_refuse([&] {
+    config = parse_config(fuzz::text_of(data, size), "fuzz.toml");
+    accepted = true;
+  });
+  if (accepted) parse_config(config.text, "again.toml");
+  return 0;
+}

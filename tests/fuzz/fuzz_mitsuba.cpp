@@ -1,0 +1,9 @@
+// Fuzz target: Mitsuba XML scenes. Meshes that they name are not there but where they name the file itself.
+#include "fuzz/fuzz.hpp"
+#include "scene/mitsuba.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace wavetracer;
+  static fuzz::MemoryFile file;
+  return fuzz::accept_or_refuse([&] { read_mitsuba(file.write(data, size)); });
+}

@@ -1,0 +1,12 @@
+// Fuzz target: paths.h5 as view, plot, convert and merge read it.
+#include "fuzz/fuzz.hpp"
+#include "results/saved_run.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace wavetracer;
+  static fuzz::MemoryFile file;
+  return fuzz::accept_or_refuse([&] {
+    const SavedRun run(file.write(data, size));
+    for (size_t row = 0; row < run.frame_count() && row < 4; ++row) run.frame(row);
+  });
+}

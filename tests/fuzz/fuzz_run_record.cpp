@@ -1,0 +1,8 @@
+// Fuzz target: run.json, what `wavetracer merge` knows of a run.
+#include "fuzz/fuzz.hpp"
+#include "output/run_record.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace wavetracer;
+  return fuzz::accept_or_refuse([&] { decode_run_record(fuzz::text_of(data, size), "run.json"); });
+}

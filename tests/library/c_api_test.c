@@ -1,0 +1,184 @@
+/* The C interface from C99: a frame against closed forms, errors and misuse, files, two simulations in one process.
+   Usage: test_c_api FOLDER, which is written to. Says each check that fails; exits 1 if any did. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "wavetracer/wavetracer.h"
+
+static int failures = 0;
+#define CHECK(condition) \
+  ((condition) ? (void)0 : (void)(++failures, fprintf(stderr, "line %d: %s\n", __LINE__, #condition)))
+
+static const double speed_of_light_m_s = 299792458.0, pi = 3.14159265358979323846;
+
+/* Two ends in the middle of a street, line of sight alone: one path of a known length. */
+static const char* const config =
+    "[scene]\ngenerate = \"--blocks 2\"\n"
+    "[[transmitter]]\nname = \"t\"\nposition_m = [0, 0, 6]\n"
+    "[[receiver]]\nname = \"r\"\nposition_m = [30, 0, 2]\n"
+    "[[receiver]]\nname = \"both\"\npolarization = \"VH\"\nposition_m = [40, 0, 2]\n"
+    "[trace]\nrays = 1000\nmax_depth = 0\n";
+
+static void check_error(wavetracer_error* error, int code, const char* part) {
+  CHECK(error != NULL);
+  CHECK(wavetracer_error_code(error) == code);
+  if (!strstr(wavetracer_error_message(error), part)) {
+    ++failures;
+    fprintf(stderr, "no \"%s\" in \"%s\"\n", part, wavetracer_error_message(error));
+  }
+  wavetracer_error_free(error);
+}
+
+static const double* doubles(const wavetracer_frame* frame, const char* name, size_t rows, size_t width) {
+  wavetracer_column column = {NULL, 0, 0, 0};
+  CHECK(wavetracer_frame_column(frame, name, &column, NULL) == 1);
+  CHECK(column.rows == rows);
+  CHECK(column.width == width);
+  CHECK(column.type == WAVETRACER_FLOAT64 || column.type == WAVETRACER_COMPLEX128);
+  return (const double*)column.data;
+}
+
+static void check_frame(const wavetracer_frame* frame) {
+  CHECK(wavetracer_frame_number(frame) == 0);
+  CHECK(wavetracer_frame_counts(frame).rays == 0); /* line of sight needs none */
+  CHECK(wavetracer_frame_counts(frame).paths == 2);
+  CHECK(wavetracer_frame_rx_ports(frame) == 2);
+  CHECK(wavetracer_frame_tx_ports(frame) == 1);
+  CHECK(strcmp(wavetracer_frame_warnings(frame), "") == 0);
+  const double length_m = sqrt(30 * 30 + 4 * 4), wavelength_m = speed_of_light_m_s / 5.9e9;
+  CHECK(fabs(doubles(frame, "delay_s", 2, 1)[0] - length_m / speed_of_light_m_s) < 1e-18);
+  const double friis_db = 20 * log10(wavelength_m / (4 * pi * length_m));
+  CHECK(fabs(doubles(frame, "gain_db", 2, 1)[0] - friis_db) < 1e-9);
+  const double* a = doubles(frame, "a", 2, 2);
+  CHECK(fabs(20 * log10(hypot(a[0], a[1])) - friis_db) < 1e-9);
+  CHECK(a[2] == 0 && a[3] == 0); /* the port that the receiver r does not have */
+  const double* position_m = doubles(frame, "receiver_position_m", 2, 3);
+  CHECK(fabs(position_m[3] - 40) < 1e-9 && fabs(position_m[5] - 2) < 1e-9);
+  wavetracer_column links, offsets, vertices;
+  CHECK(wavetracer_frame_column(frame, "link", &links, NULL) == 1);
+  CHECK(links.rows == 2 && links.width == 2 && ((const uint32_t*)links.data)[3] == 1);
+  CHECK(wavetracer_frame_column(frame, "vertex_offset", &offsets, NULL) == 1);
+  CHECK(offsets.rows == 3 && offsets.type == WAVETRACER_UINT64);
+  CHECK(wavetracer_frame_column(frame, "vertex_surface", &vertices, NULL) == 1);
+  CHECK(vertices.rows == 0 && vertices.data != NULL);
+}
+
+static void check_columns(const wavetracer_frame* frame) {
+  wavetracer_error* error = NULL;
+  wavetracer_column column;
+  for (size_t i = 0; i < wavetracer_column_count(); ++i)
+    CHECK(wavetracer_frame_column(frame, wavetracer_column_name(i), &column, &error) == 1 && error == NULL);
+  CHECK(wavetracer_column_name(wavetracer_column_count()) == NULL);
+  CHECK(wavetracer_frame_column(frame, "delay", &column, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no column \"delay\"");
+  CHECK(wavetracer_frame_column(NULL, "delay_s", &column, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "self is null");
+  CHECK(wavetracer_frame_column(frame, NULL, &column, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "name is null");
+  CHECK(wavetracer_frame_column(frame, "delay_s", NULL, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "column is null");
+}
+
+static void check_bad_opens(void) {
+  wavetracer_error* error = NULL;
+  CHECK(wavetracer_open(NULL, NULL, NULL, 0, NULL, &error) == NULL);
+  check_error(error, WAVETRACER_USAGE, "config is null");
+  CHECK(wavetracer_open("[trace]\nray = 5\n", NULL, NULL, 0, NULL, &error) == NULL);
+  check_error(error, WAVETRACER_USAGE, "config:2:1: unknown key \"trace.ray\"");
+  CHECK(wavetracer_open(config, NULL, NULL, 1, NULL, &error) == NULL);
+  check_error(error, WAVETRACER_USAGE, "sets is null");
+  const char* const null_text[] = {NULL};
+  CHECK(wavetracer_open(config, NULL, null_text, 1, NULL, &error) == NULL);
+  check_error(error, WAVETRACER_USAGE, "one of sets is null");
+  const char* const no_scene[] = {"scene.generate=", "scene.file=/nowhere.xml"};
+  CHECK(wavetracer_open(config, NULL, no_scene, 2, NULL, &error) == NULL);
+  check_error(error, WAVETRACER_INPUT, "/nowhere.xml");
+  CHECK(wavetracer_open(config, NULL, NULL, 0, "no such device", &error) == NULL);
+  check_error(error, WAVETRACER_DEVICE, "no such device");
+  CHECK(wavetracer_open(config, NULL, NULL, 0, "no such device", NULL) == NULL); /* whoever does not ask why */
+}
+
+static void check_nulls(void) {
+  wavetracer_error* error = NULL;
+  wavetracer_close(NULL);
+  wavetracer_frame_free(NULL);
+  wavetracer_error_free(NULL);
+  wavetracer_forget(NULL);
+  CHECK(wavetracer_error_code(NULL) == WAVETRACER_OK);
+  CHECK(strcmp(wavetracer_error_message(NULL), "") == 0);
+  CHECK(wavetracer_frame_count(NULL) == 0);
+  CHECK(isnan(wavetracer_time_s(NULL, 0)));
+  CHECK(wavetracer_transmitter_name(NULL, 0) == NULL);
+  CHECK(wavetracer_receiver_name(NULL, 0) == NULL);
+  CHECK(wavetracer_device_name(NULL) == NULL);
+  CHECK(wavetracer_config_text(NULL) == NULL);
+  CHECK(wavetracer_warnings(NULL) == NULL);
+  CHECK(wavetracer_frame_counts(NULL).paths == 0);
+  CHECK(wavetracer_run_frame(NULL, 0, &error) == NULL);
+  check_error(error, WAVETRACER_USAGE, "self is null");
+  CHECK(wavetracer_write(NULL, "out", NULL, 0, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "self is null");
+}
+
+static int exists(const char* folder, const char* name) {
+  char path[4096];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  FILE* file = fopen(path, "rb");
+  if (file) fclose(file);
+  return file != NULL;
+}
+
+static void check_write(const wavetracer_simulation* simulation, const wavetracer_frame* frame, const char* folder) {
+  wavetracer_error* error = NULL;
+  const wavetracer_frame* const twice[] = {frame, frame};
+  const wavetracer_frame* const none[] = {NULL};
+  CHECK(wavetracer_write(simulation, folder, twice, 0, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no frames");
+  CHECK(wavetracer_write(simulation, folder, twice, 2, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "sorted");
+  CHECK(wavetracer_write(simulation, folder, none, 1, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "one of frames is null");
+  CHECK(wavetracer_write(simulation, "/dev/null/folder", twice, 1, &error) == 0);
+  check_error(error, WAVETRACER_RUNTIME, "/dev/null");
+  CHECK(wavetracer_write(simulation, folder, twice, 1, &error) == 1 && error == NULL);
+  CHECK(exists(folder, "paths.h5") && exists(folder, "links.csv") && exists(folder, "summary.json"));
+}
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  wavetracer_error* error = NULL;
+  check_nulls();
+  check_bad_opens();
+  wavetracer_simulation* simulation = wavetracer_open(config, "/tmp", NULL, 0, "", &error);
+  if (!simulation) {
+    fprintf(stderr, "%s\n", wavetracer_error_message(error));
+    return 1;
+  }
+  CHECK(strcmp(wavetracer_version(), "") != 0);
+  CHECK(wavetracer_frame_count(simulation) == 1);
+  CHECK(wavetracer_time_s(simulation, 0) == 0);
+  CHECK(isnan(wavetracer_time_s(simulation, 1)));
+  CHECK(wavetracer_transmitter_count(simulation) == 1 && wavetracer_receiver_count(simulation) == 2);
+  CHECK(strcmp(wavetracer_receiver_name(simulation, 1), "both") == 0);
+  CHECK(wavetracer_receiver_name(simulation, 2) == NULL);
+  CHECK(strstr(wavetracer_config_text(simulation), "rays = 1000") != NULL);
+  CHECK(wavetracer_run_frame(simulation, 1, &error) == NULL);
+  check_error(error, WAVETRACER_USAGE, "no frame 1");
+  wavetracer_frame* frame = wavetracer_run_frame(simulation, 0, &error);
+  CHECK(frame != NULL && error == NULL);
+  check_frame(frame);
+  check_columns(frame);
+  check_write(simulation, frame, argv[1]);
+  const char* const sets[] = {"trace.rays=2000"};
+  wavetracer_simulation* other = wavetracer_open(config, NULL, sets, 1, NULL, NULL);
+  CHECK(other != NULL);
+  const wavetracer_frame* const foreign[] = {frame};
+  CHECK(wavetracer_write(other, argv[1], foreign, 1, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "of another simulation");
+  wavetracer_close(simulation);
+  check_frame(frame); /* frames outlive their simulation */
+  wavetracer_frame_free(frame);
+  wavetracer_close(other);
+  printf("%d failures\n", failures);
+  return failures == 0 ? 0 : 1;
+}

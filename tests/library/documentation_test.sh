@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Man pages that man reads without a warning, completions that bash answers with, and a reference that is not stale.
+# Usage: documentation_test.sh PROGRAM SOURCE_FOLDER FOLDER
+set -euo pipefail
+program=$1 source=$2 folder=$3
+rm -rf "$folder"
+mkdir -p "$folder"
+failed=0
+fail() {
+  printf 'failed: %s\n' "$*" >&2
+  failed=1
+}
+
+# --- man pages ---
+"$program" documentation --man program -o "$folder/wavetracer.1"
+"$program" documentation --man config -o "$folder/wavetracer.toml.5"
+for page in wavetracer.1 wavetracer.toml.5; do
+  if command -v man >/dev/null; then
+    warnings=$(MANROFFSEQ='' MANWIDTH=80 LC_ALL=C.UTF-8 man --warnings -E UTF-8 -l -Tutf8 -Z "$folder/$page" 2>&1 >/dev/null)
+    [ -z "$warnings" ] || fail "$page: $warnings"
+    MANWIDTH=100 LC_ALL=C.UTF-8 man -E UTF-8 -l "$folder/$page" | col -b >"$folder/$page.txt"
+  fi
+done
+if command -v man >/dev/null; then
+  for words in 'wavetracer run' '--resume' 'EXIT STATUS' 'NO_COLOR' 'scene info'; do
+    grep -q -e "$words" "$folder/wavetracer.1.txt" || fail "wavetracer.1 does not say $words"
+  done
+  # Every key that init knows.
+  for key in $("$program" init | sed -n 's/^#\{0,1\} *\([a-z0-9_]*\) = .*/\1/p'); do
+    grep -q -e "^ *$key" "$folder/wavetracer.toml.5.txt" || fail "wavetracer.toml.5 has no $key"
+  done
+fi
+
+# --- completions ---
+"$program" documentation --completion bash -o "$folder/bash"
+bash -n "$folder/bash" || fail "bash completion"
+# answer WORDS...: what bash offers in the place of the last word; NAME=VALUE are three words, as bash splits them.
+answer() {
+  bash -c '
+    source "$1"; shift
+    compopt() { :; }
+    COMP_WORDS=(wavetracer "$@"); COMP_CWORD=$#
+    _wavetracer; printf "%s\n" "${COMPREPLY[@]}"' bash "$folder/bash" "$@" | sort | tr '\n' ' '
+}
+expect() {
+  local wanted=$1 got
+  shift
+  got=$(answer "$@")
+  [ "$got" = "$wanted" ] || fail "after \"$*\": \"$got\" instead of \"$wanted\""
+}
+expect 'run ' ru
+expect 'city info ' scene ''
+expect '--resume ' run --res
+expect 'trace.rays= ' run -c file.toml --set trace.ra
+expect 'fibonacci hilbert random ' run --set trace.directions = ''
+expect 'hilbert ' run --set trace.directions = hi
+expect 'false true ' run --set trace.reuse =
+expect 'auto y z ' scene info --up ''
+expect ' ' run --config ''  # files
+expect ' ' run ''
+for shell in zsh fish; do
+  "$program" documentation --completion "$shell" -o "$folder/$shell"
+  ! command -v "$shell" >/dev/null || "$shell" -n "$folder/$shell" || fail "$shell completion"
+done
+
+# --- the reference ---
+"$program" documentation --reference -o "$folder/configuration.md"
+cmp -s "$folder/configuration.md" "$source/docs/configuration.md" ||
+  fail "docs/configuration.md is stale: cmake --build BUILD --target reference writes it"
+exit "$failed"

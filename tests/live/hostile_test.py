@@ -1,0 +1,181 @@
+"""Clients as they should not be: each is refused or dropped as docs/live.md says, and the server goes on.
+Assumes an OpenCL device."""
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+from live_server import PROGRAM, Server, frame, vehicle
+
+
+def expect(condition, what):
+    if not condition:
+        raise SystemExit(f"failed: {what}")
+
+
+def alive(server):
+    with server.connect() as client:
+        expect(client.hello()["message"] == "world", "a new client is welcome")
+        answer = client.ask(frame(1, 0, [vehicle("a", 0, -40)]))
+        expect(answer["message"] == "channels" and len(answer["links"]) == 1, answer)
+
+
+def ends_with(client, code):
+    answer = client.receive()
+    expect(answer and answer["message"] == "error" and answer["code"] == code and answer["fatal"], f"{code}: {answer}")
+    expect(client.receive() is None, f"closed after {code}")
+
+
+def refused(server, line, code):
+    with server.connect() as client:
+        client.hello()
+        client.send(line if isinstance(line, (str, bytes)) else json.dumps(line) + "\n")
+        answer = client.receive()
+        expect(answer["message"] == "error" and answer["code"] == code and not answer["fatal"], f"{line}: {answer}")
+        expect(client.ask(frame(1, 0, []))["message"] == "channels", f"goes on after {code}")
+
+
+def wrong_messages(server):
+    one = vehicle("a", 0, -40)
+    refused(server, "{\n", "bad_json")
+    refused(server, "[" * 3000 + "\n", "bad_json")
+    refused(server, json.dumps(frame(1, 0, [one])).replace("-40", "1e999") + "\n", "bad_json")
+    refused(server, json.dumps(frame(1, 0, [one])).replace("-40", "NaN") + "\n", "bad_json")
+    refused(server, frame(1, 0, [vehicle("a", 1e6, 0)]), "out_of_bounds")
+    refused(server, frame(1, 0, [vehicle("a", 1e200, 0)]), "bad_value")
+    refused(server, frame(1, 0, [one, one]), "duplicate_id")
+    refused(server, frame(1, 0, [one], file="/etc/passwd"), "unknown_key")
+    refused(server, frame(1, 0, [vehicle(str(k), 0, -40) for k in range(6)]), "no_place")
+    refused(server, frame(1, 0, [vehicle(str(k), 0, 10 * k) for k in range(5)]), "no_place")
+    refused(server, {"message": "hello", "protocol": 1}, "unexpected")
+    with server.connect() as client:
+        client.bytes(b"\xff\xfe\x00" * 1000 + b"\n")
+        ends_with(client, "bad_json")
+    with server.connect() as client:
+        client.send(frame(1, 0, []))
+        ends_with(client, "hello_first")
+    with server.connect() as client:
+        client.send({"message": "hello", "protocol": 2})
+        ends_with(client, "protocol")
+    with server.connect() as client:
+        client.hello()
+        client.bytes(b"x" * 5000)  # max_message_bytes is 4096 here
+        ends_with(client, "too_long")
+    with server.connect() as client:
+        client.hello()
+        client.bytes(b"{}\n" * 100)
+        for _ in range(99):
+            answer = client.receive()
+            expect(answer["code"] == "missing_key", answer)
+        ends_with(client, "too_many_errors")
+
+
+def time_outs(server):
+    start = time.monotonic()
+    with server.connect() as silent, server.connect() as partial, server.connect() as idle:
+        partial.hello()
+        idle.hello()
+        partial.bytes(b'{"message":')
+        for _ in range(4):  # a byte now and then does not help
+            time.sleep(0.1)
+            partial.bytes(b" ")
+        ends_with(silent, "timeout")
+        ends_with(partial, "timeout")
+        ends_with(idle, "timeout")
+    expect(0.5 < time.monotonic() - start < 15, f"time-outs after {time.monotonic() - start} s")
+
+
+def crowd(server):
+    clients = [server.connect() for _ in range(4)]
+    for client in clients:
+        client.hello()
+    with server.connect() as more:
+        ends_with(more, "too_many_clients")
+    for client in clients:
+        client.close()
+    time.sleep(0.3)
+    alive(server)
+
+
+def slow_reader(server):
+    """Asks and asks, and never reads: the server must neither grow nor wait."""
+    with server.connect() as client:
+        client.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        client.hello(detail="vertices")
+        client.socket.settimeout(0.5)
+        line = json.dumps(frame(1, 0, [vehicle(str(k), 0, -40 - 9 * k) for k in range(4)])).encode() + b"\n"
+        begin = time.monotonic()
+        try:
+            while time.monotonic() - begin < 20:
+                client.bytes(line)
+        except TimeoutError:
+            pass  # the server has stopped reading
+        except OSError:
+            print("slow reader dropped while it sent")
+            return alive(server)
+        with open(f"/proc/{server.process.pid}/status", encoding="utf-8") as status:
+            resident = next(int(text.split()[1]) for text in status if text.startswith("VmRSS"))
+        expect(resident < 2_000_000, f"{resident} kB resident")
+        time.sleep(2.5)  # send_timeout_s is 2
+        dropped = False
+        try:
+            for _ in range(20000):
+                client.bytes(line)
+        except (TimeoutError, OSError) as error:
+            dropped = not isinstance(error, TimeoutError)
+        expect(dropped, "the slow reader is dropped")
+    alive(server)
+
+
+def tokens():
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "token")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("0123456789abcdef\n")
+        os.chmod(path, 0o644)
+        for listen, more, code in (("tcp:0.0.0.0:0", [], 2), ("tcp:127.0.0.1:0", ["--token-file", path], 2),
+                                   ("tcp:127.0.0.1:0", ["--token-file", folder], 3), ("tcp:example.org:1", [], 2)):
+            try:
+                Server(listen, more=more)
+                raise SystemExit(f"failed: listens on {listen} {more}")
+            except RuntimeError as error:
+                expect(f"exit {code}" in str(error), f"{listen} {more}: {error}")
+        os.chmod(path, 0o600)
+        with Server("tcp:0.0.0.0:0", more=["--token-file", path]) as server:
+            server.name = server.name.replace("0.0.0.0", "127.0.0.1")
+            for token in ({}, {"token": ""}, {"token": "0123456789abcdeF"}, {"token": "0123456789abcdef0"}):
+                with server.connect() as client:
+                    client.send({"message": "hello", "protocol": 1, **token})
+                    ends_with(client, "token")
+            with server.connect() as client:
+                expect(client.hello(token="0123456789abcdef")["message"] == "world", "the token")
+
+
+def signals():
+    for how in (signal.SIGINT, signal.SIGTERM):
+        with Server() as server, server.connect() as client:
+            client.hello()
+            server.process.send_signal(how)
+            expect(client.receive()["message"] == "bye", "bye at the end")
+            expect(server.process.wait(20) == 0, "exit code")
+
+
+def main():
+    limits = ["live.max_message_bytes=4096", "live.max_clients=4", "live.message_timeout_s=1",
+              "live.idle_timeout_s=2", "live.send_timeout_s=2", "live.max_queue_bytes=20000"]
+    with Server(sets=limits) as server:
+        for part in (wrong_messages, time_outs, crowd, slow_reader, alive):
+            part(server)
+            print(part.__name__)
+        expect(server.end() == 0, f"exit code; {server.log[-3:]}")
+    for part in (tokens, signals):
+        part()
+        print(part.__name__)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

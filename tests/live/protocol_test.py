@@ -1,0 +1,191 @@
+"""The protocol over real sockets: the channels of `wavetracer run` at the same poses, both kinds of sockets, two clients
+at once, step by step and free-running, a server that starts again.
+Assumes an OpenCL device; results are compared between two runs of the program on that device."""
+import json
+import math
+import os
+import stat
+import subprocess
+import sys
+import tempfile
+
+from live_server import CONFIG, PROGRAM, SOURCE, Client, Server, frame, vehicle
+
+# A drive of one frame: ego looks along +y, other meets it, a truck turns the corner.
+TRACKS = """
+[[track]]
+id = "ego"
+waypoints = [[0.0, 3.0, -60.0, 0.0], [1.0, 3.0, -50.0, 0.0]]
+[[track]]
+id = "other"
+waypoints = [[0.0, -3.0, -30.0, 0.0], [1.0, -3.0, -45.0, 0.0]]
+[[track]]
+id = "lorry"
+type = "truck"
+waypoints = [[0.0, -20.0, 3.0, 0.0], [1.0, -28.0, 3.0, 0.0]]
+[time]
+start_s = 0.0
+end_s = 0.0
+step_s = 0.1
+"""
+POSES = [vehicle("ego", 3, -60, 90, velocity_m_s=[0, 10, 0], angular_velocity_rad_s=[0, 0, 0]),
+         vehicle("other", -3, -30, -90, velocity_m_s=[0, -15, 0], angular_velocity_rad_s=[0, 0, 0]),
+         vehicle("lorry", -20, 3, 180, "truck", velocity_m_s=[-8, 0, 0], angular_velocity_rad_s=[0, 0, 0])]
+
+
+def expect(condition, what):
+    if not condition:
+        raise SystemExit(f"failed: {what}")
+
+
+def same_as_run():
+    try:
+        import h5py
+    except ImportError:
+        print("no h5py: the comparison with `wavetracer run` is left out")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        config = CONFIG[:CONFIG.index("[[live_vehicle]]")] + CONFIG[CONFIG.index("[[mount]]"):] + TRACKS
+        path = os.path.join(folder, "drive.toml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(config)
+        subprocess.run([PROGRAM, "run", "-c", path, "-o", os.path.join(folder, "out")], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        expected = {}
+        with h5py.File(os.path.join(folder, "out", "paths.h5")) as run:
+            names = {role: [n.decode() for n in run[f"{role}s/name"][:]] for role in ("transmitter", "receiver")}
+            paths = run["paths"]
+            re, im = paths["a_re"][:], paths["a_im"][:]
+            for k in range(len(paths["delay_s"])):
+                link = names["transmitter"][paths["tx"][k]], names["receiver"][paths["rx"][k]]
+                expected.setdefault(link, []).append(
+                    (float(paths["delay_s"][k]), float(re[k].flat[0]), float(im[k].flat[0])))
+    with Server() as server, server.connect() as client:
+        client.hello(detail="paths")
+        answer = client.ask(frame(0, 0.0, POSES))
+    found = {(link["tx"], link["rx"]): [(d, r[0], i[0]) for d, r, i in zip(link["delay_s"], link["a_re"], link["a_im"])]
+             for link in answer["links"] if link["paths"]}
+    expect(found.keys() == expected.keys(), f"links {found.keys() ^ expected.keys()}")
+    count = 0
+    for link, rows in expected.items():
+        expect(sorted(rows) == sorted(found[link]), f"{link}: {sorted(rows)} and {sorted(found[link])}")
+        count += len(rows)
+    expect(count > 10, f"{count} paths")
+    print(f"{count} paths of {len(expected)} links as `run` has them, bit for bit in a and delay")
+
+
+def steps_and_detail(listen):
+    with Server(listen) as server:
+        with server.connect() as client:
+            world = client.hello()
+            expect(world["message"] == "world" and world["protocol"] == 1, world)
+            expect([(t["type"], t["places"]) for t in world["types"]] == [("passenger", 4), ("truck", 1)], world)
+            expect(world["transmitters"] == ["rsu"] and world["receivers"] == [], world)
+            for number, detail in enumerate(("links", "paths", "vertices")):
+                answer = client.ask(frame(number, number / 10, POSES, detail=detail))
+                expect(answer["frame"] == number and answer["time_s"] == number / 10, answer)
+                names = {(link["tx"], link["rx"]) for link in answer["links"]}
+                # The truck carries no antenna; rsu sends and does not listen.
+                expect(names == {("rsu", "ego/roof"), ("rsu", "other/roof"), ("ego/roof", "other/roof"),
+                                 ("other/roof", "ego/roof")}, names)
+                for link in answer["links"]:
+                    expect(("delay_s" in link) == (detail != "links"), link)
+                    expect(("vertices_m" in link) == (detail == "vertices"), link)
+                    if detail != "links" and link["paths"]:
+                        power = sum(r[0] ** 2 + i[0] ** 2 for r, i in zip(link["a_re"], link["a_im"]))
+                        expect(math.isclose(10 * math.log10(power), link["path_gain_db"], abs_tol=1e-9), link)
+                    if detail == "vertices":
+                        for depth, vertices in zip(map(len, link["interactions"]), link["vertices_m"]):
+                            expect(depth == len(vertices), link)
+            # Many frames at once are answered in their order, refusals among them.
+            wrong = frame(11, 1.1, [vehicle("ego", 3, -60, kind="tank")])
+            client.send("".join(json.dumps(m) + "\n" for m in (frame(10, 1.0, POSES), wrong, frame(12, 1.2, POSES))))
+            answers = [client.receive() for _ in range(3)]
+            expect([a["frame"] for a in answers] == [10, 11, 12], answers)
+            expect([a["message"] for a in answers] == ["channels", "error", "channels"], answers)
+            expect(answers[1]["code"] == "unknown_type", answers[1])
+            expect(client.ask({"message": "bye"})["message"] == "bye", "bye")
+            expect(client.receive() is None, "closed after bye")
+        expect(server.end() == 0, f"exit code; {server.log}")
+    print(f"steps over {listen.split(':')[0]}")
+
+
+def two_clients():
+    """Each has its own vehicles, though they share ids and places."""
+    with Server() as server, server.connect() as one, server.connect() as two:
+        one.hello(detail="paths")
+        two.hello(detail="paths")
+        alone = one.ask(frame(0, 0, POSES, cold=True))["links"]
+        for step in range(1, 4):
+            one.send(frame(step, step, POSES, cold=True))
+            two.send(frame(step, step, [vehicle("ego", 0, 40, 90)], cold=True))
+            first, second = one.receive(), two.receive()
+            expect(first["links"] == alone, f"client one in step {step}")
+            expect([link["rx"] for link in second["links"]] == ["ego/roof"], second)
+        two.close()  # in the middle, with a frame of its own under way
+        with server.connect() as third:
+            third.hello()
+            third.send(frame(0, 0, POSES))
+            third.close()
+        expect(one.ask(frame(9, 9, POSES, cold=True))["links"] == alone, "client one goes on")
+    print("two clients, and two that vanish")
+
+
+def free_running():
+    """Of frames that come faster than they are solved the newest is, and the others are counted."""
+    with Server(sets=["live.max_pending_frames=1"]) as server, server.connect() as client:
+        client.hello(mode="free")
+        last = 40
+        client.send("".join(json.dumps(frame(k, k / 10, POSES)) + "\n" for k in range(last + 1)))
+        answered = skipped = 0
+        previous = -1
+        while previous != last:
+            answer = client.receive()
+            expect(answer["message"] == "channels" and answer["frame"] > previous, answer)
+            previous = answer["frame"]
+            answered += 1
+            skipped += answer["skipped"]
+        expect(answered + skipped == last + 1 and skipped > 0, f"{answered} answered, {skipped} skipped")
+    print(f"free-running: {answered} frames answered, {skipped} skipped")
+
+
+def starts_again():
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "live.sock")
+        server = Server("unix:" + path)
+        expect(stat.S_IMODE(os.stat(path).st_mode) == 0o600, "mode of the socket")
+        try:
+            Server("unix:" + path)
+            raise SystemExit("failed: a second server took the socket of the first")
+        except RuntimeError as error:
+            expect("exit 2" in str(error) and "already" in str(error), error)
+        server.end(9)  # killed: the socket stays, dead
+        expect(os.path.exists(path), "the socket of a killed server")
+        with Server("unix:" + path) as server, server.connect() as client:
+            client.hello()
+            expect(client.ask(frame(0, 0, POSES))["message"] == "channels", "after a restart")
+        expect(not os.path.exists(path), "the socket is removed")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("mine")
+        try:
+            Server("unix:" + path)
+            raise SystemExit("failed: a file was overwritten")
+        except RuntimeError as error:
+            expect("exit 2" in str(error), error)
+        with open(path, encoding="utf-8") as file:
+            expect(file.read() == "mine", "the file that was there")
+    print("restart, stale socket, a file in the way")
+
+
+def main():
+    same_as_run()
+    steps_and_detail("tcp:127.0.0.1:0")
+    with tempfile.TemporaryDirectory() as folder:
+        steps_and_detail(f"unix:{folder}/live.sock")
+    two_clients()
+    free_running()
+    starts_again()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,162 @@
+// What write_outputs() writes, SavedRun reads; what is damaged is refused with words, never trusted.
+// Files are damaged through the HDF5 library, so that they are well formed but for the one thing.
+#include <doctest/doctest.h>
+#include <cmath>
+#include <fstream>
+#include "output/hdf5.hpp"
+#include "output/sample_run.hpp"
+#include "results/saved_run.hpp"
+#include "results/saved_world.hpp"
+#include "temporary_folder.hpp"
+#include "wavetracer/error.hpp"
+
+namespace fs = std::filesystem;
+using namespace wavetracer;
+
+namespace {
+
+struct Written {
+  test::TemporaryFolder folder;
+  SampleRun sample;
+  fs::path file;
+  Written() { file = write_outputs(folder.path() / "run", sample.run(), sample.frames())[0]; }
+};
+
+// The refusal of the file, or an empty text where it is read whole.
+std::string refusal(const fs::path& file) {
+  try {
+    const SavedRun run(file);
+    for (size_t row = 0; row < run.frame_count(); ++row) run.frame(row);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+template <typename T>
+void overwrite(const fs::path& path, const std::string& dataset, hsize_t index, T value) {
+  const hdf5::File file = hdf5::File::open_to_write(path);
+  const hdf5::Column column(file, dataset);
+  const hdf5::Id id(H5Dopen2(file.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose, "open");
+  hsize_t size = column.shape()[0];
+  for (size_t i = 1; i < column.shape().size(); ++i) size *= column.shape()[i];
+  std::vector<T> values(size);
+  hdf5::checked(H5Dread(id, hdf5::Type<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read");
+  values.at(index) = value;
+  hdf5::checked(H5Dwrite(id, hdf5::Type<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write");
+}
+
+void remove_member(const fs::path& path, const std::string& member) {
+  const hdf5::File file = hdf5::File::open_to_write(path);
+  hdf5::checked(H5Ldelete(file.id(), member.c_str(), H5P_DEFAULT), "delete");
+}
+
+}  // namespace
+
+TEST_CASE("every frame is read back as it was written") {
+  const Written written;
+  const SavedRun run(written.folder.path() / "run");
+  const std::vector<FrameResult> frames = written.sample.frames();
+  REQUIRE(run.frame_count() == frames.size());
+  CHECK(run.path_count() == 5);
+  CHECK(run.rx_ports() == 2);
+  CHECK(run.tx_ports() == 1);
+  CHECK(run.frequency_hz() == written.sample.config.radio.frequency_hz);
+  CHECK(run.transmitters().size() == written.sample.config.transmitters.size());
+  CHECK(run.transmitters()[0].name == written.sample.config.transmitters[0].name);
+  CHECK(run.receivers()[1].position_m == written.sample.config.receivers[1].position_m);
+  CHECK(run.instances()[1].id == "v1");
+  for (size_t row = 0; row < frames.size(); ++row) {
+    const Paths& was = frames[row].paths;
+    const SavedFrame frame = run.frame(row);
+    CHECK(run.path_count(row) == was.size());
+    CHECK(frame.number == frames[row].frame);
+    CHECK(frame.time_s == frames[row].world.time_s);
+    CHECK(frame.paths.tx == was.tx);
+    CHECK(frame.paths.rx == was.rx);
+    CHECK(frame.paths.delay_s == was.delay_s);
+    CHECK(frame.paths.gain_db == was.gain_db);
+    CHECK(frame.paths.aoa_phi_rad == was.aoa_phi_rad);
+    CHECK(frame.paths.doppler_hz == was.doppler_hz);
+    CHECK(frame.paths.vertex_offset == was.vertex_offset);
+    CHECK(frame.paths.vertex_position_m == was.vertex_position_m);
+    CHECK(frame.paths.vertex_interaction == was.vertex_interaction);
+    CHECK(frame.paths.vertex_surface == was.vertex_surface);
+    CHECK(frame.paths.vertex_instance == was.vertex_instance);
+    for (size_t i = 0; i < was.size(); ++i)
+      for (size_t port = 0; port < 2; ++port) CHECK(frame.paths.a[i][port] == was.a[i][port]);
+    CHECK(frame.links == frames[row].world.links);
+    size_t present = 0;
+    for (const Placement& placed : frames[row].world.instances) present += placed.present;
+    CHECK(frame.poses.size() == present);
+    const glm::dvec3 position_m = written.sample.scene.origin_m + frames[row].world.transmitters[0].position_m;
+    CHECK(frame.transmitter_position_m[0] == position_m);
+  }
+}
+
+TEST_CASE("a pose's rotation keeps its rows and columns") {
+  const Written written;
+  const std::vector<FrameResult> frames = written.sample.frames();
+  const SavedFrame frame = SavedRun(written.file).frame(1);
+  REQUIRE(frame.poses.size() == 2);
+  for (const SavedPose& pose : frame.poses)
+    CHECK(pose.rotation == frames[1].world.instances[pose.instance].rotation);
+}
+
+TEST_CASE("a run without paths is a run") {
+  test::TemporaryFolder folder;
+  const SampleRun sample;
+  write_outputs(folder.path() / "run", sample.run(), sample.empty());
+  const SavedRun run(folder.path() / "run");
+  CHECK(run.path_count() == 0);
+  CHECK(run.frame(0).paths.size() == 0);
+}
+
+TEST_CASE("what is no run is refused with the file and what to do") {
+  test::TemporaryFolder folder;
+  CHECK(refusal(folder.path() / "none").find("wavetracer run -o") != std::string::npos);
+  CHECK(refusal(folder.path()).find("holds no paths.h5") != std::string::npos);
+  CHECK(refusal(folder.write("text.h5", "not HDF5 at all")).find("text.h5") != std::string::npos);
+  const Written written;
+  std::ifstream in(written.file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  CHECK(refusal(folder.write("cut.h5", bytes.substr(0, bytes.size() / 2))) != "");
+}
+
+TEST_CASE("every contradiction within the file is found") {
+  const auto damaged = [](const auto& damage) {
+    const Written written;
+    damage(written.file);
+    return refusal(written.file);
+  };
+  const auto with = [&](const std::string& dataset, hsize_t index, auto value) {
+    return damaged([&](const fs::path& file) { overwrite(file, dataset, index, value); });
+  };
+  const auto without = [&](const std::string& member) {
+    return damaged([&](const fs::path& file) { remove_member(file, member); });
+  };
+  CHECK(damaged([](const fs::path&) {}) == "");
+  CHECK(with("/paths/tx", 0, uint32_t{2}).find("/paths/tx") != std::string::npos);
+  CHECK(with("/paths/rx", 4, ~uint32_t{0}).find("/paths/rx") != std::string::npos);
+  CHECK(with("/paths/depth", 1, uint32_t{9}).find("/paths/depth") != std::string::npos);
+  CHECK(with("/paths/vertex_offset", 1, uint64_t{1} << 60).find("vertex_offset") != std::string::npos);
+  CHECK(with("/frames/path_offset", 1, uint64_t{6}).find("path_offset") != std::string::npos);
+  CHECK(with("/frames/path_offset", 2, uint64_t{4}).find("path_offset") != std::string::npos);
+  CHECK(with("/frames/frame", 1, uint32_t{7}).find("/frames/frame") != std::string::npos);
+  CHECK(with("/poses/instance", 0, uint32_t{2}).find("/poses/instance") != std::string::npos);
+  CHECK(with("/poses/frame", 0, uint32_t{99}).find("/poses/frame") != std::string::npos);
+  CHECK(with("/links/tx", 0, uint32_t{2}).find("/links/tx") != std::string::npos);
+  CHECK(with("/vertices/instance", 1, uint32_t{2}).find("/vertices/instance") != std::string::npos);
+  for (const char* member : {"/paths/delay_s", "/paths/a_im", "/vertices/position_m", "/frames/time_s",
+                             "/frames/receiver_position_m", "/transmitters/name", "/instances/type", "/links", "/poses"})
+    CHECK_MESSAGE(without(member) != "", member);
+}
+
+TEST_CASE("a world that cannot be loaded again leaves a warning and room for every vehicle") {
+  const Written written;
+  const SavedRun run(written.file);
+  const SavedWorld world = load_saved_world(run);
+  CHECK(world.scene.triangles.empty());
+  CHECK(world.warnings.size() == 1);
+  CHECK(world.instance_model == std::vector<uint32_t>(2, no_instance));
+}

@@ -1,0 +1,158 @@
+// What happens when the machine gives out in the middle of a drive: the device is lost, its memory or the host's is
+// used up, the disk is full. Each is an error with a code and a word on what to do, and nothing that was done is lost.
+#include <doctest/doctest.h>
+#include <filesystem>
+#include "app/program.hpp"
+#include "output/reader.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using wavetracer::test::datasets;
+using wavetracer::test::slurp;
+
+const std::string drive = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/room/room.xml"
+trace.rays = 2000
+trace.max_depth = 2
+output.shard_frames = 2
+time.step_s = 0.1
+[[receiver]]
+name = "desk"
+position_m = [7, 5, 1]
+[[track]]
+id = "truck"
+type = "passenger"
+waypoints = [[0, 3, 2, 0], [0.9, 4, 3, 0]]
+[[vehicle_type]]
+name = "passenger"
+length_m = 1.5
+width_m = 0.8
+height_m = 0.6
+[[mount]]
+name = "roof"
+role = "transmitter"
+offset_m = [0, 0, 0.8]
+)";
+
+using Environment = std::vector<std::string>;
+
+Environment with(Environment faults) {
+  faults.push_back("LD_PRELOAD=" WAVETRACER_FAULTS);
+  return faults;
+}
+
+void check_same(const fs::path& found, const fs::path& expected) {
+  const auto a = datasets(found / "paths.h5"), b = datasets(expected / "paths.h5");
+  REQUIRE(a.size() == b.size());
+  for (const auto& [name, value] : b) CHECK_MESSAGE(a.at(name) == value, name);
+  CHECK(slurp(found / "links.csv") == slurp(expected / "links.csv"));
+}
+
+size_t temporaries(const fs::path& folder) {
+  size_t count = 0;
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, none)) count += entry.path().extension() == ".tmp";
+  return count;
+}
+
+// The number, at least 1, from which on the fault strikes once some shards of the drive are written but not all.
+// Found by halving: how many calls a frame takes differs from device to device.
+long in_the_middle(const std::string& file, const Folder& folder, const std::string& variable) {
+  long low = 1, high = 1 << 20;
+  for (int attempt = 0; attempt < 24; ++attempt) {
+    const long middle = (low + high) / 2;
+    const std::string out = folder.path("search" + std::to_string(attempt));
+    const Outcome outcome =
+        run_program({"run", "-c", file, "-o", out}, with({variable + "=" + std::to_string(middle), "FAULT_CODE=-5"}));
+    if (outcome.code == 0)
+      high = middle;
+    else if (!fs::exists(out + "/shards/frames_000000_000001.h5"))
+      low = middle;
+    else
+      return middle;
+  }
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("a device that is lost on the way is error 4, and the drive goes on behind the last whole shard") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", drive), out = folder.path("out");
+  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("expected")}).code == 0);
+  const long launch = in_the_middle(file, folder, "FAULT_LAUNCH");
+  REQUIRE(launch > 0);
+  for (const auto& [code, name] : {std::pair{"-2", "CL_DEVICE_NOT_AVAILABLE"}, {"-5", "CL_OUT_OF_RESOURCES"},
+                                   {"-36", "CL_INVALID_COMMAND_QUEUE"}}) {
+    CAPTURE(name);
+    fs::remove_all(out);
+    const Outcome lost = run_program({"run", "-c", file, "-o", out},
+                                     with({"FAULT_LAUNCH=" + std::to_string(launch), std::string("FAULT_CODE=") + code}));
+    CAPTURE(lost.err);
+    CHECK(lost.code == 4);
+    CHECK(contains(lost.err, name));
+    CHECK(temporaries(out) == 0);
+    CHECK(fs::exists(out + "/shards/frames_000000_000001.h5"));
+    const Outcome resumed = run_program({"run", "-c", file, "-o", out, "--resume"});
+    CHECK(resumed.code == 0);
+    CHECK(contains(resumed.err, "of 10 frames are there"));
+    check_same(out, folder.path("expected"));
+  }
+}
+
+TEST_CASE("a device without memory for a buffer is error 4 with the size, wherever it happens") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", drive), out = folder.path("out");
+  size_t failed = 0;
+  for (const int buffer : {1, 2, 5, 10, 20, 40, 80}) {
+    const Outcome full =
+        run_program({"run", "-c", file, "-o", out}, with({"FAULT_BUFFER=" + std::to_string(buffer), "FAULT_CODE=-4"}));
+    CAPTURE(buffer);
+    CAPTURE(full.err);
+    if (full.code == 0) continue;  // it needs no more than these
+    CHECK(full.code == 4);
+    CHECK(contains(full.err, "CL_MEM_OBJECT_ALLOCATION_FAILURE"));
+    CHECK(contains(full.err, "trace.batch_rays"));
+    CHECK(temporaries(out) == 0);
+    ++failed;
+  }
+  CHECK(failed >= 4);
+}
+
+TEST_CASE("a host without memory is error 1, and says what takes it") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", drive), out = folder.path("out");
+  const Outcome full = run_program({"run", "-c", file, "-o", out}, with({"FAULT_MEMORY=60000"}));
+  CAPTURE(full.err);
+  CHECK(full.code == 1);
+  CHECK(contains(full.err, "out of memory"));
+  CHECK(temporaries(out) == 0);
+}
+
+TEST_CASE("a disk that fills up on a drive is error 1; what was written stays, and --resume ends it") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", drive), out = folder.path("out");
+  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("expected")}).code == 0);
+  size_t partly = 0;
+  for (const int write : {2, 8, 14, 20, 26, 32, 38}) {
+    CAPTURE(write);
+    fs::remove_all(out);
+    const Outcome full = run_program({"run", "-c", file, "-o", out}, with({"FAULT_DISK=" + std::to_string(write)}));
+    CAPTURE(full.err);
+    if (full.code == 0) continue;  // it writes less often
+    CHECK(full.code == 1);
+    CHECK(contains(full.err, "No space left"));
+    CHECK(contains(full.err, "free some space"));
+    CHECK(temporaries(out) == 0);
+    partly += fs::exists(out + "/shards/frames_000000_000001.h5");
+    const Outcome resumed = run_program({"run", "-c", file, "-o", out, "--resume"});
+    CAPTURE(resumed.err);
+    CHECK(resumed.code == 0);
+    check_same(out, folder.path("expected"));
+  }
+  CHECK(partly >= 2);
+}

@@ -1,0 +1,110 @@
+// Vehicles drive along x, 5 m/s, in lanes of the street y = 0 of the generated city; paths bounce at made-up points.
+// Lengths are those of the polylines, gains those of free space less 6 dB an interaction.
+#include "viewer/made_runs.hpp"
+#include <fmt/format.h>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include "output/output.hpp"
+#include "radio/constants.hpp"
+
+namespace wavetracer::test {
+namespace {
+
+constexpr double frequency_hz = 5.9e9;
+const Interaction interactions[] = {reflection, diffraction, transmission, diffuse};
+
+glm::dvec3 vehicle_position(uint32_t vehicle, double time_s) {
+  return {-60.0 + 12.0 * (vehicle % 10) + 5 * time_s, -4.5 + 3.0 * (vehicle / 10), 0};
+}
+
+// The k-th path has k % 4 interactions, the i-th of them of the kind (k + i) / 4.
+void add_path(Paths& paths, uint32_t frame, const Link& link, const EndState& from, const EndState& to, uint32_t k) {
+  const uint32_t order = k % 4;
+  glm::dvec3 last = from.position_m, first_leg{0}, leg{0};
+  double length_m = 0;
+  const auto go_to = [&](const glm::dvec3& point) {
+    leg = point - last;
+    if (length_m == 0) first_leg = leg;
+    length_m += glm::length(leg);
+    last = point;
+  };
+  for (uint32_t i = 0; i < order; ++i) {
+    const double share = (i + 1.0) / (order + 1.0), side = (k + i) % 2 ? 8.0 : -8.0;
+    const glm::dvec3 between = from.position_m * (1 - share) + to.position_m * share;
+    const glm::dvec3 point{between.x + 0.5 * k, side + 0.05 * k, 2.0 + 0.1 * k};
+    go_to(point);
+    paths.vertex_position_m.push_back(point);
+    paths.vertex_interaction.push_back(interactions[(k + i) / 4 % 4]);
+    paths.vertex_surface.push_back(k + i);
+    paths.vertex_instance.push_back(no_instance);
+  }
+  go_to(to.position_m);
+  const glm::dvec3 out = glm::normalize(first_leg), in = -glm::normalize(leg);
+  const double loss_db = 20 * std::log10(4 * std::acos(-1.0) * length_m * frequency_hz / speed_of_light_m_s);
+  paths.frame.push_back(frame);
+  paths.tx.push_back(link.tx);
+  paths.rx.push_back(link.rx);
+  paths.depth.push_back(order);
+  paths.delay_s.push_back(length_m / speed_of_light_m_s);
+  paths.gain_db.push_back(-loss_db - 6.0 * order);
+  paths.a.push_back({std::polar(std::pow(10.0, paths.gain_db.back() / 20), 0.1 * k)});
+  paths.aod_theta_rad.push_back(std::acos(out.z));
+  paths.aod_phi_rad.push_back(std::atan2(out.y, out.x));
+  paths.aoa_theta_rad.push_back(std::acos(in.z));
+  paths.aoa_phi_rad.push_back(std::atan2(in.y, in.x));
+  paths.doppler_hz.push_back(10.0 * k - 7.25);
+  paths.vertex_offset.push_back(paths.vertex_position_m.size());
+}
+
+}  // namespace
+
+void write_made_run(const MadeRun& made, const std::filesystem::path& folder) {
+  Config config;
+  config.radio.frequency_hz = frequency_hz;
+  config.text = "[scene]\n" + made.scene + "\n[[transmitter]]\nname = \"rsu\"\nposition_m = [8.0, 8.0, 6.0]\n";
+  Scene scene;
+  std::vector<Scene> models(1);
+  models[0].file = "car";
+  std::vector<Instance> instances;
+  std::vector<EndState> ends{{.position_m = {8, 8, 6}}};
+  config.transmitters = {{.name = made.prefix + "rsu", .position_m = {8, 8, 6}}};
+  for (uint32_t v = 0; v < made.vehicles; ++v) {
+    instances.push_back({.id = fmt::format("veh{}", v), .type = "passenger"});
+    const glm::dvec3 from = vehicle_position(v, 0), to = vehicle_position(v, 1000);
+    config.text += fmt::format(
+        "[[track]]\nid = \"veh{}\"\nwaypoints = [[0.0, {:.3f}, {:.3f}, 0.0], [1000.0, {:.3f}, {:.3f}, 0.0]]\n", v,
+        from.x, from.y, to.x, to.y);
+    const RadioEnd end{.name = fmt::format("{}veh{}/roof", made.prefix, v)};
+    config.transmitters.push_back(end);
+    config.receivers.push_back(end);
+  }
+  config.text += "[[mount]]\nname = \"roof\"\noffset_m = [0.0, 0.0, 1.6]\n";
+
+  std::vector<FrameResult> frames(made.frames);
+  for (uint32_t f = 0; f < made.frames; ++f) {
+    FrameResult& frame = frames[f];
+    frame.frame = f;
+    WorldState& world = frame.world;
+    world.time_s = 0.1 * f;
+    world.transmitters = {{.position_m = {8, 8, 6}}};
+    for (uint32_t v = 0; v < made.vehicles; ++v) {
+      const glm::dvec3 at = vehicle_position(v, world.time_s);
+      world.instances.push_back({.position_m = at, .velocity_m_s = {5, 0, 0}});
+      const EndState end{.position_m = at + glm::dvec3(0, 0, 1.6), .velocity_m_s = {5, 0, 0}, .instance = v};
+      world.transmitters.push_back(end);
+      world.receivers.push_back(end);
+    }
+    for (uint32_t tx = 0; tx <= made.vehicles; ++tx)
+      for (uint32_t rx = 0; rx < made.vehicles; ++rx)
+        if (tx != rx + 1) world.links.push_back({tx, rx});
+    for (const Link& link : world.links)
+      for (uint32_t k = 0; k < made.paths_a_link; ++k)
+        add_path(frame.paths, f, link, world.transmitters[link.tx], world.receivers[link.rx], k);
+    frame.counts.paths = frame.paths.size();
+  }
+  RunSummary summary;
+  summary.device = {"a platform", "a processor", "1", "OpenCL C 1.2", false};
+  write_outputs(folder, {config, scene, instances, models, summary}, frames);
+}
+
+}  // namespace wavetracer::test

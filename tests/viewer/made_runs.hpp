@@ -1,0 +1,18 @@
+// Made-up runs for the pages of the viewer: no device, but a city, vehicles and paths that have their places in it.
+// Gains, delays and angles are functions of the geometry, so that what the page says can be computed again.
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace wavetracer::test {
+
+struct MadeRun {
+  uint32_t vehicles = 2, frames = 11, paths_a_link = 6;
+  std::string scene = "generate = \"--seed 1 --blocks 2x2\"";  // of the configuration
+  std::string prefix = {};                                     // of all names
+};
+
+// Writes paths.h5 and the rest into the folder. One road-side unit sends, every vehicle sends and receives.
+void write_made_run(const MadeRun& made, const std::filesystem::path& folder);
+
+}  // namespace wavetracer::test

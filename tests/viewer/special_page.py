@@ -1,0 +1,81 @@
+"""Pages of runs that are unlike others: hostile names, no paths, one frame, thousands of frames, no scene, capped,
+a narrow window. Arguments: browser.py."""
+import sys
+
+import numpy as np
+from browser import Page
+
+folder = sys.argv[1]
+
+# Names are text, whatever they contain.
+page = Page(folder, "hostile")
+assert page.js("return window.hacked") is None
+assert page.js("return document.images.length") == 0
+attack = "</script><img src=x onerror=\"window.hacked=1\"> \"'&\u00fc\u6771\ufffd "
+assert page.js("return wavetracer.meta.transmitters[0][0]") == attack + "rsu"
+assert page.js("return document.getElementById('title').textContent") == attack
+page.js("wavetracer.select(1)")
+assert attack.strip() in page.text("details"), page.text("details")
+page.choose("transmitter", 1)
+page.js("const r = wavetracer.state.radios[0]; wavetracer.filters.reset(); wavetracer.select(0)")
+for radio in range(3):
+    at = page.js("return wavetracer.projector().point(wavetracer.state.radios[arguments[0]].m, 0)", radio)
+    page.click(*at)
+assert page.js("return window.hacked") is None and page.js("return document.images.length") == 0
+page.check_clean()
+
+# No paths: said so, nothing fails.
+page = Page(folder, "empty")
+assert page.visible() == 0 and "no paths" in page.text("warnings"), page.text("warnings")
+assert not page.find("player").is_displayed() and not page.find("charts").is_displayed()
+page.click(200, 200)
+page.screenshot("empty")
+page.check_clean()
+
+# One frame: no time to play.
+page = Page(folder, "single")
+assert page.visible() == 3 and not page.find("player").is_displayed()
+page.js("wavetracer.select(arguments[0])", page.index(2))
+assert "order 2" in page.text("details") and "Delay 300.000 ns" in page.text("details"), page.text("details")
+assert "Ports 0 to 1" in page.text("details")
+assert page.find("charts").is_displayed() and not page.find("gain_figure").is_displayed()
+page.check_clean()
+
+# Thousands of frames: each at hand, counts those of the file.
+page = Page(folder, "long")
+offsets = page.file["frames/path_offset"][...]
+assert len(offsets) == 3001
+for row in (0, 1, 1499, 2997, 2999):
+    page.js("wavetracer.setFrame(arguments[0])", row)
+    assert page.visible() == offsets[row + 1] - offsets[row], row
+    assert f"frame {row}" in page.text("clock")
+took = page.js("const start = performance.now(); for (let i = 0; i < 1000; ++i) wavetracer.setFrame(3 * i);"
+               "return (performance.now() - start) / 1000")
+print(f"long: {took:.2f} ms a frame of 3000")
+page.check_clean()
+
+# No scene file: the rest, and why.
+page = Page(folder, "missing")
+assert "/nowhere/gone.xml" in page.text("warnings") and page.visible() == 24
+vehicles = page.js("return wavetracer.world.vehicles.children.length")
+assert vehicles == 2
+page.check_clean()
+
+# Capped: the strongest of all frames, and the page says so.
+page = Page(folder, "capped")
+gain = page.file["paths/gain_db"][...]
+assert "50 strongest of 264" in page.text("warnings") and "50 strongest of 264" in page.text("summary")
+kept = np.concatenate([page.js("wavetracer.setFrame(arguments[0]); return Array.from(wavetracer.state.frame.gain_db)", row)
+                       for row in range(11)])
+assert np.allclose(np.sort(kept), np.sort(gain)[-50:], atol=0.011), (np.sort(kept)[:3], np.sort(gain)[-50:][:3])
+page.check_clean()
+
+# A narrow window: nothing wider than it, the picture still there.
+page = Page(folder, "drive", width=390, height=844, dark=False)
+assert page.js("return document.documentElement.scrollWidth") <= 390
+size = page.find("world").size
+assert size["width"] > 380 and size["height"] > 300, size
+page.click(size["width"] / 2, size["height"] / 2)
+page.screenshot("narrow")
+page.check_clean()
+print("hostile, empty, single, long, missing, capped and narrow pages are right")

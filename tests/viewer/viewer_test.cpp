@@ -1,0 +1,167 @@
+// Pages without a browser: their parts, limits and errors; and the pages that the tests in a browser open.
+// Pages stand in BUILD/tests/viewer/NAME/view.html beside the paths.h5 that they show.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include "output/sample_run.hpp"
+#include "scene/file.hpp"
+#include "viewer/blocks.hpp"
+#include "viewer/made_runs.hpp"
+#include "viewer/page_files.hpp"
+#include "viewer/strongest.hpp"
+#include "viewer/view.hpp"
+#include "wavetracer/error.hpp"
+
+using namespace wavetracer;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "viewer";
+
+ViewPage write_page(const std::string& name, const ViewOptions& options = {}) {
+  ViewPage page = make_view(SavedRun(folder / name), options);
+  write_file(folder / name / "view.html", page.html);
+  return page;
+}
+
+nlohmann::json meta_of(const ViewPage& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"meta\">";
+  const size_t from = page.html.find(begin) + begin.size();
+  return nlohmann::json::parse(page.html.substr(from, page.html.find("</script>", from) - from));
+}
+
+size_t count_of(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("base64 of RFC 4648") {
+  CHECK(base64("") == "");
+  CHECK(base64("f") == "Zg==");
+  CHECK(base64("fo") == "Zm8=");
+  CHECK(base64("foo") == "Zm9v");
+  CHECK(base64("foob") == "Zm9vYg==");
+  CHECK(base64("fooba") == "Zm9vYmE=");
+  CHECK(base64("foobar") == "Zm9vYmFy");
+  CHECK(base64("\xFF\xFB") == "//s=");
+}
+
+TEST_CASE("no text can end its script element") {
+  CHECK(script_text("[\"</script><b>\"]") == "[\"\\u003c/script>\\u003cb>\"]");
+  for (const char* name : {"three.min.js", "main.js", "data.js", "details.js", "style.css"})
+    CHECK(page_file(name).find("</s") == std::string_view::npos);
+  CHECK_THROWS_AS(page_file("none.js"), RuntimeError);
+}
+
+TEST_CASE("values that 16 bits cannot hold are clamped") {
+  Packer packer;
+  for (const double value : {0.0, 1.0, -1.0, 7.0, std::numeric_limits<double>::quiet_NaN()}) packer.add_share(value, 2);
+  const auto* words = reinterpret_cast<const int16_t*>(packer.bytes().data());
+  CHECK(words[0] == 0);
+  CHECK(words[1] == 16384);
+  CHECK(words[2] == -16384);
+  CHECK(words[3] == 32767);
+  CHECK(words[4] == 0);
+}
+
+TEST_CASE("the strongest rows, by count and by bytes") {
+  const double gains[] = {-90, -70, std::numeric_limits<double>::quiet_NaN(), -80, -80,
+                          500, -60, -std::numeric_limits<double>::infinity()};
+  const auto kept = [&](uint64_t rows, uint64_t bytes) {
+    Strongest strongest;
+    for (const double gain : gains) strongest.count(gain, 10);
+    strongest.limit(rows, bytes);
+    std::string out;
+    for (const double gain : gains) out += strongest.keep(gain, 10) ? 'x' : '.';
+    return out;
+  };
+  CHECK(kept(100, 1000) == "xxxxxxxx");
+  CHECK(kept(1, 1000) == ".....x..");
+  CHECK(kept(4, 1000) == ".x.x.xx.");  // of the equal ones the first
+  CHECK(kept(100, 50) == ".x.xxxx.");
+  CHECK(kept(100, 69) == "xx.xxxx.");
+  CHECK(kept(7, 1000) == "xxxxxxx.");  // of no power: in their order
+  CHECK(kept(0, 1000) == "........");
+}
+
+TEST_CASE("a drive in a city") {
+  test::write_made_run({}, folder / "drive");
+  const ViewPage page = write_page("drive");
+  CHECK(page.paths == 11 * 4 * 6);
+  CHECK(page.frames == 11);
+  CHECK(page.warnings.empty());
+  const nlohmann::json meta = meta_of(page);
+  CHECK(meta["title"] == "drive");
+  CHECK(meta["instances"][1] == nlohmann::json{"veh1", "passenger", 0});
+  CHECK(meta["scene"]["materials"].size() > 1);
+  CHECK(meta["frames"][3][2] == 24);
+  CHECK(count_of(page.html, "id=\"block_frame_") == 11);
+  CHECK(count_of(page.html, "http-equiv=\"Content-Security-Policy\"") == 1);
+
+  SUBCASE("less of it, and said so") {
+    const ViewPage part = make_view(SavedRun(folder / "drive"), {2, 4, 10, "a <title>", page_bytes});
+    CHECK(part.frames == 3);
+    CHECK(part.paths == 10);
+    REQUIRE(part.warnings.size() == 1);
+    CHECK(part.warnings[0].find("10 strongest of 72 paths") != std::string::npos);
+    CHECK(meta_of(part)["title"] == "a <title>");
+    CHECK(meta_of(part)["frames"][0][0] == 2);
+  }
+  SUBCASE("frames that there are not") {
+    CHECK_THROWS_WITH_AS(make_view(SavedRun(folder / "drive"), {.first_frame = 40, .last_frame = 50}),
+                         doctest::Contains("its frames are 0 to 10"), ConfigError);
+  }
+}
+
+TEST_CASE("capped, hostile, without a scene: the pages of the browser") {
+  test::write_made_run({}, folder / "capped");
+  CHECK(write_page("capped", {.max_paths = 50}).paths == 50);
+
+  const std::string attack = "</script><img src=x onerror=\"window.hacked=1\"> \"'&\xC3\xBC\xE6\x9D\xB1\xFF ";
+  test::write_made_run({.frames = 2, .prefix = attack}, folder / "hostile");
+  const ViewPage hostile = write_page("hostile", {.title = attack});
+  CHECK(hostile.html.find("<img") == std::string::npos);
+  CHECK(std::all_of(hostile.html.begin(), hostile.html.end(), [](char c) { return static_cast<signed char>(c) > 0; }));
+
+  test::write_made_run({.frames = 2, .scene = "file = \"/nowhere/gone.xml\""}, folder / "missing");
+  const ViewPage missing = write_page("missing");
+  REQUIRE(missing.warnings.size() == 1);
+  CHECK(missing.warnings[0].find("/nowhere/gone.xml") != std::string::npos);
+  CHECK(missing.paths == 48);
+}
+
+TEST_CASE("no paths, one frame, thousands of frames") {
+  const SampleRun sample;
+  write_outputs(folder / "empty", sample.run(), sample.empty());
+  CHECK(write_page("empty").paths == 0);
+  const auto frames = sample.frames();
+  write_outputs(folder / "single", sample.run(), Frames(frames).first(1));
+  CHECK(write_page("single").paths == 3);
+  write_outputs(folder / "long", sample.run(), sample.drive(0, 3000));
+  const ViewPage page = write_page("long");
+  CHECK(page.frames == 3000);
+  CHECK(page.html.size() < 10e6);
+}
+
+TEST_CASE("a hundred vehicles, a hundred thousand paths a frame") {
+  test::write_made_run({.vehicles = 100, .frames = 2, .paths_a_link = 10}, folder / "large");
+  const ViewPage page = write_page("large");
+  CHECK(page.paths == 200000);
+  CHECK(page.html.size() < page_bytes);
+  MESSAGE(
+      fmt::format("page of 2 x 100000 paths and 100 vehicles: {:.1f} MB", static_cast<double>(page.html.size()) / 1e6));
+
+  // What does not fit is left out, strongest first, and said.
+  const ViewPage small = make_view(SavedRun(folder / "large"), {.max_bytes = 12'000'000});
+  CHECK(small.html.size() < 12'000'000);
+  CHECK(small.html.size() > 11'500'000);
+  CHECK(small.paths < 200000);
+  REQUIRE(small.warnings.size() == 1);
+  CHECK(small.warnings[0].find(fmt::format("{} strongest of 200000 paths", small.paths)) != std::string::npos);
+}
