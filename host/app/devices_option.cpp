@@ -2,11 +2,16 @@
 // Linux only.
 #include "app/devices_option.hpp"
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sched.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
+#include <sstream>
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
@@ -47,7 +52,60 @@ std::vector<size_t> indices(const std::vector<gpu::DeviceInfo>& there, const Whi
   return out;
 }
 
+// The indices, or the code and the words of an error: what a child tells its parent.
+std::string answer_of(const std::string& devices, const std::string& device) {
+  try {
+    const std::vector<gpu::DeviceInfo> there = gpu::list_devices();
+    const std::vector<size_t> chosen = devices.empty() ? std::vector{gpu::choose_device(there, device)}
+                                                       : choose_devices(there, devices, device);
+    return fmt::format("0 {}", fmt::join(chosen, " "));
+  } catch (const Error& error) {
+    return fmt::format("{} {}", static_cast<int>(error.code()), error.what());
+  } catch (const std::exception& error) {
+    return fmt::format("{} {}", static_cast<int>(ExitCode::device), error.what());
+  }
+}
+
+std::string read_all(int descriptor) {
+  std::string text;
+  char block[4096];
+  for (ssize_t bytes; (bytes = read(descriptor, block, sizeof block)) != 0;) {
+    if (bytes > 0)
+      text.append(block, static_cast<size_t>(bytes));
+    else if (errno != EINTR)
+      break;
+  }
+  return text;
+}
+
 }  // namespace
+
+std::vector<size_t> choose_devices_apart(const std::string& devices, const std::string& device) {
+  int ends[2];
+  if (pipe(ends) != 0) throw RuntimeError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+  const pid_t child = fork();
+  if (child < 0) throw RuntimeError(fmt::format("cannot start a process: {}", std::strerror(errno)));
+  if (child == 0) {
+    const std::string answer = answer_of(devices, device);
+    const bool told = write(ends[1], answer.data(), answer.size()) == static_cast<ssize_t>(answer.size());
+    _exit(told ? 0 : 1);
+  }
+  close(ends[1]);
+  std::istringstream answer(read_all(ends[0]));
+  close(ends[0]);
+  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  int code = static_cast<int>(ExitCode::device);
+  if (!(answer >> code)) throw DeviceError("the OpenCL drivers end the process that asks them for devices");
+  if (code != 0) {
+    std::string words;
+    std::getline(answer >> std::ws, words, '\0');
+    throw Error(static_cast<ExitCode>(code), words);
+  }
+  std::vector<size_t> out;
+  for (size_t index; answer >> index;) out.push_back(index);
+  return out;
+}
 
 std::vector<size_t> choose_devices(const std::vector<gpu::DeviceInfo>& there, const std::string& devices,
                                    const std::string& device) {

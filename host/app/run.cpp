@@ -123,18 +123,14 @@ void check_options(const Options& options, const Ranks& ranks) {
 
 // Children do the work; their options are these, but for those that made them children.
 void launch_children(const Options& options, const Config& config, Invocation& invocation, Progress& progress) {
-  const std::vector<gpu::DeviceInfo> there = gpu::list_devices();
   Launch launch;
   launch.arguments = {"run", "-c", options.file, "-o", config.output.directory};
   for (const std::string& set : options.sets) launch.arguments.insert(launch.arguments.end(), {"--set", set});
   if (!options.frames.empty()) launch.arguments.insert(launch.arguments.end(), {"--frames", options.frames});
   if (options.resume) launch.arguments.push_back("--resume");
   launch.arguments.insert(launch.arguments.end(), {"--repeat", std::to_string(options.repeat)});
-  if (options.devices.empty())
-    launch.devices = {std::to_string(gpu::choose_device(there, options.device))};
-  else
-    for (const size_t device : choose_devices(there, options.devices, options.device))
-      launch.devices.push_back(std::to_string(device));
+  for (const size_t device : choose_devices_apart(options.devices, options.device))
+    launch.devices.push_back(std::to_string(device));
   launch.processes = options.processes > 0 ? options.processes : static_cast<uint32_t>(launch.devices.size());
   if (launch.processes < launch.devices.size())
     throw ConfigError(fmt::format("--processes {}: there are {} devices, which want one each", launch.processes,

@@ -1,5 +1,5 @@
 // Edit distance over three rows, and the choice of the nearest word.
-// It assumes short words: the cost is the product of their lengths.
+// It assumes that the known words are short: the cost is the product of lengths that are near each other.
 #include "config/spelling.hpp"
 #include <algorithm>
 #include <array>
@@ -28,11 +28,17 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   // A third of the word may be wrong, at least one letter: beyond that a hint misleads.
   size_t best = std::max<size_t>(1, word.size() / 3) + 1;
   std::string found;
+  // Letters that one has more are letters that differ: a word too long or short is not compared, so a key of megabytes
+  // costs nothing.
+  const auto distance_to = [&](std::string_view text) {
+    const size_t longer = std::max(word.size(), text.size()), shorter = std::min(word.size(), text.size());
+    return longer - shorter < best ? edit_distance(word, text) : best;
+  };
   for (const std::string& candidate : known) {
-    size_t distance = edit_distance(word, candidate);
+    size_t distance = distance_to(candidate);
     const size_t dot = candidate.rfind('.');
     if (plain && dot != std::string::npos)
-      distance = std::min(distance, edit_distance(word, std::string_view(candidate).substr(dot + 1)));
+      distance = std::min(distance, distance_to(std::string_view(candidate).substr(dot + 1)));
     if (distance < best) {
       best = distance;
       found = candidate;

@@ -108,10 +108,11 @@ class MitsubaReader {
     if (!child) child = property(node, "integer", name);
     if (!child) return std::nullopt;
     const std::string text = attribute(child, "value");
-    const size_t blank = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-    const char* const end = text.data() + text.find_last_not_of(" \t\r\n") + 1;
+    const size_t last = text.find_last_not_of(" \t\r\n") + 1;  // 0 where there are blanks alone, or nothing
+    const size_t first = std::min(text.find_first_not_of(" \t\r\n"), last);
+    const char* const end = text.data() + last;
     double value = 0;
-    const auto [stop, error] = std::from_chars(text.data() + blank, end, value);
+    const auto [stop, error] = std::from_chars(text.data() + first, end, value);
     if (error != std::errc() || stop != end || !(value >= least) || (!infinite && std::isinf(value))) {
       throw InputError(fmt::format("{}: {}: {} = '{}' must be a number of at least {}", where(child), describe(node),
                                    name, text, least));

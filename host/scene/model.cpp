@@ -12,6 +12,7 @@
 #include <cmath>
 #include <glm/mat4x4.hpp>
 
+#include "scene/gltf_check.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -94,6 +95,7 @@ class ModelReader {
 }  // namespace
 
 RawScene read_model(const std::filesystem::path& path) {
+  check_gltf(path);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene || !scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {

@@ -182,6 +182,7 @@ TEST_CASE("a hint needs a near word") {
   CHECK(config::nearest("trace.ray", known) == "trace.rays");
   CHECK(config::nearest("seed", known) == "trace.seed");
   CHECK(config::nearest("wavelength", known).empty());
+  CHECK(config::nearest(std::string(size_t{16} << 20, 's'), known).empty());  // no table of its size
   CHECK(config::hint("xyz", known).empty());
 }
 

@@ -130,6 +130,9 @@ TEST_CASE("Mitsuba errors name file, line and element") {
   fails("<bsdf type=\"radio-material\" id=\"m\"><float name=\"relative_permittivity\" value=\"0.5\"/></bsdf>",
         "relative_permittivity = '0.5' must be a number of at least 1");
   fails("<bsdf type=\"radio-material\" id=\"m\"><float name=\"thickness\" value=\"0\"/></bsdf>", "thickness = '0'");
+  for (const std::string blanks : {"", " ", "   \t "})
+    fails("<bsdf type=\"radio-material\" id=\"m\"><float name=\"thickness\" value=\"" + blanks + "\"/></bsdf>",
+          "thickness = '");
   fails("<bsdf type=\"radio-material\" id=\"m\"><float name=\"thickness\" value=\"$t\"/></bsdf>",
         "'$t' has no <default>");
   fails("<include filename=\"other.xml\"/>", "<include> is not supported");

@@ -1,6 +1,7 @@
 // OBJ and GLB through assimp, units, axes, and the choice of the reader.
 // The GLB file is put together here from its parts, after section 4.4 of the glTF 2.0 specification.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <bit>
 #include <cstdint>
@@ -95,6 +96,18 @@ TEST_CASE("models: errors and warnings") {
   CHECK_THROWS_WITH_AS(load("b.obj", "v 0 0 0\n"), Contains("b.obj"), InputError);
   CHECK_THROWS_WITH_AS(load("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), Contains("nan.obj"), InputError);
   CHECK_THROWS_WITH_AS(load("c.glb", triangle_glb().substr(0, 200)), Contains("c.glb"), InputError);
+  std::string huge = triangle_glb();
+  huge.replace(12, 4, "\xff\xff\xff\xfe");  // the length of the JSON: 4 GB
+  CHECK_THROWS_WITH_AS(load("huge.glb", huge), Contains("huge.glb: a chunk of 4278190079 bytes begins at byte 20"),
+                       InputError);
+  const auto nodes = [](const std::string& list) {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + list + "}";
+  };
+  std::string doubled;
+  for (int i = 1; i < 40; ++i) doubled += fmt::format("{}{{\"children\":[{},{}]}}", i > 1 ? "," : "[", i, i);
+  CHECK_THROWS_WITH_AS(load("doubled.gltf", nodes(doubled + ",{}]")),
+                       Contains("doubled.gltf: the node 1 has two parents"), InputError);
+  CHECK_THROWS_WITH_AS(load("none.gltf", "{\"nodes\":"), Contains("none.gltf: is no glTF"), InputError);
   CHECK_THROWS_WITH_AS(load("d.stl", "solid d\n"), Contains("the format is not known; known: Mitsuba XML"), InputError);
   CHECK_THROWS_WITH_AS(load("e.obj", ""), Contains("the file is empty"), InputError);
   CHECK_THROWS_WITH_AS(load("f.ply", "version https://git-lfs.github.com/spec/v1\n"), Contains("git lfs pull"),
