@@ -91,7 +91,19 @@ class OsmReader {
     if (node.visible() && node.location().valid()) locations_.set(index_id(node.id()), node.location());
   }
 
+  // Texts of PBF may hold zero bytes, which end a text for libosmium: a key would be left without its value, and what
+  // lies behind the object would be read instead.
+  void check_tags(const osmium::OSMObject& object) const {
+    const osmium::TagList& tags = object.tags();
+    const unsigned char* const bytes = tags.data();
+    if (std::count(bytes + sizeof(osmium::TagList), bytes + tags.byte_size(), '\0') % 2 != 0) {
+      throw InputError(fmt::format("{}: the tags of {} {} are damaged: they hold a zero byte", name_,
+                                   osmium::item_type_to_name(object.type()), object.id()));
+    }
+  }
+
   void way(const osmium::Way& way) {
+    check_tags(way);
     const bool building = is_building(way.tags());
     if (!way.visible() || (!building && !member_ways_.contains(way.id()))) return;
     if (building && (way.nodes().size() < 4 || !way.is_closed()) && !member_ways_.contains(way.id())) {
@@ -104,6 +116,7 @@ class OsmReader {
   }
 
   void relation(const osmium::Relation& relation) {
+    check_tags(relation);
     const char* const type = relation.tags().get_value_by_key("type");
     if (!relation.visible() || !type || std::string_view(type) != "multipolygon" || !is_building(relation.tags())) {
       return;

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 template <typename T>
 T whole(const Json& json) {
   if (!json.is_number_unsigned() || json.get<uint64_t>() > std::numeric_limits<T>::max())
-    throw Json::type_error::create(302, fmt::format("{} is no count", json.dump()), &json);
+    throw Json::type_error::create(302, fmt::format("a value of the type {} is no count", json.type_name()), &json);
   return json.get<T>();
 }
 

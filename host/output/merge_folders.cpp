@@ -80,14 +80,15 @@ void check_agrees(const Shard& a, const Shard& b, const fs::path& folder) {
                     folder.string(), unit_words(b.unit), b.totals.counts.paths, a.totals.counts.paths));
 }
 
-// Parts come from anywhere, so they are opened where a damaged one does no harm first.
+// Parts come from anywhere, so they are opened where a damaged one does no harm first. In the order of merge_found():
+// what an error leaves unread here must be left unread there.
 void rehearse_merge(const H5Output& output, const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
     try {
       hdf5::rehearse([&] {
+        check_parts(output, {file});
         hdf5::File head;
         copy_head(file, output, head);
-        check_parts(output, {file});
       });
     } catch (const RuntimeError& error) {
       throw RuntimeError(fmt::format("{}: {}; compute it again with --resume", file.string(), error.what()));

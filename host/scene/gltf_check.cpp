@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "wavetracer/error.hpp"
 
@@ -18,6 +21,9 @@ namespace wavetracer {
 namespace {
 
 using nlohmann::json;
+
+constexpr int most_nested = 100;      // arrays and objects; glTF needs about ten
+constexpr size_t most_levels = 1000;  // of nodes, through which assimp and model.cpp go by recursion
 
 // The length of the chunk whose header begins at this byte; empty where the file ends before.
 std::optional<uint64_t> chunk_length(std::ifstream& in, uint64_t at) {
@@ -37,9 +43,10 @@ std::string glb_json(std::ifstream& in, const std::filesystem::path& path) {
     if (!length) break;
     at += 8;
     if (*length > size - at) {
-      throw InputError(fmt::format("{}: a chunk of {} bytes begins at byte {} of {}: the file is cut short or damaged; "
-                                   "copy it again",
-                                   path.string(), *length, at, size));
+      throw InputError(
+          fmt::format("{}: a chunk of {} bytes begins at byte {} of {}: the file is cut short or damaged; "
+                      "copy it again",
+                      path.string(), *length, at, size));
     }
     if (first) {
       out.resize(*length);
@@ -51,14 +58,51 @@ std::string glb_json(std::ifstream& in, const std::filesystem::path& path) {
   return out;
 }
 
-// Of the values that children or nodes name, none may be there twice.
-void add_once(std::set<json>& seen, const json& owner, const char* key, const std::string& file) {
-  if (!owner.is_object() || !owner.contains(key)) return;
-  for (const json& node : owner[key]) {
-    if (!node.is_number() && !node.is_string()) continue;
-    if (!seen.insert(node).second) {
-      throw InputError(fmt::format("{}: the node {} has two parents; export the scene as a tree, with copies of nodes",
-                                   file, node.dump(-1, ' ', true, json::error_handler_t::replace)));
+json parse(std::string_view text, const std::string& file) {
+  const auto shallow = [&file](int depth, json::parse_event_t, const json&) {
+    if (depth > most_nested) throw InputError(fmt::format("{}: its JSON nests deeper than {}", file, most_nested));
+    return true;
+  };
+  json out = json::parse(text, shallow, false);
+  if (!out.is_object()) throw InputError(fmt::format("{}: is no glTF: its JSON cannot be read", file));
+  return out;
+}
+
+std::string name_of(const json& node) {
+  return node.is_string() ? node.get<std::string>() : std::to_string(node.get<uint64_t>());
+}
+
+using Parents = std::map<std::string, std::string>;  // of nodes, by name
+
+void check_levels(const Parents& parents, const std::string& file) {
+  std::map<std::string_view, size_t> levels;
+  for (const auto& [node, parent] : parents) {
+    std::vector<std::string_view> chain;  // from the node up to one whose level is known, or to the root
+    size_t level = 0;
+    for (auto at = parents.find(node); at != parents.end() && level == 0; at = parents.find(at->second)) {
+      if (const auto known = levels.find(at->first); known != levels.end()) {
+        level = known->second;
+      } else {
+        chain.push_back(at->first);
+      }
+      if (chain.size() > most_levels) break;  // or the nodes go round in a circle
+    }
+    if (level + chain.size() > most_levels) {
+      throw InputError(fmt::format("{}: there are more than {} nodes one below the other", file, most_levels));
+    }
+    for (size_t k = chain.size(); k-- > 0;) levels[chain[k]] = ++level;
+  }
+}
+
+// Of the nodes that a list names, none may be there twice.
+void add_once(Parents& parents, const json& owner, const char* list, const std::string& parent,
+              const std::string& file) {
+  if (!owner.is_object() || !owner.contains(list)) return;
+  for (const json& node : owner[list]) {
+    if (!node.is_number_unsigned() && !node.is_string()) continue;  // assimp refuses it
+    if (!parents.emplace(name_of(node), parent).second) {
+      throw InputError(fmt::format(
+          "{}: a node of '{}' has two parents; export the scene as a tree, with copies of nodes", file, parent));
     }
   }
 }
@@ -67,23 +111,26 @@ void add_once(std::set<json>& seen, const json& owner, const char* key, const st
 
 void check_gltf(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  std::string begin(4096, '\0');
-  begin.resize(static_cast<size_t>(in.read(begin.data(), static_cast<std::streamsize>(begin.size())).gcount()));
-  const bool glb = begin.starts_with("glTF");
-  const size_t text = begin.find_first_not_of("\xEF\xBB\xBF \t\r\n");
-  if (!glb && (text == begin.npos || begin[text] != '{')) return;  // OBJ
+  std::array<char, 4> magic{};
+  const bool glb = in.read(magic.data(), magic.size()) && std::string_view(magic.data(), magic.size()) == "glTF";
   in.clear();
   in.seekg(0);
-  const json document = glb ? json::parse(glb_json(in, path), nullptr, false) : json::parse(in, nullptr, false);
-  if (!document.is_object()) throw InputError(fmt::format("{}: is no glTF: its JSON cannot be read", path.string()));
-  std::set<json> children;
-  if (document.contains("nodes")) {
-    for (const json& node : document["nodes"]) add_once(children, node, "children", path.string());
+  std::string text;
+  if (glb) {
+    text = glb_json(in, path);
+  } else {
+    text.assign(std::istreambuf_iterator<char>(in), {});
   }
+  const json document = parse(text, path.string());
+  Parents parents;
+  if (document.contains("nodes")) {
+    for (const auto& [name, node] : document["nodes"].items()) add_once(parents, node, "children", name, path.string());
+  }
+  check_levels(parents, path.string());
   if (document.contains("scenes")) {
-    for (const json& scene : document["scenes"]) {
-      std::set<json> roots;
-      add_once(roots, scene, "nodes", path.string());
+    for (const auto& [name, scene] : document["scenes"].items()) {
+      Parents roots;
+      add_once(roots, scene, "nodes", name, path.string());
     }
   }
 }

@@ -3,14 +3,17 @@
 // tolerance.
 #include "scene/model.hpp"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <glm/mat4x4.hpp>
+#include <set>
 
 #include "scene/gltf_check.hpp"
 #include "wavetracer/error.hpp"
@@ -92,11 +95,31 @@ class ModelReader {
   double largest_ = 0;
 };
 
+// assimp looks for another of its fifty readers where that of the suffix finds nothing of its own: a damaged file would
+// get to formats that nobody asked for. Only readers of this suffix stay.
+void keep_readers(Assimp::Importer& importer, const std::string& suffix) {
+  for (size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const reader = importer.GetImporter(i);
+    std::set<std::string> suffixes;
+    reader->GetExtensionList(suffixes);
+    if (suffixes.contains(suffix)) continue;
+    importer.UnregisterLoader(reader);
+    delete reader;  // which is ours now
+  }
+}
+
+bool is_obj(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix == ".obj";
+}
+
 }  // namespace
 
 RawScene read_model(const std::filesystem::path& path) {
-  check_gltf(path);
+  if (!is_obj(path)) check_gltf(path);
   Assimp::Importer importer;
+  keep_readers(importer, is_obj(path) ? "obj" : "gltf");
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene || !scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {
     throw InputError(fmt::format("{}: cannot be read: {}", path.string(), importer.GetErrorString()));

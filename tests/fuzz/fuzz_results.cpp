@@ -1,5 +1,5 @@
-// Fuzz target: paths.h5 as view, plot, convert and merge read it. The HDF5 library faults in a process of its own, and may
-// there: see hdf5::rehearse().
+// Fuzz target: paths.h5 as view, plot, convert and merge read it. The HDF5 library faults in a process of its own, and
+// may there: see hdf5::rehearse().
 #include <pthread.h>
 #include <csignal>
 #include "fuzz/fuzz.hpp"

@@ -25,6 +25,11 @@ inside wavetracer devices | grep -q '^\*.* CPU ' || fail "devices: no CPU device
 inside wavetracer run -c /usr/share/doc/wavetracer/examples/city.toml --set trace.rays=20000 -o /root/out
 for file in paths.h5 links.csv summary.json; do [ -s "$root/root/out/$file" ] || fail "run wrote no $file"; done
 awk -F, 'NR > 1 { links += 1 } END { exit links == 0 }' "$root/root/out/links.csv" || fail "links.csv has no links"
+inside wavetracer view /root/out -o /root/view.html
+inside wavetracer plot /root/out -o /root/plots
+inside wavetracer convert /root/out -o /root/out.npz
+for file in view.html out.npz; do [ -s "$root/root/$file" ] || fail "no $file"; done
+ls "$root"/root/plots/*.csv >/dev/null || fail "plot wrote no data"
 for page in wavetracer wavetracer.toml; do inside man -w "$page" >/dev/null || fail "man -w $page"; done
 inside bash -c 'source /usr/share/bash-completion/completions/wavetracer && complete -p wavetracer' >/dev/null || fail "completion"
 inside ldconfig -p | grep -q libwavetracer.so || fail "the library is not in the cache of the loader"

@@ -106,7 +106,18 @@ TEST_CASE("models: errors and warnings") {
   std::string doubled;
   for (int i = 1; i < 40; ++i) doubled += fmt::format("{}{{\"children\":[{},{}]}}", i > 1 ? "," : "[", i, i);
   CHECK_THROWS_WITH_AS(load("doubled.gltf", nodes(doubled + ",{}]")),
-                       Contains("doubled.gltf: the node 1 has two parents"), InputError);
+                       Contains("doubled.gltf: a node of '0' has two parents"), InputError);
+  std::string chain, circle = "{\"children\":[1]},{\"children\":[0]}";
+  for (int i = 1; i < 100000; ++i) chain += fmt::format("{{\"children\":[{}]}},", i);
+  CHECK_THROWS_WITH_AS(load("chain.gltf", nodes("[" + chain + "{}]")),
+                       Contains("chain.gltf: there are more than 1000 nodes one below the other"), InputError);
+  CHECK_THROWS_WITH_AS(load("circle.gltf", nodes("[" + circle + "]")), Contains("circle.gltf: there are more than"),
+                       InputError);
+  CHECK_THROWS_WITH_AS(load("deep.gltf", nodes(std::string(1000000, '[') + std::string(1000000, ']'))),
+                       Contains("deep.gltf: its JSON nests deeper than 100"), InputError);
+  // Of a format that assimp knows by its first bytes, and that nobody asked for.
+  CHECK_THROWS_WITH_AS(load("other.glb", "quick3Ds" + std::string(100, '\x7f')), Contains("other.glb: is no glTF"),
+                       InputError);
   CHECK_THROWS_WITH_AS(load("none.gltf", "{\"nodes\":"), Contains("none.gltf: is no glTF"), InputError);
   CHECK_THROWS_WITH_AS(load("d.stl", "solid d\n"), Contains("the format is not known; known: Mitsuba XML"), InputError);
   CHECK_THROWS_WITH_AS(load("e.obj", ""), Contains("the file is empty"), InputError);
