@@ -137,6 +137,7 @@ void take_share_of_cores(const Ranks& ranks) {
   CPU_ZERO(&own);
   for (size_t i = first; i < end; ++i) CPU_SET(cores[i], &own);
   if (sched_setaffinity(0, sizeof own, &own) != 0) return;
+  unsetenv("POCL_AFFINITY");  // with it PoCL binds its threads to the first cores, whatever the mask says
   for (const char* variable : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"})  // before and since PoCL 6
     setenv(variable, std::to_string(end - first).c_str(), 0);
 }
