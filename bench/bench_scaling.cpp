@@ -207,6 +207,7 @@ class Scaling {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
+  unsetenv("POCL_AFFINITY");  // binds PoCL's threads to the first cores, outside of taskset's
   CLI::App app("Frames a second of a drive on 1, 2, 4, ... devices");
   bench::Options options;
   app.add_option("--program", options.program, "the wavetracer to run; default: beside this program");
