@@ -18,6 +18,7 @@
 #include <memory>
 
 #include "json_line.hpp"
+#include "temporary_folder.hpp"
 #include "motion/frame_clock.hpp"
 #include "scene/city_traffic.hpp"
 #include "wavetracer/error.hpp"
@@ -52,26 +53,6 @@ std::string config_text(const Options& options, uint32_t vehicles, uint64_t rays
                        type, vehicles, height_m);
   return out;
 }
-
-// A folder of the server's socket and configuration, removed in the end.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "wavetracer-live-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw RuntimeError(fmt::format("cannot make a folder {}: is TMPDIR writable?", name));
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 // A server of its own and a connection to it.
 class Server {
@@ -144,7 +125,7 @@ class Server {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  Folder folder_;
+  TemporaryFolder folder_;
   pid_t process_ = 0;
   int socket_ = -1;
 };

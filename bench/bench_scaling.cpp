@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "json_line.hpp"
+#include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::bench {
@@ -49,25 +50,6 @@ offset_m = [0.0, 0.0, 1.6]
 struct Times {
   double ready_s = 0, merging_s = 0, whole_s = 0;
   double solving_s() const { return merging_s - ready_s; }
-};
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "wavetracer-scaling-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw RuntimeError(fmt::format("cannot make a folder {}: is TMPDIR writable?", name));
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
 };
 
 std::string quoted(const std::string& text) { return "'" + text + "'"; }

@@ -16,6 +16,7 @@
 #include <memory>
 
 #include "json_line.hpp"
+#include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 extern char** environ;
@@ -39,26 +40,6 @@ position_m = [0.0, 0.0, 6.0]
 name = "rx"
 position_m = [60.0, 0.0, 1.5]
 )";
-
-// A new folder, removed with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "wavetracer-start-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw RuntimeError(fmt::format("cannot make a folder {}: is TMPDIR writable?", name));
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 struct Start {
   double ready_s = 0, whole_s = 0;       // from launch to the first kernel, and to the program's end
