@@ -69,20 +69,6 @@ RunIdentity identity_of(const Config& config, const RunSummary& summary, const F
           summary.repeat_count};
 }
 
-RunSummary summary_of(const Simulation& simulation, const Options& options, const FrameRange& range,
-                      const std::string& command_line) {
-  RunSummary summary;
-  summary.device = simulation.device();
-  summary.order = simulation.order();
-  summary.features = simulation.features();
-  summary.setup_seconds = simulation.setup_seconds();
-  summary.command_line = command_line;
-  summary.frames_asked = range.count();
-  summary.repeat_count = options.repeat;
-  summary.warnings = simulation.warnings();
-  return summary;
-}
-
 // A world where nothing moves: one frame, written as it is.
 Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   if (interrupted()) return {};
@@ -196,8 +182,8 @@ void run(const Options& options, Invocation& invocation) {
   Simulation simulation(config, device_of(options, ranks));
   const FrameRange range = parse_frames(options.frames, simulation.frame_count());
   const char* const launched_as = ranks.launched ? std::getenv("WAVETRACER_COMMAND") : nullptr;
-  Run run{simulation.config(), simulation.scene(), simulation.instances(), simulation.models(),
-          summary_of(simulation, options, range, launched_as ? launched_as : invocation.command_line)};
+  Run run = make_run(simulation, range.count(), launched_as ? launched_as : invocation.command_line);
+  run.summary.repeat_count = options.repeat;
   double ready = 0;
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
   progress.line(fmt::format("ready after {:.2f} s on {}; {} rays from each transmitter ({})", ready,

@@ -9,12 +9,13 @@
 #include <thread>
 #include "output/reader.hpp"
 #include "program.hpp"
+#include "same_data.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-using wavetracer::test::datasets;
+using wavetracer::test::check_same_data;
 using wavetracer::test::slurp;
 
 // A vehicle crosses a room: 20 frames in 7 shards.
@@ -93,17 +94,7 @@ Outcome run(const std::string& file, const std::string& out, std::vector<std::st
 
 // All that is written but times, and names of commands.
 void check_same(const fs::path& found, const fs::path& expected, bool work_too) {
-  for (const char* file : {"paths.h5", "waypoints.h5"}) {
-    if (!fs::exists(expected / file)) continue;
-    const auto a = datasets(found / file), b = datasets(expected / file);
-    REQUIRE(a.size() == b.size());
-    for (const auto& [name, value] : b) {
-      CAPTURE(name);
-      CHECK(a.at(name) == value);
-    }
-  }
-  CHECK(slurp(found / "links.csv") == slurp(expected / "links.csv"));
-  CHECK(slurp(expected / "links.csv").size() > 200);
+  check_same_data(found, expected, 200);
   const auto a = nlohmann::json::parse(slurp(found / "summary.json")),
              b = nlohmann::json::parse(slurp(expected / "summary.json"));
   for (const char* key : {"frames", "first_frame", "last_frame", "links", "paths_by_kind", "features", "frames_asked",

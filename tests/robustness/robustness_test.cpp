@@ -3,13 +3,12 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include "app/program.hpp"
-#include "output/reader.hpp"
+#include "app/same_data.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using wavetracer::test::datasets;
-using wavetracer::test::slurp;
+using wavetracer::test::check_same_data;
 
 const std::string drive = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/room/room.xml"
 trace.rays = 2000
@@ -41,12 +40,7 @@ Environment with(Environment faults) {
   return faults;
 }
 
-void check_same(const fs::path& found, const fs::path& expected) {
-  const auto a = datasets(found / "paths.h5"), b = datasets(expected / "paths.h5");
-  REQUIRE(a.size() == b.size());
-  for (const auto& [name, value] : b) CHECK_MESSAGE(a.at(name) == value, name);
-  CHECK(slurp(found / "links.csv") == slurp(expected / "links.csv"));
-}
+void check_same(const fs::path& found, const fs::path& expected) { check_same_data(found, expected, 200); }
 
 size_t temporaries(const fs::path& folder) {
   size_t count = 0;
