@@ -19,8 +19,10 @@ namespace {
 
 bool same_kind(const gpu::DeviceInfo& a, const gpu::DeviceInfo& b) { return a.gpu == b.gpu && a.cpu == b.cpu; }
 
-std::vector<size_t> listed(const std::vector<gpu::DeviceInfo>& there, const std::string& text) {
+// The indices of a list, or none where the text is another word. Throws ConfigError for what is neither.
+std::vector<size_t> listed(const std::string& text) {
   std::vector<size_t> out;
+  if (text.empty() || text == "all" || text == "gpu" || text == "cpu") return out;
   for (size_t at = 0; at <= text.size();) {
     const std::string item = text.substr(at, text.find(',', at) - at);
     at += item.size() + 1;
@@ -34,14 +36,17 @@ std::vector<size_t> listed(const std::vector<gpu::DeviceInfo>& there, const std:
     if (std::ranges::find(out, index) != out.end())
       throw ConfigError(
           fmt::format("--devices {}: {} is there twice; several processes on one device: --processes N", text, index));
-    gpu::choose_device(there, item);  // throws with the list of those that there are
     out.push_back(index);
   }
-  for (const size_t index : out)
-    if (!same_kind(there[index], there[out.front()]))
-      throw ConfigError(fmt::format("--devices {}: {} and {} are not of one kind; give CPUs or GPUs alone", text,
-                                    there[out.front()].name, there[index].name));
   return out;
+}
+
+void check_listed(const std::vector<gpu::DeviceInfo>& there, const std::string& text, const std::vector<size_t>& list) {
+  for (const size_t index : list) gpu::choose_device(there, std::to_string(index));  // throws, naming those there are
+  for (const size_t index : list)
+    if (!same_kind(there[index], there[list.front()]))
+      throw ConfigError(fmt::format("--devices {}: {} and {} are not of one kind; give CPUs or GPUs alone", text,
+                                    there[list.front()].name, there[index].name));
 }
 
 template <typename Which>
@@ -78,9 +83,13 @@ std::string read_all(int descriptor) {
   return text;
 }
 
-}  // namespace
+bool is_index(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
 
-std::vector<size_t> choose_devices_apart(const std::string& devices, const std::string& device) {
+// A child process asks, so that no driver is loaded into this one: NVIDIA's finds no device in children of a process
+// that has loaded it (580.159). It takes a second where there are several GPUs.
+std::vector<size_t> ask_apart(const std::string& devices, const std::string& device) {
   int ends[2];
   if (pipe(ends) != 0) throw RuntimeError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
   const pid_t child = fork();
@@ -107,6 +116,13 @@ std::vector<size_t> choose_devices_apart(const std::string& devices, const std::
   return out;
 }
 
+}  // namespace
+
+std::vector<size_t> devices_to_launch(const std::string& devices, const std::string& device) {
+  const std::vector<size_t> list = listed(devices.empty() && is_index(device) ? device : devices);
+  return list.empty() ? ask_apart(devices, device) : list;
+}
+
 std::vector<size_t> choose_devices(const std::vector<gpu::DeviceInfo>& there, const std::string& devices,
                                    const std::string& device) {
   if (devices == "gpu" || devices == "cpu") {
@@ -116,7 +132,10 @@ std::vector<size_t> choose_devices(const std::vector<gpu::DeviceInfo>& there, co
           fmt::format("--devices {}: there is none; `wavetracer devices` lists those that there are", devices));
     return out;
   }
-  if (!devices.empty() && devices != "all") return listed(there, devices);
+  if (const std::vector<size_t> list = listed(devices); !list.empty()) {
+    check_listed(there, devices, list);
+    return list;
+  }
   const gpu::DeviceInfo& chosen = there[gpu::choose_device(there, device)];
   if (device == std::to_string(chosen.index)) return {chosen.index};
   return indices(there,

@@ -14,10 +14,9 @@ namespace wavetracer::app {
 std::vector<size_t> choose_devices(const std::vector<gpu::DeviceInfo>& there, const std::string& devices,
                                    const std::string& device);
 
-// The same for a process that starts others, one device where `devices` is empty. A child process asks for the
-// devices, so that no driver is loaded into this one: NVIDIA's finds none in children of a process that has loaded it
-// (580.159). To be called before anything of OpenCL is.
-std::vector<size_t> choose_devices_apart(const std::string& devices, const std::string& device);
+// The same for a process that starts others, one device where `devices` is empty. Indices are taken as they are given:
+// the children check them. To be called before anything of OpenCL is.
+std::vector<size_t> devices_to_launch(const std::string& devices, const std::string& device);
 
 // The cores that this process may use are divided evenly among the ranks of this host, before anything starts threads:
 // host threads and CPU devices keep to their share. What a launcher has bound stays as it is.

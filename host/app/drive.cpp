@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include "app/folder_hold.hpp"
 #include "app/interrupt.hpp"
 #include "app/solve_frame.hpp"
@@ -68,11 +69,10 @@ std::vector<FrameResult> solve_unit(const DriveTask& task, const Unit& unit, Pro
   return frames;
 }
 
-bool compute_unit(const DriveTask& task, const Unit& unit, Shards& shards, Progress& progress) {
-  const std::vector<FrameResult> frames = solve_unit(task, unit, progress);
+bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
+  std::vector<FrameResult> frames = solve_unit(task, unit, progress);
   if (frames.size() < unit.frames()) return false;
-  shards.write(task.run, frames, unit.block, unit.blocks);
-  progress.line(fmt::format("{}: {} paths", unit_words(unit), totals_of(frames).counts.paths));
+  writer.write(unit, std::move(frames));
   return true;
 }
 
@@ -87,6 +87,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   }
   Results results;
   std::optional<FolderHold> folder;
+  UnitWriter writer(task.run, shards, progress);
   std::vector<FrameResult> frames;
   const Units units = units_of(task);
   for (uint64_t index = 0; index < units.count() && !interrupted(); ++index) {
@@ -96,11 +97,10 @@ Results drive(const DriveTask& task, Progress& progress) {
     keep_links(results, frames);
     if (frames.size() < unit.frames()) break;
     if (!folder) folder.emplace(directory, process);
-    shards.write(task.run, frames);
-    folder->keep();
-    progress.line(fmt::format("{}: {} paths", unit_words(unit), totals_of(frames).counts.paths));
-    frames.clear();
+    writer.write(unit, std::exchange(frames, {}));
   }
+  writer.finish();
+  if (folder) folder->keep();
   results.totals = shards.totals();
   add(results.totals, totals_of(frames));
   if (results.totals.frames > 0) {

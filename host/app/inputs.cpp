@@ -66,9 +66,12 @@ std::string rays_in_words(const TraceConfig& trace) { return trace.rays == 0 ? "
 
 void check_output_folder(const fs::path& folder) {
   fs::path there = fs::absolute(folder).lexically_normal();
-  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
+  std::error_code error;
+  while (!fs::exists(there, error) && !error && there.has_relative_path()) there = there.parent_path();
   std::string problem;
-  if (!fs::is_directory(there))
+  if (error)
+    problem = error.message();
+  else if (!fs::is_directory(there, error))
     problem = "not a folder";
   else if (access(there.c_str(), W_OK | X_OK) != 0)
     problem = std::strerror(errno);

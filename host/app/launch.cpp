@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 #include <random>
+#include <set>
 #include "app/interrupt.hpp"
 
 extern char** environ;
@@ -51,7 +52,6 @@ std::vector<std::string> environment_of(uint32_t rank, const Launch& what, const
 Child start(uint32_t rank, const Launch& what, const std::string& job) {
   std::vector<std::string> words{"wavetracer"}, variables = environment_of(rank, what, job);
   words.insert(words.end(), what.arguments.begin(), what.arguments.end());
-  words.insert(words.end(), {"--device", what.devices[rank % what.devices.size()]});
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw RuntimeError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
   posix_spawn_file_actions_t actions;
@@ -71,16 +71,36 @@ Child start(uint32_t rank, const Launch& what, const std::string& job) {
   return child;
 }
 
-void pass_on(Child& child, const char* text, size_t bytes, Progress& progress) {
-  child.half_line.append(text, bytes);
-  for (size_t end; (end = child.half_line.find('\n')) != std::string::npos;) {
-    progress.line(child.half_line.substr(0, end));
-    child.half_line.erase(0, end + 1);
+// The messages of children, once each where they do not begin with who says it.
+class Messages {
+ public:
+  explicit Messages(Progress& progress) : progress_(progress) {}
+
+  void take(Child& child, const char* text, size_t bytes) {
+    child.half_line.append(text, bytes);
+    for (size_t end; (end = child.half_line.find('\n')) != std::string::npos;) {
+      say(child.half_line.substr(0, end));
+      child.half_line.erase(0, end + 1);
+    }
   }
-}
+  void end(Child& child) {
+    if (!child.half_line.empty()) say(child.half_line);
+    close(child.messages);
+    child.messages = -1;
+  }
+
+ private:
+  Progress& progress_;
+  std::set<std::string> said_;
+
+  void say(const std::string& line) {
+    if (line.starts_with("rank ") || said_.insert(line).second) progress_.line(line);
+  }
+};
 
 // Until all children have closed their pipes.
 void listen(std::vector<Child>& children, Progress& progress) {
+  Messages messages(progress);
   bool told = false;
   for (;;) {
     if (interrupted() && !told) {
@@ -101,11 +121,9 @@ void listen(std::vector<Child>& children, Progress& progress) {
       const ssize_t bytes = read(ready.fd, text, sizeof text);
       if (bytes < 0 && errno == EINTR) continue;
       if (bytes > 0) {
-        pass_on(child, text, static_cast<size_t>(bytes), progress);
+        messages.take(child, text, static_cast<size_t>(bytes));
       } else {
-        if (!child.half_line.empty()) progress.line(child.half_line);
-        close(child.messages);
-        child.messages = -1;
+        messages.end(child);
       }
     }
   }
@@ -125,8 +143,7 @@ ExitCode launch(const Launch& what, Progress& progress) {
     }
   for (uint32_t rank = 0; rank < children.size(); ++rank)
     if (WIFSIGNALED(children[rank].status))
-      progress.line(fmt::format("rank {} on device {} was ended by signal {} ({})", rank,
-                                what.devices[rank % what.devices.size()], WTERMSIG(children[rank].status),
+      progress.line(fmt::format("rank {} was ended by signal {} ({})", rank, WTERMSIG(children[rank].status),
                                 strsignal(WTERMSIG(children[rank].status))));
   const auto any = [&](ExitCode code) {
     return std::ranges::any_of(children, [code](const Child& c) { return code_of(c) == static_cast<int>(code); });

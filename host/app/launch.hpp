@@ -1,5 +1,6 @@
 // run --devices and --processes: one child process a device, of this same program, which share the run as ranks do.
-// The parent computes nothing: it passes on messages and Ctrl-C, and says what became of them.
+// The parent computes nothing: it passes on messages and Ctrl-C, and says what became of them. What all of
+// them say in the same words, as a mistake that each finds, is said once.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,8 +11,7 @@
 namespace wavetracer::app {
 
 struct Launch {
-  std::vector<std::string> arguments;  // of each child, without its device
-  std::vector<std::string> devices;    // of the children in turn, at least one
+  std::vector<std::string> arguments;  // of each child
   uint32_t processes = 1;
   std::string command_line;  // as the user typed it, for the outputs
 };

@@ -1,6 +1,7 @@
 // `wavetracer run`: config in, paths out.
 // The checks that need no device come first, so that a mistake costs no time.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <cstdlib>
@@ -115,22 +116,21 @@ void launch_children(const Options& options, const Config& config, Invocation& i
   if (!options.frames.empty()) launch.arguments.insert(launch.arguments.end(), {"--frames", options.frames});
   if (options.resume) launch.arguments.push_back("--resume");
   launch.arguments.insert(launch.arguments.end(), {"--repeat", std::to_string(options.repeat)});
-  for (const size_t device : choose_devices_apart(options.devices, options.device))
-    launch.devices.push_back(std::to_string(device));
-  launch.processes = options.processes > 0 ? options.processes : static_cast<uint32_t>(launch.devices.size());
-  if (launch.processes < launch.devices.size())
-    throw ConfigError(fmt::format("--processes {}: there are {} devices, which want one each", launch.processes,
-                                  launch.devices.size()));
+  const std::vector<size_t> devices = devices_to_launch(options.devices, options.device);
+  launch.arguments.insert(launch.arguments.end(), {"--devices", fmt::format("{}", fmt::join(devices, ","))});
+  launch.processes = options.processes > 0 ? options.processes : static_cast<uint32_t>(devices.size());
+  if (launch.processes < devices.size())
+    throw ConfigError(
+        fmt::format("--processes {}: there are {} devices, which want one each", launch.processes, devices.size()));
   launch.command_line = invocation.command_line;
-  progress.line(launch.devices.size() == 1
-                    ? fmt::format("{} processes on device {}", launch.processes, launch.devices[0])
-                    : fmt::format("{} processes on {} devices", launch.processes, launch.devices.size()));
+  progress.line(devices.size() == 1 ? fmt::format("{} processes on device {}", launch.processes, devices[0])
+                                    : fmt::format("{} processes on {} devices", launch.processes, devices.size()));
   invocation.code = app::launch(launch, progress);
 }
 
 // The device of a rank: ranks of one host take turns.
 std::string device_of(const Options& options, const Ranks& ranks) {
-  if (ranks.size == 1 || ranks.launched) return options.device;
+  if (ranks.size == 1) return options.device;
   const std::vector<size_t> devices = choose_devices(gpu::list_devices(), options.devices, options.device);
   return std::to_string(devices[ranks.local_rank % devices.size()]);
 }

@@ -29,6 +29,7 @@ class Team {
         progress_(progress),
         shards_(task.run.config.output.directory, task.identity),
         claims_(shards_.folder(), me),
+        writer_(task.run, shards_, progress),
         units_(units_of(task)),
         name_(me.name) {}
 
@@ -58,6 +59,7 @@ class Team {
   Progress& progress_;
   Shards shards_;
   Claims claims_;
+  UnitWriter writer_;
   Units units_;
   std::string name_;
 
@@ -117,8 +119,9 @@ class Team {
     const uint64_t count = units_.count(), start = count * ranks_.rank / ranks_.size;
     for (uint64_t i = 0; i < count && !interrupted(); ++i) {
       const Unit unit = units_.at((start + i) % count);
-      if (!shards_.finished(unit) && claims_.take(unit_name(unit))) compute_unit(task_, unit, shards_, progress_);
+      if (!shards_.finished(unit) && claims_.take(unit_name(unit))) compute_unit(task_, unit, writer_, progress_);
     }
+    writer_.finish();
   }
 
   // Until nobody computes any more: what dead processes left. Returns how many units are missing in the end.
@@ -134,7 +137,8 @@ class Team {
         if (interrupted()) continue;
         if (claims_.take(unit_name(unit))) {
           progress_.line(unit_words(unit) + ": taken over from a process that died");
-          if (compute_unit(task_, unit, shards_, progress_)) --missing;
+          if (compute_unit(task_, unit, writer_, progress_)) --missing;
+          writer_.finish();
         } else if (claims_.state(unit_name(unit)) == ClaimState::taken) {
           ++taken;
         }
@@ -167,13 +171,15 @@ Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessIn
 Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
   Shards shards(task.run.config.output.directory, task.identity);
   shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
+  UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);
   Shared shared;
   for (uint64_t index = part.index; index < units.count(); index += part.count) {
     const Unit unit = units.at(index);
     if (task.resume && shards.finished(unit)) continue;
-    if (interrupted() || !compute_unit(task, unit, shards, progress)) ++shared.missing;
+    if (interrupted() || !compute_unit(task, unit, writer, progress)) ++shared.missing;
   }
+  writer.finish();
   return shared;
 }
 

@@ -2,7 +2,7 @@
 // Included by these two alone.
 #pragma once
 #include "app/drive.hpp"
-#include "output/shards.hpp"
+#include "app/unit_writer.hpp"
 
 namespace wavetracer::app {
 
@@ -10,6 +10,6 @@ Units units_of(const DriveTask& task);
 // Its frames, all of them unless interrupted.
 std::vector<FrameResult> solve_unit(const DriveTask& task, const Unit& unit, Progress& progress);
 // Solves and writes; false where an interrupt came first.
-bool compute_unit(const DriveTask& task, const Unit& unit, Shards& shards, Progress& progress);
+bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress);
 
 }  // namespace wavetracer::app

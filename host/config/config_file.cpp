@@ -265,7 +265,8 @@ Config parse_config(std::string_view toml, const std::string& file_name, const s
 Config load_config(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  if (fs::is_directory(file) || !in || !(text << in.rdbuf()))
+  std::error_code unnameable;
+  if (fs::is_directory(file, unnameable) || !in || !(text << in.rdbuf()))
     throw ConfigError(
         fmt::format("{}: cannot be read as a config file; `wavetracer init` prints one to start from", file.string()));
   return parse_config(text.str(), file.string(), sets);

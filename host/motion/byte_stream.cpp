@@ -13,7 +13,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr unsigned chunk_bytes = 1u << 18;
+constexpr unsigned chunk_bytes = 1u << 16;
 
 }  // namespace
 

@@ -23,8 +23,9 @@ Id simple_space(const std::vector<hsize_t>& shape) {
   return Id(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "make a data space");
 }
 
-Id make_dataset(hid_t file, const std::string& path, const Meaning& meaning, hid_t type, hid_t space) {
-  Id dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+Id make_dataset(hid_t file, const std::string& path, const Meaning& meaning, hid_t type, hid_t space,
+                hid_t creation = H5P_DEFAULT) {
+  Id dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
              "create dataset " + path);
   write_attribute(dataset, "units", meaning.units);
   write_attribute(dataset, "description", meaning.description);
@@ -154,6 +155,31 @@ void Table::append_rows(hid_t memory_type, const void* values, hsize_t rows) {
   next_row_ += rows;
 }
 
+uint64_t make_room(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
+                   const std::vector<hsize_t>& shape) {
+  const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make room for " + path);
+  checked(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY), "make room for " + path);
+  checked(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), "make room for " + path);
+  const Id dataset = make_dataset(file.id(), path, meaning, type, simple_space(shape), creation);
+  const haddr_t offset = H5Dget_offset(dataset);
+  return offset == HADDR_UNDEF ? 0 : offset;
+}
+
+Extent extent_of(const File& file, const std::string& path) {
+  const Id dataset(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path);
+  const Id space(H5Dget_space(dataset), H5Sclose, "measure dataset " + path);
+  const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
+  std::vector<hsize_t> shape(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space), "measure dataset " + path)));
+  checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "measure dataset " + path);
+  if (shape.empty()) throw RuntimeError("dataset " + path + " has no rows");
+  Extent extent{shape[0], H5Tget_size(type), 0};
+  for (size_t i = 1; i < shape.size(); ++i) extent.row_bytes *= shape[i];
+  if (extent.rows == 0 || extent.row_bytes == 0) return extent;
+  extent.offset = H5Dget_offset(dataset);
+  if (extent.offset == HADDR_UNDEF) throw RuntimeError("dataset " + path + " is not stored in one piece");
+  return extent;
+}
+
 Column::Column(const File& file, const std::string& path)
     : path_(path),
       dataset_(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path),
@@ -162,22 +188,6 @@ Column::Column(const File& file, const std::string& path)
       meaning_{text_attribute(dataset_, "units"), text_attribute(dataset_, "description")},
       shape_(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space_), "measure dataset " + path))) {
   checked(H5Sget_simple_extent_dims(space_, shape_.data(), nullptr), "measure dataset " + path);
-}
-
-size_t Column::row_bytes() const {
-  size_t bytes = H5Tget_size(type_);
-  for (size_t i = 1; i < shape_.size(); ++i) bytes *= shape_[i];
-  return bytes;
-}
-
-void Column::read(hsize_t first, hsize_t rows, void* values) const {
-  if (rows == 0 || row_bytes() == 0) return;
-  std::vector<hsize_t> start(shape_.size(), 0), block = shape_;
-  start[0] = first;
-  block[0] = rows;
-  checked(H5Sselect_hyperslab(space_, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
-          "select rows of " + path_);
-  checked(H5Dread(dataset_, type_, simple_space(block), space_, H5P_DEFAULT, values), "read dataset " + path_);
 }
 
 }  // namespace wavetracer::hdf5

@@ -123,16 +123,26 @@ class Table {
   Id dataset_;
 };
 
-// A dataset of rows that is there to be read.
+// A dataset that rows of other files will fill (copy_pieces.hpp). Returns where in the file they begin, once that is
+// closed; 0 where there are none.
+uint64_t make_room(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
+                   const std::vector<hsize_t>& shape);
+
+// Where a dataset of rows lies in its file.
+struct Extent {
+  hsize_t rows = 0;
+  uint64_t row_bytes = 0, offset = 0;
+};
+// Throws RuntimeError where it is not in one piece, as those of our files are.
+Extent extent_of(const File& file, const std::string& path);
+
+// What a dataset of rows is.
 class Column {
  public:
   Column(const File& file, const std::string& path);
   hid_t type() const { return type_; }  // that of the file
   const Meaning& meaning() const { return meaning_; }
   const std::vector<hsize_t>& shape() const { return shape_; }
-  size_t row_bytes() const;
-  // Whole rows in the file's type.
-  void read(hsize_t first, hsize_t rows, void* values) const;
 
  private:
   std::string path_;

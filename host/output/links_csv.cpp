@@ -1,13 +1,13 @@
 // Writes the figures of radio/links.hpp as comma-separated text, sorted by frame, transmitter, receiver.
-// Text is made and written a frame at a time, files are joined a block at a time, so memory stays small.
+// Text is made and written a frame at a time, so memory stays small.
 #include "output/links_csv.hpp"
 #include <fmt/format.h>
-#include <fstream>
+#include <algorithm>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include "output/copy_pieces.hpp"
 #include "radio/links.hpp"
-#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
@@ -50,14 +50,15 @@ void write_links_csv(const Run& run, Frames frames, PendingFile& file) {
 
 void join_links_csv(std::span<const std::filesystem::path> parts, PendingFile& file) {
   file.write(bytes(header));
-  std::string block(size_t{1} << 20, '\0');
+  uint64_t end = header.size();
+  Pieces pieces;
   for (const std::filesystem::path& part : parts) {
-    std::ifstream in(part, std::ios::binary);
-    in.seekg(static_cast<std::streamoff>(header.size()));
-    while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
-      file.write(bytes({block.data(), static_cast<size_t>(in.gcount())}));
-    if (!in.eof()) throw RuntimeError("cannot read " + part.string() + "; remove it and run again with --resume");
+    const uint64_t rows = std::max<uint64_t>(std::filesystem::file_size(part), header.size()) - header.size();
+    pieces.push_back({{header.size(), end, rows}});
+    end += rows;
   }
+  file.reserve(end);
+  copy_pieces(parts, pieces, file);
 }
 
 }  // namespace wavetracer

@@ -1,16 +1,18 @@
-// Files of consecutive frames, made one: the groups that grow with frames, a block of rows at a time.
+// Files of consecutive frames, made one: the groups that grow with frames.
 // A copy rather than a virtual dataset, because HDF5 fills in for parts that it cannot open, and says nothing: parts
 // that were left behind, or more parts than a process may have open files (measured with 1500 of them).
 #pragma once
 #include <filesystem>
 #include <span>
+#include "output/copy_pieces.hpp"
 #include "output/hdf5.hpp"
 
 namespace wavetracer {
 
-// parts: files of one kind and run, in the order of their frames, at least one. Into `merged` go these groups of them,
-// as if all frames had been encoded at once. Throws RuntimeError.
-void merge_frames_h5(std::span<const std::filesystem::path> parts, std::span<const char* const> groups,
-                     const hdf5::File& merged);
+// parts: files of one kind and run, in the order of their frames, at least one. Makes these groups of them in `merged`,
+// as if all frames had been encoded at once, but for the rows: the pieces say where those are and belong, once `merged`
+// is closed. Throws RuntimeError.
+Pieces merge_frames_h5(std::span<const std::filesystem::path> parts, std::span<const char* const> groups,
+                       const hdf5::File& merged);
 
 }  // namespace wavetracer

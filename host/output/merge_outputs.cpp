@@ -30,10 +30,11 @@ void set_path_count(const File& merged) {
                 "write /frames/path_offset");
 }
 
-void merge_blocks_h5(std::span<const fs::path> parts, const File& merged) {
-  merge_frames_h5(parts.first(1), shared_groups, merged);
-  merge_frames_h5(parts, own_groups, merged);
-  set_path_count(merged);
+Pieces merge_blocks_h5(std::span<const fs::path> parts, const File& merged) {
+  Pieces shared = merge_frames_h5(parts.first(1), shared_groups, merged);
+  Pieces all = merge_frames_h5(parts, own_groups, merged);
+  std::ranges::copy(shared[0], std::back_inserter(all[0]));
+  return all;
 }
 
 PendingFile merge_h5(const H5Output& output, std::span<const fs::path> parts, bool of_one_frame, const fs::path& path,
@@ -47,12 +48,16 @@ PendingFile merge_h5(const H5Output& output, std::span<const fs::path> parts, bo
   uint64_t size = image.size() + slack;
   for (const fs::path& part : parts) size += fs::file_size(part);
   file.reserve(size);
-  {
+  const Pieces pieces = [&] {
     File merged = File::open_to_write(file.temporary());
-    if (of_one_frame)
-      merge_blocks_h5(parts, merged);
-    else
-      merge_frames_h5(parts, output.growing_groups, merged);
+    Pieces found = of_one_frame ? merge_blocks_h5(parts, merged) : merge_frames_h5(parts, output.growing_groups, merged);
+    merged.flush();
+    return found;
+  }();
+  copy_pieces(parts, pieces, file);
+  if (of_one_frame) {
+    File merged = File::open_to_write(file.temporary());
+    set_path_count(merged);
     merged.flush();
   }
   file.sync();

@@ -117,6 +117,16 @@ void PendingFile::write(std::span<const std::byte> bytes) {
   if (const int error = write_all(descriptor_, bytes)) fail(path_, "write", error);
 }
 
+void PendingFile::write_at(uint64_t offset, std::span<const std::byte> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno != EINTR) fail(path_, "write", errno);
+    if (written <= 0) continue;
+    offset += static_cast<uint64_t>(written);
+    bytes = bytes.subspan(static_cast<size_t>(written));
+  }
+}
+
 void PendingFile::reserve(uint64_t size) {
   int error = EINTR;
   while (error == EINTR) error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(size));

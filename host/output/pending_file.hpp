@@ -43,6 +43,8 @@ class PendingFile {
   const std::filesystem::path& temporary() const { return temporary_; }
   // Appends.
   void write(std::span<const std::byte> bytes);
+  // At a place of its own, from any thread.
+  void write_at(uint64_t offset, std::span<const std::byte> bytes) const;
   // Makes the file so long, on the disk too: who writes into it afterwards meets no full disk.
   void reserve(uint64_t size);
   // Waits for the disk; nothing is written after it.

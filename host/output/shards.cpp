@@ -158,7 +158,7 @@ void Shards::note(const Shard& shard) {
   fresh_ = false;
 }
 
-void Shards::write(const Run& run, Frames frames, uint32_t block, uint32_t blocks) {
+Shard Shards::write_files(const Run& run, Frames frames, uint32_t block, uint32_t blocks) {
   const Clock::time_point start = Clock::now();
   PendingDirectory directory(directory_), folder(folder_);
   const Unit unit{frames.front().frame, frames.back().frame, block, blocks};
@@ -178,8 +178,13 @@ void Shards::write(const Run& run, Frames frames, uint32_t block, uint32_t block
   directory.keep();
   folder.keep();
   note(shard);
-  shards_.insert_or_assign(key(unit), std::move(shard));
   write_seconds_ += since(start);
+  return shard;
+}
+
+void Shards::finish(Shard shard) {
+  const ShardMap::key_type unit = key(shard.unit);
+  shards_.insert_or_assign(unit, std::move(shard));
 }
 
 std::vector<fs::path> Shards::merge(const Run& run, Frames unfinished) {

@@ -50,7 +50,12 @@ class Shards {
 
   // Writes a unit and notes it in the manifest. The first one of a run that neither resumes nor shares takes the place
   // of all that an earlier run left in the folder.
-  void write(const Run& run, Frames frames, uint32_t block = 0, uint32_t blocks = 1);
+  void write(const Run& run, Frames frames, uint32_t block = 0, uint32_t blocks = 1) {
+    finish(write_files(run, frames, block, blocks));
+  }
+  // The two halves of it. While the first is at work in another thread, finished() alone may be asked here.
+  Shard write_files(const Run& run, Frames frames, uint32_t block, uint32_t blocks);
+  void finish(Shard shard);
 
   // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
   // the first frames of the one that was interrupted. At least one frame is needed. Of finished shards, memory holds a

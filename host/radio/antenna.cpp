@@ -21,7 +21,8 @@ Pattern pattern_of(const RadioEnd& end) {
   if (end.antenna == "short-dipole") return short_dipole_pattern;
   if (end.antenna == "dipole") return half_wave_dipole_pattern;
   if (end.antenna == "tr38901") return tr38901_pattern;
-  if (std::filesystem::is_regular_file(end.antenna)) return load_pattern(end.antenna);
+  std::error_code unnameable;
+  if (std::filesystem::is_regular_file(end.antenna, unnameable)) return load_pattern(end.antenna);
   throw ConfigError(
       fmt::format("\"{}\": antenna = \"{}\" is neither isotropic, short-dipole, dipole or tr38901 nor a "
                   "pattern file that exists",

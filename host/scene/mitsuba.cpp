@@ -182,7 +182,8 @@ class MitsubaReader {
           fmt::format("{}: {} needs <string name=\"filename\" value=\"...\"/>", where(shape), describe(shape)));
     }
     const std::filesystem::path file = path_.parent_path() / filename;
-    if (!std::filesystem::exists(file)) {
+    std::error_code unnameable;  // such as a name that is too long
+    if (!std::filesystem::exists(file, unnameable)) {
       throw InputError(fmt::format("{}: {}: there is no file {}", where(shape), describe(shape), file.string()));
     }
     std::string name = attribute(shape, "id");

@@ -105,6 +105,8 @@ TEST_CASE("an output folder that cannot be written to exits 1 before anything is
   const Folder folder;
   const std::string file = folder.file("a.toml", city + ends);
   check(run_program({"run", "-c", file, "-o", file + "/out"}), 1, file + "/out: cannot write there");
+  check(run_program({"run", "-c", file, "-o", std::string(300, 'x')}), 1, "name too long");
+  check(run_program({"run", "-c", std::string(300, 'x')}), 2, "cannot be read as a config file");
   if (geteuid() == 0) return;  // permissions do not bind root
   chmod(folder.path().c_str(), 0500);
   check(run_program({"run", "-c", file, "-o", folder.path("out")}), 1, "Permission denied");

@@ -1,6 +1,7 @@
 // The field table and what is made of it: the contract's keys, init, help, the resolved config, spelling hints.
 // It assumes nothing of the parser's insides: texts go in, Configs and texts come out.
 #include <doctest/doctest.h>
+#include <random>
 #include <set>
 #include "config/config_file.hpp"
 #include "wavetracer/error.hpp"
@@ -175,6 +176,18 @@ TEST_CASE("edit distances of known pairs") {
   CHECK(edit_distance("rays", "rays") == 0);
   CHECK(edit_distance("dpeth", "depth") == 1);  // one swap of neighbours
   CHECK(edit_distance("abc", "") == 3);
+  CHECK(edit_distance("abc", "abcdefgh", 4) == 4);  // given up
+  std::mt19937 random(1);
+  const auto word = [&] {
+    std::string text(random() % 9, 'a');
+    for (char& c : text) c = static_cast<char>('a' + random() % 3);
+    return text;
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const std::string a = word(), b = word();
+    const size_t limit = random() % 8;
+    CHECK(edit_distance(a, b, limit) == std::min(edit_distance(a, b), limit));
+  }
 }
 
 TEST_CASE("a hint needs a near word") {

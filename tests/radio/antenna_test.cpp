@@ -153,5 +153,6 @@ TEST_CASE("the poles are well defined and angles keep to one side of the cut") {
 
 TEST_CASE("unknown antennas and polarisations are refused by name") {
   CHECK_THROWS_AS(made("dipol"), ConfigError);
+  CHECK_THROWS_AS(made(std::string(300, 'x')), ConfigError);  // no file has so long a name
   CHECK_THROWS_WITH_AS(made("isotropic", "X"), "\"end\": polarization = \"X\" is none of V, H, VH, cross", ConfigError);
 }

@@ -116,6 +116,8 @@ TEST_CASE("Mitsuba errors name file, line and element") {
         "scene.xml:4: <shape type=\"sphere\" id=\"ball\">: shapes of this type");
   fails("<shape type=\"ply\" id=\"a\"/>", "scene.xml:3: <shape type=\"ply\" id=\"a\"> needs <string name=\"filename\"");
   fails("<shape type=\"ply\"><string name=\"filename\" value=\"gone.ply\"/></shape>", "there is no file");
+  fails("<shape type=\"ply\"><string name=\"filename\" value=\"" + std::string(300, 'x') + "\"/></shape>",
+        "there is no file");  // a longer name than any file can have
   fails(square("<ref name=\"bsdf\" id=\"nothing\"/>"), "refers to the material 'nothing', which no <bsdf>");
   fails(square(""), "mesh 'square' has no material; set scene.default_material");
   fails("<bsdf type=\"diffuse\" id=\"mat-Facade\"/>" + square("<ref id=\"mat-Facade\"/>"),

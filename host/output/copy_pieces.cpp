@@ -1,0 +1,50 @@
+// One task a part, each with a block of memory of its own.
+// Assumes a little-endian processor, as OpenCL devices and their hosts have.
+#include "output/copy_pieces.hpp"
+#include <tbb/parallel_for.h>
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr uint64_t block_bytes = uint64_t{1} << 20;
+
+void add(std::span<std::byte> numbers, uint64_t base) {
+  for (size_t at = 0; at + sizeof base <= numbers.size(); at += sizeof base) {
+    uint64_t number;
+    std::memcpy(&number, numbers.data() + at, sizeof number);
+    number += base;
+    std::memcpy(numbers.data() + at, &number, sizeof number);
+  }
+}
+
+void copy(std::ifstream& in, const std::filesystem::path& part, const Piece& piece, std::span<std::byte> block,
+          const PendingFile& file) {
+  in.seekg(static_cast<std::streamoff>(piece.from));
+  for (uint64_t done = 0; done < piece.bytes;) {
+    const std::span<std::byte> some = block.first(std::min<uint64_t>(block.size(), piece.bytes - done));
+    if (!in.read(reinterpret_cast<char*>(some.data()), static_cast<std::streamsize>(some.size())))
+      throw RuntimeError(part.string() + ": cannot be read to its end; remove it and run again with --resume");
+    if (piece.base != 0) add(some, piece.base);
+    file.write_at(piece.to + done, some);
+    done += some.size();
+  }
+}
+
+}  // namespace
+
+void copy_pieces(std::span<const std::filesystem::path> parts, const Pieces& pieces, const PendingFile& file) {
+  tbb::parallel_for(size_t{0}, pieces.size(), [&](size_t i) {
+    uint64_t most = 0;
+    for (const Piece& piece : pieces[i]) most = std::max(most, piece.bytes);
+    if (most == 0) return;
+    std::vector<std::byte> block(std::min(most, block_bytes));
+    std::ifstream in(parts[i], std::ios::binary);
+    for (const Piece& piece : pieces[i]) copy(in, parts[i], piece, block, file);
+  });
+}
+
+}  // namespace wavetracer
