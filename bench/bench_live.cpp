@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -267,6 +268,7 @@ void run(const Options& options, uint32_t vehicles, const std::string& command) 
     line.detail += fmt::format("; {} of {} paths of cold frames of {} times the rays", recall.found, recall.reference,
                                options.reference_factor);
   } else {
+    line.error = std::numeric_limits<double>::quiet_NaN();  // null in JSON
     line.detail += "; error not measured";
   }
   print(line, command);

@@ -1,14 +1,27 @@
 // Edit distance over three rows, and the choice of the nearest word.
-// A table is given up at the first row that is out of reach, so the cost is a few rows for most words.
+// Most words differ in too many letters, and cost no table; a table is given up at the first row that is out of reach.
 #include "config/spelling.hpp"
 #include <algorithm>
 #include <array>
 
 namespace wavetracer::config {
+namespace {
+
+// Letters that one word has and the other lacks must go, come or be replaced, whatever their order.
+size_t least_distance(std::string_view a, std::string_view b) {
+  std::array<int, 256> left{};  // of each letter of a
+  for (const char c : a) ++left[static_cast<unsigned char>(c)];
+  size_t shared = 0;
+  for (const char c : b)
+    if (left[static_cast<unsigned char>(c)]-- > 0) ++shared;
+  return std::max(a.size(), b.size()) - shared;
+}
+
+}  // namespace
 
 size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
   const size_t longer = std::max(a.size(), b.size()), shorter = std::min(a.size(), b.size());
-  if (longer - shorter >= limit) return limit;  // letters that one has more are letters that differ
+  if (longer - shorter >= limit || least_distance(a, b) >= limit) return limit;
   std::array<std::vector<size_t>, 3> rows;  // rows i - 2, i - 1 and i of the table
   for (auto& row : rows) row.resize(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) rows[1][j] = j;

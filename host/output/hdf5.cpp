@@ -39,6 +39,12 @@ void write_attribute(hid_t object, const std::string& name, hid_t file_type, hid
   checked(H5Awrite(attribute, memory_type, value), "write attribute " + name);
 }
 
+std::vector<hsize_t> shape_of(hid_t space, const std::string& path) {
+  std::vector<hsize_t> shape(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space), "measure " + path)));
+  checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "measure " + path);
+  return shape;
+}
+
 Id memory_access() {
   constexpr size_t growth_bytes = size_t{1} << 20;
   Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up a file in memory");
@@ -169,8 +175,7 @@ Extent extent_of(const File& file, const std::string& path) {
   const Id dataset(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path);
   const Id space(H5Dget_space(dataset), H5Sclose, "measure dataset " + path);
   const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
-  std::vector<hsize_t> shape(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space), "measure dataset " + path)));
-  checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "measure dataset " + path);
+  const std::vector<hsize_t> shape = shape_of(space, path);
   if (shape.empty()) throw RuntimeError("dataset " + path + " has no rows");
   Extent extent{shape[0], H5Tget_size(type), 0};
   for (size_t i = 1; i < shape.size(); ++i) extent.row_bytes *= shape[i];
@@ -180,14 +185,23 @@ Extent extent_of(const File& file, const std::string& path) {
   return extent;
 }
 
+void check_stored(hid_t dataset, const std::string& path) {
+  const Id properties(H5Dget_create_plist(dataset), H5Pclose, "read the layout of " + path);
+  if (H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_nfilters(properties) > 0) return;
+  const Id space(H5Dget_space(dataset), H5Sclose, "measure dataset " + path);
+  const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
+  hsize_t bytes = H5Tget_size(type);
+  for (const hsize_t n : shape_of(space, path))
+    if (__builtin_mul_overflow(bytes, n, &bytes)) throw RuntimeError(path + " is too large");
+  if (H5Dget_storage_size(dataset) < bytes) throw RuntimeError(path + " is cut short");
+}
+
 Column::Column(const File& file, const std::string& path)
     : path_(path),
       dataset_(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path),
       type_(H5Dget_type(dataset_), H5Tclose, "find the type of " + path),
       space_(H5Dget_space(dataset_), H5Sclose, "measure dataset " + path),
       meaning_{text_attribute(dataset_, "units"), text_attribute(dataset_, "description")},
-      shape_(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space_), "measure dataset " + path))) {
-  checked(H5Sget_simple_extent_dims(space_, shape_.data(), nullptr), "measure dataset " + path);
-}
+      shape_(shape_of(space_, path)) {}
 
 }  // namespace wavetracer::hdf5

@@ -136,6 +136,10 @@ struct Extent {
 // Throws RuntimeError where it is not in one piece, as those of our files are.
 Extent extent_of(const File& file, const std::string& path);
 
+// What is stored must be what the shape says: the library fills in for the rest, and a small file could ask for all
+// memory. Not known of compressed datasets, as others may write them. Throws RuntimeError.
+void check_stored(hid_t dataset, const std::string& path);
+
 // What a dataset of rows is.
 class Column {
  public:

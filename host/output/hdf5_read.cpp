@@ -26,15 +26,6 @@ std::vector<hsize_t> shape_of(hid_t space, const std::string& path) {
   return shape;
 }
 
-// What is stored must be what the shape says: else a small file could ask for all memory.
-void check_stored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape, const std::string& path) {
-  hsize_t bytes = H5Tget_size(type);
-  for (const hsize_t n : shape) bytes *= n;
-  const Id properties(H5Dget_create_plist(dataset), H5Pclose, "read the layout of " + path);
-  if (H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_nfilters(properties) > 0) return;  // compressed by others
-  if (bytes > 0 && H5Dget_storage_size(dataset) < bytes) refuse(path, "is cut short");
-}
-
 // A string type as the file has it: variable or fixed length.
 std::vector<std::string> strings_of(hid_t type, size_t count, const std::string& path, const auto& read) {
   if (H5Tget_class(type) != H5T_STRING) refuse(path, "holds no text");
@@ -89,7 +80,7 @@ NumberColumn<T>::NumberColumn(const File& file, const std::string& path, std::ve
   for (size_t i = 0; fits && i < inner.size(); ++i) fits = inner[i] == 0 || shape_[i + 1] == inner[i];
   if (!fits) refuse(path, "has another shape than that of this format");
   for (size_t i = 1; i < shape_.size(); ++i) row_values_ *= shape_[i];
-  check_stored(dataset_, type, shape_, path);
+  check_stored(dataset_, path);
 }
 
 template <typename T>
@@ -120,7 +111,7 @@ std::vector<std::string> read_strings(const File& file, const std::string& path)
   const std::vector<hsize_t> shape = shape_of(space, path);
   if (shape.size() != 1 || shape[0] > most_strings) refuse(path, "has another shape than that of this format");
   const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
-  check_stored(dataset, type, shape, path);
+  check_stored(dataset, path);
   return strings_of(type, shape[0], path, [&](hid_t memory, void* out) {
     return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
   });

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include "output/cache_json.hpp"
+#include "output/json_count.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -15,14 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-// nlohmann turns numbers into others without a word.
-template <typename T>
-T whole(const Json& json) {
-  if (!json.is_number_unsigned() || json.get<uint64_t>() > std::numeric_limits<T>::max())
-    throw Json::type_error::create(302, fmt::format("a value of the type {} is no count", json.type_name()), &json);
-  return json.get<T>();
-}
 
 std::vector<uint64_t> whole_numbers(const Json& json) {
   std::vector<uint64_t> out;

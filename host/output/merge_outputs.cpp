@@ -82,15 +82,6 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to)
 
 bool same_type(const Column& a, const Column& b) { return H5Tequal(a.type(), b.type()) > 0; }
 
-// The library fills in for what a file does not hold.
-void check_stored(const File& part, const std::string& name, const Column& column) {
-  const Id dataset(H5Dopen2(part.id(), name.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + name);
-  hsize_t bytes = H5Tget_size(column.type());
-  for (const hsize_t n : column.shape())
-    if (__builtin_mul_overflow(bytes, n, &bytes)) throw RuntimeError(name + " is too large");
-  if (H5Dget_storage_size(dataset) < bytes) throw RuntimeError(name + " is cut short");
-}
-
 void check_part(const File& part, const File& first, const H5Output& output) {
   for (const std::string group : output.growing_groups) {
     const std::vector<std::string> names = part.members(group);
@@ -105,7 +96,8 @@ void check_part(const File& part, const File& first, const H5Output& output) {
       if (member.ends_with("_offset") &&
           (shape.size() != 1 || shape[0] == 0 || H5Tequal(column.type(), hdf5::Type<uint64_t>::file()) <= 0))
         throw RuntimeError(name + " holds no offsets");
-      check_stored(part, name, column);
+      hdf5::check_stored(Id(H5Dopen2(part.id(), name.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + name), name);
+      hdf5::extent_of(part, name);
     }
   }
 }

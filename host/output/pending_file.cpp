@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <set>
 #include <utility>
 #include "wavetracer/error.hpp"
 
@@ -137,16 +138,25 @@ void PendingFile::sync() {
   if (const int error = sync_and_close(std::exchange(descriptor_, -1))) fail(path_, "write", error);
 }
 
-void PendingFile::commit() {
+void PendingFile::rename() {
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "write", errno);
   temporary_.clear();
+}
+
+void PendingFile::commit() {
+  rename();
   sync_folder(folder_of(path_));
 }
 
 void commit_together(std::vector<PendingFile>& files) {
   size_t committed = 0;
   try {
-    for (; committed < files.size(); ++committed) files[committed].commit();
+    std::set<fs::path> folders;
+    for (; committed < files.size(); ++committed) {
+      files[committed].rename();
+      folders.insert(folder_of(files[committed].path()));
+    }
+    for (const fs::path& folder : folders) sync_folder(folder);
   } catch (...) {
     std::error_code ignored;
     for (size_t i = 0; i < committed; ++i) fs::remove(files[i].path(), ignored);

@@ -56,9 +56,13 @@ class PendingFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_;  // empty once committed or moved from
   int descriptor_ = -1;              // closed by sync()
+
+  friend void commit_together(std::vector<PendingFile>& files);
+  void rename();
 };
 
-// Commits all or none: if one fails, those already in place are removed and the error goes on.
+// Commits all or none: if one fails, those already in place are removed and the error goes on. Each folder is synced
+// once, after the last.
 void commit_together(std::vector<PendingFile>& files);
 
 // Appends to a file that is there and waits for the disk. Throws RuntimeError.

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include "output/json_count.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -55,26 +56,25 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   s.device = {device.at("platform"), device.at("name"), device.at("driver"), device.at("opencl_c"), device.at("gpu")};
   const Json& order = json.at("order");
   out.config.order.method = order.at("asked");
-  s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"), order.at("local_size"),
-             order.at("reason")};
+  s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"),
+             whole<uint32_t>(order.at("local_size")), order.at("reason")};
   for (const auto& [feature, value] : json.at("features").items())
     s.features[feature] = {value.at("on"), value.at("reason")};
   s.setup_seconds = json.at("setup_seconds").get<StageSeconds>();
   s.command_line = json.at("command_line");
-  s.frames_asked = json.at("frames_asked");
-  s.repeat_count = json.at("repeat_count");
+  s.frames_asked = whole<uint64_t>(json.at("frames_asked"));
+  s.repeat_count = whole<uint32_t>(json.at("repeat_count"));
   s.warnings = json.at("warnings").get<std::vector<std::string>>();
   out.config.file = json.at("config_file");
   out.config.trace.reuse = json.at("reuse");
-  out.config.output.waypoints = json.at("waypoints");
+  out.config.output.waypoints = whole<uint64_t>(json.at("waypoints"));
   out.config.cache.kind = json.at("cache").at("kind");
   out.config.cache.key = json.at("cache").at("key");
   out.scene.file = json.at("scene_file");
   out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
-  const Json& vehicles = json.at("vehicles");
-  if (!vehicles.is_number_unsigned() || vehicles.get<uint64_t>() > most_vehicles)
-    throw RuntimeError(name + ": \"vehicles\" is no number of vehicles");
-  out.instances.resize(vehicles.get<size_t>());
+  const auto vehicles = whole<uint64_t>(json.at("vehicles"));
+  if (vehicles > most_vehicles) throw RuntimeError(name + ": \"vehicles\" is no number of vehicles");
+  out.instances.resize(vehicles);
   return out;
 } catch (const Json::exception& error) {
   throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
