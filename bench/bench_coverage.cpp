@@ -84,24 +84,33 @@ std::string stages(const StageSeconds& seconds) {
   return out;
 }
 
-// A line of bench/peers/sionna_radio_map.py for this scene, where --peer has one.
-std::optional<nlohmann::json> read_peer(const std::string& file, const std::string& scene, uint64_t rays) {
-  if (file.empty()) return {};
+// The speed of another program at drawing the same map, and what share of its cells is off.
+struct Peer {
+  std::string name;
+  double receivers_s = 0;
+};
+
+// Lines of bench/peers/sionna_radio_map.py for this scene, where --peer has some.
+std::vector<Peer> read_peers(const std::string& file, const std::string& scene) {
+  std::vector<Peer> peers;
+  if (file.empty()) return peers;
   std::ifstream in(file);
   if (!in) throw InputError(fmt::format("cannot read {}, which --peer names", file));
   std::string line;
   for (size_t number = 1; std::getline(in, line); number++) {
     try {
       const auto json = nlohmann::json::parse(line);
-      if (json.at("scene") == scene && json.at("rays") == rays && json.at("value").is_number() &&
-          json.at("device").is_string())
-        return json;
+      if (json.at("scene") != scene) continue;
+      peers.push_back({fmt::format("{}, {:.0e} rays: {:.0f}% of its cells off by more than 0.1 dB",
+                                   json.at("device").get<std::string>(), json.at("rays").get<double>(),
+                                   100 * json.at("error").get<double>()),
+                       json.at("value").get<double>()});
     } catch (const nlohmann::json::exception& error) {
       throw InputError(
           fmt::format("{}:{}: {}; expected a line of bench/peers/sionna_radio_map.py", file, number, error.what()));
     }
   }
-  return {};
+  return peers;
 }
 
 void run_case(const Place& place, const Options& options, const std::string& command) {
@@ -131,11 +140,15 @@ void run_case(const Place& place, const Options& options, const std::string& com
                   {"receivers_lost", error.lost},
                   {"mean_error_db", error.mean_db},
                   {"stage_s", frames.result.seconds}};
-  if (const auto peer = read_peer(options.peer, place.name, options.rays)) {
-    result.baseline = peer->at("device").get<std::string>();
-    result.baseline_value = peer->at("value").get<double>();
+  const std::vector<Peer> peers = read_peers(options.peer, place.name);
+  if (peers.empty()) print(result, command);
+  const std::string name = result.name;
+  for (const Peer& peer : peers) {
+    result.name = name + (&peer == &peers.front() ? "" : fmt::format(" ({})", &peer - peers.data() + 1));
+    result.baseline = peer.name;
+    result.baseline_value = peer.receivers_s;
+    print(result, command);
   }
-  print(result, command);
 }
 
 // What bench/peers/sionna_radio_map.py reads, so that both draw the same map.
@@ -178,7 +191,7 @@ int main(int argc, char** argv) {
   app.add_option("--side", options.side_m, "of the square map, in metres")->check(CLI::PositiveNumber);
   app.add_option("--step", options.step_m, "of the map, in metres")->check(CLI::PositiveNumber);
   app.add_flag("--quick", options.quick, "a coarse map, few rays, one frame");
-  app.add_option("--peer", options.peer, "lines printed by bench/peers/sionna_radio_map.py: the baseline");
+  app.add_option("--peer", options.peer, "lines printed by bench/peers/sionna_radio_map.py: the baselines");
   app.add_option("--write-grid", options.write_grid, "write the map's place for that program to this file, and end");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cells a second of Sionna RT's RadioMapSolver on the map of bench_coverage; one JSON line on standard output.
+"""Cells a second of Sionna RT's RadioMapSolver on the map of bench_coverage; one JSON line for each number of rays on standard output.
 
     bench_coverage --write-grid grid.json
     sionna_radio_map.py grid.json MUNICH.xml > peer.jsonl
@@ -24,6 +24,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("grid", type=pathlib.Path, help="written by bench_coverage --write-grid")
     parser.add_argument("scene", help="the Mitsuba XML file of the same scene")
+    parser.add_argument("--rays", type=int, nargs="+", help="instead of those of the grid")
     parser.add_argument("--runs", type=int, default=3, help="warm solves of which the median counts")
     arguments = parser.parse_args()
     grid = json.loads(arguments.grid.read_text())
@@ -43,17 +44,18 @@ def main():
                       diffuse_reflection=False, refraction=False).path_gain.numpy()[0]
         return time.perf_counter() - start, gain
 
-    solve(grid["rays"])
-    runs = [solve(grid["rays"]) for _ in range(arguments.runs)]
-    seconds, gain = statistics.median(s for s, _ in runs), runs[-1][1]
-    reference = solve(10 * grid["rays"])[1]
-    heard = reference > 0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        off_db = np.abs(10 * np.log10(gain[heard] / reference[heard]))
-    print(json.dumps({"scene": grid["scene"], "rays": grid["rays"],
-                      "device": f"Sionna RT RadioMapSolver, {mi.variant()}", "value": gain.size / seconds,
-                      "unit": "receivers/s", "cells": gain.size, "frame_s": seconds,
-                      "error": float(np.mean(~(off_db <= 0.1)))}))
+    for rays in arguments.rays or [grid["rays"]]:
+        solve(rays)
+        runs = [solve(rays) for _ in range(arguments.runs)]
+        seconds, gain = statistics.median(s for s, _ in runs), runs[-1][1]
+        reference = solve(10 * rays)[1]
+        heard = reference > 0
+        with np.errstate(divide="ignore", invalid="ignore"):
+            off_db = np.abs(10 * np.log10(gain[heard] / reference[heard]))
+        print(json.dumps({"scene": grid["scene"], "rays": rays,
+                          "device": f"Sionna RT RadioMapSolver, {mi.variant()}", "value": gain.size / seconds,
+                          "unit": "receivers/s", "cells": gain.size, "frame_s": seconds,
+                          "error": float(np.mean(~(off_db <= 0.1)))}), flush=True)
 
 
 if __name__ == "__main__":
