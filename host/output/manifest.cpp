@@ -128,7 +128,7 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
 
 std::vector<Shard> read_manifest(const fs::path& file) {
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) return {};
+  if (!fs::is_regular_file(file, ignored)) return {};
   std::ifstream in(file, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(in)), {});
   if (!in) throw RuntimeError(fmt::format("cannot read {}; check its permissions", file.string()));

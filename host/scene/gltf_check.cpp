@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -113,15 +113,7 @@ void check_gltf(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::array<char, 4> magic{};
   const bool glb = in.read(magic.data(), magic.size()) && std::string_view(magic.data(), magic.size()) == "glTF";
-  in.clear();
-  in.seekg(0);
-  std::string text;
-  if (glb) {
-    text = glb_json(in, path);
-  } else {
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  }
-  const json document = parse(text, path.string());
+  const json document = parse(glb ? glb_json(in, path) : read_file(path), path.string());
   Parents parents;
   if (document.contains("nodes")) {
     for (const auto& [name, node] : document["nodes"].items()) add_once(parents, node, "children", name, path.string());

@@ -186,6 +186,10 @@ class MitsubaReader {
     if (!std::filesystem::exists(file, unnameable)) {
       throw InputError(fmt::format("{}: {}: there is no file {}", where(shape), describe(shape), file.string()));
     }
+    if (std::filesystem::is_directory(file, unnameable)) {
+      throw InputError(fmt::format("{}: {}: {} is a folder; name the mesh inside it", where(shape), describe(shape),
+                                   file.string()));
+    }
     std::string name = attribute(shape, "id");
     if (name.starts_with("mesh-")) name.erase(0, 5);  // as Sionna RT names its objects
     if (name.empty()) name = std::filesystem::path(filename).stem().string();

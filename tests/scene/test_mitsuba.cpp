@@ -118,6 +118,8 @@ TEST_CASE("Mitsuba errors name file, line and element") {
   fails("<shape type=\"ply\"><string name=\"filename\" value=\"gone.ply\"/></shape>", "there is no file");
   fails("<shape type=\"ply\"><string name=\"filename\" value=\"" + std::string(300, 'x') + "\"/></shape>",
         "there is no file");  // a longer name than any file can have
+  fails("<shape type=\"obj\"><string name=\"filename\" value=\"/\"/></shape>", "is a folder");
+  fails("<shape type=\"ply\"><string name=\"filename\" value=\"/\"/></shape>", "is a folder");
   fails(square("<ref name=\"bsdf\" id=\"nothing\"/>"), "refers to the material 'nothing', which no <bsdf>");
   fails(square(""), "mesh 'square' has no material; set scene.default_material");
   fails("<bsdf type=\"diffuse\" id=\"mat-Facade\"/>" + square("<ref id=\"mat-Facade\"/>"),
