@@ -1,0 +1,158 @@
+// World: links against counted pairs, what it refuses, how far it reaches, and traffic that it generates.
+#include "simulation/name_pattern.hpp"
+#include "simulation/world_fixture.hpp"
+#include "simulation/world_trajectories.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+TEST_CASE("links by name, kind, vehicle and distance") {
+  const TemporaryFolder folder;
+  Config config = drive(folder);
+  config.receivers = {end("base", {0, 100, 6})};
+  config.mounts.push_back(mount("bumper", "truck*", "receiver", {3.5, 0, 0.5}));
+  // tx: rsu, turner/roof, truck1/roof; rx: base, turner/roof, truck1/roof, truck1/bumper
+  const auto links = [&](const LinksConfig& rules) {
+    config.links = rules;
+    return World(config, static_scene()).state(10).links;
+  };
+  using Links = std::vector<Link>;
+  CHECK(links({}) == Links{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 2}, {1, 3}, {2, 0}, {2, 1}});
+  CHECK(links({.i2i = false}) == Links{{0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 2}, {1, 3}, {2, 0}, {2, 1}});
+  CHECK(links({.v2i = false}) == Links{{0, 0}, {1, 2}, {1, 3}, {2, 1}});
+  CHECK(links({.v2v = false}) == Links{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 0}, {2, 0}});
+  CHECK(links({.v2v = false, .v2i = false, .i2i = false, .same_vehicle = true}) == Links{{2, 3}});
+  CHECK(links({.transmitters = {"rsu"}, .receivers = {"truck1/*", "base"}}) == Links{{0, 0}, {0, 2}, {0, 3}});
+  CHECK(links({.transmitters = {"*/roof"}, .receivers = {"?ase"}}) == Links{{1, 0}, {2, 0}});
+  // At 1 s: the turner's roof is 20.5 m off the mast (level), the truck's 33.6 m; the mast is 2.4 m higher.
+  const glm::dvec3 rsu(0, 0, 6), roof = truck_centre(1) + glm::dvec3(-0.5, 0.25, 1.6);
+  const double far_m = glm::distance(rsu, roof);
+  LinksConfig near{.max_distance_m = far_m + 1e-6, .transmitters = {"rsu"}, .receivers = {"*roof"}};
+  CHECK(links(near) == Links{{0, 1}, {0, 2}});
+  near.max_distance_m = far_m - 1e-6;
+  CHECK(links(near) == Links{{0, 1}});
+}
+
+TEST_CASE("ends that stand in the same place are one end; what stands keeps the link to itself") {
+  Config config;
+  config.transmitters = {end("a", {5, 0, 6}), end("rsu", {0, 0, 6})};
+  config.receivers = {end("rsu_rx", {0, 0, 6}), end("other", {1, 0, 6})};
+  const World world(config, static_scene());
+  CHECK(world.state(0).links == std::vector<Link>{{0, 0}, {0, 1}, {1, 0}, {1, 1}});
+  CHECK(world.receiver_of_transmitter() == std::vector<uint32_t>{no_end, 0});
+  CHECK(world.transmitter_of_receiver() == std::vector<uint32_t>{1, no_end});
+}
+
+TEST_CASE("types, names and steps that are not known") {
+  const TemporaryFolder folder;
+  const std::string odd = two_vehicles("spaceship");
+  check_contains(error_of<InputError>(drive(folder, odd)), "the vehicle type 'spaceship' is not known");
+  Config config = drive(folder, odd);
+  config.trajectories.default_type = "truck";
+  const World world(config, static_scene());
+  CHECK(world.instances()[1].type == "spaceship");
+  CHECK(world.models().size() == 2);
+  REQUIRE_FALSE(world.warnings().empty());
+  config.trajectories.default_type = "passengr";
+  check_contains(error_of<ConfigError>(config), "default_type = \"passengr\" is neither a [[vehicle_type]] nor");
+  check_contains(error_of<ConfigError>(config), "did you mean \"passenger\"?");
+  config = drive(folder);
+  config.vehicle_types.push_back({.name = "mine"});
+  check_contains(error_of<ConfigError>(config), "vehicle_type \"mine\": SUMO has no vehicle class of this name: give");
+  config = drive(folder);
+  config.tracks = {{"turner", "passenger", {{0, 0, 0, 0}}}};
+  check_contains(error_of<ConfigError>(config), "the trajectories have a vehicle \"turner\" too");
+  config.tracks = {{"ego", "hovercraft", {{0, 0, 0, 0}}}};
+  check_contains(error_of<ConfigError>(config), "type = \"hovercraft\" is neither a [[vehicle_type]] nor");
+  config = drive(folder);
+  config.links.receivers = {"*", "truck1/rof"};
+  check_contains(error_of<ConfigError>(config),
+                 "links.receivers: \"truck1/rof\" is the name of no receiver; the nearest is \"truck1/roof\"");
+  config = drive(folder);
+  config.mounts[0].on = "trck*";
+  check_contains(error_of<ConfigError>(config), "the nearest is \"truck");
+  config = drive(folder);
+  config.transmitters[0].name = "turner/roof";
+  check_contains(error_of<ConfigError>(config), "\"turner/roof\" is there already");
+  config = drive(folder);
+  config.time = {.start_s = 5, .end_s = std::nullopt, .step_s = 0};
+  check_contains(error_of<ConfigError>(config), "the end must not be before the beginning");
+  Config still;
+  still.transmitters = {end("rsu", {0, 0, 6})};
+  still.tracks = {{"ego", "passenger", {{3, 0, 0, 0}}}};
+  still.mounts = {mount("roof", "*", "receiver", {0, 0, 1})};
+  CHECK(World(still, static_scene()).frame_count() == 1);
+  CHECK(World(still, static_scene()).time_s(0) == 3);
+  still.time.end_s = 4;
+  check_contains(error_of<ConfigError>(still), "time.step_s is not given");
+}
+
+TEST_CASE("reach holds every end and every corner of every frame, and is not far off") {
+  const TemporaryFolder folder;
+  Config config = drive(folder);
+  config.tracks = {{"swing", "truck", {{0, 0, 0, 0}, {0.5, 80, 10, 0}, {0.7, 80, 10, 0}, {2, 0, 0, 3}}}};
+  config.time.step_s = 0.013;
+  const World world(config, static_scene());
+  double largest = 0;
+  const auto add = [&](const glm::dvec3& p) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  };
+  for (uint32_t frame = 0; frame < world.frame_count(); ++frame) {
+    const WorldState state = world.state(frame);
+    for (const EndState& e : state.transmitters) add(e.position_m);
+    for (size_t i = 0; i < state.instances.size(); ++i)
+      for (const glm::dvec3& v : world.models()[world.instances()[i].model].vertices)
+        add(state.instances[i].position_m + state.instances[i].rotation * v);
+  }
+  CHECK(world.reach_m() >= largest);
+  CHECK(world.reach_m() <= largest + 40);
+}
+
+TEST_CASE("bounds of a track hold the cubic where it leaves the box of its samples") {
+  Track track{"x", 0, {}, {0}};
+  for (const double time_s : {0.0, 2.0}) {
+    Sample sample;
+    sample.time_s = time_s;
+    sample.position_m = {time_s, 0, 5};
+    sample.yaw_rad = sample.pitch_rad = 0;
+    sample.velocity_m_s = {10, time_s > 0 ? 8 : -8, 0};  // y = 4 t (t - 2), down to -4
+    track.samples.push_back(sample);
+  }
+  const Bounds bounds = bounds_of(track);
+  glm::dvec3 lower(1e9), upper(-1e9);
+  for (int k = 0; k <= 1000; ++k) {
+    const glm::dvec3 p = pose_at(track, 0.002 * k)->position_m;
+    lower = glm::min(lower, p);
+    upper = glm::max(upper, p);
+  }
+  CHECK(upper.x > 2.1);
+  CHECK(lower.y == doctest::Approx(-4));
+  CHECK(glm::all(glm::lessThanEqual(bounds.lower, lower)));
+  CHECK(glm::all(glm::greaterThanEqual(bounds.upper, upper)));
+  CHECK(bounds.lower.z == 5);
+}
+
+TEST_CASE("generated traffic drives a world of its own") {
+  Config config;
+  config.trajectories.generate = "--seed 1 --blocks 4 --vehicles 10 --seconds 1 --step 0.1";
+  config.transmitters = {end("rsu", {0, 0, 6})};
+  config.mounts = {mount("roof", "*", "receiver", {0, 0, 1.6})};
+  const World world(config, static_scene());
+  CHECK(world.frame_count() == 11);
+  CHECK(world.instances().size() == 10);
+  CHECK(world.state(10).links.size() == 10);
+  config.trajectories.generate = "--vehicle 10";
+  CHECK_THROWS_AS(World(config, static_scene()), ConfigError);
+}
+
+TEST_CASE("patterns") {
+  for (const auto& [pattern, name, expected] : std::vector<std::tuple<std::string, std::string, bool>>{
+           {"*", "", true},          {"", "", true},        {"", "a", false},      {"a*c", "abbc", true},
+           {"a*c", "abcb", false},   {"a?c", "abc", true},  {"a?c", "ac", false},  {"*a*a*", "banana", true},
+           {"*a?a", "banana", true}, {"[a]", "[a]", true},  {"[a]", "a", false},   {"veh*/roof", "veh1/x/roof", true},
+           {"?", "", false},         {"**", "abc", true},   {"abc", "ab", false},  {"*ab", "aab", true}}) {
+    CAPTURE(pattern);
+    CAPTURE(name);
+    CHECK(matches(pattern, name) == expected);
+  }
+}
