@@ -20,6 +20,7 @@ struct Target {
   bool offsets;  // has one entry more than rows, and counts on from part to part
   hsize_t rows = 0;
   uint64_t base = 0;
+  uint64_t row_bytes = 0;  // of the first part
 };
 
 std::vector<Target> targets_in(const File& part, Groups groups) {
@@ -55,6 +56,8 @@ uint64_t number_at(std::ifstream& file, uint64_t offset, const std::string& path
 // The rows of this part, and where they go in the table.
 Piece take(Target& target, const Extent& extent, std::ifstream& file) {
   if (target.offsets && extent.rows == 0) throw RuntimeError(target.path + " is empty");
+  if (target.row_bytes == 0) target.row_bytes = extent.row_bytes;
+  if (target.row_bytes != extent.row_bytes) throw RuntimeError(target.path + " has other rows than in the first part");
   const hsize_t repeated = target.offsets && target.rows > 0 ? 1 : 0;  // what the part before ended with
   const hsize_t rows = extent.rows - repeated;
   const Piece piece{extent.offset + repeated * extent.row_bytes, target.rows * extent.row_bytes,

@@ -5,6 +5,7 @@
 #include <random>
 #include "output/copy_pieces.hpp"
 #include "output/hdf5.hpp"
+#include "output/merge_h5.hpp"
 #include "output/reader.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
@@ -69,6 +70,23 @@ TEST_CASE("a part that is shorter than its pieces, or gone, is named") {
   CHECK_THROWS_AS(copy_pieces(parts, {{{9, 0, 1, 0}}}, file), RuntimeError);
   fs::remove(parts[0]);
   CHECK_THROWS_AS(copy_pieces(parts, {{{0, 0, 1, 0}}}, file), RuntimeError);
+}
+
+TEST_CASE("parts whose rows differ in size are not merged") {
+  const TemporaryFolder folder;
+  const std::vector<fs::path> parts{folder.path() / "a.h5", folder.path() / "b.h5"};
+  for (hsize_t i = 0; i < 2; ++i) {
+    hdf5::File h5;
+    h5.make_group("/g", "numbers");
+    const std::vector<uint32_t> row(i + 1);
+    hdf5::Rows<uint32_t>(h5, "/g/x", {"1", "numbers"}, {1, i + 1}).append(row);
+    std::ofstream(parts[i], std::ios::binary)
+        .write(reinterpret_cast<const char*>(h5.image().data()), static_cast<std::streamsize>(h5.image().size()));
+  }
+  const hdf5::File merged;
+  const char* const groups[] = {"/g"};
+  CHECK_THROWS_WITH_AS(merge_frames_h5(parts, groups, merged), doctest::Contains("other rows than in the first"),
+                       RuntimeError);
 }
 
 TEST_CASE("room for rows is where the library then reads them, and rows in chunks are refused") {
