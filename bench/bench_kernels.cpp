@@ -73,7 +73,7 @@ class Suite {
   void run() {
     for (const char* name : {"morton2", "morton3", "morton5", "hilbert2", "hilbert3"}) curves(name);
     for (const bool shuffled : {false, true}) gather(shuffled);
-    for (const char* map : {"hilbert", "fibonacci", "random"}) generate(map);
+    for (const char* map : {"horizon", "hilbert", "fibonacci", "random"}) generate(map);
     for (const auto& [key, name] : {std::pair{OrderKey::morton, "morton"},
                                     {OrderKey::morton_bins, "morton-histogram"},
                                     {OrderKey::hilbert_bins, "hilbert3d-histogram"},
@@ -157,7 +157,7 @@ class Suite {
 
   RayQueue launch(const std::string& map) {
     RayQueue rays = make_ray_queue(context_, n_, "rays");
-    GenerateRays(context_, LaunchDirections(map, n_, seed))(rays, 0, {0, 0, 0}, 0, n_);
+    GenerateRays(context_, LaunchDirections(map, n_, seed))(rays, {0, {0, 0, 0}}, 0, n_);
     return rays;
   }
 
@@ -183,7 +183,9 @@ class Suite {
 
   // Directions that differ from those of the host, which evaluates the same header.
   size_t wrong_directions(const RayQueue& rays, const std::vector<uint32_t>& order, const LaunchDirections& d) const {
-    const auto direction = d.map == "wt_direction_hilbert"     ? device::wt_direction_hilbert
+    const std::vector<float> heights = LaunchHeights(context_).values();
+    const auto direction = d.map == "wt_direction_horizon"     ? device::wt_direction_horizon
+                           : d.map == "wt_direction_hilbert"   ? device::wt_direction_hilbert
                            : d.map == "wt_direction_fibonacci" ? device::wt_direction_fibonacci
                                                                : device::wt_direction_random;
     std::vector<float> x, y, z;
@@ -191,7 +193,7 @@ class Suite {
       *plane = rays.planes.read((WT_RAY_DIRECTION + axis) * size_t{rays.capacity}, checked_);
     size_t count = 0;
     for (size_t i = 0; i < checked_; i++) {
-      const device::wt_direction expected = direction(order[i], d.parameter, d.level, d.faces);
+      const device::wt_direction expected = direction(order[i], d.parameter, d.level, d.faces, heights.data(), 0);
       count += x[i] != expected.x || y[i] != expected.y || z[i] != expected.z;
     }
     return count;
@@ -208,9 +210,9 @@ class Suite {
       const auto run = [&] {
         rays.count = 0;
         if (listed)
-          generate(rays, 0, {0, 0, 0}, 0, n_, list);
+          generate(rays, {0, {0, 0, 0}}, 0, n_, list);
         else
-          generate(rays, 0, {0, 0, 0}, 0, n_);
+          generate(rays, {0, {0, 0, 0}}, 0, n_);
       };
       measure({fmt::format("generate_rays {}, {}", map, listed ? "random list" : "in order"), bytes + (listed ? 4 : 0),
                run, [&] { return wrong_directions(rays, order, directions); }});

@@ -20,7 +20,7 @@ const char* const case_names[] = {"munich_street_0", "munich_street_1", "munich_
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
-  std::vector<std::string> directions{"hilbert", "fibonacci", "random"};
+  std::vector<std::string> directions{"horizon", "hilbert", "fibonacci", "random"};
   size_t frames = 5;
   uint64_t most_rays = 10'000'000;
 };
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds oracle/munich_*.json and scenes/munich");
   app.add_option("--directions", options.directions, "some of hilbert, fibonacci, random")
-      ->check(CLI::IsMember({"hilbert", "fibonacci", "random"}));
+      ->check(CLI::IsMember({"horizon", "hilbert", "fibonacci", "random"}));
   app.add_option("--frames", options.frames, "warm frames of which the median counts")->check(CLI::Range(1, 1000));
   app.add_option("--most-rays", options.most_rays, "leave out launches of more rays than this");
   CLI11_PARSE(app, argc, argv);

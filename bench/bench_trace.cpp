@@ -46,7 +46,7 @@ using Truth = std::vector<std::vector<Hit>>;
 std::vector<Ray> launch(gpu::Context& context, const std::string& directions, std::array<float, 3> origin,
                         size_t count) {
   RayQueue queue = make_ray_queue(context, count, "launch rays");
-  GenerateRays(context, LaunchDirections(directions, count, 1))(queue, 0, {origin[0], origin[1], origin[2]}, 0,
+  GenerateRays(context, LaunchDirections(directions, count, 1))(queue, {0, {origin[0], origin[1], origin[2]}}, 0,
                                                                 static_cast<uint32_t>(count));
   std::vector<Ray> rays(count, {origin, 0, {}, std::numeric_limits<float>::max()});
   for (size_t axis = 0; axis < 3; axis++) {

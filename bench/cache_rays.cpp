@@ -21,7 +21,7 @@ constexpr int segment_count = 5;
 
 Segment launch(gpu::Context& context, uint32_t count, const std::array<double, 3>& origin_m) {
   RayQueue queue = make_ray_queue(context, count, "launched rays");
-  GenerateRays(context, LaunchDirections("hilbert", count, 1))(queue, 0, {0, 0, 0}, 0, count);
+  GenerateRays(context, LaunchDirections("hilbert", count, 1))(queue, {0, {0, 0, 0}}, 0, count);
   Segment segment{std::vector<Ray>(count, {{}, 0, {}, std::numeric_limits<float>::max()}),
                   std::vector<uint32_t>(count, WT_NONE), std::vector<uint32_t>(count, WT_NONE)};
   for (size_t axis = 0; axis < 3; axis++) {

@@ -1,6 +1,6 @@
 // generate_rays: the launch rays of one transmitter, a range of its launch indices, into a range of a ray queue.
-// WT_DIRECTIONS names the map (wt_direction_hilbert, _fibonacci, _random); parameter is its step or seed, level and
-// faces are those of hilbert.
+// WT_DIRECTIONS names the map (wt_direction_horizon, _hilbert, _fibonacci, _random); parameter is its step or seed, level
+// and faces are those of the Hilbert curve, heights and table (its first place there) the heights of horizon.
 #ifdef WT_CPU
 #define WT_LANES 16
 #endif
@@ -17,8 +17,8 @@ inline ulong16 after(ulong index, ulong stride) {
 inline ulong16 listed(ulong index, const global uint* list) { return index + convert_ulong16(vload16(0, list)); }
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong16 index, ulong parameter, uint level,
-                       uint faces, float x, float y, float z, uint root, uint source) {
-  const wt_direction d = WT_DIRECTIONS(index, (ulong16)parameter, level, faces);
+                       uint faces, const global float* heights, uint table, float x, float y, float z, uint root, uint source) {
+  const wt_direction d = WT_DIRECTIONS(index, (ulong16)parameter, level, faces, heights, (uint16)table);
   global float* r = rays + slot;
   const size_t plane = capacity;
   vstore16((float16)x, 0, r);
@@ -36,8 +36,8 @@ inline ulong after(ulong index, ulong stride) { return index; }
 inline ulong listed(ulong index, const global uint* list) { return index + list[0]; }
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong index, ulong parameter, uint level,
-                       uint faces, float x, float y, float z, uint root, uint source) {
-  const wt_direction d = WT_DIRECTIONS(index, parameter, level, faces);
+                       uint faces, const global float* heights, uint table, float x, float y, float z, uint root, uint source) {
+  const wt_direction d = WT_DIRECTIONS(index, parameter, level, faces, heights, table);
   wt_store_float3(rays, capacity, WT_RAY_ORIGIN, slot, (float3)(x, y, z));
   wt_store_float3(rays, capacity, WT_RAY_DIRECTION, slot, (float3)(d.x, d.y, d.z));
   wt_store_word(rays, capacity, WT_RAY_NODE, slot, root);
@@ -48,41 +48,48 @@ inline void store_rays(global float* rays, uint capacity, uint slot, ulong index
 // Launch indices first_index + stride * k into slots first_slot + k. source: what the rays leave, WT_OWN and the
 // instance that carries the antenna, or WT_NONE.
 kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
-                          ulong stride, ulong parameter, uint level, uint faces, float x, float y, float z, uint root,
-                          uint source) {
+                          ulong stride, ulong parameter, uint level, uint faces, const global float* heights,
+                          uint table, float x, float y, float z, uint root, uint source) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
-  store_rays(rays, capacity, first_slot + k, after(first_index + stride * k, stride), parameter, level, faces, x,
-             y, z, root, source);
+  store_rays(rays, capacity, first_slot + k, after(first_index + stride * k, stride), parameter, level, faces,
+             heights, table, x, y, z, root, source);
 }
 
 // Launch indices first_index + order[k]: a launch in an order of its own costs no move of rays.
 kernel void generate_ordered(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
-                             const global uint* order, ulong parameter, uint level, uint faces, float x, float y,
-                             float z, uint root, uint source) {
+                             const global uint* order, ulong parameter, uint level, uint faces,
+                             const global float* heights, uint table, float x, float y, float z, uint root,
+                             uint source) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
-  store_rays(rays, capacity, first_slot + k, listed(first_index, order + k), parameter, level, faces, x, y, z, root,
-             source);
+  store_rays(rays, capacity, first_slot + k, listed(first_index, order + k), parameter, level, faces, heights, table,
+             x, y, z, root, source);
 }
 
 #ifdef WT_SAMPLES
 // Samples first .. first + count - 1 of a list into the slots of an empty queue. A sample is a cell of the launch
-// directions (samples[i]) and a launcher (samples[sample_capacity + i]); launchers: origin and, as words, root and
-// source (two float4 each). Directions are turned about z by the angle of this cosine and sine. ends[i] becomes the root:
+// directions (samples[i]) and a launcher (samples[sample_capacity + i]); launchers: origin and, as words, root, source
+// and the place of its table (two float4 each). Directions are turned about z by the angle of this cosine and sine. ends[i] becomes the root:
 // no ray of the sample has hit anything yet.
 kernel void generate_samples(global float* rays, uint capacity, uint first, uint count, const global uint* samples,
                              uint sample_capacity, const global float4* launchers, ulong parameter, uint level,
-                             uint faces, float cosine, float sine, global uint* ends) {
+                             uint faces, const global float* heights, float cosine, float sine, global uint* ends) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
-  const wt_direction d = WT_DIRECTIONS(listed(0, samples + first + k), parameter, level, faces);
 #ifdef WT_CPU
+  uint tables[16] = {0};
+  for (uint j = 0; j < 16 && k + j < count; ++j)
+    tables[j] = as_uint(launchers[2 * samples[sample_capacity + first + k + j] + 1].z);
+  const wt_direction d =
+      WT_DIRECTIONS(listed(0, samples + first + k), (ulong16)parameter, level, faces, heights, vload16(0, tables));
   float x[16], y[16], z[16];
   vstore16(cosine * d.x - sine * d.y, 0, x);
   vstore16(sine * d.x + cosine * d.y, 0, y);
   vstore16(d.z, 0, z);
 #else
+  const uint table = as_uint(launchers[2 * samples[sample_capacity + first + k] + 1].z);
+  const wt_direction d = WT_DIRECTIONS(listed(0, samples + first + k), parameter, level, faces, heights, table);
   const float3 turned = (float3)(cosine * d.x - sine * d.y, sine * d.x + cosine * d.y, d.z);
 #endif
   for (uint j = 0; j < WT_RAYS_PER_ITEM && k + j < count; ++j) {

@@ -62,12 +62,12 @@ inline void store(uint key, global uint* keys) { keys[0] = key; }
 #endif
 
 kernel void launch_keys(global uint* keys, uint count, ulong first_index, ulong parameter, uint level, uint faces,
-                        uint bins) {
+                        const global float* heights, uint table, uint bins) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
   wt_direction o;
   o.x = o.y = o.z = 0.0f;
-  const wt_direction d = WT_DIRECTIONS(launch_index(first_index + k), (WT_U64)(parameter), level, faces);
+  const wt_direction d = WT_DIRECTIONS(launch_index(first_index + k), (WT_U64)(parameter), level, faces, heights, (WT_U32)(table));
   store(WT_LAUNCH_KEY(o, d, bins), keys + k);
 }
 

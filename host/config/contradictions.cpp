@@ -45,9 +45,9 @@ void check_launch(const Config& config, Found& out) {
 void check_rays(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (trace.rays == 0) {
-    if (trace.directions != "hilbert")
+    if (trace.directions != "hilbert" && trace.directions != "horizon")
       out.push_back({{"trace.rays", "trace.directions"},
-                     fmt::format("trace.rays = \"auto\" needs trace.directions = \"hilbert\", not \"{}\": leave "
+                     fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"{}\": leave "
                                  "trace.directions out, or give trace.rays a number",
                                  trace.directions)});
     if (const std::string& method = config.order.method; method != "none" && method != "WS")

@@ -97,9 +97,11 @@ Table trace_table() {
                   "the error."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
-           .choices = {"hilbert", "fibonacci", "random"},
-           .doc = "Launch directions. hilbert: equal-area cells along a Hilbert curve, so that neighbours in "
-                  "memory are neighbours in space."},
+           .choices = {"horizon", "hilbert", "fibonacci", "random"},
+           .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, by their "
+                  "heights above the ground and the size of the scene, with a quarter of the rays spread evenly. "
+                  "hilbert: even over the sphere. Both go along a Hilbert curve, so that neighbours in memory are "
+                  "neighbours in space. fibonacci, random: even, in other orders."},
           {.name = "seed",
            .slot = t(&TraceConfig::seed),
            .range = {0, 9223372036854775807.0},

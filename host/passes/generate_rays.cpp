@@ -3,6 +3,7 @@
 #include "passes/generate_rays.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace wavetracer {
 
@@ -12,32 +13,35 @@ void check_room(const RayQueue& queue, uint32_t count) {
 }
 }  // namespace
 
-GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& directions)
+GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& directions,
+                           std::shared_ptr<const LaunchHeights> heights)
     : generate_(context.kernel("generate_rays", "generate_rays", {{"WT_DIRECTIONS", directions.map}})),
       generate_ordered_(context.kernel("generate_rays", "generate_ordered", {{"WT_DIRECTIONS", directions.map}})),
       generate_samples_(context.kernel("generate_rays", "generate_samples",
                                        {{"WT_DIRECTIONS", directions.map}, {"WT_SAMPLES", "1"}})),
       directions_(directions),
+      heights_(heights ? std::move(heights) : std::make_shared<const LaunchHeights>(context)),
       rays_per_item_(context.info().cpu ? 16 : 1),
       local_(context.info().simple_local_size()) {}
 
-void GenerateRays::operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin, uint64_t first, uint32_t count,
-                              uint64_t stride, uint32_t source) {
+void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
   generate_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes, queue.capacity,
             queue.count, count, first, stride, directions_.parameter, directions_.level, directions_.faces,
-            static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z), WT_ROOT | index,
-            source);
+            heights_->tables(), heights_->place(from.heights), static_cast<float>(from.position_m.x),
+            static_cast<float>(from.position_m.y), static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter,
+            from.source);
   queue.count += count;
 }
 
-void GenerateRays::operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin, uint64_t first, uint32_t count,
-                              const gpu::Buffer<uint32_t>& order, uint32_t source) {
+void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
+                              const gpu::Buffer<uint32_t>& order) {
   check_room(queue, count);
   generate_ordered_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes,
                     queue.capacity, queue.count, count, first, order, directions_.parameter, directions_.level,
-                    directions_.faces, static_cast<float>(origin.x), static_cast<float>(origin.y),
-                    static_cast<float>(origin.z), WT_ROOT | index, source);
+                    directions_.faces, heights_->tables(), heights_->place(from.heights),
+                    static_cast<float>(from.position_m.x), static_cast<float>(from.position_m.y),
+                    static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter, from.source);
   queue.count += count;
 }
 
@@ -47,7 +51,7 @@ void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, ui
   check_room(queue, count);
   generate_samples_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes,
                     queue.capacity, first, count, list.samples, list.capacity, launchers, directions.parameter,
-                    directions.level, directions.faces, turn.cosine, turn.sine, list.ends);
+                    directions.level, directions.faces, heights_->tables(), turn.cosine, turn.sine, list.ends);
   queue.count = count;
 }
 

@@ -2,8 +2,10 @@
 // In launch order, or in an order given as a list of launch indices.
 #pragma once
 #include <glm/vec3.hpp>
+#include <memory>
 
 #include "passes/launch_directions.hpp"
+#include "passes/launch_heights.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/sample_list.hpp"
 
@@ -14,6 +16,7 @@ struct Launcher {
   uint32_t transmitter;
   glm::dvec3 position_m;      // recentred
   uint32_t source = WT_NONE;  // what its rays leave: WT_OWN and the number of the instance that carries it
+  uint32_t heights = 0;       // of directions = "horizon": its table of LaunchHeights
 };
 
 // A rotation of all directions about z.
@@ -23,14 +26,14 @@ struct Turn {
 
 class GenerateRays {
  public:
-  GenerateRays(gpu::Context& context, const LaunchDirections& directions);
-  // Appends the launch indices first, first + stride, ..., `count` of them, of transmitter `index` at `origin`
-  // (recentred metres). source: WT_OWN and the number of the instance that carries the antenna, or WT_NONE.
-  void operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin, uint64_t first, uint32_t count,
-                  uint64_t stride = 1, uint32_t source = WT_NONE);
+  // heights: of directions = "horizon"; not given: the first table of LaunchHeights alone.
+  GenerateRays(gpu::Context& context, const LaunchDirections& directions,
+               std::shared_ptr<const LaunchHeights> heights = {});
+  // Appends the launch indices first, first + stride, ..., `count` of them, of this end.
+  void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride = 1);
   // Appends the launch indices first + order[0 .. count - 1]. order has 16 elements more, of any value.
-  void operator()(RayQueue& queue, uint32_t index, glm::dvec3 origin, uint64_t first, uint32_t count,
-                  const gpu::Buffer<uint32_t>& order, uint32_t source = WT_NONE);
+  void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
+                  const gpu::Buffer<uint32_t>& order);
 
   // Fills the empty queue, which has the plane of samples, with samples first .. first + count - 1 of the list, and
   // sets their ends to the roots. launchers: two float4 each, see the kernel.
@@ -40,6 +43,7 @@ class GenerateRays {
  private:
   gpu::Kernel generate_, generate_ordered_, generate_samples_;
   LaunchDirections directions_;
+  std::shared_ptr<const LaunchHeights> heights_;
   uint32_t rays_per_item_, local_;
 };
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace wavetracer {
 
@@ -33,8 +34,9 @@ uint32_t bits_of(OrderKey key, uint32_t bins) {
 }  // namespace
 
 OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions,
-                     float extent_m)
+                     float extent_m, std::shared_ptr<const LaunchHeights> heights)
     : directions_(directions),
+      heights_(heights ? std::move(heights) : std::make_shared<const LaunchHeights>(context)),
       bins_(bins),
       launch_bits_(key == OrderKey::direction_origin ? 16 : bits_of(key, bins)),
       queue_bits_(bits_of(key, bins)),
@@ -50,9 +52,10 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
   queue_keys_ = context.kernel("order_keys", "queue_keys", definitions);
 }
 
-void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys) {
+void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights) {
   launch_keys_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "order", keys, count, first,
-               directions_.parameter, directions_.level, directions_.faces, bins_);
+               directions_.parameter, directions_.level, directions_.faces, heights_->tables(),
+               heights_->place(heights), bins_);
 }
 
 void OrderKeys::operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys) {

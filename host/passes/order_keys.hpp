@@ -1,7 +1,10 @@
 // order_keys: sort keys of rays, by the direction alone or by direction and origin; 32 bits, of which the lowest
 // launch_bits() or queue_bits() count. Keys of launch rays need no rays: they come from the launch indices.
 #pragma once
+#include <memory>
+
 #include "passes/launch_directions.hpp"
+#include "passes/launch_heights.hpp"
 #include "passes/ray_queue.hpp"
 
 namespace wavetracer {
@@ -14,19 +17,22 @@ enum class OrderKey { morton, morton_bins, hilbert_bins, direction_origin };
 class OrderKeys {
  public:
   // bins: of a direction component, 1 .. 1024, for the histograms. extent_m: the largest absolute coordinate of
-  // origins.
-  OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m);
+  // origins. heights: as those of the generate_rays of this launch.
+  OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m,
+            std::shared_ptr<const LaunchHeights> heights = {});
   // Bits of the keys of launches, and of queues.
   uint32_t launch_bits() const { return launch_bits_; }
   uint32_t queue_bits() const { return queue_bits_; }
-  // Keys of the launch indices first .. first + count - 1. keys has 16 elements more, which may be overwritten.
-  void operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys);
+  // Keys of the launch indices first .. first + count - 1 of a launcher with this table of heights. keys has 16
+  // elements more, which may be overwritten.
+  void operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights = 0);
   // Keys of the rays of a queue, likewise.
   void operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys);
 
  private:
   gpu::Kernel launch_keys_, queue_keys_;
   LaunchDirections directions_;
+  std::shared_ptr<const LaunchHeights> heights_;
   uint32_t bins_, launch_bits_, queue_bits_, rays_per_item_, local_;
   float to_unit_;
 };

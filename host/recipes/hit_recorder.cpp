@@ -63,7 +63,7 @@ report::FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
   const uint32_t block = Trace::block_size(traced_.context.info());
   sequences_.clear();
   rays_.count = 0;
-  generate_(rays_, 0, transmitter_m - traced_.scene.origin_m, 0, ray_count_);
+  generate_(rays_, {0, transmitter_m - traced_.scene.origin_m}, 0, ray_count_);
   for (uint32_t depth = 1; depth <= max_depth_ && rays_.count > 0; ++depth) {
     trace_(traced_.on_device, rays_, hits_);
     record(out[depth - 1], launch_index);

@@ -70,14 +70,15 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
       keep_ages_(keep_ages),
       shape_(choose_shape(context.info(), config, order)),
       directions_(config.directions, config_.rays, config.seed),
-      generate_(context, directions_),
+      heights_(std::make_shared<LaunchHeights>(context)),
+      generate_(context, directions_, heights_),
       trace_(context, scene, shape_, order.launch),
       scan_(context),
       interact_(context, keep_ages, false, false, transmissions_ > 0),
       sequences_(context, initial_slots, keep_ages) {
   if (config.rays == 0) {
     plan_ = {};  // refined launches go along their curve
-    refinement_.emplace(context, config);
+    refinement_.emplace(context, config, heights_);
     interact_samples_.emplace(context, keep_ages, true, false, transmissions_ > 0);
   }
   if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
@@ -93,8 +94,8 @@ void Discovery::follow(RayTrails& trails) {
   trails_ = &trails;
   const gpu::DeviceInfo& device = context_.info();
   const uint64_t bytes = trails.bytes_a_sample();
-  batch_rays_ = std::max<uint64_t>(256, std::min({batch_rays_, device.max_buffer / bytes,
-                                                  device.global_memory / (4 * bytes)}));
+  batch_rays_ =
+      std::max<uint64_t>(256, std::min({batch_rays_, device.max_buffer / bytes, device.global_memory / (4 * bytes)}));
   label();
 }
 
@@ -107,7 +108,7 @@ void Discovery::label() {
 
 void Discovery::listen(uint64_t rays) {
   listener_rays_ = rays;
-  listener_generate_.emplace(context_, LaunchDirections(config_.directions, rays, config_.seed));
+  listener_generate_.emplace(context_, LaunchDirections(config_.directions, rays, config_.seed), heights_);
 }
 
 DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vector<Launcher>& transmitters,
@@ -120,7 +121,8 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
   if (trails()) trails()->begin_launch();
   const uint64_t size = std::min(batch_rays_, total);
   if (reserve(size) && plan_.key)
-    order_.emplace(context_, *plan_.key, plan_.bins, directions_, scene.extent_m, static_cast<uint32_t>(size));
+    order_.emplace(context_, *plan_.key, plan_.bins, directions_, scene.extent_m, static_cast<uint32_t>(size),
+                   heights_);
   for (uint64_t first = 0; first < total; first += size) {
     const Batch batch{first, std::min(size, total - first)};
     for (;;) {
@@ -196,12 +198,11 @@ void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare
     const auto count = static_cast<uint32_t>(std::min(batch.count - done, rays - first));
     const auto sample = static_cast<uint32_t>(done);
     if (sorted) {
-      const gpu::Buffer<uint32_t>& order = order_->launch(first, count);
-      generate(rays_, from.transmitter, from.position_m, first, count, order, from.source);
+      const gpu::Buffer<uint32_t>& order = order_->launch(first, count, from.heights);
+      generate(rays_, from, first, count, order);
       if (label_) (*label_)(rays_, sample, count, sample, order);
     } else {
-      generate(rays_, from.transmitter, from.position_m, share.phase + share.stride * first, count, share.stride,
-               from.source);
+      generate(rays_, from, share.phase + share.stride * first, count, share.stride);
       if (label_) (*label_)(rays_, sample, count, sample);
     }
     parts.push_back({from.transmitter, sample, count, first, rays, share.phase + share.stride * first, share.stride});

@@ -55,6 +55,8 @@ class Discovery {
   void follow(RayTrails& trails);
   // So many rays a listener from now on.
   void listen(uint64_t rays);
+  // Of directions = "horizon": the tables that launchers name from now on, see LaunchHeights.
+  void set_heights(const std::vector<float>& tables) { heights_->set(tables); }
   // Adds to sequences() what rays from these ends meet, in these directions.
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& ends, DirectionShare share = {},
                              LaunchedBy by = LaunchedBy::transmitters);
@@ -103,6 +105,7 @@ class Discovery {
   bool keep_ages_;
   TraceShape shape_;
   LaunchDirections directions_;
+  std::shared_ptr<LaunchHeights> heights_;
   GenerateRays generate_;
   uint64_t listener_rays_ = 0;
   std::optional<GenerateRays> listener_generate_;  // with listeners

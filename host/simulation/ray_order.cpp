@@ -68,16 +68,16 @@ OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch) {
 }
 
 RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions,
-                   float extent_m, uint32_t most_rays)
-    : keys_of_(context, key, bins, directions, extent_m),
+                   float extent_m, uint32_t most_rays, std::shared_ptr<const LaunchHeights> heights)
+    : keys_of_(context, key, bins, directions, extent_m, std::move(heights)),
       sort_(context),
       gather_(context),
       keys_(context.buffer<uint32_t>(size_t{most_rays} + 16, "order keys")),
       order_(context.buffer<uint32_t>(size_t{most_rays} + 16, "order")),
       temporary_(context.buffer<uint32_t>(sort_.temporary_words(most_rays), "sort")) {}
 
-const gpu::Buffer<uint32_t>& RayOrder::launch(uint64_t first, uint32_t count) {
-  keys_of_(first, count, keys_);
+const gpu::Buffer<uint32_t>& RayOrder::launch(uint64_t first, uint32_t count, uint32_t heights) {
+  keys_of_(first, count, keys_, heights);
   sort_(keys_, order_, count, temporary_, keys_of_.launch_bits());
   return order_;
 }

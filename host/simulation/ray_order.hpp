@@ -32,9 +32,9 @@ class RayOrder {
  public:
   // extent_m: the largest absolute coordinate of scene and rays. most_rays: of a launch or a queue.
   RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m,
-           uint32_t most_rays);
+           uint32_t most_rays, std::shared_ptr<const LaunchHeights> heights);
   // The launch indices first .. first + count - 1 in their order, less first. Valid until the next call.
-  const gpu::Buffer<uint32_t>& launch(uint64_t first, uint32_t count);
+  const gpu::Buffer<uint32_t>& launch(uint64_t first, uint32_t count, uint32_t heights);
   // Sorts the queue; spare has the same capacity and is overwritten.
   void operator()(RayQueue& rays, RayQueue& spare);
 

@@ -16,8 +16,8 @@ constexpr uint32_t first_level = 6;
 // more than 0.998, 8 all that are known (bench_discovery).
 uint32_t rare(double recall) { return recall <= 0.99 ? 2 : recall <= 0.999 ? 4 : 8; }
 
-LaunchDirections directions_of(uint32_t level) {
-  return LaunchDirections("hilbert", uint64_t{sample_faces} << (2 * level), 0);
+LaunchDirections directions_of(const std::string& directions, uint32_t level) {
+  return LaunchDirections(directions, uint64_t{sample_faces} << (2 * level), 0);
 }
 
 // The first level of a frame, or the finest that trace.max_rays allows.
@@ -40,10 +40,11 @@ Turn turn_of(uint64_t frame) {
 
 }  // namespace
 
-Refinement::Refinement(gpu::Context& context, const TraceConfig& config)
+Refinement::Refinement(gpu::Context& context, const TraceConfig& config, std::shared_ptr<const LaunchHeights> heights)
     : context_(context),
       config_(config),
-      generate_(context, directions_of(finest_level)),
+      heights_(std::move(heights)),
+      generate_(context, directions_of(config.directions, finest_level), heights_),
       refine_(context),
       compact_(context, context.info().cpu ? 16 : 128),
       scan_(context),
@@ -56,7 +57,8 @@ void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots, u
     records.push_back(0);
     records.push_back(std::bit_cast<float>(WT_ROOT | l.transmitter));
     records.push_back(std::bit_cast<float>(l.source));
-    records.insert(records.end(), {0, 0});
+    records.push_back(std::bit_cast<float>(heights_->place(l.heights)));
+    records.push_back(0);
   }
   launchers_ = context_.buffer(records, "launchers");
   if (hits_.size() != slots) hits_ = context_.buffer<uint32_t>(slots, "hits of sequences");
@@ -87,7 +89,7 @@ void Refinement::begin_level(uint64_t launcher_count, uint32_t level) {
 
 void Refinement::generate(RayQueue& queue, uint32_t first, uint32_t count) {
   SampleList& list = lists_[current_];
-  generate_.samples(queue, list, first, count, launchers_, directions_of(list.level), turn_);
+  generate_.samples(queue, list, first, count, launchers_, directions_of(config_.directions, list.level), turn_);
 }
 
 bool Refinement::descend() {

@@ -14,7 +14,7 @@ namespace wavetracer {
 
 class Refinement {
  public:
-  Refinement(gpu::Context& context, const TraceConfig& config);
+  Refinement(gpu::Context& context, const TraceConfig& config, std::shared_ptr<const LaunchHeights> heights);
   // The first level for these launchers; slots: of the set of sequences. frame: since the last cold one, which is 0.
   // Frames that have the sequences of earlier ones launch fewer rays, and in directions of their own.
   void start(const std::vector<Launcher>& launchers, uint64_t slots, uint64_t frame);
@@ -34,6 +34,7 @@ class Refinement {
 
   gpu::Context& context_;
   TraceConfig config_;
+  std::shared_ptr<const LaunchHeights> heights_;
   GenerateRays generate_;
   Refine refine_;
   Compact compact_;

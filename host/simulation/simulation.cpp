@@ -15,6 +15,7 @@
 #include "simulation/distinct_paths.hpp"
 #include "simulation/exact_paths.hpp"
 #include "simulation/features.hpp"
+#include "simulation/launch_slopes.hpp"
 #include "simulation/link_block.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/order_choice.hpp"
@@ -100,6 +101,7 @@ struct Simulation::State {
   std::optional<InstancePlacement> place;  // where there are instances
   bool reuse = false;
   uint64_t warm_frames = 0;  // since the last cold one, which counts
+  std::optional<LaunchSlopes> slopes;  // with trace.directions = "horizon"
   std::optional<RayTrails> trails;  // with trace.reception = "sphere" or output.waypoints
   std::optional<Discovery> discovery;
   std::optional<ExactPaths> exact_paths;
@@ -131,6 +133,12 @@ DiscoveryCounts Simulation::State::discover(const WorldState& state, const LinkB
   if (block) {
     first = launchers_of(*block, first);
     then = launchers_of(*block, then);
+  }
+  if (slopes) {
+    const SlopeTables tables = (*slopes)(state, origins);
+    for (std::vector<Launcher>* const launchers : {&first, &then})
+      for (Launcher& launcher : *launchers) launcher.heights = tables.of_origin[launcher.transmitter];
+    discovery->set_heights(tables.values);
   }
   if (trace.rays == 0) {
     first.insert(first.end(), then.begin(), then.end());
@@ -190,6 +198,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   const bool sphere = config.trace.reception == "sphere";
   // A sphere receives what this frame's rays meet.
   s.reuse = config.trace.reuse && !sphere && (s.world->frame_count() > 1 || s.world->live());
+  if (s.trace.directions == "horizon") s.slopes.emplace(s.scene, s.world->reach_m());
   const uint32_t depth = ray_depth(s.trace, *s.world);
   s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse, depth);
   if (s.trace.diffraction && s.trace.rays > 0) s.discovery->listen(listener_rays(s.trace));

@@ -21,7 +21,32 @@ using namespace wavetracer::test;
 namespace {
 
 constexpr uint64_t seed = 42;
-const char* const maps[] = {"hilbert", "fibonacci", "random"};
+const char* const maps[] = {"horizon", "hilbert", "fibonacci", "random"};
+
+// Two tables of heights; launches here take the second.
+const std::vector<float>& height_tables() {
+  static const std::vector<float> tables = [] {
+    const HeightShare first[] = {{1, 0.5, true}}, second[] = {{2, 0.01, false}, {1, 0.1, true}};
+    std::vector<float> out = height_table(first, 0), more = height_table(second, 0.25);
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+  }();
+  return tables;
+}
+
+std::shared_ptr<const LaunchHeights> launch_heights() {
+  const auto out = std::make_shared<LaunchHeights>(context());
+  out->set(height_tables());
+  return out;
+}
+
+Launcher launcher(uint32_t transmitter, glm::dvec3 position_m, uint32_t source = WT_NONE) {
+  return {transmitter, position_m, source, 1};
+}
+
+GenerateRays generator(const std::string& map, uint64_t n) {
+  return GenerateRays(context(), LaunchDirections(map, n, seed), launch_heights());
+}
 
 // What the maps take: the step or the seed, and the cells of hilbert: the fewest faces and levels that hold n rays.
 struct Launch {
@@ -34,9 +59,11 @@ struct Launch {
   }
 
   Float3 direction(const std::string& map, uint64_t i) const {
-    const device::wt_direction d = map == "hilbert"     ? device::wt_direction_hilbert(i, parameter, level, faces)
-                                   : map == "fibonacci" ? device::wt_direction_fibonacci(i, parameter, level, faces)
-                                                        : device::wt_direction_random(i, parameter, level, faces);
+    const auto function = map == "horizon"     ? device::wt_direction_horizon
+                          : map == "hilbert"   ? device::wt_direction_hilbert
+                          : map == "fibonacci" ? device::wt_direction_fibonacci
+                                               : device::wt_direction_random;
+    const device::wt_direction d = function(i, parameter, level, faces, height_tables().data(), height_table_size);
     return {d.x, d.y, d.z};
   }
 };
@@ -84,9 +111,9 @@ TEST_CASE("device directions are the host's, bit for bit") {
     for (const uint32_t n : {1u, 15u, 16u, 17u, 1000u}) {
       CAPTURE(map);
       CAPTURE(n);
-      GenerateRays generate(context(), LaunchDirections(map, n, seed));
+      GenerateRays generate = generator(map, n);
       RayQueue queue = make_ray_queue(context(), n, "rays");
-      generate(queue, 3, {1.5, -2.25, 0.125}, 0, n);
+      generate(queue, launcher(3, {1.5, -2.25, 0.125}), 0, n);
       REQUIRE(queue.count == n);
       const std::vector<Ray> rays = download(queue);
       const Launch launch(map, n);
@@ -101,9 +128,9 @@ TEST_CASE("large launch indices: the last of 2^31 rays are the host's") {
   constexpr uint64_t n = uint64_t{1} << 31;
   for (const std::string map : maps) {
     CAPTURE(map);
-    GenerateRays generate(context(), LaunchDirections(map, n, seed));
+    GenerateRays generate = generator(map, n);
     RayQueue queue = make_ray_queue(context(), 100, "rays");
-    generate(queue, 0, {0, 0, 0}, n - 100, 100);
+    generate(queue, launcher(0, {0, 0, 0}), n - 100, 100);
     const std::vector<Ray> rays = download(queue);
     const Launch launch(map, n);
     size_t different = 0;
@@ -116,14 +143,14 @@ TEST_CASE("a launch in parts, and of several transmitters, gives the same rays")
   constexpr uint32_t n = 300;
   for (const std::string map : maps) {
     CAPTURE(map);
-    GenerateRays generate(context(), LaunchDirections(map, n, seed));
+    GenerateRays generate = generator(map, n);
     RayQueue whole = make_ray_queue(context(), 2 * n, "whole"), parts = make_ray_queue(context(), 2 * n, "parts");
-    generate(whole, 0, {1, 2, 3}, 0, n);
-    generate(whole, 1, {-4, 5, 6}, 0, n);
+    generate(whole, launcher(0, {1, 2, 3}), 0, n);
+    generate(whole, launcher(1, {-4, 5, 6}), 0, n);
     for (const auto& [first, count] : {std::pair{0u, 1u}, {1u, 15u}, {16u, 16u}, {32u, 17u}, {49u, n - 49}})
-      generate(parts, 0, {1, 2, 3}, first, count);
+      generate(parts, launcher(0, {1, 2, 3}), first, count);
     for (const auto& [first, count] : {std::pair{0u, 157u}, {157u, n - 157}})
-      generate(parts, 1, {-4, 5, 6}, first, count);
+      generate(parts, launcher(1, {-4, 5, 6}), first, count);
     CHECK(download(parts) == download(whole));
   }
 }
@@ -135,11 +162,11 @@ TEST_CASE("a share of the directions: every stride-th launch index, with the sur
     for (const uint64_t stride : {uint64_t{1}, uint64_t{10}, uint64_t{997}}) {
       CAPTURE(map);
       CAPTURE(stride);
-      GenerateRays generate(context(), LaunchDirections(map, n, seed));
+      GenerateRays generate = generator(map, n);
       RayQueue queue = make_ray_queue(context(), count, "rays");
       // In two parts, the first of which ends within the 16 rays of a work-item.
-      generate(queue, 2, {1, 2, 3}, 7, 37, stride, source);
-      generate(queue, 2, {1, 2, 3}, 7 + 37 * stride, count - 37, stride, source);
+      generate(queue, launcher(2, {1, 2, 3}, source), 7, 37, stride);
+      generate(queue, launcher(2, {1, 2, 3}, source), 7 + 37 * stride, count - 37, stride);
       const std::vector<Ray> rays = download(queue);
       REQUIRE(rays.size() == count);
       const Launch launch(map, n);
@@ -152,11 +179,11 @@ TEST_CASE("a share of the directions: every stride-th launch index, with the sur
 
 TEST_CASE("stride launches from every phase are together the whole launch") {
   constexpr uint64_t n = 203, stride = 10;
-  GenerateRays generate(context(), LaunchDirections("hilbert", n, seed));
+  GenerateRays generate = generator("hilbert", n);
   RayQueue whole = make_ray_queue(context(), n, "whole"), shares = make_ray_queue(context(), n, "shares");
-  generate(whole, 0, {0, 0, 0}, 0, n);
+  generate(whole, launcher(0, {0, 0, 0}), 0, n);
   for (uint64_t phase = 0; phase < stride; ++phase)
-    generate(shares, 0, {0, 0, 0}, phase, static_cast<uint32_t>((n - phase + stride - 1) / stride), stride);
+    generate(shares, launcher(0, {0, 0, 0}), phase, static_cast<uint32_t>((n - phase + stride - 1) / stride), stride);
   std::multiset<Float3> one, other;
   for (const Ray& ray : download(whole)) one.insert(ray.direction);
   for (const Ray& ray : download(shares)) other.insert(ray.direction);
@@ -167,9 +194,9 @@ TEST_CASE("an order is followed, and its rays leave what they should") {
   constexpr uint32_t n = 1000, count = 50, first = 300, source = WT_OWN | 1;
   std::vector<uint32_t> order(count + 16, 0);
   for (uint32_t k = 0; k < count; ++k) order[k] = (37 * k + 11) % count;
-  GenerateRays generate(context(), LaunchDirections("hilbert", n, seed));
+  GenerateRays generate = generator("hilbert", n);
   RayQueue queue = make_ray_queue(context(), count, "rays");
-  generate(queue, 1, {4, 5, 6}, first, count, context().buffer(order, "order"), source);
+  generate(queue, launcher(1, {4, 5, 6}, source), first, count, context().buffer(order, "order"));
   const std::vector<Ray> rays = download(queue);
   const Launch launch("hilbert", n);
   size_t different = 0;
@@ -179,28 +206,32 @@ TEST_CASE("an order is followed, and its rays leave what they should") {
 }
 
 TEST_CASE("samples: the ray of a cell and a launcher, with its number, and an end that is a root") {
+  std::string map;
+  SUBCASE("horizon") { map = "horizon"; }
+  SUBCASE("hilbert") { map = "hilbert"; }
   constexpr uint32_t level = 7, cells = sample_faces << (2 * level), count = 300;
   const std::vector<glm::dvec3> origins{{1, 2, 3}, {-4, 5, 0.5}};
   const std::vector<uint32_t> roots{WT_ROOT | 4, WT_ROOT | 9}, sources{WT_NONE, WT_OWN | 3};
   std::vector<float> launchers;
   for (size_t i = 0; i < 2; ++i) {
     for (const float x : to_float(origins[i])) launchers.push_back(x);
-    launchers.insert(launchers.end(), {0, std::bit_cast<float>(roots[i]), std::bit_cast<float>(sources[i]), 0, 0});
+    launchers.insert(launchers.end(), {0, std::bit_cast<float>(roots[i]), std::bit_cast<float>(sources[i]),
+                                       std::bit_cast<float>(static_cast<uint32_t>(i) * height_table_size), 0});
   }
   SampleList list = make_sample_list(context(), count);
-  std::vector<uint32_t> cell(count), launcher(count), untouched(list.capacity, 77);
+  std::vector<uint32_t> cell(count), owner(count), untouched(list.capacity, 77);
   Random random(3);
   for (uint32_t i = 0; i < count; ++i) {
     cell[i] = random.below(cells);
-    launcher[i] = random.below(2);
+    owner[i] = random.below(2);
   }
   list.samples.write(cell);
-  list.samples.write(launcher, list.capacity);
+  list.samples.write(owner, list.capacity);
   list.ends.write(untouched);
   list.count = count;
   list.level = level;
-  const LaunchDirections directions("hilbert", cells, 0);
-  GenerateRays generate(context(), LaunchDirections("hilbert", 12345, seed));
+  const LaunchDirections directions(map, cells, 0);
+  GenerateRays generate = generator(map, 12345);
   RayQueue queue = make_ray_queue(context(), count, "rays", WT_RAY_PLANES + 1);
   for (const auto& [first, part] : {std::pair{0u, 100u}, {100u, 131u}, {231u, 69u}}) {
     CAPTURE(first);
@@ -210,24 +241,25 @@ TEST_CASE("samples: the ray of a cell and a launcher, with its number, and an en
     const std::vector<float> numbers = queue.planes.read(size_t{WT_RAY_SAMPLE} * queue.capacity, part);
     size_t different = 0;
     for (uint32_t k = 0; k < part; ++k) {
-      const uint32_t i = first + k, from = launcher[i];
-      const device::wt_direction d =
-          device::wt_direction_hilbert(cell[i], directions.parameter, directions.level, directions.faces);
+      const uint32_t i = first + k, from = owner[i];
+      const device::wt_direction d = (map == "horizon" ? device::wt_direction_horizon : device::wt_direction_hilbert)(
+          cell[i], directions.parameter, directions.level, directions.faces, height_tables().data(),
+          from * height_table_size);
       different += rays[k] != Ray{to_float(origins[from]), {d.x, d.y, d.z}, sources[from], roots[from]};
       different += std::bit_cast<uint32_t>(numbers[k]) != i;
     }
     CHECK(different == 0);
     const std::vector<uint32_t> ends = list.ends.read();
     size_t wrong = 0;
-    for (uint32_t i = 0; i < list.capacity; ++i) wrong += ends[i] != (i < first + part ? roots[launcher[i]] : 77);
+    for (uint32_t i = 0; i < list.capacity; ++i) wrong += ends[i] != (i < first + part ? roots[owner[i]] : 77);
     CHECK(wrong == 0);
   }
 }
 
 TEST_CASE("more rays than the queue holds are refused") {
-  GenerateRays generate(context(), LaunchDirections("fibonacci", 5000, seed));
+  GenerateRays generate = generator("fibonacci", 5000);
   RayQueue queue = make_ray_queue(context(), 100, "rays");
-  CHECK_THROWS_AS(generate(queue, 0, {0, 0, 0}, 0, 5000), std::logic_error);
+  CHECK_THROWS_AS(generate(queue, launcher(0, {0, 0, 0}), 0, 5000), std::logic_error);
 }
 
 TEST_CASE("directions have unit length") {

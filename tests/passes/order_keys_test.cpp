@@ -33,7 +33,7 @@ std::vector<uint32_t> keys_of(OrderKeys& order_keys, const RayQueue& queue) {
 
 RayQueue launched(const LaunchDirections& directions, uint32_t n) {
   RayQueue queue = make_ray_queue(context(), n, "rays");
-  GenerateRays(context(), directions)(queue, 0, {1, 2, 3}, 0, n);
+  GenerateRays(context(), directions)(queue, {0, {1, 2, 3}}, 0, n);
   return queue;
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("a launch in an order of its own has the rays of the plain launch, per
   std::vector<uint32_t> order(100 + 16);
   for (uint32_t i = 0; i < 100; ++i) order[i] = (i * 37) % 100;
   RayQueue queue = make_ray_queue(context(), 300, "rays");
-  GenerateRays(context(), directions)(queue, 0, {1, 2, 3}, 150, 100, context().buffer(order, "order"));
+  GenerateRays(context(), directions)(queue, {0, {1, 2, 3}}, 150, 100, context().buffer(order, "order"));
   const std::vector<Ray> rays = download(queue);
   REQUIRE(rays.size() == 100);
   for (uint32_t i = 0; i < 100; ++i) CHECK(rays[i] == plain[150 + order[i]]);

@@ -27,9 +27,8 @@ inline void wt_sincos_eighth(WT_F32 angle, WT_F32* sine, WT_F32* cosine) {
   *cosine = (c - s) * 0.70710678f;
 }
 
-// Cylindrical equal-area map: z from the height fraction, azimuth as a fraction of a turn, both in units of 2^-32.
-inline wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 turn) {
-  const WT_F32 z = 1.0f - (WT_TO_F32(height) + 0.5f) * 4.6566129e-10f;
+// The direction of this z and of an azimuth that is a fraction of a turn, in units of 2^-32.
+inline wt_direction wt_at_height(WT_F32 z, WT_U32 turn) {
   WT_F32 sine, cosine;
   wt_sincos_eighth(fma(WT_TO_F32(turn & 0x3FFFFFFFu), (WT_F32)(1.4629180e-9f), (WT_F32)(-0.78539816f)), &sine, &cosine);
   const WT_F32 radius = sqrt(fabs(1.0f - z * z));
@@ -41,6 +40,22 @@ inline wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 turn) {
   out.y = radius * ((quadrant & 2u) == 0u ? y : -y);
   out.z = z;
   return out;
+}
+
+// Cylindrical equal-area map: z from the height fraction, azimuth as a fraction of a turn, both in units of 2^-32.
+inline wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 turn) {
+  return wt_at_height(1.0f - (WT_TO_F32(height) + 0.5f) * 4.6566129e-10f, turn);
+}
+
+// The same with another spread of heights: heights[table + k] is the z below which lies the share 1 - k / WT_HEIGHT_CELLS
+// of all directions, k = 0 (z = 1) to WT_HEIGHT_CELLS (z = -1); straight between.
+#define WT_HEIGHT_BITS 9u
+#define WT_HEIGHT_CELLS (1u << WT_HEIGHT_BITS)
+inline wt_direction wt_cylinder_to_heights(WT_U32 height, WT_U32 turn, WT_TABLE heights, WT_U32 table) {
+  const WT_U32 cell = table + (height >> (32u - WT_HEIGHT_BITS));
+  const WT_F32 part = (WT_TO_F32(height & ((1u << (32u - WT_HEIGHT_BITS)) - 1u)) + 0.5f) * 1.1920929e-7f;
+  const WT_F32 above = wt_gather(heights, cell);
+  return wt_at_height(fma(part, wt_gather(heights, cell + 1u) - above, above), turn);
 }
 
 // (2 / pi) arctan(t) for |t| <= 1; an odd polynomial, minimax under the condition that 1 gives 1/2, error below 2e-7.

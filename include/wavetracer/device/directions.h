@@ -29,13 +29,13 @@ inline WT_U32 wt_reverse16(WT_U32 x) {
   return ((x & 0x00FFu) << 8) | (x >> 8);
 }
 
-// Born in order. The equal-area cylinder (azimuth, z) is cut into `faces` rectangles side by side, each into 4^level
+// Born in order. The cylinder (azimuth, height) of equal shares is cut into `faces` rectangles side by side, each into 4^level
 // cells along a Hilbert curve; ray i of n takes cell floor((i + 1/2) cells / n), so index ranges are compact solid
 // angles of equal share. Inside cell (x, y) of its face a ray sits at (reverse(y), reverse(x)): the points of a face
 // are a Hammersley net (J. Hammersley, 1960), so azimuths and heights are each evenly spread. Walls are narrow in
 // azimuth and tall: cell centres, all in one row, would miss many of them. step = floor((2^64 - 1) / n); faces 4^level
 // >= n, chosen by host/passes/generate_rays.cpp.
-inline wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces) {
+inline void wt_hilbert_place(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
   const WT_U64 cell = ((i * step + (step >> 1)) >> 32) * (WT_U64)((unsigned long)faces << (2u * level)) >> 32;
   const WT_U32 face = WT_TO_U32(cell >> (2u * level));
   const unsigned below = 16u - level;
@@ -45,21 +45,40 @@ inline wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, 
   y = y >> below;
   const WT_U32 half_cell = (WT_U32)(1u << (2u * below - 1u));
   const WT_U32 column = (((x << level) | (wt_reverse16(y) >> below)) << (2u * below)) + half_cell;
-  const WT_U32 row = (((y << level) | (wt_reverse16(x) >> below)) << (2u * below)) + half_cell;
+  *height = (((y << level) | (wt_reverse16(x) >> below)) << (2u * below)) + half_cell;
   const unsigned width = (unsigned)(4294967295u / faces);
-  return wt_cylinder_to_sphere(row, face * width + WT_TO_U32(WT_TO_U64(column) * width >> 32));
+  *turn = face * width + WT_TO_U32(WT_TO_U64(column) * width >> 32);
+}
+
+// Uniform.
+inline wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
+                                        WT_U32 table) {
+  (void)heights, (void)table;
+  WT_U32 height, turn;
+  wt_hilbert_place(i, step, level, faces, &height, &turn);
+  return wt_cylinder_to_sphere(height, turn);
+}
+
+// Heights spread as the table says: dense towards the horizon, see host/simulation/launch_slopes.hpp.
+inline wt_direction wt_direction_horizon(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
+                                         WT_U32 table) {
+  WT_U32 height, turn;
+  wt_hilbert_place(i, step, level, faces, &height, &turn);
+  return wt_cylinder_to_heights(height, turn, heights, table);
 }
 
 // Fibonacci lattice: equal steps in z, golden-ratio turns. 2^64 / golden ratio = 0x9E3779B97F4A7C15.
-inline wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces) {
-  (void)level, (void)faces;
+inline wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
+                                           WT_U32 table) {
+  (void)level, (void)faces, (void)heights, (void)table;
   return wt_cylinder_to_sphere(WT_TO_U32((i * step + (step >> 1)) >> 32),
                                WT_TO_U32((i * (WT_U64)(0x9E3779B97F4A7C15ul)) >> 32));
 }
 
 // Independent uniform directions: a counter-based generator, so ray i of a seed is always the same.
-inline wt_direction wt_direction_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned faces) {
-  (void)level, (void)faces;
+inline wt_direction wt_direction_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned faces, WT_TABLE heights,
+                                           WT_U32 table) {
+  (void)level, (void)faces, (void)heights, (void)table;
   const WT_U64 bits = wt_mix64(wt_mix64(i + (WT_U64)(0x9E3779B97F4A7C15ul)) ^ seed);
   return wt_cylinder_to_sphere(WT_TO_U32(bits >> 32), WT_TO_U32(bits & 0xFFFFFFFFu));
 }

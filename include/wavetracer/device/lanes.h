@@ -1,6 +1,7 @@
 // Types for device headers that are written once and compiled for any number of lanes: C++ and OpenCL C with one, or
 // OpenCL C with 16 where the kernel defines WT_LANES as 16 before its first include (CPU devices). Such code has no
-// branches on lane values and selects only by `comparison ? a : b`, which works lane by lane too. No contraction.
+// branches on lane values and selects only by `comparison ? a : b`, which works lane by lane too; wt_gather reads a
+// WT_TABLE of floats at a place of each lane's own. No contraction.
 #ifndef WAVETRACER_DEVICE_LANES_H
 #define WAVETRACER_DEVICE_LANES_H
 
@@ -16,6 +17,12 @@
 #define WT_TO_F32(x) convert_float16(x)
 #define WT_TO_U32(x) convert_uint16(x)
 #define WT_TO_U64(x) convert_ulong16(x)
+inline float16 wt_gather(const global float* table, uint16 index) {
+  return (float16)(table[index.s0], table[index.s1], table[index.s2], table[index.s3], table[index.s4],
+                   table[index.s5], table[index.s6], table[index.s7], table[index.s8], table[index.s9],
+                   table[index.sa], table[index.sb], table[index.sc], table[index.sd], table[index.se],
+                   table[index.sf]);
+}
 #else
 #define WT_U32 uint
 #define WT_U64 ulong
@@ -23,7 +30,9 @@
 #define WT_TO_F32(x) ((float)(x))
 #define WT_TO_U32(x) ((uint)(x))
 #define WT_TO_U64(x) ((ulong)(x))
+inline float wt_gather(const global float* table, uint index) { return table[index]; }
 #endif
+#define WT_TABLE const global float*
 #else
 #include <cmath>
 #include <cstdint>
@@ -33,7 +42,9 @@
 #define WT_TO_F32(x) static_cast<float>(x)
 #define WT_TO_U32(x) static_cast<uint32_t>(x)
 #define WT_TO_U64(x) static_cast<uint64_t>(x)
+#define WT_TABLE const float*
 namespace wavetracer::device {
+inline float wt_gather(const float* table, uint32_t index) { return table[index]; }
 using std::fabs;
 using std::fma;
 using std::sqrt;

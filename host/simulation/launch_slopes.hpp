@@ -1,0 +1,55 @@
+// Where the launch "horizon" sends its rays: to the slopes that paths can have.
+// Walls are vertical, so a path keeps its slope at every wall: it climbs the difference of its ends' heights, or falls
+// to the ground and rises from there, over its unfolded horizontal length L. With L anywhere up to the reach R of the
+// scene, the density of slopes of a height difference H is flat below H / R and falls as 1 / z^2 beyond. Each launcher
+// gets the mixture of this for the ends that it is linked to, straight and by way of the ground, and a uniform share
+// for what is above and below. Where H is not small against R (a room, a drone), the mixture is the uniform launch by
+// itself.
+#pragma once
+#include <array>
+#include <compare>
+#include <map>
+#include <vector>
+
+#include "passes/launch_heights.hpp"
+#include "simulation/listeners.hpp"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/world.hpp"
+
+namespace wavetracer {
+
+// How many paths climb and fall by so much: half octaves, the first up to 2.8 m, the last from 1.4 km on.
+struct SlopeCounts {
+  static constexpr uint32_t bins = 20;
+  std::array<uint32_t, bins> up{}, down{};
+  auto operator<=>(const SlopeCounts&) const = default;
+};
+
+struct SlopeTables {
+  std::vector<uint32_t> of_origin;  // which table
+  std::vector<float> values;        // as LaunchHeights takes them
+};
+
+class LaunchSlopes {
+ public:
+  // scene outlives this. reach_m: of paths, where that is more than the diagonal of the scene's plan.
+  LaunchSlopes(const Scene& scene, double reach_m);
+  // Tables for the origins of this frame's links.
+  SlopeTables operator()(const WorldState& world, const Origins& origins);
+
+ private:
+  // Height of the ground under an end; that of an origin which stands is remembered.
+  double ground_m(uint32_t origin, const EndState& end, const WorldState& world);
+
+  struct Ground {
+    glm::dvec3 position_m{std::numeric_limits<double>::quiet_NaN()};
+    double height_m = 0;
+  };
+  const Scene& scene_;
+  double reach_m_;
+  std::vector<Ground> ground_;
+  std::map<SlopeCounts, uint32_t> known_;
+  std::vector<float> values_;
+};
+
+}  // namespace wavetracer
