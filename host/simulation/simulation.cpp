@@ -40,11 +40,8 @@ std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
 
 // Rays go half the way where both ends of every link launch and what they meet is joined.
 uint32_t ray_depth(const TraceConfig& config, const World& world) {
-  const auto all = [](const std::vector<uint32_t>& others) {
-    return std::none_of(others.begin(), others.end(), [](uint32_t other) { return other == no_end; });
-  };
-  const bool both = all(world.receiver_of_transmitter()) && all(world.transmitter_of_receiver());
-  return config.join && both ? std::min(config.max_depth, joined_depth(config.max_depth)) : config.max_depth;
+  return config.join && world.links_both_ways() ? std::min(config.max_depth, joined_depth(config.max_depth))
+                                                : config.max_depth;
 }
 
 // All directions in a cold frame; after it every stride-th, another set each time: `stride` frames together launch all.
@@ -69,6 +66,20 @@ void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
   sum.hits += more.hits;
   sum.segments_per_depth.resize(std::max(sum.segments_per_depth.size(), more.segments_per_depth.size()));
   for (size_t k = 0; k < more.segments_per_depth.size(); ++k) sum.segments_per_depth[k] += more.segments_per_depth[k];
+}
+
+// Why a refined launch ended before trace.recall.
+std::string missed_recall(const DiscoveryCounts& found, const TraceConfig& config) {
+  const std::string once =
+      fmt::format("{:.3g}% of the sequences found were met by one ray alone", 100 * found.share_once);
+  if (found.end == LaunchEnd::max_rays)
+    return fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: {}",
+                       config.max_rays, config.recall, once);
+  return fmt::format("the launch of rays = \"auto\" ended before trace.recall = {}: {}, and {}; a number of rays finds "
+                     "more than \"auto\" does here",
+                     config.recall, once,
+                     found.end == LaunchEnd::finest ? "rays beside those are as close as they get"
+                                                    : "rays beside those met nothing that is rare");
 }
 
 // What the cache must know of the world.
@@ -326,11 +337,7 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   out.seconds["frame"] = frame_seconds;
   out.segments_per_depth = found.segments_per_depth;
   out.counts.rays = found.rays;
-  if (found.capped)
-    out.warnings.push_back(
-        fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: "
-                    "{:.0f}% of the sequences found were met by one ray alone",
-                    config.trace.max_rays, config.trace.recall, 100 * found.share_once));
+  if (found.end != LaunchEnd::recall) out.warnings.push_back(missed_recall(found, config.trace));
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
   out.counts.paths = out.paths.size();
