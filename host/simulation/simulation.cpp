@@ -68,18 +68,20 @@ void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
   for (size_t k = 0; k < more.segments_per_depth.size(); ++k) sum.segments_per_depth[k] += more.segments_per_depth[k];
 }
 
-// Why a refined launch ended before trace.recall.
-std::string missed_recall(const DiscoveryCounts& found, const TraceConfig& config) {
-  const std::string once =
-      fmt::format("{:.3g}% of the sequences found were met by one ray alone", 100 * found.share_once);
-  if (found.end == LaunchEnd::max_rays)
-    return fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: {}",
-                       config.max_rays, config.recall, once);
-  return fmt::format("the launch of rays = \"auto\" ended before trace.recall = {}: {}, and {}; a number of rays finds "
-                     "more than \"auto\" does here",
-                     config.recall, once,
-                     found.end == LaunchEnd::finest ? "rays beside those are as close as they get"
-                                                    : "rays beside those met nothing that is rare");
+// What to say of a refined launch that ended before trace.recall; nothing where that is no loss. cold: the frame knows
+// nothing of earlier ones, so that what its rays met once tells what is missed.
+std::vector<std::string> missed_recall(const DiscoveryCounts& found, const TraceConfig& config, bool cold) {
+  const bool capped = found.end == LaunchEnd::max_rays;
+  if (found.end == LaunchEnd::recall || !(capped || cold)) return {};
+  const std::string once = found.share_once < 0.005 ? "less than 1" : fmt::format("{:.0f}", 100 * found.share_once);
+  const std::string before = fmt::format(
+      "before trace.recall = {}: {}% of the sequences found were met by one ray alone", config.recall, once);
+  if (capped)
+    return {fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" {}", config.max_rays, before)};
+  const char* const why = found.end == LaunchEnd::finest ? "its rays are as close to each other as they get"
+                                                         : "the rays beside those met nothing that is rare";
+  return {fmt::format("the launch of rays = \"auto\" ended {}, and {}; give trace.rays a number to find more", before,
+                      why)};
 }
 
 // What the cache must know of the world.
@@ -319,6 +321,7 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   PathGeometry one_way =
       sphere ? received_paths(ends, out.counts, host_watch)
              : (*exact_paths)(device_scene, ends, discovery->sequences(), out.counts, host_watch);
+  out.warnings = missed_recall(found, config.trace, warm_frames == 0);
   ++warm_frames;
   PathGeometry geometry = with_reversed_twins(std::move(one_way), world->receiver_of_transmitter(),
                                               world->transmitter_of_receiver(), links);
@@ -337,7 +340,6 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   out.seconds["frame"] = frame_seconds;
   out.segments_per_depth = found.segments_per_depth;
   out.counts.rays = found.rays;
-  if (found.end != LaunchEnd::recall) out.warnings.push_back(missed_recall(found, config.trace));
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
   out.counts.paths = out.paths.size();

@@ -1,5 +1,5 @@
-// The first level of refined launches as launchers come and go: every cell once for each launcher, whatever was launched
-// before, cold or warm.
+// The first level of refined launches as launchers come and go: every cell once for each launcher, whatever was
+// launched before, cold or warm.
 #include "simulation/refinement.hpp"
 
 #include <doctest/doctest.h>
@@ -25,8 +25,7 @@ size_t wrong_samples(const SampleList& list, uint32_t launchers) {
   const std::vector<uint32_t> cell = list.samples.read(0, list.count);
   const std::vector<uint32_t> launcher = list.samples.read(list.capacity, list.count);
   size_t wrong = 0;
-  for (uint32_t i = 0; i < list.count; ++i)
-    wrong += cell[i] != i % list.cells() || launcher[i] != i / list.cells();
+  for (uint32_t i = 0; i < list.count; ++i) wrong += cell[i] != i % list.cells() || launcher[i] != i / list.cells();
   return wrong;
 }
 
