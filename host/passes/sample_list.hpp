@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gpu/gpu.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 
@@ -20,6 +21,8 @@ struct SampleList {
 };
 
 inline SampleList make_sample_list(gpu::Context& context, uint64_t count) {
+  if (count > 0xFFFFFE00u)
+    throw RuntimeError("a launch of rays = \"auto\" has outgrown 2^32 rays in a level; lower trace.max_rays");
   // Kernels read 16 at once.
   const auto capacity = static_cast<uint32_t>((count + 255) / 256 * 256 + 256);
   return {context.buffer<uint32_t>(2 * size_t{capacity}, "samples"), context.buffer<uint32_t>(capacity, "ends"),

@@ -2,7 +2,7 @@
 // One ray a work-item.
 #include "passes/waypoints.hpp"
 
-#include <algorithm>
+#include <stdexcept>
 
 namespace wavetracer {
 
@@ -13,10 +13,13 @@ Waypoints::Waypoints(gpu::Context& context, uint32_t max_depth)
       stride_(max_depth + 1),
       local_(context.info().simple_local_size()) {}
 
+void Waypoints::reserve(uint64_t samples) {
+  list_ = context_.buffer<wt_waypoint>(samples * stride_, "waypoints (see trace.batch_rays)");
+}
+
 void Waypoints::begin_batch(uint32_t first_sample, uint32_t count) {
+  if (size_t{count} * stride_ > list_.size()) throw std::logic_error("waypoints: no room for the samples");
   first_sample_ = first_sample;
-  const size_t wanted = size_t{count} * stride_;
-  if (list_.size() < wanted) list_ = context_.buffer<wt_waypoint>(wanted, "waypoints (see trace.batch_rays)");
 }
 
 void Waypoints::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth) {

@@ -11,6 +11,8 @@ namespace wavetracer {
 class Waypoints {
  public:
   Waypoints(gpu::Context& context, uint32_t max_depth);
+  // Room for batches of so many samples.
+  void reserve(uint64_t samples);
   // Rows for the samples first_sample .. first_sample + count - 1. What was there is lost.
   void begin_batch(uint32_t first_sample, uint32_t count);
   // The segments of rays that have lived through `depth` interactions. Where segments after the last interaction end is

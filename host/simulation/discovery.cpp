@@ -10,6 +10,7 @@ namespace wavetracer {
 namespace {
 
 constexpr uint64_t initial_slots = 1 << 18;
+constexpr uint64_t room_step = 256;  // room for rays is a multiple of this
 
 // Depth of the sequences: wedges and tiles hang on surfaces that rays see, so these are wanted without reflection too.
 uint32_t sequence_depth(const TraceConfig& config) {
@@ -81,6 +82,7 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
     refinement_.emplace(context, config, heights_);
     interact_samples_.emplace(context, keep_ages, true, false, transmissions_ > 0);
   }
+  if (plan_.key) order_.emplace(context, *plan_.key, plan_.bins, directions_, scene.extent_m, heights_);
   if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
 }
 
@@ -94,12 +96,13 @@ void Discovery::follow(RayTrails& trails) {
   trails_ = &trails;
   const gpu::DeviceInfo& device = context_.info();
   const uint64_t bytes = trails.bytes_a_sample();
-  batch_rays_ =
-      std::max<uint64_t>(256, std::min({batch_rays_, device.max_buffer / bytes, device.global_memory / (4 * bytes)}));
+  const uint64_t most = std::min(device.max_buffer / bytes, device.global_memory / (4 * bytes));
+  batch_rays_ = std::min(batch_rays_, std::max(room_step, most / room_step * room_step));
   label();
 }
 
 void Discovery::label() {
+  room_ = 0;  // what there is has other planes, or lacks a part
   if (label_) return;
   label_.emplace(context_);
   interact_ = Interact(context_, keep_ages_, false, true, transmissions_ > 0);
@@ -120,9 +123,7 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
   if (segments() == 0 || total == 0) return counts;
   if (trails()) trails()->begin_launch();
   const uint64_t size = std::min(batch_rays_, total);
-  if (reserve(size) && plan_.key)
-    order_.emplace(context_, *plan_.key, plan_.bins, directions_, scene.extent_m, static_cast<uint32_t>(size),
-                   heights_);
+  reserve(size);
   for (uint64_t first = 0; first < total; first += size) {
     const Batch batch{first, std::min(size, total - first)};
     for (;;) {
@@ -156,7 +157,7 @@ DiscoveryCounts Discovery::refined(const DeviceScene& scene, const std::vector<L
     }
   }
   counts.share_once = refinement_->share_once();
-  counts.capped = refinement_->capped();
+  counts.end = refinement_->end();
   return counts;
 }
 
@@ -172,8 +173,10 @@ void Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
   }
 }
 
-bool Discovery::reserve(uint64_t rays) {
-  if (rays_.capacity >= padded_capacity(rays)) return false;
+void Discovery::reserve(uint64_t rays) {
+  if (rays <= room_) return;
+  room_ = 0;  // until all parts have been made: what fits one of them fits them all
+  rays = (rays + room_step - 1) / room_step * room_step;
   const uint32_t planes = label_ ? WT_RAY_LABELLED_PLANES : WT_RAY_PLANES + refinement_.has_value();
   rays_ = make_ray_queue(context_, rays, "rays", planes);
   next_ = make_ray_queue(context_, rays, "next rays", planes);
@@ -183,7 +186,10 @@ bool Discovery::reserve(uint64_t rays) {
     for (uint32_t depth = 2; depth <= depth_; ++depth)
       transmitted_.push_back(make_ray_queue(context_, rays, "transmitted rays", planes));
   }
-  return true;
+  if (order_) order_->reserve(rays);
+  if (cache_) cache_->reserve(rays);
+  if (trails_) trails_->reserve(rays);
+  room_ = rays;
 }
 
 void Discovery::launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch) {

@@ -27,9 +27,9 @@ namespace wavetracer {
 struct DiscoveryCounts {
   uint64_t rays = 0, hits = 0;
   std::vector<uint64_t> segments_per_depth;
-  // Of a refined launch: the share of sequences that one sample alone met, and did trace.max_rays end it?
+  // Of a refined launch: the share of sequences that one sample alone met, and why it ended.
   double share_once = 0;
-  bool capped = false;
+  LaunchEnd end = LaunchEnd::recall;
 };
 
 // Transmitters that stand on no vehicle.
@@ -88,7 +88,8 @@ class Discovery {
   // Segments of a ray, at most: one more than interactions where receptions are wanted.
   uint32_t segments() const { return depth_ + (trails() && trails()->receives()); }
   void find_hits(const DeviceScene& scene, uint32_t depth);
-  bool reserve(uint64_t rays);  // true where queues were made anew
+  // Room for batches of so many rays, in everything that holds something of each.
+  void reserve(uint64_t rays);
   void trace_batch(const DeviceScene& scene, Interact& interact, DiscoveryCounts& counts,
                    const gpu::Buffer<uint32_t>* ends = nullptr);
   // rays_ and what is reflected of them. Queues of transmitted rays are left in transmitted_, and their stages, from
@@ -120,7 +121,8 @@ class Discovery {
   std::optional<LabelRays> label_;  // with a cache or trails
   RayTrails* trails_ = nullptr;
   LaunchedBy by_ = LaunchedBy::transmitters;
-  std::optional<RayOrder> order_;  // with the queues, if the plan has one
+  std::optional<RayOrder> order_;  // if the plan has one
+  uint64_t room_ = 0;              // rays that fit into what reserve() makes
   RayQueue rays_, next_;
   std::vector<RayQueue> transmitted_;  // one a depth from 2 on, where rays are transmitted
   HitList hits_;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <ranges>
+#include <stdexcept>
 
 namespace wavetracer {
 
@@ -138,22 +139,21 @@ void RayCache::note_receivers(const std::vector<EndState>& receivers) {
     movement_.receivers.write(centres, 0, "cache_purge");
 }
 
-void RayCache::reserve(const RayQueue& rays) {
-  if (missed_rays_.capacity == rays.capacity) return;
-  const uint64_t count = rays.capacity - 256;  // see padded_capacity
-  missed_rays_ = make_ray_queue(context_, count, "missed rays", WT_RAY_ENTRY);
-  missed_hits_ = make_hit_list(context_, count, block_);
-  missed_ = context_.buffer<float>(rays.capacity, "missed");
-  missed_blocks_ = context_.buffer<uint32_t>(rays.capacity / block_ + 1, "missed blocks");
-  indices_ = context_.buffer<uint32_t>(rays.capacity, "missed indices");
+void RayCache::reserve(uint64_t rays) {
+  missed_rays_ = make_ray_queue(context_, rays, "missed rays", WT_RAY_ENTRY);
+  missed_hits_ = make_hit_list(context_, rays, block_);
+  const uint32_t capacity = missed_rays_.capacity;
+  missed_ = context_.buffer<float>(capacity, "missed");
+  missed_blocks_ = context_.buffer<uint32_t>(capacity / block_ + 1, "missed blocks");
+  indices_ = context_.buffer<uint32_t>(capacity, "missed indices");
   if (table_.config.scope != "all") return;
-  answers_ = context_.buffer<uint32_t>(rays.capacity, "cached receptions");
-  first_ = context_.buffer<uint32_t>(rays.capacity, "receptions");
+  answers_ = context_.buffer<uint32_t>(capacity, "cached receptions");
+  first_ = context_.buffer<uint32_t>(capacity, "receptions");
   context_.fill(first_, WT_NONE);  // as it stays where receptions are not kept
 }
 
 void RayCache::operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) {
-  reserve(rays);
+  if (rays.capacity != missed_rays_.capacity) throw std::logic_error("ray_cache: no room for the rays");
   lookup_(scene, rays, hits, missed_, table_, movement_, static_surfaces_, frame_, touch_,
           answers_ ? &answers_ : nullptr);
   compact_.count_blocks(missed_, 0, rays.count, missed_blocks_);

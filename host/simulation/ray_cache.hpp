@@ -35,6 +35,8 @@ class RayCache {
   // With scope = "all" entries say which receiver's sphere their segment passed first, as the thesis' do. trails
   // outlives this.
   void keep_receptions(RayTrails& trails, double radius_m);
+  // Room for queues of so many rays, of the capacity that make_ray_queue gives them.
+  void reserve(uint64_t rays);
   // Forgets everything: the next frame meets an empty table.
   void clear();
   // A frame begins: regions of transmitters that have moved on are purged, and what nobody uses where room is short.
@@ -52,7 +54,6 @@ class RayCache {
   void note_positions(const std::vector<EndState>& transmitters);
   void note_movement(std::span<const Placement> instances);
   void note_receivers(const std::vector<EndState>& receivers);
-  void reserve(const RayQueue& rays);
   std::vector<uint64_t> entries_by_hits() const;
 
   gpu::Context& context_;

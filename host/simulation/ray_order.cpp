@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "wavetracer/error.hpp"
@@ -68,21 +69,31 @@ OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch) {
 }
 
 RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions,
-                   float extent_m, uint32_t most_rays, std::shared_ptr<const LaunchHeights> heights)
-    : keys_of_(context, key, bins, directions, extent_m, std::move(heights)),
+                   float extent_m, std::shared_ptr<const LaunchHeights> heights)
+    : context_(context),
+      keys_of_(context, key, bins, directions, extent_m, std::move(heights)),
       sort_(context),
-      gather_(context),
-      keys_(context.buffer<uint32_t>(size_t{most_rays} + 16, "order keys")),
-      order_(context.buffer<uint32_t>(size_t{most_rays} + 16, "order")),
-      temporary_(context.buffer<uint32_t>(sort_.temporary_words(most_rays), "sort")) {}
+      gather_(context) {}
+
+void RayOrder::reserve(uint64_t rays) {
+  keys_ = context_.buffer<uint32_t>(rays + 16, "order keys");
+  order_ = context_.buffer<uint32_t>(rays + 16, "order");
+  temporary_ = context_.buffer<uint32_t>(sort_.temporary_words(static_cast<uint32_t>(rays)), "sort");
+}
+
+void RayOrder::check_room(uint64_t rays) const {
+  if (rays + 16 > keys_.size()) throw std::logic_error("ray_order: no room for the rays");
+}
 
 const gpu::Buffer<uint32_t>& RayOrder::launch(uint64_t first, uint32_t count, uint32_t heights) {
+  check_room(count);
   keys_of_(first, count, keys_, heights);
   sort_(keys_, order_, count, temporary_, keys_of_.launch_bits());
   return order_;
 }
 
 void RayOrder::operator()(RayQueue& rays, RayQueue& spare) {
+  check_room(rays.count);
   keys_of_(rays, keys_);
   sort_(keys_, order_, rays.count, temporary_, keys_of_.queue_bits());
   gather_(rays, order_, rays.count, spare);

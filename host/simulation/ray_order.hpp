@@ -30,15 +30,21 @@ OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch);
 
 class RayOrder {
  public:
-  // extent_m: the largest absolute coordinate of scene and rays. most_rays: of a launch or a queue.
+  // extent_m: the largest absolute coordinate of scene and rays.
   RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m,
-           uint32_t most_rays, std::shared_ptr<const LaunchHeights> heights);
-  // The launch indices first .. first + count - 1 in their order, less first. Valid until the next call.
+           std::shared_ptr<const LaunchHeights> heights);
+  // Room for launches and queues of so many rays.
+  void reserve(uint64_t rays);
+  // The launch indices first .. first + count - 1 of a launcher with this table of heights in their order, less first.
+  // Valid until the next call.
   const gpu::Buffer<uint32_t>& launch(uint64_t first, uint32_t count, uint32_t heights);
   // Sorts the queue; spare has the same capacity and is overwritten.
   void operator()(RayQueue& rays, RayQueue& spare);
 
  private:
+  void check_room(uint64_t rays) const;
+
+  gpu::Context& context_;
   OrderKeys keys_of_;
   Sort sort_;
   GatherRays gather_;

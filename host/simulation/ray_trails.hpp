@@ -37,6 +37,8 @@ class RayTrails {
   bool receives() const { return reception_.has_value(); }
   uint64_t bytes_a_sample() const { return Waypoints::bytes_a_sample(depth_); }
 
+  // Room for batches of so many samples.
+  void reserve(uint64_t samples) { waypoints_.reserve(samples); }
   void begin_frame(uint32_t frame, const RadioEnds& ends, const WorldState& world);
   // Forgets paths and waypoints: the launch begins, or begins again.
   void begin_launch();

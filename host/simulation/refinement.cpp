@@ -68,15 +68,17 @@ void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots, u
   rare_ = frame == 0 ? rare(config_.recall) : rare(config_.recall) / 2;
   most_ = config_.max_rays * launchers.size();
   launched_ = lists_[0].count;
-  capped_ = false;
+  end_ = LaunchEnd::recall;
 }
 
 void Refinement::begin_level(uint64_t launcher_count, uint32_t level) {
   current_ = 0;
   SampleList& list = lists_[0];
+  // Counts alone do not tell: four launchers have as many samples as one has a level further down.
+  if (first_launchers_ == launcher_count && list.level == level) return;  // as in the frame before
+  first_launchers_ = 0;
   list.level = level;
   const uint64_t count = list.cells() * launcher_count;
-  if (list.count == count) return;  // as in the frame before
   if (list.capacity < count + 16) list = make_sample_list(context_, count);
   list.level = level;
   list.count = static_cast<uint32_t>(count);
@@ -85,6 +87,7 @@ void Refinement::begin_level(uint64_t launcher_count, uint32_t level) {
   list.samples.write(plane, 0, "refine");
   for (size_t i = 0; i < count; ++i) plane[i] = static_cast<uint32_t>(i / list.cells());
   list.samples.write(plane, list.capacity, "refine");
+  first_launchers_ = launcher_count;
 }
 
 void Refinement::generate(RayQueue& queue, uint32_t first, uint32_t count) {
@@ -92,12 +95,18 @@ void Refinement::generate(RayQueue& queue, uint32_t first, uint32_t count) {
   generate_.samples(queue, list, first, count, launchers_, directions_of(config_.directions, list.level), turn_);
 }
 
+bool Refinement::ends(LaunchEnd reason) {
+  end_ = reason;
+  return false;
+}
+
 bool Refinement::descend() {
   const SampleList& level = lists_[current_];
   refine_.count_ends(level, hits_);
   const MetSequences met = refine_.met(hits_);
   share_once_ = met.all ? static_cast<double>(met.once) / met.all : 0;
-  if (share_once_ <= 1 - config_.recall || level.level == finest_level) return false;
+  if (share_once_ <= 1 - config_.recall) return ends(LaunchEnd::recall);
+  if (level.level == finest_level) return ends(LaunchEnd::finest);
   if (marks_.size() < level.count) {
     marks_ = context_.buffer<float>(level.count, "marks");
     list_ = context_.buffer<uint32_t>(level.count, "marked samples");
@@ -106,8 +115,8 @@ bool Refinement::descend() {
   refine_.mark(level, hits_, rare_, marks_);
   compact_.count_blocks(marks_, 0, level.count, blocks_);
   const uint32_t marked = scan_(blocks_, (level.count + block_ - 1) / block_);
-  capped_ = launched_ + 4 * uint64_t{marked} > most_;
-  if (marked == 0 || capped_) return false;
+  if (marked == 0) return ends(LaunchEnd::nothing_rare);
+  if (launched_ + 4 * uint64_t{marked} > most_) return ends(LaunchEnd::max_rays);
   compact_(marks_, 0, level.count, blocks_, list_);
   const size_t other = current_ == 1 ? 2 : 1;
   if (lists_[other].capacity < 4 * uint64_t{marked} + 16)

@@ -12,6 +12,10 @@
 
 namespace wavetracer {
 
+// Why a refined launch ended: it found what trace.recall asks for; its next level would go beyond trace.max_rays; its
+// cells are as small as they get; or none of its last rays met anything rare, so that there is nothing to refine.
+enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
+
 class Refinement {
  public:
   Refinement(gpu::Context& context, const TraceConfig& config, std::shared_ptr<const LaunchHeights> heights);
@@ -22,15 +26,16 @@ class Refinement {
   const SampleList& level() const { return lists_[current_]; }
   // Appends nothing: fills the empty queue with samples first .. first + count - 1.
   void generate(RayQueue& queue, uint32_t first, uint32_t count);
-  // All samples of the level have been traced: prepares the next. False when enough was found, or the next would go
-  // beyond trace.max_rays.
+  // All samples of the level have been traced: prepares the next. False when the launch ends here, for the reason of
+  // end().
   bool descend();
-  // Of all sequences met, the share that one sample alone met; and was it trace.max_rays that ended the launch?
+  LaunchEnd end() const { return end_; }
+  // Of all sequences met, the share that one sample alone met.
   double share_once() const { return share_once_; }
-  bool capped() const { return capped_; }
 
  private:
   void begin_level(uint64_t launcher_count, uint32_t level);
+  bool ends(LaunchEnd reason);  // false, as descend() returns
 
   gpu::Context& context_;
   TraceConfig config_;
@@ -43,12 +48,13 @@ class Refinement {
   gpu::Buffer<float> launchers_, marks_;
   gpu::Buffer<uint32_t> hits_, blocks_, list_;
   SampleList lists_[3];  // the first level, kept for the next frame, and two that take turns
+  uint64_t first_launchers_ = 0;  // that lists_[0] has the samples of, at its level
   size_t current_ = 0;
   Turn turn_;
   uint32_t rare_ = 0;
   uint64_t most_ = 0, launched_ = 0;  // rays of all launchers
   double share_once_ = 0;
-  bool capped_ = false;
+  LaunchEnd end_ = LaunchEnd::recall;
 };
 
 }  // namespace wavetracer

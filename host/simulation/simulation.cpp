@@ -41,11 +41,8 @@ std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
 
 // Rays go half the way where both ends of every link launch and what they meet is joined.
 uint32_t ray_depth(const TraceConfig& config, const World& world) {
-  const auto all = [](const std::vector<uint32_t>& others) {
-    return std::none_of(others.begin(), others.end(), [](uint32_t other) { return other == no_end; });
-  };
-  const bool both = all(world.receiver_of_transmitter()) && all(world.transmitter_of_receiver());
-  return config.join && both ? std::min(config.max_depth, joined_depth(config.max_depth)) : config.max_depth;
+  return config.join && world.links_both_ways() ? std::min(config.max_depth, joined_depth(config.max_depth))
+                                                : config.max_depth;
 }
 
 // All directions in a cold frame; after it every stride-th, another set each time: `stride` frames together launch all.
@@ -70,6 +67,22 @@ void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
   sum.hits += more.hits;
   sum.segments_per_depth.resize(std::max(sum.segments_per_depth.size(), more.segments_per_depth.size()));
   for (size_t k = 0; k < more.segments_per_depth.size(); ++k) sum.segments_per_depth[k] += more.segments_per_depth[k];
+}
+
+// What to say of a refined launch that ended before trace.recall; nothing where that is no loss. cold: the frame knows
+// nothing of earlier ones, so that what its rays met once tells what is missed.
+std::vector<std::string> missed_recall(const DiscoveryCounts& found, const TraceConfig& config, bool cold) {
+  const bool capped = found.end == LaunchEnd::max_rays;
+  if (found.end == LaunchEnd::recall || !(capped || cold)) return {};
+  const std::string once = found.share_once < 0.005 ? "less than 1" : fmt::format("{:.0f}", 100 * found.share_once);
+  const std::string before = fmt::format(
+      "before trace.recall = {}: {}% of the sequences found were met by one ray alone", config.recall, once);
+  if (capped)
+    return {fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" {}", config.max_rays, before)};
+  const char* const why = found.end == LaunchEnd::finest ? "its rays are as close to each other as they get"
+                                                         : "the rays beside those met nothing that is rare";
+  return {fmt::format("the launch of rays = \"auto\" ended {}, and {}; give trace.rays a number to find more", before,
+                      why)};
 }
 
 // What the cache must know of the world.
@@ -317,6 +330,7 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   PathGeometry one_way =
       sphere ? received_paths(ends, out.counts, host_watch)
              : (*exact_paths)(device_scene, ends, discovery->sequences(), out.counts, host_watch);
+  out.warnings = missed_recall(found, config.trace, warm_frames == 0);
   ++warm_frames;
   PathGeometry geometry = with_reversed_twins(std::move(one_way), world->receiver_of_transmitter(),
                                               world->transmitter_of_receiver(), links);
@@ -335,11 +349,6 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   out.seconds["frame"] = frame_seconds;
   out.segments_per_depth = found.segments_per_depth;
   out.counts.rays = found.rays;
-  if (found.capped)
-    out.warnings.push_back(
-        fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" before trace.recall = {}: "
-                    "{:.0f}% of the sequences found were met by one ray alone",
-                    config.trace.max_rays, config.trace.recall, 100 * found.share_once));
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;
   out.counts.hits = found.hits;
   out.counts.paths = out.paths.size();

@@ -33,6 +33,8 @@ class World {
   // same vehicle), no_end where there is none; and the other way round.
   const std::vector<uint32_t>& receiver_of_transmitter() const;
   const std::vector<uint32_t>& transmitter_of_receiver() const;
+  // Is there a link the other way to every link, in every frame?
+  bool links_both_ways() const;
 
   uint64_t frame_count() const;
   double time_s(uint64_t frame) const;

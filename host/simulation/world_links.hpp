@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ class LinkRules {
   // Throws ConfigError for a pattern of names that no end has.
   LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers);
 
+  // Has every link one the other way, whoever is present? Only names can want the one without the other.
+  //   receiver_of_transmitter, transmitter_of_receiver: the other index of the same end, or no_end.
+  bool both_ways(std::span<const uint32_t> receiver_of_transmitter,
+                 std::span<const uint32_t> transmitter_of_receiver) const;
   // The links of ends that are present, sorted. Ends of one and the same place have no path that a ray could tell.
   std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;
 

@@ -143,3 +143,46 @@ TEST_CASE("an edge of two walls: both orders reflect there, and nothing reaches 
   // Past the edge of the one wall, by the border of the other, and never by both: that would be through the first.
   CHECK(orders({1, 1, 0.5}, {-1, 1, 0.5}) == std::vector<size_t>{1});
 }
+
+namespace {
+
+// The lengths of the chains of all paths of an antenna's echoes of itself, whatever the order of the surfaces.
+std::vector<size_t> echoes(const std::vector<Quad>& quads, const glm::dvec3& at, uint32_t max_depth) {
+  const auto count = static_cast<uint32_t>(quads.size());
+  const Exact exact(reference::scene_of_quads(quads), {at}, {at}, all_sequences(1, count, max_depth), max_depth);
+  std::vector<size_t> depths;
+  for (const SolvedPath& path : exact.solved)
+    if (!path.blocked) depths.push_back(path.sequence.surfaces.size());
+  std::sort(depths.begin(), depths.end());
+  return depths;
+}
+
+}  // namespace
+
+TEST_CASE("a corner that opens towards the antenna reflects, in every order; the corner of a house does not") {
+  const Quad ground{{-20, -20, 0}, {40, 0, 0}, {0, 40, 0}};
+  // Two walls that meet at (2, 3): both seen from (1, 1), from either side, and with their other ends nearer to it.
+  const double x = 2, y = 3;
+  const Quad along_x{{x, y, 0}, {6, 0, 0}, {0, 0, 5}}, along_y{{x, y, 0}, {0, 6, 0}, {0, 0, 5}};
+  const Quad back_x{{x, y, 0}, {-6, 0, 0}, {0, 0, 5}}, back_y{{x, y, 0}, {0, -6, 0}, {0, 0, 5}};
+  const glm::dvec3 antenna{1, 1, 1.5};
+  // The ground; neither wall has a point across from the antenna.
+  CHECK(echoes({ground, along_x, along_y}, antenna, 3) == std::vector<size_t>{1});
+  // A room: all three, each pair twice, the corner in six orders.
+  CHECK(echoes({ground, back_x, back_y}, antenna, 3) ==
+        std::vector<size_t>{1, 1, 1, 2, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3});
+  // One wall goes on past the corner: the ground and that wall, and both.
+  const Quad long_x{{x - 6, y, 0}, {12, 0, 0}, {0, 0, 5}};
+  CHECK(echoes({ground, long_x, along_y}, antenna, 2) == std::vector<size_t>{1, 1, 2, 2});
+  // The wall that begins behind the long one is not in front of it; seen from there the corner is one.
+  CHECK(echoes({ground, long_x, along_y}, {1, 4, 1.5}, 2) == std::vector<size_t>{1, 1, 1, 2, 2, 2, 2, 2, 2});
+}
+
+TEST_CASE("near the corner of a house, and beside it by what float32 rounds: no path by both of its walls") {
+  const Quad ground{{-20, -20, 0}, {40, 0, 0}, {0, 40, 0}};
+  for (const double slip : {0.0, 1e-9, 1e-7, 1e-6, -1e-7, 1e-5}) {
+    CAPTURE(slip);
+    const Quad wall{{2 - slip, 3, 0}, {6, 0, 0}, {0, 0, 5}}, next{{2, 3 - slip, 0}, {slip, 6, 0}, {0, 0, 5}};
+    CHECK(echoes({ground, wall, next}, {1, 1, 1.5}, 3) == std::vector<size_t>{1});
+  }
+}

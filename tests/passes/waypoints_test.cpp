@@ -69,6 +69,7 @@ std::vector<wt_waypoint> rows_after(const Scene& scene, const std::vector<Labell
   Interact interact(context(), false, false, true);
   Sequences set(context(), 4096);
   Waypoints waypoints(context(), depth);
+  waypoints.reserve(rays.size());
   waypoints.begin_batch(first_sample, static_cast<uint32_t>(rays.size()));
   for (uint32_t k = 0; k <= depth && queue.count > 0; ++k) {
     trace_pass(uploaded, queue, hits);
@@ -132,6 +133,7 @@ TEST_CASE("rows of no sample, of one, and of the same one twice") {
   HitList hits = upload_hits_of(rays);
   Trace(context(), uploaded, shapes().back())(uploaded, queue, hits);
   Waypoints waypoints(context(), 1);
+  waypoints.reserve(1);
   waypoints.begin_batch(9, 1);
   waypoints(queue, hits, 0);
   CHECK(waypoints.rows({}).empty());

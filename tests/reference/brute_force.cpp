@@ -3,6 +3,7 @@
 #include "reference/brute_force.hpp"
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -16,6 +17,8 @@ namespace {
 using glm::dvec3;
 
 using Points = std::vector<dvec3>;
+
+constexpr double corner_tolerance = 1e-9;  // of coordinates: reflections so near to each other happen in one point
 
 // Reflections in a row, as one end sees them. image[k]: the end mirrored by the first k surfaces.
 struct Chain {
@@ -44,12 +47,21 @@ std::vector<Chain> chains(const Scene& scene, const dvec3& end, size_t max_lengt
   return result;
 }
 
+// Does the point of a reflection lie in another surface's plane too, so that both reflect in a corner, one after the
+// other, with no leg between?
+bool in_plane_too(const Scene& scene, uint32_t surface, const Vertex& next) {
+  const Surface &here = scene.surfaces[surface], &there = scene.surfaces[next.number];
+  return std::abs(height(here, next.point)) <= corner_tolerance * (1 + glm::length(next.point)) &&
+         glm::length(glm::cross(here.normal, there.normal)) > 1e-3;
+}
+
 // The reflections of a chain on the way from its end to the target, or nothing if a point is outside of its surface.
 std::optional<Path> unfolded(const Scene& scene, const Chain& chain, dvec3 target) {
   Path path(chain.surfaces.size());
   for (size_t k = path.size(); k > 0; --k) {
     const uint32_t surface = chain.surfaces[k - 1];
-    const auto hit = crossing(scene.surfaces[surface], chain.image[k], target);
+    const bool corner = k < path.size() && in_plane_too(scene, surface, path[k]);
+    const auto hit = corner ? target : crossing(scene.surfaces[surface], chain.image[k], target);
     if (!hit || !inside_surface(scene, surface, *hit)) return std::nullopt;
     path[k - 1] = {reflection, surface, *hit};
     target = *hit;
@@ -68,6 +80,34 @@ std::optional<Path> joined(const Scene& scene, const Chain& from, const Path& be
   return path;
 }
 
+// Is there any direction in which a surface goes on from its point p in front of another surface, on the side of
+// `front`? Looked for a millimetre around p.
+bool goes_on(const Scene& scene, uint32_t surface, const dvec3& p, const dvec3& front) {
+  const dvec3 normal = scene.surfaces[surface].normal;
+  const dvec3 u = glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? dvec3{1, 0, 0} : dvec3{0, 1, 0}));
+  const dvec3 v = glm::cross(normal, u);
+  for (int degree = 0; degree < 360; ++degree) {
+    const dvec3 direction = std::cos(glm::radians(1.0 * degree)) * u + std::sin(glm::radians(1.0 * degree)) * v;
+    if (glm::dot(direction, front) > 1e-3 && inside_surface(scene, surface, p + 1e-3 * direction)) return true;
+  }
+  return false;
+}
+
+// Reflection k of a path, seen from `before`: do all others in its corner go on in front of it?
+bool corner_opens(const Scene& scene, const Path& bends, size_t k, const dvec3& before) {
+  const Surface& surface = scene.surfaces[bends[k].number];
+  const dvec3 front = height(surface, before) > 0 ? surface.normal : -surface.normal;
+  const auto near = [&](size_t j) {
+    return bends[j].kind == reflection && glm::distance(bends[j].point, bends[k].point) <= same_vertex_m;
+  };
+  size_t first = k, end = k + 1;
+  while (first > 0 && near(first - 1)) --first;
+  while (end < bends.size() && near(end)) ++end;
+  for (size_t j = first; j < end; ++j)
+    if (bends[j].number != bends[k].number && !goes_on(scene, bends[j].number, bends[j].point, front)) return false;
+  return true;
+}
+
 bool bends_rightly(const Scene& scene, const Vertex& vertex, const dvec3& before, const dvec3& after) {
   if (vertex.kind == reflection) {
     const Surface& surface = scene.surfaces[vertex.number];
@@ -81,12 +121,23 @@ bool bends_rightly(const Scene& scene, const Vertex& vertex, const dvec3& before
 // The path with its transmissions, or nothing if it is none.
 std::optional<Path> checked(const Scene& scene, const Limits& limits, const dvec3& tx, const Path& bends,
                             const dvec3& rx) {
+  if (bends.empty() && tx == rx) return std::nullopt;
   const auto point = [&](size_t k) { return k == 0 ? tx : k > bends.size() ? rx : bends[k - 1].point; };
   const auto surface = [&](size_t k) {
     return k == 0 || k > bends.size() || bends[k - 1].kind != reflection ? no_surface : bends[k - 1].number;
   };
-  for (size_t k = 1; k <= bends.size(); ++k)
-    if (!bends_rightly(scene, bends[k - 1], point(k - 1), point(k + 1))) return std::nullopt;
+  // Legs of no length, in corners, are passed over.
+  const auto same = [&](size_t j, size_t k) {
+    return bends[j - 1].kind == reflection && bends[k - 1].kind == reflection &&
+           glm::distance(point(j), point(k)) <= corner_tolerance * (1 + glm::length(point(k)));
+  };
+  for (size_t k = 1; k <= bends.size(); ++k) {
+    size_t before = k - 1, after = k + 1;
+    while (before > 0 && same(before, k)) --before;
+    while (after <= bends.size() && same(after, k)) ++after;
+    if (!bends_rightly(scene, bends[k - 1], point(before), point(after))) return std::nullopt;
+    if (bends[k - 1].kind == reflection && !corner_opens(scene, bends, k - 1, point(before))) return std::nullopt;
+  }
   size_t transmissions = limits.transmission ? limits.max_transmissions : 0;  // left
   transmissions = std::min(transmissions, limits.max_depth - bends.size());
   Path path;

@@ -24,9 +24,12 @@ struct Limits {
 // are sorted by tx, rx, number of interactions, then their kinds, then their surfaces and wedges.
 //
 // What counts as a path:
+// - a receiver at a transmitter has no line of sight;
 // - a sequence never names one surface or wedge twice in a row;
 // - each reflection point lies inside its surface, borders included (to 1e-9 of the triangle's size), and both
 //   neighbours of the point are on the same side of the surface's plane;
+// - reflections in one point, where surfaces meet in a corner, are a path if each of these surfaces goes on in front of
+//   the others there: no wave beside the corner of a house meets both of its walls;
 // - each diffraction point lies on its edge, ends included, and both neighbours of it are in the wedge's sector of free
 //   space, faces included (to 1e-9 rad), and off the edge's line by more than 1e-4 m;
 // - no leg that begins or ends at a wedge is shorter than 1e-4 m;
@@ -36,7 +39,7 @@ struct Limits {
 //   parallel planes are one, of the first surface;
 // - of paths of one transmitter, receiver and kind whose vertices agree within 1e-4 m, the first is kept: a point on
 //   the border of two coplanar surfaces is one path.
-// Positions should be generic: a path through the exact corner of two walls is left to rounding.
+// Positions should be generic: whether a leg passes an edge exactly on it is left to rounding.
 PathGeometry brute_force_all(const Scene& scene, const std::vector<glm::dvec3>& transmitters,
                              const std::vector<glm::dvec3>& receivers, const Limits& limits);
 

@@ -22,7 +22,30 @@ TEST_CASE("what four million rays find, for a fraction of the rays") {
   CAPTURE(refined.paths.size());
   CHECK(static_cast<double>(missing(plain.paths, refined.paths)) <= 0.01 * static_cast<double>(plain.paths.size()));
   CHECK(refined.counts.rays < 2 * 200000);  // of both transmitters
-  CHECK(refined.warnings.empty());
+}
+
+TEST_CASE("a launch that ends before its recall says so, and why, once a drive") {
+  const auto warnings_of = [](double recall) {
+    Config config = city(0, 4);
+    config.trace.recall = recall;
+    return run(config).warnings;
+  };
+  CHECK(warnings_of(0.7).empty());
+  const std::vector<std::string> warnings = warnings_of(1);
+  REQUIRE(warnings.size() == 1);
+  CAPTURE(warnings[0]);
+  CHECK(warnings[0].starts_with("the launch of rays = \"auto\" ended before trace.recall = 1: "));
+  CHECK(warnings[0].ends_with(
+      "% of the sequences found were met by one ray alone, and its rays are as close to each other "
+      "as they get; give trace.rays a number to find more"));
+  // A frame that knows what earlier ones met does not tell by its own rays what is missed.
+  Config config = city(0, 4);
+  config.trace.recall = 1;
+  config.tracks = {{"a", "passenger", {{0, -60, -3.1, 0}, {2, -40, -3.1, 0}}}};
+  config.time.step_s = 1;
+  Simulation drive(config);
+  CHECK(drive.run_frame(0).warnings.size() == 1);
+  CHECK(drive.run_frame(1).warnings.empty());
 }
 
 TEST_CASE("max_rays is never exceeded, and what it cuts short is told") {
@@ -113,8 +136,9 @@ TEST_CASE("no reflections, no depth, nothing in sight: lines of sight alone, and
 
 TEST_CASE("a drive begins with a refined launch and goes on with shares of a plain one") {
   Config config = city(0, 3);
-  add_vehicles(config, {{"a", "passenger", {-60, -3.1, 0}, {11.3, 0.02, 0}, 0, 2},
-                        {"lorry", "truck", {64, 3.2, 0}, {-8.7, -0.03, 0}, 0, 2}},
+  add_vehicles(config,
+               {{"a", "passenger", {-60, -3.1, 0}, {11.3, 0.02, 0}, 0, 2},
+                {"lorry", "truck", {64, 3.2, 0}, {-8.7, -0.03, 0}, 0, 2}},
                0.5);
   Simulation reusing(config);
   config.trace.reuse = false;
