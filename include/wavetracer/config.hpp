@@ -112,7 +112,7 @@ struct TraceConfig {
   uint64_t diffraction_rays = 0;  // of a receiver, with diffraction; 0: a tenth of rays, at least 100,000
   uint32_t max_transmissions = 2;  // a path
   double tile_m = 5;               // of scattering: no tile is longer
-  std::string directions = "hilbert";  // hilbert, fibonacci, random
+  std::string directions = "horizon";  // horizon, hilbert, fibonacci, random
   std::string reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
