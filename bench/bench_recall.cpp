@@ -1,5 +1,5 @@
 // bench_recall: what rays buy. Seconds a frame against the share of known paths that are found, for each way of
-// choosing directions. Assumes the reference lists of munich; "error" is 1 - recall.
+// choosing directions. Assumes the reference lists of specular paths; "error" is 1 - recall.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const case_names[] = {"munich_street_0", "munich_street_1", "munich_street_2", "munich_roof",
-                                  "munich_street_deep"};
+                                  "munich_street_deep", "street_canyon_cars_specular", "box_depth5",
+                                  "triple_reflector", "double_reflector", "simple_reflector"};
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
@@ -84,11 +85,11 @@ void run(const Options& options, const std::string& command) {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
-  CLI::App app("Seconds a frame against the share of paths found, in munich");
+  CLI::App app("Seconds a frame against the share of paths found");
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
-  app.add_option("--shared", options.shared, "folder that holds oracle/munich_*.json and scenes/munich");
-  app.add_option("--directions", options.directions, "some of hilbert, fibonacci, random")
+  app.add_option("--shared", options.shared, "folder that holds oracle/ and scenes/");
+  app.add_option("--directions", options.directions, "some of horizon, hilbert, fibonacci, random")
       ->check(CLI::IsMember({"horizon", "hilbert", "fibonacci", "random"}));
   app.add_option("--frames", options.frames, "warm frames of which the median counts")->check(CLI::Range(1, 1000));
   app.add_option("--most-rays", options.most_rays, "leave out launches of more rays than this");

@@ -1,4 +1,5 @@
-// Whole frames against the reference path lists, at a million rays: recall, power, duplicates, gains and matrices.
+// Whole frames against the reference path lists, at a million rays and at a tenth of them: recall, power, duplicates,
+// gains and matrices.
 // Only reflections are compared where a list holds other interactions too.
 #include <algorithm>
 #include <filesystem>
@@ -39,15 +40,15 @@ reference::Case specular_case(const std::filesystem::path& json) {
   return list;
 }
 
-reference::Comparison solve(const reference::Case& list, const std::filesystem::path& scenes) {
-  Config config = config_of(scenes / list.scene / (list.scene + ".xml"), list.transmitters_m, list.receivers_m, 1000000,
+reference::Comparison solve(const reference::Case& list, const std::filesystem::path& scenes, uint64_t rays) {
+  Config config = config_of(scenes / list.scene / (list.scene + ".xml"), list.transmitters_m, list.receivers_m, rays,
                             list.max_depth);
   config.radio.frequency_hz = list.frequency_hz;
   const FrameResult frame = run(config);
   const reference::Comparison result = reference::compare_paths(list, frame.paths);
   MESSAGE(list.name << ": " << reference::to_string(result));
-  CHECK(result.recall >= 0.99);
-  CHECK(result.power_recall >= 0.999);
+  CHECK(result.recall >= (rays < 1000000 ? 0.99 : 1.0));
+  CHECK(result.power_recall >= 1 - 1e-5);
   CHECK(result.duplicates == 0);
   CHECK(duplicates(frame.paths) == 0);
   CHECK(result.delay_rel_err_max < 2e-6);
@@ -62,9 +63,9 @@ TEST_CASE("the small lists: every path, gains to 0.02 dB, matrices to 0.2 %") {
   for (const std::string name : {"simple_reflector", "double_reflector", "triple_reflector", "box_depth5",
                                  "box_one_screen", "floor_wall", "simple_wedge", "street_canyon_cars_specular"}) {
     CAPTURE(name);
-    const reference::Comparison c =
-        solve(specular_case(source / "tests/reference/oracle" / (name + ".json")), source / "tests/reference/scenes");
-    CHECK(c.recall == 1);
+    const reference::Case list = specular_case(source / "tests/reference/oracle" / (name + ".json"));
+    solve(list, source / "tests/reference/scenes", 100000);
+    const reference::Comparison c = solve(list, source / "tests/reference/scenes", 1000000);
     CHECK(c.gain_err_db_p99 <= 0.02);
     CHECK(c.matrix_rel_err_p99 <= 0.002);
   }
@@ -83,7 +84,8 @@ TEST_CASE("munich: recall of paths and of power, no path twice") {
       continue;
     }
     CAPTURE(name);
-    const reference::Comparison c = solve(specular_case(list), shared / "scenes");
+    solve(specular_case(list), shared / "scenes", 100000);
+    const reference::Comparison c = solve(specular_case(list), shared / "scenes", 1000000);
     CHECK(c.gain_err_db_p50 <= 0.002);
     CHECK(c.matrix_rel_err_p50 <= 0.002);
   }
