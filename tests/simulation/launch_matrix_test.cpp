@@ -189,8 +189,6 @@ TEST_CASE("every option finds what a plain launch of ten times the rays does, wh
         CAPTURE(option.name);
         CAPTURE(expected.size());
         CAPTURE(found.size());
-        if (getenv("ROWS"))
-          MESSAGE(links.name << " | " << option.name << " | " << expected.size() << " | " << found.size());
         CHECK(missing(found, expected) == 0);
         if (!loses) CHECK(missing(expected, found) == 0);
       }
