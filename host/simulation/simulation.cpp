@@ -18,6 +18,7 @@
 #include "simulation/link_block.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/order_choice.hpp"
+#include "simulation/place_warnings.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/reciprocity.hpp"
 #include "simulation/stopwatch.hpp"
@@ -107,6 +108,7 @@ struct Simulation::State {
   DeviceSummary device;
   OrderSummary order;
   Features features;
+  std::vector<std::string> place_warnings;
 
   FrameResult solve(uint32_t frame, WorldState frame_world, const LinkBlock* block = nullptr);
   void begin_frame();
@@ -163,6 +165,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.scene = load_scene(config);
   s.setup["load"] = watch.lap();
   s.world.emplace(config, s.scene);
+  s.place_warnings = wavetracer::place_warnings(config, Surroundings(s.scene), *s.world);
   s.config.transmitters = s.world->transmitters();
   s.config.receivers = s.world->receivers();
   s.features = choose_features(s.config, s.scene, *s.world);
@@ -225,8 +228,8 @@ const std::vector<Scene>& Simulation::models() const { return state_->world->mod
 const Scene& Simulation::scene() const { return state_->scene; }
 std::vector<std::string> Simulation::warnings() const {
   std::vector<std::string> out = state_->scene.report.warnings;
-  const std::vector<std::string>& more = state_->world->warnings();
-  out.insert(out.end(), more.begin(), more.end());
+  for (const std::vector<std::string>* more : {&state_->world->warnings(), &std::as_const(state_->place_warnings)})
+    out.insert(out.end(), more->begin(), more->end());
   return out;
 }
 

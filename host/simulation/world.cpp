@@ -289,6 +289,8 @@ const std::vector<Scene>& World::models() const { return state_->models; }
 const std::vector<Instance>& World::instances() const { return state_->instances; }
 const std::vector<RadioEnd>& World::transmitters() const { return state_->transmitters.ends; }
 const std::vector<RadioEnd>& World::receivers() const { return state_->receivers.ends; }
+const Trajectories& World::trajectories() const { return state_->trajectories; }
+bool World::any_link_allowed() const { return state_->links.any_allowed(); }
 uint64_t World::frame_count() const { return state_->clock->frame_count(); }
 double World::time_s(uint64_t frame) const { return state_->clock->time_s(frame); }
 double World::reach_m() const { return state_->reach_m; }

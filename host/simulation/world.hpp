@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/trajectories.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/live.hpp"
 #include "wavetracer/scene.hpp"
@@ -33,6 +34,11 @@ class World {
   // same vehicle), no_end where there is none; and the other way round.
   const std::vector<uint32_t>& receiver_of_transmitter() const;
   const std::vector<uint32_t>& transmitter_of_receiver() const;
+
+  // Recentred; of a live world a track a place.
+  const Trajectories& trajectories() const;
+  // Whether [links] allows any pair of ends at all, wherever they are.
+  bool any_link_allowed() const;
 
   uint64_t frame_count() const;
   double time_s(uint64_t frame) const;

@@ -35,6 +35,14 @@ bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
   return tx_vehicle == rx_vehicle ? config_.same_vehicle : config_.v2v;
 }
 
+bool LinkRules::any_allowed() const {
+  return std::ranges::any_of(wanted_transmitters_, [&](uint32_t tx) {
+    return std::ranges::any_of(wanted_receivers_, [&](uint32_t rx) {
+      return allowed(transmitters_.vehicles[tx], receivers_.vehicles[rx]);
+    });
+  });
+}
+
 std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitters,
                                         const std::vector<EndState>& receivers) const {
   std::vector<uint32_t> present;
