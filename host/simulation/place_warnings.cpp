@@ -21,9 +21,9 @@ namespace {
 constexpr double outside_share = 0.05, above_share = 1;
 
 enum Kind { inside, below, outside, on_surface, near, kinds };
-constexpr std::array<const char*, kinds> words = {
-    "inside of closed bodies", "below the ground", "outside of the scene's box", "on a surface",
-    "within a wavelength of an end that they are linked to"};
+constexpr std::array<const char*, kinds> words = {"inside of closed bodies", "below the ground",
+                                                  "outside of the scene's box", "on a surface",
+                                                  "within a wavelength of an end that they are linked to"};
 
 // What is to be said of an end, a text a kind; empty: nothing.
 using Findings = std::array<std::string, kinds>;
@@ -43,13 +43,13 @@ Place look(const Surroundings& around, const glm::dvec3& p) {
   else if (const double up_m = p.z - scene.upper.z; up_m > above_share * longest_m)
     out.findings[outside] = fmt::format("is {:.4g} m above the scene's box", up_m);
   if (const auto depth = around.below_ground(p))
-    out.findings[below] = fmt::format("is {:.3g} m below the ground there, {}", depth->metres,
-                                      around.name_of(depth->object));
+    out.findings[below] =
+        fmt::format("is {:.3g} m below the ground there, {}", depth->metres, around.name_of(depth->object));
   else
     out.body = around.body_at(p);
   if (const auto object = around.object_at(p))
-    out.findings[on_surface] = fmt::format("lies on a surface of {}, which may hide it by rounding: move it off by 1 mm",
-                                           around.name_of(*object));
+    out.findings[on_surface] = fmt::format(
+        "lies on a surface of {}, which may hide it by rounding: move it off by 1 mm", around.name_of(*object));
   return out;
 }
 
@@ -92,9 +92,10 @@ class Ends {
     const double apart_m = glm::distance(state_.transmitters[link.tx].position_m, state_.receivers[link.rx].position_m);
     // An end that sends and receives is at no distance from itself.
     if (apart_m > 0 && apart_m < wavelength_m_ && rx.findings[near].empty())
-      rx.findings[near] = fmt::format("is {:.3g} m from transmitter \"{}\", less than a wavelength ({:.3g} m): far fields "
-                                      "do not hold there",
-                                      apart_m, world_.transmitters()[link.tx].name, wavelength_m_);
+      rx.findings[near] = fmt::format(
+          "is {:.3g} m from transmitter \"{}\", less than a wavelength ({:.3g} m): far fields "
+          "do not hold there",
+          apart_m, world_.transmitters()[link.tx].name, wavelength_m_);
   }
 
   void name_bodies() {
@@ -135,8 +136,9 @@ void say_grids(const Config& config, const Surroundings& around, const Ends& end
       size_t such = 0;
       for (size_t i = first; i < first + count; ++i) such += !ends.receiver(i)[static_cast<size_t>(kind)].empty();
       if (such > 0)
-        out.push_back(fmt::format("{} of {} receivers of grid \"{}\" are {}", such == count ? "all" : fmt::format("{}", such),
-                                  count, grid.name, words[static_cast<size_t>(kind)]));
+        out.push_back(fmt::format("{} of {} receivers of grid \"{}\" are {}",
+                                  such == count ? "all" : fmt::format("{}", such), count, grid.name,
+                                  words[static_cast<size_t>(kind)]));
     }
     first += count;
   }
@@ -144,13 +146,15 @@ void say_grids(const Config& config, const Surroundings& around, const Ends& end
 
 void say_links(const Config& config, const World& world, std::vector<std::string>& out) {
   if (!world.any_link_allowed())
-    out.push_back(fmt::format("no link is computed: [links] allows none between the {} transmitters and the {} receivers; "
-                              "look at v2v, v2i, i2i, same_vehicle, transmitters and receivers there",
-                              world.transmitters().size(), world.receivers().size()));
+    out.push_back(
+        fmt::format("no link is computed: [links] allows none between the {} transmitters and the {} receivers; "
+                    "look at v2v, v2i, i2i, same_vehicle, transmitters and receivers there",
+                    world.transmitters().size(), world.receivers().size()));
   else if (world.frame_count() == 1 && !world.live() && world.state(0).links.empty())
-    out.push_back(fmt::format("no link is computed: no transmitter and receiver that [links] allows are there within "
-                              "links.max_distance_m = {:g} m of each other",
-                              config.links.max_distance_m));
+    out.push_back(
+        fmt::format("no link is computed: no transmitter and receiver that [links] allows are there within "
+                    "links.max_distance_m = {:g} m of each other",
+                    config.links.max_distance_m));
 }
 
 }  // namespace

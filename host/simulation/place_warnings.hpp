@@ -1,5 +1,5 @@
-// Words about ends and vehicles that stand where nobody would put them: inside of houses, below the ground, far outside.
-// Said before anything is traced, by name, a few of each kind and then their number.
+// Words about ends and vehicles that stand where nobody would put them: inside of houses, below the ground, far
+// outside. Said before anything is traced, by name, a few of each kind and then their number.
 #pragma once
 #include <string>
 #include <vector>

@@ -17,6 +17,7 @@
 #include "simulation/features.hpp"
 #include "simulation/link_block.hpp"
 #include "simulation/listeners.hpp"
+#include "simulation/missing_paths.hpp"
 #include "simulation/order_choice.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/placement.hpp"
@@ -231,6 +232,11 @@ std::vector<std::string> Simulation::warnings() const {
   for (const std::vector<std::string>* more : {&state_->world->warnings(), &std::as_const(state_->place_warnings)})
     out.insert(out.end(), more->begin(), more->end());
   return out;
+}
+
+std::vector<std::string> Simulation::explain_missing(uint32_t frame, std::span<const Link> found) const {
+  const State& s = *state_;
+  return wavetracer::explain_missing(s.config, s.features, Surroundings(s.scene), *s.world, frame, found);
 }
 
 const DeviceSummary& Simulation::device() const { return state_->device; }

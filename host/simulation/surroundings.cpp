@@ -144,6 +144,7 @@ void Surroundings::Index::join_bodies(const Scene& scene, const std::vector<Box>
 Surroundings::Surroundings(const Scene& scene)
     : scene_(scene), index_(std::make_unique<Index>(scene, boxes_of(scene))) {}
 Surroundings::~Surroundings() = default;
+Surroundings::Surroundings(Surroundings&&) noexcept = default;
 
 std::vector<Surroundings::Crossing> Surroundings::crossings(const dvec3& a, const dvec3& b) const {
   std::vector<Crossing> out;
@@ -174,6 +175,7 @@ std::optional<Surroundings::Body> Surroundings::body_at(const dvec3& p) const {
   for (size_t k = 0; k < leaving.size(); ++k) {
     std::vector<Around> odd;
     for (const Crossing& c : crossings(p, p + far_m * glm::normalize(leaving[k]))) {
+      if (c.distance_m <= on_surface_m) continue;  // what p lies on is not around it
       const auto found = std::ranges::find(odd, index_->body[c.triangle], &Around::body);
       if (found == odd.end())
         odd.push_back({index_->body[c.triangle], c});
@@ -190,7 +192,8 @@ std::optional<Surroundings::Body> Surroundings::body_at(const dvec3& p) const {
     if (around.empty()) return {};
   }
   // Of bodies in one another the smallest.
-  const auto inner = std::ranges::min_element(around, {}, [&](const Around& a) { return volume(index_->body_box[a.body]); });
+  const auto inner =
+      std::ranges::min_element(around, {}, [&](const Around& a) { return volume(index_->body_box[a.body]); });
   return Body{inner->body, scene_.triangle_object[inner->nearest.triangle]};
 }
 
@@ -205,7 +208,8 @@ std::optional<Surroundings::Depth> Surroundings::below_ground(const dvec3& p) co
   if (above.empty() || above.front().distance_m <= on_surface_m) return {};
   if (p.z > bottom_m && !crossings(p, {p.x, p.y, bottom_m}).empty()) return {};
   const uint32_t object = scene_.triangle_object[above.front().triangle];
-  const dvec3 size = scene_.upper - scene_.lower, wide = index_->object_box[object].upper - index_->object_box[object].lower;
+  const dvec3 size = scene_.upper - scene_.lower,
+              wide = index_->object_box[object].upper - index_->object_box[object].lower;
   if (!(wide.x * wide.y >= 0.5 * size.x * size.y)) return {};
   return Depth{above.front().distance_m, object};
 }

@@ -20,6 +20,7 @@ class Surroundings {
  public:
   explicit Surroundings(const Scene& scene);
   ~Surroundings();
+  Surroundings(Surroundings&&) noexcept;
 
   struct Crossing {
     double distance_m;  // from the line's start
@@ -28,8 +29,8 @@ class Surroundings {
   // All triangles that the line from a to b meets, the nearest first.
   std::vector<Crossing> crossings(const glm::dvec3& a, const glm::dvec3& b) const;
 
-  // A body is what edges join. It holds a place where lines to all sides leave it: each meets it an odd number of times.
-  // So walls and a roof are closed without a floor, and a bridge or a carport is not.
+  // A body is what edges join. It holds a place where lines to all sides leave it: each meets it an odd number of
+  // times. So walls and a roof are closed without a floor, and a bridge or a carport is not.
   struct Body {
     uint32_t number;  // of the body
     uint32_t object;  // index into Scene::objects: what is met first
@@ -38,7 +39,8 @@ class Surroundings {
   // Whether the body fills so little of the scene's box that most of the scene is outside of it.
   bool small(const Body& body) const;
 
-  // How far p lies below all that is there, if that belongs to an object as wide as a ground is: half of the scene's box.
+  // How far p lies below all that is there, if that belongs to an object as wide as a ground is: half of the scene's
+  // box.
   struct Depth {
     double metres;
     uint32_t object;

@@ -82,9 +82,10 @@ class Drive {
     std::vector<std::string> out;
     const auto say = [&](const Count& c, Kind kind) {
       if (c.vehicles > 0)
-        out.push_back(fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {:g} s on: check "
-                                  "trajectories.offset_m, and whether map and drive belong together",
-                                  c.vehicles, vehicles, words[kind], c.id, c.text, c.time_s));
+        out.push_back(
+            fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {:g} s on: check "
+                        "trajectories.offset_m, and whether map and drive belong together",
+                        c.vehicles, vehicles, words[kind], c.id, c.text, c.time_s));
     };
     for (int kind = 0; kind < kinds; ++kind) say(counts_[static_cast<size_t>(kind)], static_cast<Kind>(kind));
     if (free_) say(in_rooms_, through);
