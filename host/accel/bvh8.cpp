@@ -13,6 +13,7 @@ namespace wavetracer {
 namespace {
 
 constexpr uint32_t kWidth = 8, kBlock = 4;
+constexpr int32_t empty_leaf = ~0;  // of no block
 
 float bits(int32_t integer) { return std::bit_cast<float>(integer); }
 float bits(uint32_t integer) { return std::bit_cast<float>(integer); }
@@ -83,7 +84,7 @@ class Writer {
     for (size_t lane = 0; lane < kWidth; lane++) {
       const bool used = lane < children.size();
       const Box box = used ? tree_.nodes[children[lane]].box : Box{};
-      const int32_t reference = used ? child(children[lane], depth + 1) : 0;
+      const int32_t reference = used ? child(children[lane], depth + 1) : empty_leaf;
       float* node = &out_.nodes[at];
       for (size_t axis = 0; axis < 3; axis++) {
         node[kWidth * axis + lane] = box.lower[axis];

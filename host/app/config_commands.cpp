@@ -6,21 +6,39 @@
 #include "app/commands.hpp"
 #include "app/inputs.hpp"
 #include "config/config_file.hpp"
+#include "scene/load.hpp"
+#include "simulation/place_warnings.hpp"
+#include "simulation/world.hpp"
 
 namespace wavetracer::app {
+
+namespace {
+
+// What a run would say of the scene and of who stands and drives in it, which has to be loaded for that.
+std::vector<std::string> world_warnings(const Config& config) {
+  const Scene scene = load_scene(config);
+  const World world(config, scene);
+  std::vector<std::string> out = scene.report.warnings;
+  for (const auto& more : {world.warnings(), place_warnings(config, Surroundings(scene), world)})
+    out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+}  // namespace
 
 void add_validate(CLI::App& program) {
   struct Options {
     std::string file;
     std::vector<std::string> sets;
   };
-  CLI::App* command = program.add_subcommand("validate", "Check a config file, and that the files it names exist");
+  CLI::App* command = program.add_subcommand("validate", "Check a config file, what it names, and where its antennas and vehicles are");
   const auto options = std::make_shared<Options>();
   command->add_option("-c,--config", options->file, "Config file (TOML)")->required();
   command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
   command->callback([options] {
     const Config config = load_config(options->file, options->sets);
     check_inputs(config);
+    for (const std::string& warning : world_warnings(config)) std::cerr << "warning: " << warning << "\n";
     const std::string scene =
         config.scene.file.empty() ? "city \"" + config.scene.generate + "\"" : "scene " + config.scene.file;
     const std::string mounted =

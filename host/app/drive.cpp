@@ -7,6 +7,7 @@
 #include <utility>
 #include "app/folder_hold.hpp"
 #include "app/interrupt.hpp"
+#include "app/missing.hpp"
 #include "app/solve_frame.hpp"
 #include "app/team.hpp"
 #include "output/shards.hpp"
@@ -105,7 +106,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   add(results.totals, totals_of(frames));
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
-    results.files = shards.merge(task.run, frames);
+    results.files = shards.merge(with_missing_words(task.simulation, task.run, results), frames);
   }
   return results;
 }

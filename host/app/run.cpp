@@ -16,6 +16,7 @@
 #include "app/inputs.hpp"
 #include "app/interrupt.hpp"
 #include "app/launch.hpp"
+#include "app/missing.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/solve_frame.hpp"
@@ -76,9 +77,10 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   SolvedFrame solved = solve_frame(simulation, 0, run.summary.repeat_count);
   run.summary.repeat_count = solved.repeated;
   const FrameResult& frame = solved.result;
+  Results results{totals_of({&frame, 1}), 0, link_figures(frame.paths, 0, frame.world.links), {}};
   progress.line("writing to " + run.config.output.directory);
-  return {totals_of({&frame, 1}), 0, link_figures(frame.paths, 0, frame.world.links),
-          write_outputs(run.config.output.directory, run, {&frame, 1})};
+  results.files = write_outputs(run.config.output.directory, with_missing_words(simulation, run, results), {&frame, 1});
+  return results;
 }
 
 // What an interrupt left undone, and how to go on.
@@ -188,6 +190,8 @@ void run(const Options& options, Invocation& invocation) {
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
   progress.line(fmt::format("ready after {:.2f} s on {}; {} rays from each transmitter ({})", ready,
                             run.summary.device.name, rays_in_words(config.trace), run.config.transmitters.size()));
+  if (ranks.rank == 0)
+    for (const std::string& warning : run.summary.warnings) progress.line("warning: " + warning);
 
   const bool moving = simulation.frame_count() > 1;
   if (options.resume && !moving && !part && !together)
@@ -203,9 +207,7 @@ void run(const Options& options, Invocation& invocation) {
   } else {
     results = moving ? drive(task, progress) : run_still(simulation, run, progress);
   }
-  std::vector<std::string> warnings = run.summary.warnings;
-  add_warnings(warnings, results.totals.warnings);
-  for (const std::string& warning : warnings) progress.line("warning: " + warning);
+  for (const std::string& warning : results.totals.warnings) progress.line("warning: " + warning);
   if (results.totals.frames > 0) std::cout << report(run, results) << std::flush;
   const bool whole = moving && results.totals.frames == run.summary.frames_asked;
   if (interrupted() && !whole && !together) {

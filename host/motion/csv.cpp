@@ -156,9 +156,11 @@ class CsvReader {
                        cells_.size(), width_));
     }
     if (!has(id_column)) fail(fmt::format("column {} (id) is empty", column_[id_column] + 1));
+    const double x = number(x_column), y = number(y_column);
+    if (tracks_.off_network(x, y)) return;
     Sample sample;
     sample.time_s = number(time_column);
-    sample.position_m = {number(x_column), number(y_column), column_[z_column] == absent ? 0 : number(z_column)};
+    sample.position_m = {x, y, column_[z_column] == absent ? 0 : number(z_column)};
     sample.yaw_rad = std::remainder(optional_number(yaw_column), 360.0) * (std::numbers::pi / 180);
     sample.speed_m_s = optional_number(speed_column);
     const std::string_view type = has(type_column) ? std::string_view(cell(type_column)) : "passenger";

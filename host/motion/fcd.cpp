@@ -172,8 +172,7 @@ class FcdReader {
       if (!text) return otherwise;
       const std::optional<double> value = finite_number(text);
       if (!value) fail(fmt::format("{}: {} = '{}' is not a finite number", what, attribute, text));
-      constexpr double sumo_invalid = -1073741824;  // INVALID_DOUBLE_VALUE of SUMO
-      if (*value == sumo_invalid) {
+      if (*value == sumo_invalid && attribute != "x" && attribute != "y") {
         fail(fmt::format("{}: {} = '{}' is what SUMO writes for an unknown value; leave this element out", what,
                          attribute, text));
       }
@@ -188,9 +187,11 @@ class FcdReader {
       fail(fmt::format("{} has no attribute '{}'; if --fcd-output.attributes was given to sumo, it must name x and y",
                        what, attribute));
     };
+    const double x = coordinate("x"), y = coordinate("y");
+    if (tracks_.off_network(x, y)) return;
     Sample sample;
     sample.time_s = time_s_;
-    sample.position_m = {coordinate("x"), coordinate("y"), optional_number("z", 0)};
+    sample.position_m = {x, y, optional_number("z", 0)};
     sample.yaw_rad = std::remainder((90 - optional_number("angle", not_given)), 360.0) * degree;
     const double slope_deg = optional_number("slope", not_given);
     if (std::abs(slope_deg) >= 90) fail(fmt::format("{}: slope = {} is not within -90 to 90", what, slope_deg));

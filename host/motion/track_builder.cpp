@@ -71,9 +71,10 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
   std::optional<VehicleType> type = given != options_.types.end() ? *given : sumo_type(base);
   if (!type) {
     if (!options_.default_type) {
-      fail_at(file_, line, fmt::format("the vehicle type '{}' is not known: add a [[vehicle_type]] with its length_m, width_m "
-                                       "and height_m, or give trajectories.default_type",
-                                       name));
+      fail_at(file_, line,
+              fmt::format("the vehicle type '{}' is not known: add a [[vehicle_type]] with its length_m, width_m "
+                          "and height_m, or give trajectories.default_type",
+                          name));
     }
     type = options_.default_type;
     unknown_types_.emplace_back(name);
@@ -104,6 +105,12 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
     warn(fmt::format("{}: no size is known for the vehicle types {}: {} x {} x {} m is used", file_,
                      listed(unknown_types_), options_.default_type->length_m, options_.default_type->width_m,
                      options_.default_type->height_m));
+  }
+  if (off_network_ > 0) {
+    warn(fmt::format(
+        "{}: {} samples have x or y = {:.0f}, which SUMO writes for a vehicle off the network: the vehicle is "
+        "absent there",
+        file_, off_network_, sumo_invalid));
   }
   if (changed_types_ > 0) {
     warn(fmt::format("{}: {} samples change the type of their vehicle, which keeps its first one", file_,

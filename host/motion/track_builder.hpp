@@ -12,6 +12,10 @@
 
 namespace wavetracer {
 
+// What SUMO writes for a value that it does not know (its INVALID_DOUBLE_VALUE): as x or y, of a vehicle that is not on
+// the network.
+constexpr double sumo_invalid = -1073741824;
+
 // What the position of a sample is in the file.
 enum class ReferencePoint { centre, front_bumper };
 
@@ -23,6 +27,13 @@ class TrackBuilder {
   const std::string& file() const { return file_; }
   // what: the sample as messages name it, "vehicle 'a'". Throws where the vehicle has a sample at this time or a later.
   void add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line, std::string_view what);
+  // Whether the vehicle is off the network, by its file coordinates. Such a sample is not to be added, but counted
+  // here: the vehicle is absent then.
+  bool off_network(double x, double y) {
+    const bool off = x == sumo_invalid || y == sumo_invalid;
+    off_network_ += off;
+    return off;
+  }
   void warn(std::string message) { out_.warnings.push_back(std::move(message)); }
   // The samples so far, by first appearance in the file, in file coordinates.
   const std::vector<Track>& tracks() const { return out_.tracks; }
@@ -46,7 +57,7 @@ class TrackBuilder {
   std::vector<uint64_t> last_line_;  // of each track
   ByName<uint32_t> track_of_, type_of_;
   std::vector<std::string> unknown_types_;
-  uint64_t changed_types_ = 0;
+  uint64_t changed_types_ = 0, off_network_ = 0;
 };
 
 }  // namespace wavetracer

@@ -20,6 +20,9 @@ namespace {
 using glm::dvec3;
 constexpr uint32_t none = 0xFFFFFFFFu;
 constexpr double largest_extent_m = 1e6;  // beyond any scene of rays on a flat Earth: a unit or a stray vertex is wrong
+// Corners within 1 mm are one, and what is within 0.1 mm of a plane lies on it: in smaller scenes that would decide
+// which paths there are, and up to the second extent it may for details.
+constexpr double smallest_extent_m = 0.1, detailed_extent_m = 1;
 
 // Vertices and triangles of all meshes in one index space; vertices that no triangle uses are left out.
 struct Soup {
@@ -71,9 +74,24 @@ dvec3 recentre(Soup& soup, const std::string& file) {
                     "right, is a vertex astray?",
                     file, size.x, size.y, size.z, largest_extent_m / 1000));
   }
+  if (std::max({size.x, size.y, size.z}) < smallest_extent_m) {
+    throw InputError(fmt::format(
+        "{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, less than {:g} m, where corners within 1 mm of each "
+        "other "
+        "are one: is scene.scale right? To trace a small model, scale scene, antennas and wavelength up by one factor",
+        file, size.x, size.y, size.z, smallest_extent_m));
+  }
   const dvec3 origin = glm::round(lower + size * 0.5) + dvec3(0);  // + 0: no negative zeros
   for (dvec3& v : soup.vertices) v -= origin;
   return origin;
+}
+
+void warn_small(Scene& scene) {
+  const dvec3 size = scene.upper - scene.lower;
+  if (const double extent_m = std::max({size.x, size.y, size.z}); extent_m < detailed_extent_m)
+    scene.report.warnings.push_back(fmt::format(
+        "the scene extends over {:.3g} m only, and details of less than 1 cm are not resolved: is scene.scale right?",
+        extent_m));
 }
 
 // Indices of triangles that repeat an earlier one's vertices, in any order; the second counts those of another
@@ -197,6 +215,7 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, bool with_wed
     scene.lower = glm::min(scene.lower, v);
     scene.upper = glm::max(scene.upper, v);
   }
+  warn_small(scene);
   return scene;
 }
 

@@ -18,7 +18,9 @@
 #include "simulation/launch_slopes.hpp"
 #include "simulation/link_block.hpp"
 #include "simulation/listeners.hpp"
+#include "simulation/missing_paths.hpp"
 #include "simulation/order_choice.hpp"
+#include "simulation/place_warnings.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/reciprocity.hpp"
 #include "simulation/stopwatch.hpp"
@@ -122,6 +124,7 @@ struct Simulation::State {
   DeviceSummary device;
   OrderSummary order;
   Features features;
+  std::vector<std::string> place_warnings;
 
   FrameResult solve(uint32_t frame, WorldState frame_world, const LinkBlock* block = nullptr);
   void begin_frame();
@@ -184,6 +187,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.scene = load_scene(config);
   s.setup["load"] = watch.lap();
   s.world.emplace(config, s.scene);
+  s.place_warnings = wavetracer::place_warnings(config, Surroundings(s.scene), *s.world);
   s.config.transmitters = s.world->transmitters();
   s.config.receivers = s.world->receivers();
   s.features = choose_features(s.config, s.scene, *s.world);
@@ -247,9 +251,14 @@ const std::vector<Scene>& Simulation::models() const { return state_->world->mod
 const Scene& Simulation::scene() const { return state_->scene; }
 std::vector<std::string> Simulation::warnings() const {
   std::vector<std::string> out = state_->scene.report.warnings;
-  const std::vector<std::string>& more = state_->world->warnings();
-  out.insert(out.end(), more.begin(), more.end());
+  for (const std::vector<std::string>* more : {&state_->world->warnings(), &std::as_const(state_->place_warnings)})
+    out.insert(out.end(), more->begin(), more->end());
   return out;
+}
+
+std::vector<std::string> Simulation::explain_missing(uint32_t frame, std::span<const Link> found) const {
+  const State& s = *state_;
+  return wavetracer::explain_missing(s.config, s.features, Surroundings(s.scene), *s.world, frame, found);
 }
 
 const DeviceSummary& Simulation::device() const { return state_->device; }

@@ -17,6 +17,7 @@
 #include "simulation/receiver_grid.hpp"
 #include "simulation/world_links.hpp"
 #include "simulation/world_models.hpp"
+#include "simulation/world_reach.hpp"
 #include "simulation/world_trajectories.hpp"
 #include "wavetracer/device/records.h"
 #include "wavetracer/error.hpp"
@@ -38,6 +39,12 @@ VehicleState vehicle_at(const Track& track, double time_s) {
                                       [](double time, const Sample& s) { return time < s.time_s; });
   const Sample& last = later == track.samples.begin() ? *later : *(later - 1);
   return {*pose_at(track, last.time_s), false};
+}
+
+std::string range_in_words(const TimeConfig& config) {
+  if (!config.start_s) return fmt::format("ends at {:g} s", config.end_s.value_or(0));
+  if (!config.end_s) return fmt::format("begins at {:g} s", *config.start_s);
+  return fmt::format("goes from {:g} to {:g} s", *config.start_s, *config.end_s);
 }
 
 // A place on a vehicle: an antenna, or the origin of its model. Axes as the vehicle's: ahead, left, up.
@@ -104,15 +111,16 @@ void World::State::add_instances(VehicleModels& vehicles, const Scene& scene) {
     const std::optional<uint32_t> model = vehicles.model_of(type, track.id);
     track_instance.push_back(model ? static_cast<uint32_t>(instances.size()) : no_instance);
     if (!model) continue;
-    instances.push_back({track.id, type.name, *model, static_cast<uint32_t>(next_surface),
-                         static_cast<uint32_t>(next_wedge)});
+    instances.push_back(
+        {track.id, type.name, *model, static_cast<uint32_t>(next_surface), static_cast<uint32_t>(next_wedge)});
     instance_track.push_back(k);
     next_surface += vehicles.models()[*model].surfaces.size();
     next_wedge += vehicles.models()[*model].wedges.size();
     if (next_surface > ~WT_STEP_KIND || next_wedge >= 1u << 27)
-      throw RuntimeError(fmt::format("the scene and {} vehicles have more than 2^30 surfaces or 2^27 edges: use models "
-                                     "with fewer faces, or shorter trajectories",
-                                     instances.size()));
+      throw RuntimeError(
+          fmt::format("the scene and {} vehicles have more than 2^30 surfaces or 2^27 edges: use models "
+                      "with fewer faces, or shorter trajectories",
+                      instances.size()));
   }
   models = std::move(vehicles.models());
 }
@@ -198,22 +206,32 @@ void World::State::set_clock(const TimeConfig& config) {
     clock.emplace(0, 0, 1);
     return;
   }
-  const double start_s = config.start_s.value_or(trajectories.first_time_s);
-  const double end_s = config.end_s.value_or(trajectories.last_time_s);
+  const double first_s = trajectories.first_time_s, last_s = trajectories.last_time_s;
+  const double start_s = config.start_s.value_or(first_s), end_s = config.end_s.value_or(last_s);
+  if (start_s > last_s + time_tolerance_s || end_s < first_s - time_tolerance_s)
+    throw ConfigError(
+        fmt::format("[time] {}, and the trajectories go from {:g} to {:g} s: no frame would have a vehicle; "
+                    "give a time.start_s and a time.end_s among them, or leave both out",
+                    range_in_words(config), first_s, last_s));
   const double step_s = config.step_s > 0 ? config.step_s : trajectories.step_s;
   if (!(step_s > 0) && start_s != end_s)
     throw ConfigError("time.step_s is not given, and no vehicle has two samples to tell a step: give it");
   clock.emplace(start_s, end_s, step_s > 0 ? step_s : 1);
+  const double frames = static_cast<double>(clock->frame_count()), step = clock->step_s();
+  const double before = std::clamp(std::ceil((first_s - time_tolerance_s - start_s) / step), 0.0, frames);
+  const double until = std::clamp(std::floor((last_s + time_tolerance_s - start_s) / step) + 1, before, frames);
+  if (const double empty = frames - (until - before); empty > 0)
+    warnings.push_back(
+        fmt::format("{} of {} frames have no vehicle: [time] {}, and the trajectories go from {:g} to {:g} s", empty,
+                    frames, range_in_words(config), first_s, last_s));
 }
 
 void World::State::set_reach(const glm::dvec3& origin_m) {
-  const auto add = [&](const glm::dvec3& lower_m, const glm::dvec3& upper_m, double radius_m) {
-    for (int axis = 0; axis < 3; ++axis)
-      reach_m = std::max({reach_m, std::abs(lower_m[axis]) + radius_m, std::abs(upper_m[axis]) + radius_m});
-  };
+  Reach reach(origin_m);
   std::vector<double> radius_m(trajectories.tracks.size(), 0);
-  for (const auto* role : {&transmitters, &receivers}) {
-    for (const EndState& end : role->standing) add(end.position_m, end.position_m, 0);
+  for (const auto& [role, word] : {std::pair{&transmitters, "transmitter"}, {&receivers, "receiver"}}) {
+    for (size_t i = 0; i < role->standing.size(); ++i)
+      reach.add_end(fmt::format("{} \"{}\"", word, role->ends[i].name), role->standing[i].position_m);
     for (const MountedEnd& end : role->mounted)
       radius_m[end.track] = std::max(radius_m[end.track], glm::length(end.offset_m));
   }
@@ -223,10 +241,12 @@ void World::State::set_reach(const glm::dvec3& origin_m) {
     radius_m[instance_track[i]] = std::max(radius_m[instance_track[i]], glm::length(far_m));
   }
   for (size_t k = 0; k < radius_m.size(); ++k) {
-    const Bounds bounds = live ? Bounds{live->bounds().lower_m - origin_m, live->bounds().upper_m - origin_m}
-                               : bounds_of(trajectories.tracks[k]);
-    add(bounds.lower, bounds.upper, radius_m[k]);
+    if (live)
+      reach.add_box(live->bounds().lower_m - origin_m, live->bounds().upper_m - origin_m, radius_m[k]);
+    else
+      reach.add_track(trajectories.tracks[k], radius_m[k]);
   }
+  reach_m = reach.metres();
 }
 
 void World::State::warn_outside(const Scene& scene) {
@@ -237,9 +257,9 @@ void World::State::warn_outside(const Scene& scene) {
                b.upper.y < scene.lower.y;
   }
   if (outside > 0)
-    warnings.push_back(
-        fmt::format("{} of {} vehicles are never inside of the scene: check trajectories.offset_m and trajectories.scale",
-                    outside, trajectories.tracks.size()));
+    warnings.push_back(fmt::format(
+        "{} of {} vehicles are never inside of the scene: check trajectories.offset_m and trajectories.scale", outside,
+        trajectories.tracks.size()));
 }
 
 World::World(const Config& config, const Scene& scene) : state_(std::make_unique<State>()) {
@@ -269,6 +289,8 @@ const std::vector<Scene>& World::models() const { return state_->models; }
 const std::vector<Instance>& World::instances() const { return state_->instances; }
 const std::vector<RadioEnd>& World::transmitters() const { return state_->transmitters.ends; }
 const std::vector<RadioEnd>& World::receivers() const { return state_->receivers.ends; }
+const Trajectories& World::trajectories() const { return state_->trajectories; }
+bool World::any_link_allowed() const { return state_->links.any_allowed(); }
 uint64_t World::frame_count() const { return state_->clock->frame_count(); }
 double World::time_s(uint64_t frame) const { return state_->clock->time_s(frame); }
 double World::reach_m() const { return state_->reach_m; }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/trajectories.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/live.hpp"
 #include "wavetracer/scene.hpp"
@@ -35,6 +36,11 @@ class World {
   const std::vector<uint32_t>& transmitter_of_receiver() const;
   // Is there a link the other way to every link, in every frame?
   bool links_both_ways() const;
+
+  // Recentred; of a live world a track a place.
+  const Trajectories& trajectories() const;
+  // Whether [links] allows any pair of ends at all, wherever they are.
+  bool any_link_allowed() const;
 
   uint64_t frame_count() const;
   double time_s(uint64_t frame) const;

@@ -45,6 +45,14 @@ bool LinkRules::both_ways(std::span<const uint32_t> receiver_of_transmitter,
          all_in(wanted_receivers_, transmitter_of_receiver, wanted_transmitters_);
 }
 
+bool LinkRules::any_allowed() const {
+  return std::ranges::any_of(wanted_transmitters_, [&](uint32_t tx) {
+    return std::ranges::any_of(wanted_receivers_, [&](uint32_t rx) {
+      return allowed(transmitters_.vehicles[tx], receivers_.vehicles[rx]);
+    });
+  });
+}
+
 std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitters,
                                         const std::vector<EndState>& receivers) const {
   std::vector<uint32_t> present;

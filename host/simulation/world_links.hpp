@@ -33,6 +33,9 @@ class LinkRules {
   // The links of ends that are present, sorted. Ends of one and the same place have no path that a ray could tell.
   std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;
 
+  // Whether any pair is allowed, wherever the ends are.
+  bool any_allowed() const;
+
  private:
   bool allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const;
 

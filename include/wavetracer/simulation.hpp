@@ -130,7 +130,10 @@ class Simulation {
   const Config& config() const;
   const std::vector<Instance>& instances() const;
   const std::vector<Scene>& models() const;
-  // What loading the scene and the trajectories left out or made up.
+  // Why the other links of a frame have no path, a few by name: what their direct lines meet first, and which mechanism
+  // that is off may bring something. found: the links that have one, sorted.
+  std::vector<std::string> explain_missing(uint32_t frame, std::span<const Link> found) const;
+  // What loading the scene and the trajectories left out or made up; antennas and vehicles in places that cannot be meant.
   std::vector<std::string> warnings() const;
   const DeviceSummary& device() const;
   const OrderSummary& order() const;

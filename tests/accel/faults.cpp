@@ -169,7 +169,8 @@ std::vector<std::string> faults(const Bvh8& bvh, std::span<const AccelTriangle> 
       const Box box{{p[0], p[8], p[16]}, {p[24], p[32], p[40]}};
       const auto child = std::bit_cast<int32_t>(p[48]);
       faults.check(p[56] == 0, "the last row of a node is not zero");
-      if (child == 0) {  // the root is nobody's child
+      faults.check(child != 0, "the root is a child of node " + std::to_string(index));
+      if (child == ~0) {
         faults.check(box.empty(), "an unused child has a box");
         continue;
       }

@@ -50,6 +50,32 @@ TEST_CASE("a run writes three files and says what it found") {
   CHECK(lines(folder.path("out/links.csv")) == 2);
 }
 
+TEST_CASE("a run warns before it traces, and explains links without a path, on the terminal and in summary.json") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street + "[[receiver]]\nname = \"deep\"\nposition_m = [9, 0, -1.5]\n");
+  const auto warnings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"run", "-c", file, "-o", folder.path("out")};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome run = run_program(words);
+    CHECK(run.code == 0);
+    std::ifstream in(folder.path("out/summary.json"));
+    const auto all = nlohmann::json::parse(in).at("warnings").get<std::vector<std::string>>();
+    for (const std::string& text : all) CHECK(contains(run.err, "warning: " + text + "\n"));
+    if (more.empty()) CHECK(run.err.find("warning: receiver \"deep\"") < run.err.find("writing to"));
+    return all;
+  };
+  const std::string deep = "receiver \"deep\" is 1.5 m below the ground there, \"ground\"";
+  CHECK(warnings({}) == std::vector<std::string>{deep, "mast -> deep has no path: its direct line meets \"ground\" "
+                                                       "(concrete) after 9.372 m; trace.transmission = true lets it "
+                                                       "through 1 wall"});
+  const auto none = warnings({"--set", "links.receivers=[\"deep\"]"});
+  REQUIRE(none.size() == 3);
+  CHECK(none[1] == "no path was found, of 1 links in 1 frame");
+  CHECK(warnings({"--set", "trace.transmission=true"}) == std::vector<std::string>{deep});
+  CHECK(warnings({"--processes", "2", "--set", "links.receivers=[\"deep\"]"}) == none);
+}
+
 TEST_CASE("a run says which features it had, why not others, and how many paths of each kind it found") {
   if (!device_present()) return;
   const Folder folder;

@@ -101,6 +101,26 @@ TEST_CASE("traffic in the streets of another city exits 2 and says what differs"
   CHECK(validate("--blocks 6 --floors 2:3", "--seed 5 --blocks=6x6 --street-m 20").code == 0);
 }
 
+TEST_CASE("validate warns of antennas and vehicles in places that cannot be meant, and refuses those out of reach") {
+  const Folder folder;
+  const auto validate = [&](const std::string& text) {
+    return run_program({"validate", "-c", folder.file("a.toml", "scene.generate = \"--blocks 2\"\n" + text)});
+  };
+  const std::string mast = "[[transmitter]]\nname = \"mast\"\nposition_m = ",
+                    car = "[[receiver]]\nname = \"car\"\nposition_m = [0, 3, 2]\n";
+  const Outcome deep = validate(mast + "[0, 0, -1.5]\n" + car);
+  CHECK(deep.code == 0);
+  CHECK(deep.err == "warning: transmitter \"mast\" is 1.5 m below the ground there, \"ground\"\n");
+  CHECK(contains(deep.out, ": ok\n"));
+  check(validate(mast + "[1e27, 0, 6]\n" + car), 2, "transmitter \"mast\" is at [1e+27, 0, 6] m");
+  const std::string drive = mast + "[0, 0, 6]\n[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n[[track]]\nid = \"ego\"\n";
+  const Outcome floats = validate(drive + "waypoints = [[0, -20, -3, 9], [2, 20, -3, 9]]\n");
+  CHECK(floats.code == 0);
+  CHECK(contains(floats.err, "warning: 1 of 1 vehicles are above the ground, the first one \"ego\" by 9 m from 0 s on"));
+  check(validate(drive + "waypoints = [[0, -20, -3, 0], [2, 20, -3, 0]]\n[time]\nstart_s = 10\n"), 2,
+        "[time] begins at 10 s, and the trajectories go from 0 to 2 s");
+}
+
 TEST_CASE("an output folder that cannot be written to exits 1 before anything is traced") {
   const Folder folder;
   const std::string file = folder.file("a.toml", city + ends);

@@ -101,3 +101,14 @@ TEST_CASE("CSV errors name file, line and column") {
   fails(std::string(2 << 20, 'x'), "drive.csv:1: the line has no end");
   fails(std::string("\xFF\xFEt\0i\0", 6), "drive.csv: is a text file in UTF-16; save it as UTF-8");
 }
+
+TEST_CASE("a row at SUMO's invalid value is of a vehicle off the network, which is absent then") {
+  const Trajectories t =
+      read("time,id,x,y\n0,a,0,0\n1,a,5,0\n2,a,-1073741824,-1073741824.00\n3,a,15,0\n4,a,20,0\n4,b,-1073741824,0\n");
+  REQUIRE(t.tracks.size() == 1);
+  CHECK(t.tracks[0].samples.size() == 4);
+  CHECK(t.tracks[0].segments == std::vector<uint32_t>{0, 2});
+  REQUIRE(t.warnings.size() == 2);
+  check_contains(t.warnings[0], "2 samples have x or y = -1073741824, which SUMO writes for a vehicle off the network");
+  check_contains(t.warnings[1], "gaps or teleports in 1 tracks ('a')");
+}

@@ -32,7 +32,7 @@ TEST_CASE("attributes that are missing or no numbers") {
   fails(in_second(car("x=\"1\" y=\"2\" angle=\"N\"")), "angle = 'N' is not a finite number");
   fails(in_second(car("x=\"1\" y=\"2\" speed=\"-nan\"")), "speed = '-nan' is not a finite number");
   fails(in_second(car("x=\"1\" y=\"2\" slope=\"90\"")), "slope = 90 is not within -90 to 90");
-  fails(in_second(car("x=\"-1073741824.00\" y=\"2\"")), "is what SUMO writes for an unknown value");
+  fails(in_second(car("x=\"1\" y=\"2\" speed=\"-1073741824.00\"")), "is what SUMO writes for an unknown value");
   fails(fcd("<timestep>" + good + "</timestep>"), "drive.xml:3: <timestep> has no attribute 'time'");
   for (const char* time :
        {"", "now", "nan", "1:2", "00:60:00", "00:00:60", "1:24:00:00", "00:0.5:00", "1:2:3:4:5", "00:-1:00", "::"}) {
@@ -121,4 +121,15 @@ TEST_CASE("unknown types are errors where there is no default; sizes and scale m
   options.types.clear();
   options.scale = 0;
   CHECK_THROWS_WITH_AS(read_text(fcd(""), options), Contains("the scale of trajectories is 0"), ConfigError);
+}
+
+TEST_CASE("a vehicle at SUMO's invalid value is absent, whatever else is unknown of it") {
+  const std::string off =
+      car("x=\"-1073741824.00\" y=\"-1073741824.00\" z=\"-1073741824.00\" slope=\"-1073741824.00\"");
+  const Trajectories t =
+      read_text(fcd(timestep("0", good) + timestep("1", off) + timestep("2", car("x=\"7\" y=\"2\""))));
+  REQUIRE(t.tracks.size() == 1);
+  CHECK(t.tracks[0].samples.size() == 2);
+  check_contains(t.warnings.at(1), "1 samples have x or y = -1073741824");
+  fails(fcd(timestep("0", off)), "drive.xml: has no vehicle in it");
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "passes/caster.hpp"
 #include "passes/naive.hpp"
@@ -253,4 +254,30 @@ TEST_CASE("five triangles: what fills up a block of four is never hit") {
   for (uint32_t i = 0; i < 5; ++i) CHECK(hits[i] == Hit{2, i, i});
   CHECK(hits[5].missed());
   CHECK(hits[6].missed());
+}
+
+TEST_CASE("rays whose slabs overflow float32 end, and change nothing for the rays beside them") {
+  // A hundred triangles leave children of nodes unused, whose boxes such rays meet as any other.
+  const Scene scene = scene_of_triangles(random_soup(100, 1, 0.2, 7));
+  constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const Ray sane = ray_towards({-3, 0.1, 0.2}, {1, 0.02, -0.05});
+  std::vector<Ray> rays;
+  for (const float far : {1e27f, -1e30f, 3e38f, infinity, -infinity, nan})
+    for (size_t axis = 0; axis < 3; ++axis)
+      for (const Float3 direction : {Float3{1, 0, 0}, {-0.6f, 0.8f, 0}, {nan, 0, 1}, {infinity, 1, 0}}) {
+        Ray ray{{0, 0, 0}, direction};
+        ray.origin[axis] = far;
+        rays.push_back(ray);
+        rays.push_back(sane);
+      }
+  // Trees that expect such places, as far as a caller may have asked for them, and trees that do not.
+  for (const double reach_m : {3.0, 1e27}) {
+    const DeviceScene uploaded = make_device_scene(context(), scene, false, reach_m);
+    for (const TraceShape shape : shapes()) {
+      CAPTURE(name_of(shape));
+      const Hit alone = trace(uploaded, shape, {sane})[0];
+      const std::vector<Hit> hits = trace(uploaded, shape, rays);
+      for (size_t i = 1; i < rays.size(); i += 2) CHECK(hits[i] == alone);
+    }
+  }
 }

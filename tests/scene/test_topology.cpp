@@ -261,6 +261,12 @@ TEST_CASE("impossible scenes") {
                        Contains("all triangles of the scene are degenerate"), InputError);
   CHECK_THROWS_WITH_AS(build({rectangle({0, 0, 0}, {1e9, 0, 0}, {0, 1, 0})}), Contains("is scene.scale right"),
                        InputError);
+  CHECK_THROWS_WITH_AS(build({rectangle({5, 5, 5}, {0.099, 0, 0}, {0, 0.05, 0})}), Contains("less than 0.1 m"),
+                       InputError);
+  CHECK(build({rectangle({5, 5, 5}, {1, 0, 0}, {0, 0.001, 0})}).report.warnings.empty());
+  const Scene small = build({rectangle({0, 0, 0}, {0.101, 0, 0}, {0, 0.1, 0})});
+  REQUIRE(small.report.warnings.size() == 1);
+  CHECK(small.report.warnings[0].find("0.101 m only, and details of less than 1 cm") != std::string::npos);
   RawMesh dust;  // a model in kilometres: vertices a millimetre apart
   for (int i = 0; i < 40; ++i) dust.vertices.push_back({0.0005 * i, 0, 0});
   dust.vertices.push_back({0, 1, 0});

@@ -38,9 +38,10 @@ std::vector<double> lattice_lengths(const glm::dvec3& size, const glm::dvec3& tx
   return out;
 }
 
-void check_box(const glm::dvec3& corner) {
-  const glm::dvec3 size{8, 5, 3}, tx{1.37, 2.21, 1.55};
-  const Points inside{{6.13, 3.42, 0.87}, {2.9, 0.61, 2.6}, {7.71, 1.13, 1.42}};
+void check_box(const glm::dvec3& corner, double scale = 1) {
+  const glm::dvec3 size = scale * glm::dvec3{8, 5, 3}, tx = scale * glm::dvec3{1.37, 2.21, 1.55};
+  Points inside{{6.13, 3.42, 0.87}, {2.9, 0.61, 2.6}, {7.71, 1.13, 1.42}};
+  for (glm::dvec3& p : inside) p *= scale;
   const SceneFile file(reference::box_walls(corner, corner + size));
   Points receivers = inside;
   for (glm::dvec3& p : receivers) p += corner;
@@ -61,6 +62,31 @@ void check_box(const glm::dvec3& corner) {
 TEST_CASE("a box to depth 5: 231 paths a receiver, as long as their images are far") { check_box({0, 0, 0}); }
 
 TEST_CASE("the same box in UTM coordinates") { check_box({691000, 5335000, 500}); }
+
+TEST_CASE("the same box as small and as large as scenes may be") {
+  check_box({0, 0, 0}, 0.1001 / 8);
+  check_box({0, 0, 0}, 9.99e5 / 8);
+}
+
+// A screen in the middle of a box hides what is behind it, whatever the size: rays are found and hidden as at 10 m.
+TEST_CASE("a screen between two ends in boxes from 0.1 m to 100 km hides the same paths") {
+  const auto kinds = [](double scale) {
+    std::vector<Quad> quads = reference::box_walls({0, 0, 0}, scale * glm::dvec3{10, 8, 5});
+    quads.push_back({scale * glm::dvec3{5, 1, 0.5}, scale * glm::dvec3{0, 5, 0}, scale * glm::dvec3{0, 0, 3}});
+    const SceneFile file(quads);
+    return count_by_depth(
+        run(config_of(file.path(), {scale * glm::dvec3{1.3, 2.2, 1.6}}, {scale * glm::dvec3{8.1, 3.7, 2.3}}, 300000, 3))
+            .paths,
+        0, 3);
+  };
+  const std::vector<size_t> expected = kinds(1);
+  CHECK(expected[0] == 0);
+  CHECK(expected[1] < 6);
+  for (const double scale : {0.01001, 0.02, 100.0, 1e4}) {
+    CAPTURE(scale);
+    CHECK(kinds(scale) == expected);
+  }
+}
 
 TEST_CASE("a box with ends that mirror each other: paths through edges and corners are there once") {
   const glm::dvec3 size{5, 4, 3};

@@ -107,7 +107,7 @@ TEST_CASE("types, names and steps that are not known") {
   check_contains(error_of<ConfigError>(config), "\"turner/roof\" is there already");
   config = drive(folder);
   config.time = {.start_s = 5, .end_s = std::nullopt, .step_s = 0};
-  check_contains(error_of<ConfigError>(config), "the end must not be before the beginning");
+  check_contains(error_of<ConfigError>(config), "[time] begins at 5 s, and the trajectories go from 0 to 2 s");
   Config still;
   still.transmitters = {end("rsu", {0, 0, 6})};
   still.tracks = {{"ego", "passenger", {{3, 0, 0, 0}}}};
@@ -137,6 +137,66 @@ TEST_CASE("reach holds every end and every corner of every frame, and is not far
   }
   CHECK(world.reach_m() >= largest);
   CHECK(world.reach_m() <= largest + 40);
+}
+
+TEST_CASE("positions beyond 1000 km from the middle of the scene are errors by name, whoever gave them") {
+  const TemporaryFolder folder;
+  Config config = drive(folder);
+  for (const double far_m : {1.1e6, -1e27, 1e300}) {
+    CAPTURE(far_m);
+    config.transmitters = {end("rsu", {0, far_m, 6})};
+    check_contains(error_of<ConfigError>(config), "transmitter \"rsu\" is at [0, ");
+    config.transmitters = {end("rsu", {0, 0, 6})};
+    config.receivers = {end("base", {0, 0, far_m})};
+    check_contains(error_of<ConfigError>(config), "receiver \"base\" is at [0, 0, ");
+    config.receivers.clear();
+    config.receiver_grids = {{.name = "streets", .x_min_m = far_m, .x_max_m = far_m, .y_min_m = 0, .y_max_m = 1}};
+    check_contains(error_of<ConfigError>(config), "receiver \"streets/0,0\" is at [");
+    config.receiver_grids.clear();
+    config.mounts[0].offset_m = {far_m, 0, 0};
+    check_contains(error_of<ConfigError>(config), "vehicle \"turner\": an antenna on it");
+    config.mounts[0].offset_m = {0, 0, 1.6};
+    config.tracks = {{"ego", "passenger", {{0, 0, 0, 0}, {1, far_m, 0, 0}}}};
+    check_contains(error_of<InputError>(config), "vehicle \"ego\" at 1 s is at [");
+    config.tracks.clear();
+    config.trajectories.offset_m = {far_m, 0, 0};
+    check_contains(error_of<InputError>(config), "check trajectories.offset_m and trajectories.scale");
+    config.trajectories.offset_m = {0, 0, 0};
+  }
+  config.transmitters = {end("rsu", {std::nan(""), 0, 6})};
+  check_contains(error_of<ConfigError>(config), "transmitter \"rsu\" is at [nan");
+  config.transmitters = {end("rsu", {9.9e5, 0, 6})};
+  CHECK(World(config, static_scene()).reach_m() == 9.9e5 - 100);
+  config.trajectories.file = folder.write("fast.csv", "time,id,x,y,speed\n0,a,0,0,0\n1,a,1,0,1e30\n").string();
+  config.mounts[0].on = "a";
+  check_contains(error_of<InputError>(config), "vehicle \"a\": its speeds carry it to ");
+}
+
+TEST_CASE("frames outside of the trajectories: all of them are an error, some a warning with their number") {
+  const TemporaryFolder folder;
+  Config config = drive(folder);  // 0 to 2 s in steps of 0.1 s
+  const auto warning = [&](const TimeConfig& time) {
+    config.time = time;
+    const World world(config, static_scene());
+    for (const std::string& text : world.warnings())
+      if (text.find("frames have no vehicle") != text.npos) return text;
+    return std::string();
+  };
+  const auto none = std::nullopt;
+  CHECK(warning({}).empty());
+  CHECK(warning({.start_s = 0.5, .end_s = 1.5}).empty());
+  CHECK(warning({.start_s = 0, .end_s = 2, .step_s = 0.3}).empty());
+  CHECK(warning({.start_s = 2, .end_s = none}).empty());
+  CHECK(warning({.start_s = -0.5, .end_s = none}) ==
+        "5 of 26 frames have no vehicle: [time] begins at -0.5 s, and the trajectories go from 0 to 2 s");
+  CHECK(warning({.start_s = none, .end_s = 3, .step_s = 0.5}) ==
+        "2 of 7 frames have no vehicle: [time] ends at 3 s, and the trajectories go from 0 to 2 s");
+  CHECK(warning({.start_s = -1, .end_s = 4, .step_s = 1}) ==
+        "3 of 6 frames have no vehicle: [time] goes from -1 to 4 s, and the trajectories go from 0 to 2 s");
+  config.time = {.start_s = -9, .end_s = -1};
+  check_contains(error_of<ConfigError>(config), "[time] goes from -9 to -1 s, and the trajectories go from 0 to 2 s");
+  config.time = {.start_s = none, .end_s = -1};
+  check_contains(error_of<ConfigError>(config), "[time] ends at -1 s, and the trajectories go from 0 to 2 s");
 }
 
 TEST_CASE("bounds of a track hold the cubic where it leaves the box of its samples") {
@@ -177,11 +237,23 @@ TEST_CASE("generated traffic drives a world of its own") {
 }
 
 TEST_CASE("patterns") {
-  for (const auto& [pattern, name, expected] : std::vector<std::tuple<std::string, std::string, bool>>{
-           {"*", "", true},          {"", "", true},        {"", "a", false},      {"a*c", "abbc", true},
-           {"a*c", "abcb", false},   {"a?c", "abc", true},  {"a?c", "ac", false},  {"*a*a*", "banana", true},
-           {"*a?a", "banana", true}, {"[a]", "[a]", true},  {"[a]", "a", false},   {"veh*/roof", "veh1/x/roof", true},
-           {"?", "", false},         {"**", "abc", true},   {"abc", "ab", false},  {"*ab", "aab", true}}) {
+  for (const auto& [pattern, name, expected] :
+       std::vector<std::tuple<std::string, std::string, bool>>{{"*", "", true},
+                                                               {"", "", true},
+                                                               {"", "a", false},
+                                                               {"a*c", "abbc", true},
+                                                               {"a*c", "abcb", false},
+                                                               {"a?c", "abc", true},
+                                                               {"a?c", "ac", false},
+                                                               {"*a*a*", "banana", true},
+                                                               {"*a?a", "banana", true},
+                                                               {"[a]", "[a]", true},
+                                                               {"[a]", "a", false},
+                                                               {"veh*/roof", "veh1/x/roof", true},
+                                                               {"?", "", false},
+                                                               {"**", "abc", true},
+                                                               {"abc", "ab", false},
+                                                               {"*ab", "aab", true}}) {
     CAPTURE(pattern);
     CAPTURE(name);
     CHECK(matches(pattern, name) == expected);

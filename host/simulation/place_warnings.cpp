@@ -1,0 +1,179 @@
+// Every end is looked at once, where it is in the first frame; receivers of grids are counted, not named.
+// A wall around both ends of a link is a room, which is normal; a wall between them is worth a word.
+#include "simulation/place_warnings.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "radio/constants.hpp"
+#include "simulation/few.hpp"
+#include "simulation/receiver_grid.hpp"
+
+namespace wavetracer {
+namespace {
+
+// So far outside of the scene's box, in its longest side, an end is no neighbour of the scene any more.
+constexpr double outside_share = 0.05, above_share = 1;
+
+enum Kind { inside, below, outside, on_surface, near, kinds };
+constexpr std::array<const char*, kinds> words = {"inside of closed bodies", "below the ground",
+                                                  "outside of the scene's box", "on a surface",
+                                                  "within a wavelength of an end that they are linked to"};
+
+// What is to be said of an end, a text a kind; empty: nothing.
+using Findings = std::array<std::string, kinds>;
+
+struct Place {
+  std::optional<Surroundings::Body> body;
+  Findings findings;  // but those that take a second end
+};
+
+Place look(const Surroundings& around, const glm::dvec3& p) {
+  Place out;
+  const Scene& scene = around.scene();
+  const glm::dvec3 size = scene.upper - scene.lower;
+  const double longest_m = std::max({size.x, size.y, size.z});
+  if (const double m = around.outside_m(p); m > outside_share * longest_m)
+    out.findings[outside] = fmt::format("is {:.4g} m outside of the scene's box", m);
+  else if (const double up_m = p.z - scene.upper.z; up_m > above_share * longest_m)
+    out.findings[outside] = fmt::format("is {:.4g} m above the scene's box", up_m);
+  if (const auto depth = around.below_ground(p))
+    out.findings[below] =
+        fmt::format("is {:.3g} m below the ground there, {}", depth->metres, around.name_of(depth->object));
+  else
+    out.body = around.body_at(p);
+  if (const auto object = around.object_at(p))
+    out.findings[on_surface] = fmt::format(
+        "lies on a surface of {}, which may hide it by rounding: move it off by 1 mm", around.name_of(*object));
+  return out;
+}
+
+std::vector<Place> look_at_all(const Surroundings& around, const std::vector<EndState>& ends) {
+  std::vector<Place> out(ends.size());
+  tbb::parallel_for(size_t{0}, ends.size(), [&](size_t i) { out[i] = look(around, ends[i].position_m); });
+  return out;
+}
+
+// What links say of their ends: a body around one of them alone, ends that almost touch.
+class Ends {
+ public:
+  Ends(const Config& config, const Surroundings& around, const World& world)
+      : around_(around),
+        world_(world),
+        wavelength_m_(speed_of_light_m_s / config.radio.frequency_hz),
+        state_(world.state(0)),
+        transmitters_(look_at_all(around, state_.transmitters)),
+        receivers_(look_at_all(around, state_.receivers)) {
+    for (const Place* place : all()) parted_.push_back(place->body && around.small(*place->body));
+    for (const Link& link : state_.links) look_at(link);
+    name_bodies();
+  }
+
+  const Findings& transmitter(size_t i) const { return transmitters_[i].findings; }
+  const Findings& receiver(size_t i) const { return receivers_[i].findings; }
+
+ private:
+  std::vector<Place*> all() {
+    std::vector<Place*> out;
+    for (auto* places : {&transmitters_, &receivers_})
+      for (Place& place : *places) out.push_back(&place);
+    return out;
+  }
+
+  void look_at(const Link& link) {
+    Place &tx = transmitters_[link.tx], &rx = receivers_[link.rx];
+    const auto body = [](const Place& place) { return place.body ? std::optional(place.body->number) : std::nullopt; };
+    if (body(tx) != body(rx)) parted_[link.tx] = parted_[transmitters_.size() + link.rx] = true;
+    const double apart_m = glm::distance(state_.transmitters[link.tx].position_m, state_.receivers[link.rx].position_m);
+    // An end that sends and receives is at no distance from itself.
+    if (apart_m > 0 && apart_m < wavelength_m_ && rx.findings[near].empty())
+      rx.findings[near] = fmt::format(
+          "is {:.3g} m from transmitter \"{}\", less than a wavelength ({:.3g} m): far fields "
+          "do not hold there",
+          apart_m, world_.transmitters()[link.tx].name, wavelength_m_);
+  }
+
+  void name_bodies() {
+    const std::vector<Place*> places = all();
+    for (size_t i = 0; i < places.size(); ++i)
+      if (places[i]->body && parted_[i])
+        places[i]->findings[inside] =
+            fmt::format("is inside of a closed body, {}", around_.name_of(places[i]->body->object));
+  }
+
+  const Surroundings& around_;
+  const World& world_;
+  double wavelength_m_;
+  WorldState state_;
+  std::vector<Place> transmitters_, receivers_;
+  std::vector<bool> parted_;  // of transmitters, then receivers: a body is around this end, but not around all
+};
+
+void say_named(const Config& config, const Ends& ends, const World& world, Kind kind, std::vector<std::string>& out) {
+  Few few(out);
+  const auto say = [&](const char* role, const std::vector<RadioEnd>& all, size_t i, const Findings& findings) {
+    if (!findings[kind].empty()) few.add(fmt::format("{} \"{}\" {}", role, all[i].name, findings[kind]));
+  };
+  for (size_t i = 0; i < config.transmitters.size(); ++i)
+    say("transmitter", world.transmitters(), i, ends.transmitter(i));
+  for (size_t i = 0; i < config.receivers.size(); ++i)
+    if (world.transmitter_of_receiver()[i] == no_end)  // else it was named as a transmitter
+      say("receiver", world.receivers(), i, ends.receiver(i));
+  few.end(fmt::format("more antennas are {}", words[kind]));
+}
+
+void say_grids(const Config& config, const Surroundings& around, const Ends& ends, std::vector<std::string>& out) {
+  size_t first = config.receivers.size();
+  for (const ReceiverGridConfig& grid : config.receiver_grids) {
+    const GridShape shape = grid_shape(grid, around.scene());
+    const size_t count = size_t{shape.columns} * shape.rows;
+    for (int kind = 0; kind < kinds; ++kind) {
+      size_t such = 0;
+      for (size_t i = first; i < first + count; ++i) such += !ends.receiver(i)[static_cast<size_t>(kind)].empty();
+      if (such > 0)
+        out.push_back(fmt::format("{} of {} receivers of grid \"{}\" are {}",
+                                  such == count ? "all" : fmt::format("{}", such), count, grid.name,
+                                  words[static_cast<size_t>(kind)]));
+    }
+    first += count;
+  }
+}
+
+void say_links(const Config& config, const World& world, std::vector<std::string>& out) {
+  if (!world.any_link_allowed())
+    out.push_back(
+        fmt::format("no link is computed: [links] allows none between the {} transmitters and the {} receivers; "
+                    "look at v2v, v2i, i2i, same_vehicle, transmitters and receivers there",
+                    world.transmitters().size(), world.receivers().size()));
+  else if (world.frame_count() == 1 && !world.live() && world.state(0).links.empty())
+    out.push_back(
+        fmt::format("no link is computed: no transmitter and receiver that [links] allows are there within "
+                    "links.max_distance_m = {:g} m of each other",
+                    config.links.max_distance_m));
+}
+
+}  // namespace
+
+std::vector<std::string> place_warnings(const Config& config, const Surroundings& around, const World& world) {
+  std::vector<std::string> out;
+  const Ends ends(config, around, world);
+  for (int kind = 0; kind < kinds; ++kind) say_named(config, ends, world, static_cast<Kind>(kind), out);
+  say_grids(config, around, ends, out);
+  for (const MountConfig& mount : config.mounts)
+    if (mount.offset_m[2] < 0)
+      out.push_back(fmt::format("[[mount]] \"{}\": offset_m is {:.3g} m below the ground under its vehicle", mount.name,
+                                -mount.offset_m[2]));
+  say_links(config, world, out);
+  if (!world.live()) {
+    std::vector<std::string> vehicles = vehicle_warnings(around, world);
+    std::move(vehicles.begin(), vehicles.end(), std::back_inserter(out));
+  }
+  return out;
+}
+
+}  // namespace wavetracer

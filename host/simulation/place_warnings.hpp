@@ -1,0 +1,19 @@
+// Words about ends and vehicles that stand where nobody would put them: inside of houses, below the ground, far
+// outside. Said before anything is traced, by name, a few of each kind and then their number.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "simulation/surroundings.hpp"
+#include "simulation/world.hpp"
+#include "wavetracer/config.hpp"
+
+namespace wavetracer {
+
+// Of a configuration whose ends are those that stand, as it was loaded.
+std::vector<std::string> place_warnings(const Config& config, const Surroundings& around, const World& world);
+
+// Those about vehicles, at the frames of the drive, or evenly spread ones where they are many.
+std::vector<std::string> vehicle_warnings(const Surroundings& around, const World& world);
+
+}  // namespace wavetracer

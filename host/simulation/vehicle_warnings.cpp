@@ -1,0 +1,109 @@
+// Vehicles against the static scene, at a number of places that does not grow with the drive.
+// Assumes recentred trajectories, positions on the ground.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "motion/pose.hpp"
+#include "simulation/place_warnings.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr uint64_t most_places = 20000;  // in all: below 0.2 s
+constexpr double step_m = 1;             // vehicles may stand so much above the ground,
+constexpr double sunk_m = 0.5;           // or below it: kerbs, ramps and rounding of maps are less
+
+enum Kind { through, below, above, kinds };
+constexpr std::array<const char*, kinds> words = {"drive through closed bodies", "are below the ground",
+                                                  "are above the ground"};
+
+struct Finding {
+  Kind kind;
+  std::string text;   // `through "house"`, "by 1.5 m"
+  bool room = false;  // the body is so large that all may be meant to be inside of it
+};
+
+std::optional<Finding> look(const Surroundings& around, const Pose& pose, double height_m) {
+  const glm::dvec3& p = pose.position_m;
+  const auto by = [](Kind kind, double metres) { return Finding{kind, fmt::format("by {:.3g} m", metres)}; };
+  if (const auto depth = around.below_ground(p); depth && depth->metres > sunk_m) return by(below, depth->metres);
+  if (const auto body = around.body_at(p + pose.orientation * glm::dvec3(0, 0, height_m / 2)))
+    return Finding{through, "through " + around.name_of(body->object), !around.small(*body)};
+  const auto over = around.height_above(p, step_m);
+  if (over && *over < -sunk_m) return by(below, -*over);
+  if (over && *over > step_m) return by(above, *over);
+  return {};
+}
+
+// The frames in which a vehicle may be there, or evenly spread ones of them.
+template <class Visit>
+void visit_frames(const World& world, const Track& track, uint64_t most, const Visit& visit) {
+  const uint64_t frames = world.frame_count();
+  const double start_s = world.time_s(0), step_s = frames > 1 ? world.time_s(1) - start_s : 1;
+  const auto frame_at = [&](double time_s) {
+    return static_cast<uint64_t>(std::clamp((time_s - start_s) / step_s, 0.0, static_cast<double>(frames - 1)));
+  };
+  const uint64_t first = frame_at(track.samples.front().time_s), last = frame_at(track.samples.back().time_s);
+  const uint64_t stride = (last - first) / most + 1;
+  for (uint64_t frame = first; frame <= last; frame += stride)
+    if (const auto pose = pose_at(track, world.time_s(frame))) visit(world.time_s(frame), *pose);
+}
+
+// How many vehicles do so, and the first of them.
+struct Count {
+  uint64_t vehicles = 0;
+  double time_s = 0;
+  std::string id, text;
+};
+
+class Drive {
+ public:
+  void look_at(const Surroundings& around, const World& world) {
+    const Trajectories& all = world.trajectories();
+    const uint64_t most = std::max<uint64_t>(most_places / std::max<size_t>(all.tracks.size(), 1), 1);
+    for (const Track& track : all.tracks) {
+      std::array<bool, 2 * kinds> seen{};
+      visit_frames(world, track, most, [&](double time_s, const Pose& pose) {
+        const auto found = look(around, pose, all.types[track.type].height_m);
+        free_ |= !found;
+        if (!found || std::exchange(seen[found->kind + (found->room ? kinds : 0)], true)) return;
+        Count& count = found->room ? in_rooms_ : counts_[found->kind];
+        if (count.vehicles++ == 0 || time_s < count.time_s) count = {count.vehicles, time_s, track.id, found->text};
+      });
+    }
+  }
+
+  // Where all are in a room it is the scene, as a garage is.
+  std::vector<std::string> warnings(size_t vehicles) const {
+    std::vector<std::string> out;
+    const auto say = [&](const Count& c, Kind kind) {
+      if (c.vehicles > 0)
+        out.push_back(
+            fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {:g} s on: check "
+                        "trajectories.offset_m, and whether map and drive belong together",
+                        c.vehicles, vehicles, words[kind], c.id, c.text, c.time_s));
+    };
+    for (int kind = 0; kind < kinds; ++kind) say(counts_[static_cast<size_t>(kind)], static_cast<Kind>(kind));
+    if (free_) say(in_rooms_, through);
+    return out;
+  }
+
+ private:
+  std::array<Count, kinds> counts_;
+  Count in_rooms_;
+  bool free_ = false;  // a vehicle was where nothing is to be said of
+};
+
+}  // namespace
+
+std::vector<std::string> vehicle_warnings(const Surroundings& around, const World& world) {
+  Drive drive;
+  drive.look_at(around, world);
+  return drive.warnings(world.trajectories().tracks.size());
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,67 @@
+// The one place that limits positions, whoever gave them: configuration, trajectories, grids.
+// Samples are looked at before curves between them, which could not be computed of infinite ones.
+#include "simulation/world_reach.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/world_trajectories.hpp"
+
+namespace wavetracer {
+namespace {
+
+// The largest coordinate; NaN where one is.
+double farthest(const glm::dvec3& p) {
+  double out = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(p[axis]) <= out) && !std::isnan(out)) out = std::abs(p[axis]);
+  return out;
+}
+
+constexpr const char* check_trajectories = "check trajectories.offset_m and trajectories.scale";
+
+}  // namespace
+
+std::string Reach::too_far(const std::string& who, const glm::dvec3& position_m, double distance_m) const {
+  const glm::dvec3 p = origin_m_ + position_m;
+  return fmt::format(
+      "{} is at [{:g}, {:g}, {:g}] m, {:.4g} km from the middle of the scene; the limit is {:g} km, because "
+      "rays are traced in float32",
+      who, p.x, p.y, p.z, distance_m / 1000, farthest_m / 1000);
+}
+
+void Reach::add_end(const std::string& who, const glm::dvec3& position_m) {
+  const double distance_m = farthest(position_m);
+  if (!(distance_m <= farthest_m)) throw ConfigError(too_far(who, position_m, distance_m) + ": check its position");
+  reach_m_ = std::max(reach_m_, distance_m);
+}
+
+void Reach::add_track(const Track& track, double radius_m) {
+  const std::string who = fmt::format("vehicle \"{}\"", track.id);
+  for (const Sample& sample : track.samples)
+    if (const double distance_m = farthest(sample.position_m); !(distance_m <= farthest_m))
+      throw InputError(
+          fmt::format("{}: {}", too_far(fmt::format("{} at {:g} s", who, sample.time_s), sample.position_m, distance_m),
+                      check_trajectories));
+  const Bounds bounds = bounds_of(track);
+  const double distance_m = std::max(farthest(bounds.lower), farthest(bounds.upper));
+  if (!(distance_m <= farthest_m))
+    throw InputError(
+        fmt::format("{}: its speeds carry it to {:.4g} km from the middle of the scene between two samples; "
+                    "the limit is {:g} km: check the speeds, which are in m/s",
+                    who, distance_m / 1000, farthest_m / 1000));
+  if (!(radius_m <= farthest_m))
+    throw ConfigError(
+        fmt::format("{}: an antenna on it, or a corner of its body, is {:.4g} km away from it; the limit is "
+                    "{:g} km: check mount.offset_m and the [[vehicle_type]]",
+                    who, radius_m / 1000, farthest_m / 1000));
+  add_box(bounds.lower, bounds.upper, radius_m);
+}
+
+void Reach::add_box(const glm::dvec3& lower_m, const glm::dvec3& upper_m, double radius_m) {
+  reach_m_ = std::max({reach_m_, farthest(lower_m) + radius_m, farthest(upper_m) + radius_m});
+}
+
+}  // namespace wavetracer
