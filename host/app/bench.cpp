@@ -92,6 +92,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   command->add_option("--frames", options->frames, "Frames of a drive; default 500, on CPUs 20")
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--quick", options->quick, "Fewer rays and a fifth of the frames");
+  command->footer("");  // not that of the program besides
   command->footer([] { return "Experiments:\n" + listed(); });
   command->callback([options, &invocation] { bench(*options, invocation); });
 }

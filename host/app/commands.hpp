@@ -23,6 +23,7 @@ void add_plot(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_merge(CLI::App& program, Invocation& invocation);
 void add_serve(CLI::App& program, Invocation& invocation);
+void add_help(CLI::App& program);
 void add_documentation(CLI::App& program);
 
 }  // namespace wavetracer::app

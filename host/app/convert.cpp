@@ -5,8 +5,10 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include "app/commands.hpp"
 #include "app/frame_range.hpp"
+#include "app/interrupt.hpp"
 #include "config/spelling.hpp"
 #include "imports/imports.hpp"
 #include "output/pending_file.hpp"
@@ -103,7 +105,9 @@ void export_run(const Options& options) {
   choose_rows(run, options.frames, what);
   PendingDirectory parent(what.output.has_parent_path() ? what.output.parent_path() : fs::path("."));
   std::vector<std::string> warnings;
+  std::optional<RemoveOnInterrupt> guard(what.output);
   const Written written = exporter.write(run, what, warnings);
+  guard.reset();
   parent.keep();
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << "\n";
   std::cout << "written    " << written.front().string();

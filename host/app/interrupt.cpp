@@ -1,12 +1,38 @@
 // The signal handler sets a flag and nothing else.
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
+// RemoveOnInterrupt waits for signals on a thread of its own, which may remove folders as a handler may not.
 #include "app/interrupt.hpp"
+#include <fmt/format.h>
+#include <unistd.h>
 #include <csignal>
+#include <iostream>
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
 namespace {
 
 volatile std::sig_atomic_t raised = 0;
+
+sigset_t ending_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+void wait_for_signal(const std::stop_token& stop, const std::filesystem::path& temporary) {
+  const sigset_t set = ending_signals();
+  const timespec tenth{0, 100'000'000};
+  while (!stop.stop_requested()) {
+    if (sigtimedwait(&set, nullptr, &tenth) < 0) continue;
+    std::error_code ignored;
+    for (int twice = 0; twice < 2; ++twice)  // files may be made while others are removed
+      std::filesystem::remove_all(temporary, ignored);
+    std::cerr << "wavetracer: interrupted; nothing was written" << std::endl;
+    _exit(static_cast<int>(ExitCode::interrupted));
+  }
+}
 
 }  // namespace
 
@@ -16,6 +42,20 @@ void catch_interrupts() {
   action.sa_flags = SA_RESTART | SA_RESETHAND;  // a write to a file goes on
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+RemoveOnInterrupt::RemoveOnInterrupt(const std::filesystem::path& output) {
+  std::filesystem::path temporary = output.has_filename() ? output : output.parent_path();
+  temporary += fmt::format(".{}.tmp", getpid());  // as output/pending_file.cpp and convert/pending_folder.cpp name it
+  const sigset_t set = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &set, &before_);
+  waiting_ = std::jthread([temporary](const std::stop_token& stop) { wait_for_signal(stop, temporary); });
+}
+
+RemoveOnInterrupt::~RemoveOnInterrupt() {
+  waiting_.request_stop();
+  waiting_.join();
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 bool interrupted() { return raised != 0; }

@@ -7,7 +7,7 @@
 #include <new>
 #include "app/build_info.hpp"
 #include "app/commands.hpp"
-#include "config/config_file.hpp"
+#include "app/usage.hpp"
 
 namespace {
 
@@ -35,7 +35,9 @@ int run_program(int argc, char** argv) {
   program.name("wavetracer");
   program.set_version_flag("--version", wavetracer::app::build_info);
   program.require_subcommand(0, 1);  // none is reported below, after a misspelt one
-  program.footer([] { return wavetracer::field_help(); });
+  program.footer(
+      "`wavetracer help COMMAND` explains a command, `wavetracer help config` every key of configuration files, which "
+      "`wavetracer init` writes.");
   wavetracer::app::Invocation invocation{command_line(argc, argv)};
   wavetracer::app::add_run(program, invocation);
   wavetracer::app::add_devices(program);
@@ -48,12 +50,13 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_convert(program);
   wavetracer::app::add_merge(program, invocation);
   wavetracer::app::add_serve(program, invocation);
+  wavetracer::app::add_help(program);
   wavetracer::app::add_documentation(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    // CLI11 numbers its errors from 100 on; to us all of them are one: usage.
-    return program.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
+    return fail(ExitCode::usage, wavetracer::app::usage_problem(program, e));
   }
   if (program.get_subcommands().empty()) {
     std::cerr << program.help();

@@ -76,10 +76,16 @@ std::string program_manual(const CommandText& program, const std::string& versio
                {"links.csv", "One line a link and frame: path gain, delay spread, line of sight."},
                {"summary.json", "Device, counts, seconds of each stage, warnings."},
                {"shards/", "Finished parts of a drive, from which run --resume goes on."},
-               {"$XDG_CACHE_HOME/wavetracer/programs", "Compiled kernels; may be removed at any time."}});
+               {"$XDG_CACHE_HOME/wavetracer/programs", "Compiled kernels; may be removed at any time."},
+               {"$XDG_CACHE_HOME/pocl/kcache",
+                "Kernels that PoCL has compiled. PoCL aborts the program where one of them is damaged, as a full disk "
+                "leaves it: remove the folder then."}});
   out += ".SH ENVIRONMENT\n" +
          list({{"NO_COLOR", "No colours in messages."},
                {"OCL_ICD_VENDORS", "Folder of the OpenCL drivers, of the OpenCL loader."},
+               {"POCL_CACHE_DIR",
+                "PoCL's cache of kernels, without which it offers no device. Where it is not set and PoCL's own choice "
+                "cannot be written to, a folder in the temporary one is used."},
                {"WAVETRACER_NO_CACHE", "1: kernels are compiled anew at every start."},
                {"WAVETRACER_KERNEL_DIR", "Folder of kernel sources to use instead of the built-in ones."},
                {"XDG_CACHE_HOME", "Where caches are kept, instead of ~/.cache."}});

@@ -35,7 +35,7 @@ void plot(Options options) {
 void add_plot(CLI::App& program) {
   CLI::App* command = program.add_subcommand("plot", "Draw figures of a run with gnuplot");
   const auto options = std::make_shared<Options>();
-  command->add_option("run", options->run, "Folder of a run, or its paths.h5")->required();
+  command->add_option("RUN", options->run, "Folder of a run, or its paths.h5")->required();
   command->add_option("-o,--output", options->folder, "Folder for the figures; plots in that of the run if not given");
   command
       ->add_option("--what", options->choice.what,

@@ -238,7 +238,6 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("--shard", options->shard,
                       "K/N: only part K, from 0 to N - 1, of N parts, on any machine; `wavetracer merge` joins them");
   command->add_flag("--resume", options->resume, "Go on with a drive that was interrupted, in the same folder");
-  command->footer([] { return field_help(); });
   command->callback([options, &invocation] { run(*options, invocation); });
 }
 

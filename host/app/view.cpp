@@ -19,7 +19,7 @@ void add_view(CLI::App& program) {
   };
   CLI::App* command = program.add_subcommand("view", "Write a run as one HTML page that any browser opens");
   const auto options = std::make_shared<Options>();
-  command->add_option("run", options->run, "Folder of a run, or its paths.h5")->required();
+  command->add_option("RUN", options->run, "Folder of a run, or its paths.h5")->required();
   command->add_option("-o,--output", options->output, "Page to write (default: view.html in the folder of the run)");
   command->add_option("--frames", options->frames, "Frames on the page, by their numbers: A:B, A:, :B or A");
   command

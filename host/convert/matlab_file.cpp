@@ -104,13 +104,17 @@ void MatlabFile::add_text(const std::string& path, const std::string& text) {
 }
 
 void MatlabFile::add_texts(const std::string& path, const std::vector<std::string>& texts) {
-  if (texts_ == 0 && !texts.empty())
+  if (texts_.empty() && !texts.empty())
     const Id group(H5Gcreate2(file_, "/#refs#", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create /#refs#");
   std::vector<hobj_ref_t> references(texts.size());
   for (size_t i = 0; i < texts.size(); ++i) {
-    const std::string target = "/#refs#/text" + std::to_string(texts_++);
-    add_text(target, texts[i]);
-    checked(H5Rcreate(&references[i], file_, target.c_str(), H5R_OBJECT, -1), "refer to " + target);
+    const auto [known, fresh] = texts_.try_emplace(texts[i]);
+    if (fresh) {
+      const std::string target = "/#refs#/text" + std::to_string(texts_.size() - 1);
+      add_text(target, texts[i]);
+      checked(H5Rcreate(&known->second, file_, target.c_str(), H5R_OBJECT, -1), "refer to " + target);
+    }
+    references[i] = known->second;
   }
   write(path, "cell", H5T_STD_REF_OBJ, H5T_STD_REF_OBJ, {texts.size(), 1}, references.data());
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include <complex>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ class MatlabFile {
 
   hdf5::Silence silence_;
   hdf5::Id file_;
-  size_t texts_ = 0;  // in /#refs#
+  std::map<std::string, hobj_ref_t> texts_;  // in /#refs#, each once: a run has few antennas and many ends
 };
 
 }  // namespace wavetracer

@@ -15,6 +15,18 @@ namespace {
 
 using Rows = std::vector<uint32_t>;
 
+// A channel is a file, so files grow as the square of the nodes: a thousand nodes are what file systems bear.
+constexpr uint64_t most_files = 1'000'000;
+
+void check_files(size_t nodes) {
+  const uint64_t files = uint64_t{nodes} * (nodes - 1);
+  if (files > most_files)
+    throw InputError(
+        fmt::format("ns3: {} nodes would be {} files, one for every two of them and direction, and at most {} are "
+                    "written: make a run of fewer transmitters and receivers, each of which is a node",
+                    nodes, files, most_files));
+}
+
 double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
 // One line of comma-separated values, each read back as the same double.
@@ -144,6 +156,7 @@ void warn(const SavedRun& run, const std::vector<Ns3Node>& nodes, bool reversed,
 Written export_ns3(const SavedRun& run, const ExportOptions& options, Warnings& warnings) {
   const std::vector<Ns3Node> nodes = find_nodes(run, options);
   if (nodes.size() < 2) throw InputError("ns3: the run has fewer than two nodes, so no channel");
+  check_files(nodes.size());
   const std::vector<bool> known = known_links(run, options, nodes);
   const size_t steps = options.last_row - options.first_row + 1;
   const double step = step_s(run, options, warnings);

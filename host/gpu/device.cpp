@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include "gpu/pocl.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::gpu {
@@ -92,6 +93,7 @@ int rank(const DeviceInfo& device) { return device.gpu ? 0 : device.cpu ? 1 : 2;
 }  // namespace
 
 std::vector<cl::Device> all_devices() {
+  give_pocl_a_cache();
   std::vector<cl::Platform> platforms;
   try {
     cl::Platform::get(&platforms);
@@ -120,10 +122,11 @@ std::vector<DeviceInfo> list_devices() {
 
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text) {
   if (devices.empty()) {
+    if (const std::string problem = pocl_cache_problem(); !problem.empty())
+      throw DeviceError("no OpenCL device was found. If one is installed: " + problem);
     throw DeviceError(
         "no OpenCL device on this machine. Install one: `apt install pocl-opencl-icd` runs on any CPU; for an NVIDIA "
-        "GPU "
-        "whose driver came without its ICD file, put the line `libnvidia-opencl.so.1` into DIR/nvidia.icd and set "
+        "GPU whose driver came without its ICD file, put the line `libnvidia-opencl.so.1` into DIR/nvidia.icd and set "
         "OCL_ICD_VENDORS=DIR");
   }
   if (!text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) {
@@ -158,6 +161,8 @@ std::string device_options(const cl::Device& device, const DeviceInfo& info) {
   }
   options += info.cpu ? " -DWT_CPU=1" : " -DWT_GPU=1";
   if (info.correctly_rounded_divide) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  // PoCL's compiler counts its warnings on stderr, where they are nothing to a user: "133 warnings generated."
+  if (is_pocl(info)) options += " -w";
   return options + " -cl-kernel-arg-info";  // launches check the size of each argument
 }
 

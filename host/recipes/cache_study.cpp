@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include "config/contradictions.hpp"
 #include "output/median.hpp"
 #include "recipes/ray_counts.hpp"
 #include "recipes/run.hpp"
@@ -71,9 +72,12 @@ CacheTimes mean(const std::vector<CacheTimes>& samples) {
     for (const CacheTimes& sample : samples) mean.add(sample.*stage);
     return mean.mean();
   };
-  return {.loop_s = average(&CacheTimes::loop_s),   .lookup_s = average(&CacheTimes::lookup_s),
-          .gather_s = average(&CacheTimes::gather_s), .store_s = average(&CacheTimes::store_s),
-          .purge_s = average(&CacheTimes::purge_s), .trace_s = average(&CacheTimes::trace_s)};
+  return {.loop_s = average(&CacheTimes::loop_s),
+          .lookup_s = average(&CacheTimes::lookup_s),
+          .gather_s = average(&CacheTimes::gather_s),
+          .store_s = average(&CacheTimes::store_s),
+          .purge_s = average(&CacheTimes::purge_s),
+          .trace_s = average(&CacheTimes::trace_s)};
 }
 
 // Runs a frame of every subject, another one first each time. False: stopped.
@@ -112,6 +116,13 @@ bool run_frames(std::vector<Subject>& subjects, uint64_t frames, uint32_t repeat
   return true;
 }
 
+// A setting may contradict what the config says for all of them.
+void check_setting(const Setting& setting, const Config& applied) {
+  for (const config::Contradiction& found : config::contradictions(applied))
+    throw ConfigError(fmt::format("{}with the setting \"{}\", {}", applied.file.empty() ? "" : applied.file + ": ",
+                                  setting.name, found.what));
+}
+
 std::vector<Subject> make_subjects(const std::vector<Setting>& settings, const Config& config, uint64_t rays,
                                    const std::string& device) {
   std::vector<Subject> subjects;
@@ -120,6 +131,7 @@ std::vector<Subject> make_subjects(const std::vector<Setting>& settings, const C
     applied.trace.rays = rays;
     uncached(applied);
     setting.apply(applied);
+    check_setting(setting, applied);
     subjects.emplace_back(Simulation(applied, device));
   }
   return subjects;
@@ -160,6 +172,7 @@ std::vector<CacheRow> measure_point(const CacheStudy& study, const Config& confi
     group.insert(group.end(), study.settings.begin() + begin, study.settings.begin() + end);
     std::vector<Subject> subjects = make_subjects(group, config, rays, request.device);
     if (!run_frames(subjects, frames, request.repeats, host)) return {};
+    require_segments(subjects.front().segments.mean(), config);
     std::vector<CacheRow> found;
     for (size_t i = 0; i < group.size(); ++i) found.push_back(row_of(study, group[i], subjects[i], drive, rays));
     set_savings(found);
@@ -272,8 +285,7 @@ CacheMeasurement measure_study(const CacheStudy& study, const Request& request, 
     for (const uint64_t rays : counts) {
       std::vector<CacheRow> point = measure_point(study, config, drive, rays, out.frames + 1, request, host);
       if (!point.empty() && study.by_depth) {
-        const std::vector<CacheRow> depths =
-            measure_depths(study, config, drive, rays, out.frames + 1, request, host);
+        const std::vector<CacheRow> depths = measure_depths(study, config, drive, rays, out.frames + 1, request, host);
         if (depths.empty()) point.clear();
         point.insert(point.end(), depths.begin(), depths.end());
       }

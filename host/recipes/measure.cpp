@@ -34,6 +34,15 @@ double sum_stages(const StageSeconds& seconds, std::initializer_list<const char*
   return total;
 }
 
+void require_segments(double segments, const Config& config) {
+  if (segments > 0) return;
+  throw ConfigError(
+      fmt::format("{}no transmitter launches rays in the frames that are measured, because no link is wanted there: "
+                  "see [links], and "
+                  "whether vehicles with antennas are there at [time] start_s",
+                  config.file.empty() ? "" : config.file + ": "));
+}
+
 Times summarise(const std::vector<StageSeconds>& samples, uint32_t frames) {
   std::map<std::string, std::vector<double>> values;
   for (const StageSeconds& sample : samples)
@@ -64,6 +73,7 @@ std::vector<Row> measure(const Config& config, const std::vector<Series>& series
     apply(applied, one, rays);
     subjects.push_back({Simulation(applied, device), {}, {}});
     subjects.back().counts = subjects.back().simulation.run_frame(0).counts;
+    require_segments(static_cast<double>(subjects.back().counts.segments), config);
   }
   for (uint32_t repeat = 0; repeat < repeats; ++repeat)
     for (size_t i = 0; i < subjects.size(); ++i) {

@@ -34,6 +34,9 @@ struct Row {
 // Seconds of these stages together. A frame has no entry for a stage that it had no use for.
 double sum_stages(const StageSeconds& seconds, std::initializer_list<const char*> stages);
 
+// Throws ConfigError where frames of this config traced nothing, so that there is no time to compare.
+void require_segments(double segments, const Config& config);
+
 // Of the seconds of several frames, stage by stage the median; and their sums as above, divided by `frames`.
 Times summarise(const std::vector<StageSeconds>& samples, uint32_t frames);
 

@@ -42,9 +42,9 @@ void reject_varied_keys(const Recipe& recipe, const std::vector<std::string>& se
     std::string key = set.substr(0, set.find('='));
     key.erase(std::remove(key.begin(), key.end(), ' '), key.end());
     if (std::find(varied.begin(), varied.end(), key) != varied.end())
-      throw ConfigError(fmt::format(
-          "--set {}: {} gives {} its values itself{}", set, recipe.name, key,
-          key == "trace.rays" && !one_number ? "; choose them with --rays A:B" : "; leave it out"));
+      throw ConfigError(
+          fmt::format("--set {}: {} gives {} its values itself{}", set, recipe.name, key,
+                      key == "trace.rays" && !one_number ? "; choose them with --rays A:B" : "; leave it out"));
   }
 }
 
@@ -53,6 +53,11 @@ uint64_t even_batch(uint64_t rays, uint64_t most) {
   uint64_t batches = (rays + most - 1) / most;
   while (rays % batches != 0) ++batches;
   return rays / batches;
+}
+
+void only_receive(std::vector<MountConfig>& mounts) {
+  std::erase_if(mounts, [](const MountConfig& mount) { return mount.role == "transmitter"; });
+  for (MountConfig& mount : mounts) mount.role = "receiver";
 }
 
 }  // namespace
@@ -96,9 +101,31 @@ Config recipe_config(const Recipe& recipe, const std::string& file, const std::v
   return parse_config(built_in_city + std::string(recipe.drive ? car : mast), built_in_city_name, sets);
 }
 
+void check_recipe(const Recipe& recipe, const Config& config) {
+  const std::string where = config.file.empty() ? "" : config.file + ": ";
+  if ((recipe.experiment || recipe.frames > 1) && config.transmitters.empty())
+    throw ConfigError(
+        fmt::format("{}{} launches rays from the first [[transmitter]], and there is none, since antennas "
+                    "on vehicles ([[mount]]) do not count here; add a [[transmitter]]",
+                    where, recipe.name));
+  if (config.trace.max_depth == 0)
+    throw ConfigError(
+        fmt::format("{}trace.max_depth = 0: {} looks at what rays hit; give 1 or more", where, recipe.name));
+  if (!config.live_vehicles.empty())
+    throw ConfigError(
+        fmt::format("{}{} needs to know where vehicles are, and [[live_vehicle]] tables wait for poses; "
+                    "give trajectories instead of them",
+                    where, recipe.name));
+}
+
 Config point_config(const Recipe& recipe, const Config& config, uint64_t rays, bool gpu) {
-  if (recipe.frames == 1) return config;
   Config out = config;
+  out.trace.reuse = false;
+  out.trace.diffraction = false;
+  out.cache.kind = "none";
+  if (recipe.frames == 1) return out;
+  only_receive(out.mounts);
+  out.links.transmitters = {"*"};
   out.transmitters.clear();
   for (uint32_t frame = 0; frame < recipe.frames; ++frame) {
     RadioEnd place = config.transmitters.front();

@@ -11,7 +11,7 @@
 
 namespace wavetracer::recipes {
 
-struct Request;   // run.hpp
+struct Request;  // run.hpp
 struct Host;
 struct Findings;
 
@@ -54,8 +54,13 @@ std::string recipe_list();
 // also where a set gives a key that the recipe varies.
 Config recipe_config(const Recipe& recipe, const std::string& file, const std::vector<std::string>& sets);
 
-// The config of one ray count. Frames of a moving transmitter are transmitters side by side, half a metre apart along
-// x, each traced in batches of its own: no ray shares a launch or a sort with one of another frame.
+// Throws ConfigError, with the name of the recipe, where this config has nothing for it to measure.
+void check_recipe(const Recipe& recipe, const Config& config);
+
+// The config of one ray count of a series. Every frame launches all rays of transmitters, and no others: none is saved
+// by reuse or a cache, none added by receivers for diffraction. Frames of a moving transmitter are transmitters side by
+// side, half a metre apart along x, each traced in batches of its own: no ray shares a launch or a sort with one of
+// another frame. Nothing else sends then.
 Config point_config(const Recipe& recipe, const Config& config, uint64_t rays, bool gpu);
 
 }  // namespace wavetracer::recipes

@@ -73,7 +73,7 @@ Findings time_series(const Recipe& recipe, const Request& request, const Host& h
   Findings found;
   found.planned = counts.size();
   // Finds mistakes in the device, the scene and the ends before anything is measured.
-  Config first = request.config;
+  Config first = point_config(recipe, request.config, counts.front(), false);
   apply(first, recipe.series.front(), counts.front());
   found.device = Simulation(first, request.device).device();
   host.say(fmt::format("{}: {} series at {} to {} rays on {}", recipe.name, recipe.series.size(),
@@ -95,21 +95,10 @@ Findings time_series(const Recipe& recipe, const Request& request, const Host& h
   found.notes = {
       fmt::format("times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace, compact, "
                   "scan and interact, the sort is order and sort, all from profiling events",
-                  request.repeats)};
+                  request.repeats),
+      "every frame launches all rays of its transmitters: trace.reuse, trace.diffraction and cache.kind are off; where "
+      "vehicles drive, it is the first frame of their drive"};
   return found;
-}
-
-// What an experiment needs of a request.
-void check_experiment(const Recipe& recipe, const Request& request) {
-  const Config& config = request.config;
-  if (config.transmitters.empty())
-    throw ConfigError(fmt::format("{}: {} launches rays from the first [[transmitter]], and there is none; add one",
-                                  config.file, recipe.name));
-  if (config.trace.max_depth == 0)
-    throw ConfigError(fmt::format("trace.max_depth = 0: {} looks at what rays hit; give 1 or more", recipe.name));
-  if (request.rays)
-    throw ConfigError(fmt::format("--rays {}:{}: {} launches {} rays; leave --rays out", request.rays->first,
-                                  request.rays->last, recipe.name, grouped(experiment_rays)));
 }
 
 }  // namespace
@@ -123,9 +112,12 @@ Findings show(const Recipe& recipe, const CacheMeasurement& measured, const Requ
 }
 
 Findings find_out(const Recipe& recipe, const Request& request, const Host& host) {
+  check_recipe(recipe, request.config);
   if (recipe.study) return show(recipe, measure_study(*recipe.study, request, host), request);
   if (!recipe.experiment) return time_series(recipe, request, host);
-  check_experiment(recipe, request);
+  if (request.rays)
+    throw ConfigError(fmt::format("--rays {}:{}: {} launches {} rays; leave --rays out", request.rays->first,
+                                  request.rays->last, recipe.name, grouped(experiment_rays)));
   return recipe.experiment(recipe, request, host);
 }
 

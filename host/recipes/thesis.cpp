@@ -1,5 +1,5 @@
 // Figure by figure: measure or take the study's rows, write the files, keep what the page shows.
-// Assumes that a mistake of the user's shows with the first figure, which is therefore not forgiven.
+// Requests are made before anything is measured: what is wrong with one is a mistake of the user's, and not forgiven.
 #include "recipes/thesis.hpp"
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -24,6 +24,12 @@ std::string contents(const fs::path& file) {
   return text.str();
 }
 
+ThesisFigure unmeasured(const Recipe& recipe) {
+  return {.name = recipe.name,
+          .title = recipe.title,
+          .problem = "not measured: the program ended or was interrupted before"};
+}
+
 using Studies = std::map<std::string, CacheMeasurement>;
 
 // A recipe that launches one number of rays takes no range of them; series end early on CPUs.
@@ -35,6 +41,7 @@ Request fitting(Request request, const Recipe& recipe, bool gpu) {
 }
 
 Findings findings(const Recipe& recipe, const Request& request, const Host& host, Studies& studies) {
+  check_recipe(recipe, request.config);
   if (!recipe.study) return find_out(recipe, request, host);
   const auto known = studies.find(recipe.study->name);
   if (known != studies.end()) return show(recipe, known->second, request);
@@ -44,11 +51,9 @@ Findings findings(const Recipe& recipe, const Request& request, const Host& host
 // What the page shows of a figure; errors become sentences.
 ThesisFigure figure_of(const Recipe& recipe, const Request& request, const Host& host, Studies& studies,
                        Report& report) {
-  ThesisFigure figure{.name = recipe.name, .title = recipe.title};
-  if (host.interrupted()) {
-    figure.problem = "not measured: interrupted before";
-    return figure;
-  }
+  ThesisFigure figure = unmeasured(recipe);
+  if (host.interrupted()) return figure;
+  figure.problem.clear();
   try {
     const Findings found = findings(recipe, request, host, studies);
     write_report(recipe, request, found, host);
@@ -70,13 +75,21 @@ ThesisFigure figure_of(const Recipe& recipe, const Request& request, const Host&
   return figure;
 }
 
+void write(const fs::path& path, const std::string& text) {
+  PendingFile(path, std::as_bytes(std::span(text))).commit();
+}
+
+// The page as far as it goes, so that whatever ends the program later leaves it.
+void write_so_far(const ThesisPage& page, const fs::path& directory) {
+  PendingDirectory folder(directory);
+  write(folder.path() / "thesis.html", thesis_html(page));
+  folder.keep();
+}
+
 // thesis.csv, its plot and the page.
 void write_page(ThesisPage& page, const fs::path& directory, const Host& host, Report& report) {
   PendingDirectory folder(directory);
   const auto named = [&folder](const char* name) { return folder.path() / name; };
-  const auto write = [](const fs::path& path, const std::string& text) {
-    PendingFile(path, std::as_bytes(std::span(text))).commit();
-  };
   std::error_code ignored;
   fs::remove(named("thesis.svg"), ignored);  // an earlier one would belie the new table
   if (!page.rows.empty()) {
@@ -109,7 +122,9 @@ std::vector<const Recipe*> thesis_recipes() {
 
 Report run_thesis(const std::function<Request(const Recipe&)>& request_for, const Host& host) {
   const std::vector<const Recipe*> figures = thesis_recipes();
-  const Request first = request_for(*figures.front());
+  std::vector<Request> requests;  // all of them before hours of measuring, since each may hold a mistake of the user's
+  for (const Recipe* recipe : figures) requests.push_back(request_for(*recipe));
+  const Request& first = requests.front();
   Config probe = first.config;
   probe.trace.rays = 1000;
   ThesisPage page;
@@ -120,15 +135,18 @@ Report run_thesis(const std::function<Request(const Recipe&)>& request_for, cons
   page.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
   Studies studies;
   Report report{.paragraph = "", .files = {}, .points = 0, .planned = figures.size()};
-  for (const Recipe* recipe : figures) {
-    const Request request = fitting(request_for(*recipe), *recipe, page.device.gpu);
-    page.figures.push_back(figure_of(*recipe, request, host, studies, report));
+  for (const Recipe* recipe : figures) page.figures.push_back(unmeasured(*recipe));
+  for (size_t i = 0; i < figures.size(); ++i) {
+    const Request request = fitting(requests[i], *figures[i], page.device.gpu);
+    page.figures[i] = figure_of(*figures[i], request, host, studies, report);
+    page.rows.clear();
+    for (const auto& [name, measured] : studies)
+      page.rows.insert(page.rows.end(), measured.rows.begin(), measured.rows.end());
+    write_so_far(page, first.config.output.directory);
   }
-  for (const auto& [name, measured] : studies)
-    page.rows.insert(page.rows.end(), measured.rows.begin(), measured.rows.end());
   write_page(page, first.config.output.directory, host, report);
-  report.paragraph = fmt::format("{} of {} figures are whole: {}", report.points, report.planned,
-                                 report.files.back().string());
+  report.paragraph =
+      fmt::format("{} of {} figures are whole: {}", report.points, report.planned, report.files.back().string());
   return report;
 }
 

@@ -33,7 +33,8 @@ namespace wavetracer {
 
 namespace {
 
-constexpr uint64_t refreshed_share = 10;  // of the directions, the part that a frame launches anew where none is given
+constexpr uint64_t compiling_rays = 4096;  // of the launches that are there to be compiled
+constexpr uint64_t refreshed_share = 10;   // of the directions, the part that a frame launches anew where none is given
 
 std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
   std::vector<glm::dvec3> out;
@@ -115,9 +116,9 @@ struct Simulation::State {
   Origins origins;
   std::optional<InstancePlacement> place;  // where there are instances
   bool reuse = false;
-  uint64_t warm_frames = 0;  // since the last cold one, which counts
+  uint64_t warm_frames = 0;            // since the last cold one, which counts
   std::optional<LaunchSlopes> slopes;  // with trace.directions = "horizon"
-  std::optional<RayTrails> trails;  // with trace.reception = "sphere" or output.waypoints
+  std::optional<RayTrails> trails;     // with trace.reception = "sphere" or output.waypoints
   std::optional<Discovery> discovery;
   std::optional<ExactPaths> exact_paths;
   std::optional<FieldModel> fields;
@@ -126,7 +127,11 @@ struct Simulation::State {
   Features features;
   std::vector<std::string> place_warnings;
 
+  bool compiling = false;  // launches are there to be compiled
+
   FrameResult solve(uint32_t frame, WorldState frame_world, const LinkBlock* block = nullptr);
+  void compile_launches();
+  void forget();
   void begin_frame();
   DiscoveryCounts discover(const WorldState& state, const LinkBlock* block);
   PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
@@ -150,6 +155,10 @@ DiscoveryCounts Simulation::State::discover(const WorldState& state, const LinkB
     first = launchers_of(*block, first);
     then = launchers_of(*block, then);
   }
+  if (compiling) {
+    first.resize(std::min<size_t>(first.size(), 1));
+    then.resize(std::min<size_t>(then.size(), 1));
+  }
   if (slopes) {
     const SlopeTables tables = (*slopes)(state, origins);
     for (std::vector<Launcher>* const launchers : {&first, &then})
@@ -160,11 +169,29 @@ DiscoveryCounts Simulation::State::discover(const WorldState& state, const LinkB
     first.insert(first.end(), then.begin(), then.end());
     return discovery->refined(device_scene, first, warm_frames);
   }
-  DiscoveryCounts counts = (*discovery)(device_scene, first, share_of(trace.rays, trace.refresh_rays, warm_frames));
+  const auto share = [this](uint64_t rays, uint64_t refresh_rays) {
+    return compiling ? DirectionShare{0, std::max<uint64_t>(rays / compiling_rays, 1)}
+                     : share_of(rays, refresh_rays, warm_frames);
+  };
+  DiscoveryCounts counts = (*discovery)(device_scene, first, share(trace.rays, trace.refresh_rays));
   if (!then.empty())
-    add((*discovery)(device_scene, then, share_of(listener_rays(trace), 0, warm_frames), LaunchedBy::listeners),
-        counts);
+    add((*discovery)(device_scene, then, share(listener_rays(trace), 0), LaunchedBy::listeners), counts);
   return counts;
+}
+
+void Simulation::State::forget() {
+  warm_frames = 0;
+  if (RayCache* const cache = discovery->cache()) cache->clear();
+}
+
+// PoCL compiles a kernel for the shape of its first launch, which would take most of the first frame. So what a frame
+// launches is launched before, by few rays of one transmitter, and forgotten.
+void Simulation::State::compile_launches() {
+  if (!context->info().cpu) return;
+  compiling = true;
+  solve(0, world->state(0));
+  compiling = false;
+  forget();
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths. Leaves `host` at the time since the device was
@@ -200,8 +227,8 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
     (*s.place)(s.device_scene, s.world->state(0).instances);
   }
   if (s.trace.transmission)
-    mark_opaque(s.device_scene, opaque_surfaces(s.scene, s.world->models(), s.world->instances(),
-                                                config.radio.frequency_hz));
+    mark_opaque(s.device_scene,
+                opaque_surfaces(s.scene, s.world->models(), s.world->instances(), config.radio.frequency_hz));
   s.setup["build"] = watch.lap();
   OrderChoice order;
   if (config.order.method == "auto") {
@@ -232,6 +259,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   Config radio = s.config;
   radio.trace = s.trace;
   s.fields.emplace(s.scene, radio, s.world->models(), s.world->instances());
+  s.compile_launches();
   s.setup["compile"] = watch.lap();
 }
 
@@ -239,10 +267,7 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::forget() {
-  state_->warm_frames = 0;
-  if (RayCache* const cache = state_->discovery->cache()) cache->clear();
-}
+void Simulation::forget() { state_->forget(); }
 uint64_t Simulation::frame_count() const { return state_->world->frame_count(); }
 double Simulation::time_s(uint32_t frame) const { return state_->world->time_s(frame); }
 const Config& Simulation::config() const { return state_->config; }
@@ -336,9 +361,8 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   if (cache) out.cache = cache->summary();
   if (trails) out.waypoints = trails->take_waypoints();
   const bool sphere = trails && trails->receives();
-  PathGeometry one_way =
-      sphere ? received_paths(ends, out.counts, host_watch)
-             : (*exact_paths)(device_scene, ends, discovery->sequences(), out.counts, host_watch);
+  PathGeometry one_way = sphere ? received_paths(ends, out.counts, host_watch)
+                                : (*exact_paths)(device_scene, ends, discovery->sequences(), out.counts, host_watch);
   out.warnings = missed_recall(found, config.trace, warm_frames == 0);
   ++warm_frames;
   PathGeometry geometry = with_reversed_twins(std::move(one_way), world->receiver_of_transmitter(),

@@ -32,6 +32,42 @@ TEST_CASE("devices marks the device that a run takes") {
   CHECK(devices.err.empty());
 }
 
+TEST_CASE("a device is there where caches cannot be written, and if not, the message names PoCL's cache") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a file", "");  // so nothing can be made below it, whoever runs this
+  std::filesystem::create_directory(folder.path("tmp"));
+  const std::vector<std::string> unwritable = {"HOME=" + file, "XDG_CACHE_HOME=" + file + "/cache",
+                                               "TMPDIR=" + folder.path("tmp")};
+  const auto with = [&unwritable](const std::string& more) {
+    std::vector<std::string> all = unwritable;
+    all.push_back(more);
+    return all;
+  };
+  const Outcome elsewhere = run_program({"devices"}, with("POCL_CACHE_DIR="));
+  CAPTURE(elsewhere.err);
+  CHECK(elsewhere.code == 0);
+  const Outcome chosen = run_program({"devices"}, with("POCL_CACHE_DIR=" + file + "/pocl"));
+  if (chosen.code == 0) return;  // devices that are not PoCL's
+  CHECK(chosen.code == 4);
+  CHECK(contains(chosen.err, "set POCL_CACHE_DIR to a folder that can be written to"));
+  CHECK(contains(chosen.err, file + " is no folder"));
+}
+
+TEST_CASE("the first frame on a machine is not one of compiling") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.max_depth=1"},
+                                  {"XDG_CACHE_HOME=" + folder.path("x"), "POCL_CACHE_DIR=" + folder.path("p")});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  CHECK_FALSE(contains(run.err, "warning"));
+  const auto seconds = nlohmann::json::parse(std::ifstream(folder.path("out/summary.json")))["seconds"];
+  if (seconds["compile"].get<double>() < 1) return;  // a device that compiles at once
+  CHECK(seconds["frame"].get<double>() < 0.1 * seconds["compile"].get<double>());
+}
+
 TEST_CASE("a run writes three files and says what it found") {
   if (!device_present()) return;
   const Folder folder;
@@ -90,8 +126,7 @@ TEST_CASE("a run says which features it had, why not others, and how many paths 
   };
   const auto summary = [&] { return nlohmann::json::parse(std::ifstream(folder.path("out/summary.json"))); };
   CHECK(contains(run({}), "\nfeatures   reflection\n"));
-  CHECK(summary()["features"]["diffraction"] ==
-        nlohmann::json{{"on", false}, {"reason", "trace.diffraction = false"}});
+  CHECK(summary()["features"]["diffraction"] == nlohmann::json{{"on", false}, {"reason", "trace.diffraction = false"}});
   const std::string out = run({"trace.diffraction=true", "trace.transmission=true", "trace.scattering=true"});
   CHECK(contains(out, "\nfeatures   reflection, diffraction, transmission; no scattering: no material "));
   CHECK(contains(out, " diffracted\n"));

@@ -29,12 +29,50 @@ TEST_CASE("--version and --help") {
   const Outcome version = run_program({"--version"});
   CHECK(version.code == 0);
   CHECK(version.out.starts_with("wavetracer " WAVETRACER_VERSION "\n"));
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"run", "--help"}}) {
+}
+
+TEST_CASE("help is about what was asked: a command on a page, the keys of configurations by themselves") {
+  using Words = std::vector<std::string>;
+  for (const Words& words : {Words{"--help"},
+                             {"help"},
+                             {"run", "-h"},
+                             {"help", "run"},
+                             {"scene", "city", "--help"},
+                             {"help", "scene", "city"},
+                             {"bench", "--help"},
+                             {"help", "help"}}) {
+    CAPTURE(words.back());
     const Outcome help = run_program(words);
     CHECK(help.code == 0);
-    CHECK(contains(help.out, "trace.max_depth"));
-    CHECK(contains(help.out, "cache.residual_value"));
+    CHECK(help.err.empty());
+    CHECK(contains(help.out, "Usage: wavetracer"));
+    CHECK(contains(help.out, "`wavetracer help config`") != (words.front() == "bench"));  // lists its experiments there
+    CHECK_FALSE(contains(help.out, "trace.max_depth"));
+    CHECK(std::ranges::count(help.out, '\n') < 50);
   }
+  CHECK(run_program({"help", "run"}).out == run_program({"run", "--help"}).out);
+  CHECK(run_program({"help", "scene", "city"}).out == run_program({"scene", "city", "--help"}).out);
+  const Outcome keys = run_program({"help", "config"});
+  CHECK(keys.code == 0);
+  CHECK(contains(keys.out, "trace.max_depth"));
+  CHECK(contains(keys.out, "cache.residual_value"));
+  check(run_program({"help", "confg"}), 2, "help: there is nothing about \"confg\"; did you mean \"config\"?");
+}
+
+TEST_CASE("misspelt commands, options and choices are answered with what was meant") {
+  check(run_program({"rum"}), 2,
+        "wavetracer: no command is called \"rum\"; did you mean \"run\"? See `wavetracer help`\n");
+  check(run_program({"run", "--devise", "x"}), 2,
+        "wavetracer: run: no option is called --devise; did you mean \"--device\"? See `wavetracer help run`\n");
+  check(run_program({"run", "--devise=x"}), 2, "did you mean \"--device\"?");
+  check(run_program({"scene", "inf"}), 2, "scene: no command is called \"inf\"; did you mean \"info\"?");
+  check(run_program({"scene"}), 2, "scene: say which: info or city; see `wavetracer help scene`");
+  check(run_program({"run", "-c"}), 2, "run: --config needs a value");
+  check(run_program({"init", "x"}), 2, "init: \"x\" is one word too many");
+  check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");
+  check(run_program({"convert", "x", "-o", "y", "--to", "vkt"}), 2, "did you mean \"vtk\"?");
+  check(run_program({"bench", "figur-6.2"}), 2, "did you mean \"figure-6.2\"?");
+  check(run_program({"plot"}), 2, "plot: RUN is required; see `wavetracer help plot`");
 }
 
 TEST_CASE("usage errors exit 2") {
@@ -79,9 +117,9 @@ TEST_CASE("missing input files exit 3 and name the key") {
   check(run_program({"scene", "info", folder.path("absent.xml")}), 3, "absent.xml");
   const std::string drive = folder.file("c.toml", city + ends + "[trajectories]\nfile = \"absent.fcd.xml\"\n");
   for (const char* command : {"validate", "run"})
-    check(run_program({command, "-c", drive}), 3,
-          drive + ": trajectories.file is \"" + folder.path("absent.fcd.xml") +
-              "\", which cannot be read: No such file");
+    check(
+        run_program({command, "-c", drive}), 3,
+        drive + ": trajectories.file is \"" + folder.path("absent.fcd.xml") + "\", which cannot be read: No such file");
   CHECK(folder.entries() == 3);
 }
 

@@ -1,7 +1,10 @@
 // Tests of programs: definitions, build errors that point to file and line, and the cache on disk with real binaries.
 // Uses the default device, Oclgrind's where the test runs under it.
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <unistd.h>
 #include <cmath>
+#include <cstdio>
 #include "gpu/gpu.hpp"
 #include "gpu/temporary.hpp"
 #include "wavetracer/error.hpp"
@@ -65,6 +68,25 @@ TEST_CASE("a program knows its kind of device and exactly one back-end of memory
   auto out = context.buffer(std::vector<uint32_t>{0, 0}, "out");
   context.kernel("test", "environment", {{"VALUE", "0"}})({1, 1}, "test", out);
   CHECK(out.read() == std::vector<uint32_t>{1, 1});
+}
+
+TEST_CASE("warnings of kernels are not shown to users") {
+  const TemporaryKernels kernels;
+  kernels.add("test.cl", "#warning some words\n" + std::string(kernel_text));
+  const std::filesystem::path shown = kernels.kernels() / "stderr";
+  gpu::Context context;
+  std::fflush(stderr);
+  const int before = ::dup(STDERR_FILENO), file = ::open(shown.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  REQUIRE(before >= 0);
+  REQUIRE(file >= 0);
+  ::dup2(file, STDERR_FILENO);
+  ::close(file);
+  const uint32_t value = run_value(context, "7");
+  std::fflush(stderr);
+  ::dup2(before, STDERR_FILENO);
+  ::close(before);
+  CHECK(value == 7);
+  CHECK(read_file(shown) == "");
 }
 
 TEST_CASE("contraction can be turned off, and single-precision division and square roots can be exact") {

@@ -134,6 +134,49 @@ TEST_CASE("frames of figure-6.18 are transmitters half a metre apart, whose rays
   CHECK(point_config(find_recipe("figure-6.1"), config, 1000, false).transmitters.size() == 1);
 }
 
+TEST_CASE("a series launches all rays of its transmitters, every frame, and nothing else") {
+  const std::string text =
+      "scene.generate = \"--blocks 1\"\ntrace.diffraction = true\ncache.kind = \"concurrent\"\n"
+      "links.transmitters = [\"mast\"]\n"
+      "[[transmitter]]\nname = \"mast\"\nposition_m = [0, 0, 6]\n"
+      "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -3, 0], [1, 20, -3, 0]]\n"
+      "[[mount]]\nname = \"sender\"\nrole = \"transmitter\"\n[[mount]]\nname = \"roof\"\n";
+  const Config config = parse_config(text, "a.toml");
+  for (const char* name : {"figure-6.1", "figure-6.18"}) {
+    const Config point = point_config(find_recipe(name), config, 1000, false);
+    CHECK_FALSE(point.trace.reuse);
+    CHECK_FALSE(point.trace.diffraction);
+    CHECK(point.cache.kind == "none");
+  }
+  const Config moving = point_config(find_recipe("figure-6.18"), config, 1000, false);
+  REQUIRE(moving.mounts.size() == 1);
+  CHECK(moving.mounts[0].name == "roof");
+  CHECK(moving.mounts[0].role == "receiver");
+  CHECK(moving.links.transmitters == std::vector<std::string>{"*"});
+  CHECK(point_config(find_recipe("figure-6.1"), config, 1000, false).mounts.size() == 2);
+}
+
+TEST_CASE("a recipe says by name what a configuration lacks for it") {
+  const std::string mounted = "scene.generate = \"--blocks 1\"\n[[mount]]\nname = \"roof\"\n";
+  const Config vehicles = parse_config(mounted + "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -3, 0]]\n", "a.toml");
+  const Config live = parse_config(mounted + "[[live_vehicle]]\ntype = \"passenger\"\n", "a.toml");
+  for (const Recipe& recipe : wavetracer::recipes::recipes()) {
+    CAPTURE(recipe.name);
+    const bool needs_mast = recipe.experiment || recipe.frames > 1;
+    if (needs_mast)
+      CHECK_THROWS_WITH_AS(check_recipe(recipe, vehicles),
+                           doctest::Contains(("a.toml: " + recipe.name + " launches rays from the first").c_str()),
+                           ConfigError);
+    else
+      CHECK_NOTHROW(check_recipe(recipe, vehicles));
+    Config flat = recipe_config(recipe, "", {});
+    CHECK_NOTHROW(check_recipe(recipe, flat));
+    flat.trace.max_depth = 0;
+    CHECK_THROWS_WITH_AS(check_recipe(recipe, flat), doctest::Contains("give 1 or more"), ConfigError);
+    CHECK_THROWS_AS(check_recipe(recipe, live), ConfigError);
+  }
+}
+
 TEST_CASE("times are sums of the stages' medians, a frame") {
   const StageSeconds a = {{"generate_rays", 1}, {"trace", 10}, {"scan", 2},  {"interact", 3}, {"compact", 4},
                           {"order", 5},         {"sort", 6},   {"solve", 9}, {"frame", 50}};

@@ -1,0 +1,131 @@
+// Words that are not known come before options that are missing, since one is often the reason for the other.
+// Assumes that what a command could not place is what CLI11 keeps as its remaining words.
+#include "app/usage.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include "app/commands.hpp"
+#include "config/config_file.hpp"
+#include "config/spelling.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+constexpr const char* config_topic = "config";
+
+struct Command {
+  const CLI::App* app;
+  std::string path;  // "", "run", "scene info"
+};
+
+// The innermost command that was named.
+Command named(const CLI::App& program) {
+  Command at{&program, ""};
+  while (!at.app->get_subcommands().empty()) {
+    at.app = at.app->get_subcommands().back();
+    at.path += (at.path.empty() ? "" : " ") + at.app->get_name();
+  }
+  return at;
+}
+
+std::vector<std::string> command_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : command.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string unknown_word(const CLI::App& command, const std::string& word) {
+  if (word.starts_with('-')) {
+    const std::string name = word.substr(0, word.find('='));
+    return fmt::format("no option is called {}{}", name, config::hint(name, option_names(command)));
+  }
+  if (const std::vector<std::string> names = command_names(command); !names.empty())
+    return fmt::format("no command is called \"{}\"{}", word, config::hint(word, names));
+  return fmt::format("\"{}\" is one word too many", word);
+}
+
+// CLI11 says "--format: svh not in {svg,png,pdf}".
+std::string choice_hint(const std::string& message) {
+  const size_t colon = message.find(": "), list = message.find(" not in {");
+  if (colon == std::string::npos || list == std::string::npos || list < colon + 2) return "";
+  std::vector<std::string> choices;
+  for (size_t start = list + 9; start < message.size();) {
+    const size_t end = std::min(message.find_first_of(",}", start), message.size());
+    choices.push_back(message.substr(start, end - start));
+    start = end + 1;
+  }
+  return config::hint(message.substr(colon + 2, list - colon - 2), choices);
+}
+
+std::string problem(const CLI::App& command, const CLI::ParseError& error) {
+  if (const std::vector<std::string> unplaced = command.remaining(); !unplaced.empty())
+    return unknown_word(command, unplaced.front());
+  const std::string what = error.what();
+  if (const std::vector<std::string> names = command_names(command);
+      error.get_name() == "RequiredError" && !names.empty())
+    return fmt::format("say which: {}", fmt::join(names, " or "));
+  // CLI11 says "--config: 1 required TEXT missing".
+  if (const size_t missing = what.find(": 1 required "); missing != std::string::npos && what.ends_with(" missing"))
+    return what.substr(0, missing) + " needs a value";
+  return what + choice_hint(what);
+}
+
+const CLI::App& find_command(const CLI::App& program, const std::vector<std::string>& path) {
+  const CLI::App* at = &program;
+  for (const std::string& word : path) {
+    const auto found = at->get_subcommands([&word](const CLI::App* sub) { return sub->get_name() == word; });
+    if (found.empty()) {
+      std::vector<std::string> known = command_names(*at);
+      if (at == &program) known.push_back(config_topic);
+      throw ConfigError(fmt::format(
+          "help: there is nothing about \"{}\"{}; there is help about {}", word, config::hint(word, known),
+          known.empty() ? "`wavetracer help " + at->get_name() + "`" : fmt::format("{}", fmt::join(known, ", "))));
+    }
+    at = found.front();
+  }
+  return *at;
+}
+
+void help(const CLI::App& program, const std::vector<std::string>& topic) {
+  if (topic.size() == 1 && topic.front() == config_topic) {
+    std::cout << field_help();
+    return;
+  }
+  const CLI::App& command = find_command(program, topic);
+  std::string path = program.get_name();
+  for (const std::string& word : topic) path += " " + word;
+  std::cout << program.get_formatter()->make_help(&command, path, CLI::AppFormatMode::Normal);
+}
+
+}  // namespace
+
+std::string usage_problem(const CLI::App& program, const CLI::ParseError& error) {
+  const Command command = named(program);
+  const std::string what = problem(*command.app, error);
+  return fmt::format("{}{}{} `wavetracer help{}`", command.path.empty() ? "" : command.path + ": ", what,
+                     what.ends_with('?') ? " See" : "; see", command.path.empty() ? "" : " " + command.path);
+}
+
+void add_help(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("help", "Explain a command, or the keys of configuration files");
+  const auto topic = std::make_shared<std::vector<std::string>>();
+  command->add_option("topic", *topic,
+                      "A command, or config for the keys of configuration files; all commands if not given");
+  command->callback([topic, &program] { help(program, *topic); });
+}
+
+}  // namespace wavetracer::app
