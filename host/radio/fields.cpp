@@ -98,7 +98,8 @@ uint32_t most_ports(const std::vector<Antenna>& antennas) {
 FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models,
                        std::span<const Instance> instances)
     : interactions_(scene, config, models, instances), origin_m_(scene.origin_m) {
-  const auto make_ends = [&](const std::vector<RadioEnd>& ends, std::vector<Antenna>& made, std::vector<EndState>& still) {
+  const auto make_ends = [&](const std::vector<RadioEnd>& ends, std::vector<Antenna>& made,
+                             std::vector<EndState>& still) {
     for (const RadioEnd& end : ends) {
       made.push_back(make_antenna(end));
       still.push_back({.position_m = to_vector(end.position_m) - scene.origin_m,
@@ -126,8 +127,7 @@ void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const World
     paths.vertex_instance[first_vertex + m] = place.instance;
   }
   const SphericalBasis departure_basis = basis_of(departure), arrival_basis = basis_of(arrival);
-  const Matrix2 m =
-      interactions_.carried(geometry, path, state, legs, departure_basis, arrival_basis, sibling);
+  const Matrix2 m = interactions_.carried(geometry, path, state, legs, departure_basis, arrival_basis, sibling);
 
   const Angles aod = angles_of(departure), aoa = angles_of(arrival);
   paths.tx[row] = geometry.tx[path];

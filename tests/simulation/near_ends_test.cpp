@@ -140,6 +140,20 @@ TEST_CASE("an antenna in the plane of a wall hears what is behind it, both ways 
   }
 }
 
+// Rays from there start below the ground, unless they are launched from both sides of it.
+TEST_CASE("an antenna sunk into the ground hears what is above it, both ways alike, and nothing beyond 0.1 mm") {
+  for (const Place& place : places) {
+    CAPTURE(place.offset_m.x);
+    const Ways ways = both_ways(place, [](double gap_m) { return glm::dvec3(-5.2, 4.1, -gap_m); }, {7.1, 3.3, 2.5});
+    check_reciprocal(ways);
+    for (uint32_t near = 0; near < gaps_m.size(); ++near) {
+      CAPTURE(gaps_m[near]);
+      const size_t paths = rows_of(ways.there.paths, near, 0).size();
+      CHECK(paths == (gaps_m[near] <= 1e-4 ? rows_of(ways.there.paths, 0, 0).size() : 0));
+    }
+  }
+}
+
 TEST_CASE("in the corner of a wall and the ground") {
   for (const Place& place : places) {
     CAPTURE(place.offset_m.x);
