@@ -136,15 +136,15 @@ def strangers():
                 expect(second.hello(token=secret)["message"] == "world", "the second client")
                 third.send({"message": "hello", "protocol": 1, "token": secret})
                 ends_with(third, "too_many_clients")
-            with server.connect() as long_hello:
-                long_hello.bytes(b'{"message":"' + b"a" * 40000)
-                ends_with(long_hello, "too_long")
             for client in silent:
                 client.close()
     with Server(sets=["live.hello_timeout_s=0.3", "live.message_timeout_s=60"]) as server, server.connect() as silent:
         begin = time.monotonic()
         ends_with(silent, "timeout")
         expect(time.monotonic() - begin < 10, "silent until hello_timeout_s")
+        with server.connect() as long_hello:
+            long_hello.bytes(b'{"message":"' + b"a" * 40000)
+            ends_with(long_hello, "too_long")
 
 
 def long_messages(server):
