@@ -3,9 +3,6 @@
 #include "lib/images.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// An end closer than this to a surface's plane is on that surface, as in occlusion: no tile scatters to it.
-#define WT_ON_SURFACE_M 1e-4
-
 inline int carries(const global wt_exact_surface* s, double4 end) {
   return s->instance != WT_NONE && s->instance == wt_end_instance(end);
 }

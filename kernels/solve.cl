@@ -28,8 +28,6 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
   for (uint k = 0; k < depth; ++k) images[k + 1] = wt_reflected(surfaces + chain[k], images[k]);
   const double3 to = receivers[candidates[i].receiver].xyz;
   if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, to, points)) return;
-  // A receiver at a transmitter has no line of sight.
-  if (depth == 0 && to.x == images[0].x && to.y == images[0].y && to.z == images[0].z) return;
   const uint slot = atomic_inc(&counters->solved);
   if (slot >= capacity) return;
   solved[slot].transmitter = transmitter;

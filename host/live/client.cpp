@@ -38,7 +38,7 @@ Client::Client(uint64_t number, Descriptor socket, const LiveConfig& limits, Clo
 // A free-running client may always bring a newer frame.
 bool Client::may_speak() const {
   const bool free_running = hello && hello->free_running;
-  return !ending() && has_room() && (free_running || pending.size() < limits_.max_pending_frames);
+  return !ending() && !reading && has_room() && (free_running || pending.size() < limits_.max_pending_frames);
 }
 
 std::optional<Clock::duration> Client::pause(Clock::time_point now) {
@@ -72,9 +72,10 @@ std::optional<std::string> Client::next_line(Clock::time_point now) {
   if (!may_speak() || pause(now)) return {};
   const size_t end = in_.find('\n', searched_);
   const size_t size = end == in_.npos ? in_.size() : end;
-  if (size > limits_.max_message_bytes) {
-    this->end(error_line("too_long", fmt::format("a message has more than {} bytes", limits_.max_message_bytes), {}, true),
-              now);
+  const size_t most = std::min<size_t>(limits_.max_message_bytes, hello ? limits_.max_message_bytes : hello_bytes);
+  if (size > most) {
+    const char* when = hello ? "" : " before hello";
+    this->end(error_line("too_long", fmt::format("a message has more than {} bytes{}", most, when), {}, true), now);
     return {};
   }
   if (end == in_.npos) {
@@ -138,8 +139,8 @@ void Client::check_time(Clock::time_point now) {
     gone_ = true;
   else if (unread && late(took_, limits_.send_timeout_s))
     gone_ = true;  // it would not read why
-  else if (!hello && late(connected_, limits_.message_timeout_s))
-    drop(fmt::format("no hello within {} s", limits_.message_timeout_s));
+  else if (!hello && !reading && late(connected_, limits_.hello_timeout_s))
+    drop(fmt::format("no hello within {} s", limits_.hello_timeout_s));
   else if (!in_.empty() && late(line_began_, limits_.message_timeout_s))
     drop(fmt::format("a line was not complete within {} s", limits_.message_timeout_s));
   else if (limits_.idle_timeout_s > 0 && owes() && !unread && late(spoke_, limits_.idle_timeout_s))

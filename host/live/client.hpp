@@ -14,6 +14,9 @@
 
 namespace wavetracer::live {
 
+// The longest line before hello was said: a token of 4096 characters, each written as \u0000.
+inline constexpr size_t hello_bytes = 32768;
+
 class Client {
  public:
   Client(uint64_t number, Descriptor socket, const LiveConfig& limits, Clock::time_point now);
@@ -30,7 +33,7 @@ class Client {
   void send(Clock::time_point now);
   void hang_up() { gone_ = true; }
   // The next whole line, without its newline, where the client may say something now. One that is too long ends the
-  // connection.
+  // connection; before hello that is one of more than hello_bytes.
   std::optional<std::string> next_line(Clock::time_point now);
 
   void say(std::string_view line, Clock::time_point now);
@@ -53,13 +56,14 @@ class Client {
     std::string refusal;  // not empty: the answer is there already, and waits for those before it
   };
   std::deque<Pending> pending;
+  bool reading = false;  // its message is with the parser: the next one waits
   bool solving = false;  // its frame is with the solver
   uint64_t skipped = 0;  // since the last answer
   unsigned errors = 0;
 
  private:
   bool may_speak() const;
-  bool owes() const { return pending.empty() && !solving; }  // it is the client's turn
+  bool owes() const { return pending.empty() && !reading && !solving; }  // it is the client's turn
 
   uint64_t number_;
   Descriptor socket_;

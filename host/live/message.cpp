@@ -1,4 +1,4 @@
-// The parser looks at depth, numbers of values and repeated keys while it reads, before it builds anything of them.
+// The parser looks at depth, numbers of entries and repeated keys while it reads, before it builds anything of them.
 // Then every object is read by a list of its keys, so that what nobody asked for is refused with the nearest name.
 #include "live/message.hpp"
 
@@ -17,8 +17,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int max_depth = 4;            // message, vehicles, vehicle, vector
-constexpr size_t max_id_bytes = 128;    // of ids and types
+constexpr int max_depth = 4;          // message, vehicles, vehicle, vector
+constexpr size_t max_entries = 16;    // of arrays and objects, vehicles excepted
+constexpr size_t max_id_bytes = 128;  // of ids and types
 constexpr size_t max_token_bytes = 4096;
 constexpr double max_coordinate_m = 1e7, max_time_s = 1e12, max_speed = 1e6;
 constexpr uint64_t max_frame = (1ull << 53) - 1;  // that JSON numbers hold exactly, everywhere
@@ -33,31 +34,71 @@ std::string in_quotes(std::string_view text) {
 
 [[noreturn]] void refuse(const char* code, const std::string& text) { throw ProtocolError(code, text); }
 
-// Throws while a parser goes through a text that has too much of anything.
+// Throws while a parser goes through a text that has too much of anything, so that nothing is built of it: removing
+// what it built costs nlohmann's parser the square of an array's length.
 class Watch {
  public:
+  explicit Watch(size_t max_vehicles) : max_vehicles_(max_vehicles) {}
+
   bool operator()(int depth, json::parse_event_t event, json& value) {
     using Event = json::parse_event_t;
     // depth counts the containers around an event; one that starts adds itself.
     const bool starts = event == Event::object_start || event == Event::array_start;
-    if (starts && depth >= max_depth) refuse("bad_json", fmt::format("arrays and objects nest deeper than {}", max_depth));
-    if (event == Event::object_start) keys_.emplace_back();
-    if (event == Event::object_end) keys_.pop_back();
+    if (starts && depth >= max_depth)
+      refuse("bad_json", fmt::format("arrays and objects nest deeper than {}", max_depth));
     if (event == Event::key) {
-      const auto& key = value.get_ref<const std::string&>();
-      if (!keys_.back().insert(key).second) refuse("bad_json", "the key " + in_quotes(key) + " is there twice");
+      note_key(value.get_ref<const std::string&>());
+    } else if ((starts || event == Event::value) && !open_.empty() && open_.back().array) {
+      count_entry();
     }
+    if (event == Event::value && open_.size() == 1 && key_ == "frame" && value.is_number_unsigned())
+      frame_ = value.get<uint64_t>();
+    if (starts) open_.push_back({.array = event == Event::array_start, .entries = 0, .keys = {}});
+    if (event == Event::object_end || event == Event::array_end) open_.pop_back();
     return true;
   }
 
+  // The number of the frame, once it was there.
+  std::optional<uint64_t> frame() const { return frame_ <= max_frame ? frame_ : std::nullopt; }
+
  private:
-  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+  struct Open {
+    bool array;
+    size_t entries;
+    std::set<std::string> keys;
+  };
+
+  void note_key(const std::string& key) {
+    if (!open_.back().keys.insert(key).second) refuse("bad_json", "the key " + in_quotes(key) + " is there twice");
+    if (open_.size() == 1) key_ = key;
+    count_entry();
+  }
+  // Of vehicles as many as have places, of anything else more than the protocol ever asks for.
+  void count_entry() {
+    const size_t count = ++open_.back().entries;
+    const bool vehicles = open_.size() == 2 && open_.back().array && key_ == "vehicles";
+    if (vehicles && count > max_vehicles_)
+      refuse("no_place", fmt::format("frame: more than {} vehicles, which is how many places there are for all types: "
+                                     "raise the counts of [[live_vehicle]]",
+                                     max_vehicles_));
+    if (!vehicles && count > max_entries)
+      refuse("bad_json",
+             fmt::format("an array or object has more than {} entries, and is not \"vehicles\"", max_entries));
+  }
+
+  size_t max_vehicles_;
+  std::vector<Open> open_;
+  std::string key_;  // of the message
+  std::optional<uint64_t> frame_;
 };
 
-json parse_json(std::string_view line) {
+json parse_json(std::string_view line, size_t max_vehicles) {
+  Watch watch(max_vehicles);
   try {
-    Watch watch;
     return json::parse(line.begin(), line.end(), std::ref(watch));
+  } catch (ProtocolError& error) {
+    error.frame = watch.frame();
+    throw;
   } catch (const json::exception& e) {
     // nlohmann's texts begin with [json.exception...] and may quote bytes that are no UTF-8.
     std::string text = e.what();
@@ -175,8 +216,9 @@ glm::dquat orientation_of(const Object& vehicle) {
 }
 
 LivePose pose_of(const json& value) {
-  const Object vehicle(value, "vehicle",
-                       {"id", "type", "position_m", "yaw_deg", "orientation", "velocity_m_s", "angular_velocity_rad_s"});
+  const Object vehicle(
+      value, "vehicle",
+      {"id", "type", "position_m", "yaw_deg", "orientation", "velocity_m_s", "angular_velocity_rad_s"});
   LivePose out{.id = vehicle.id("id"),
                .type = vehicle.id("type"),
                .position_m = vehicle.vector("position_m", max_coordinate_m),
@@ -189,7 +231,7 @@ LivePose pose_of(const json& value) {
   return out;
 }
 
-FrameMessage frame_of(const json& value, size_t max_vehicles) {
+FrameMessage frame_of(const json& value) {
   const Object object(value, "frame", {"message", "frame", "time_s", "vehicles", "cold", "detail"});
   FrameMessage out;
   out.frame = object.count("frame", max_frame);
@@ -199,10 +241,6 @@ FrameMessage frame_of(const json& value, size_t max_vehicles) {
     if (object.has("detail")) out.detail = detail_of(object);
     const json& vehicles = object.at("vehicles");
     if (!vehicles.is_array()) refuse("bad_value", "frame: \"vehicles\" is no array");
-    if (vehicles.size() > max_vehicles)
-      refuse("no_place", fmt::format("frame: {} vehicles, and {} places for all types: raise the counts of "
-                                     "[[live_vehicle]]",
-                                     vehicles.size(), max_vehicles));
     for (const json& vehicle : vehicles) out.vehicles.push_back(pose_of(vehicle));
   } catch (ProtocolError& error) {
     error.frame = out.frame;
@@ -214,14 +252,14 @@ FrameMessage frame_of(const json& value, size_t max_vehicles) {
 }  // namespace
 
 Message parse_message(std::string_view line, size_t max_vehicles) {
-  const json value = parse_json(line);
+  const json value = parse_json(line, max_vehicles);
   if (!value.is_object()) refuse("bad_json", "a message is an object, {\"message\": ...}");
   const auto kind = value.find("message");
   if (kind == value.end()) refuse("missing_key", "\"message\" is missing: give \"hello\", \"frame\" or \"bye\"");
   if (!kind->is_string()) refuse("bad_value", "\"message\" is no string");
   const auto& name = kind->get_ref<const std::string&>();
   if (name == "hello") return hello_of(value);
-  if (name == "frame") return frame_of(value, max_vehicles);
+  if (name == "frame") return frame_of(value);
   if (name == "bye") {
     Object(value, "bye", {"message"});
     return Bye{};

@@ -17,12 +17,16 @@ namespace {
 constexpr std::chrono::milliseconds longest_wait{100};
 constexpr unsigned most_errors = 100;    // of a client, before it is dropped
 constexpr size_t most_turned_away = 16;  // clients that are told at once why they cannot stay
+constexpr size_t short_bytes = 16384;    // lines that are read at once take less than a millisecond
 
 size_t count_of(const std::vector<LiveType>& types) {
   size_t out = 0;
   for (const LiveType& type : types) out += type.count;
   return out;
 }
+
+bool is_stranger(const Client& client) { return !client.ending() && !client.gone() && !client.hello; }
+bool is_guest(const Client& client) { return !client.ending() && !client.gone() && client.hello; }
 
 }  // namespace
 
@@ -33,17 +37,20 @@ Server::Server(Simulation& simulation, const Listener& listener, std::string tok
       world_line_(world_line(simulation)),
       places_(count_of(simulation.live_types())),
       log_(std::move(log)),
-      solver_(simulation) {}
+      solver_(solve_with(simulation)),
+      parser_([this](Line& line) { return parse(line); }) {}
 
 void Server::run(const std::function<bool()>& stop) {
   while (!stop()) {
     wait(Clock::now());
     const Clock::time_point now = Clock::now();
+    take_lines(now);
     take_answer(now);
-    for (const auto& client : clients_) {
-      read(*client, now);
-      client->check_time(now);
-    }
+    for (const auto& client : clients_)
+      talk(*client, [&] {
+        read(*client, now);
+        client->check_time(now);
+      });
     std::erase_if(clients_, [&](const auto& client) {
       if (client->gone()) log_(fmt::format("client {} left", client->number()));
       return client->gone();
@@ -56,7 +63,9 @@ void Server::run(const std::function<bool()>& stop) {
 
 // Waits for whatever comes first, and moves bytes.
 void Server::wait(Clock::time_point now) {
-  std::vector<pollfd> polled{{listener_.descriptor(), POLLIN, 0}, {solver_.descriptor(), POLLIN, 0}};
+  std::vector<pollfd> polled{
+      {listener_.descriptor(), POLLIN, 0}, {solver_.descriptor(), POLLIN, 0}, {parser_.descriptor(), POLLIN, 0}};
+  const size_t first = polled.size();
   auto timeout = std::chrono::duration_cast<Clock::duration>(longest_wait);
   for (const auto& client : clients_) {
     polled.push_back({client->descriptor(), client->events(now), 0});
@@ -66,9 +75,9 @@ void Server::wait(Clock::time_point now) {
   if (poll(polled.data(), polled.size(), static_cast<int>(milliseconds)) <= 0) return;
   const Clock::time_point woken = Clock::now();
   for (size_t i = 0; i < clients_.size(); ++i) {
-    const short events = polled[i + 2].revents;
+    const short events = polled[first + i].revents;
     if (events & POLLIN)
-      clients_[i]->receive();
+      talk(*clients_[i], [&] { clients_[i]->receive(); });
     else if (events & (POLLHUP | POLLERR | POLLNVAL))
       clients_[i]->hang_up();
     if (events & POLLOUT) clients_[i]->send(woken);
@@ -79,14 +88,34 @@ void Server::wait(Clock::time_point now) {
 void Server::accept(Clock::time_point now) {
   Descriptor socket = listener_.accept();
   if (*socket < 0) return;
-  const size_t staying = static_cast<size_t>(std::ranges::count(clients_, false, [](auto& c) { return c->ending(); }));
-  if (clients_.size() - staying >= most_turned_away) return;
   auto client = std::make_unique<Client>(next_number_++, std::move(socket), limits_, now);
-  if (staying >= limits_.max_clients)
-    end(*client, "too_many_clients", fmt::format("{} clients are here already (live.max_clients)", staying), now);
-  else
-    log_(fmt::format("client {} connected", client->number()));
+  log_(fmt::format("client {} connected", client->number()));
+  if (const size_t guests = count(is_guest); guests >= limits_.max_clients)
+    turn_away(*client, "too_many_clients", fmt::format("{} clients are here already (live.max_clients)", guests), now);
+  else if (count(is_stranger) >= limits_.max_strangers)
+    turn_away(**std::ranges::find_if(clients_, [](const auto& c) { return is_stranger(*c); }), "timeout",
+              fmt::format("no hello so far, and others wait: {} connections have said none (live.max_strangers)",
+                          limits_.max_strangers),
+              now);
   clients_.push_back(std::move(client));
+}
+
+void Server::talk(Client& client, const std::function<void()>& action) const {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    log_(fmt::format("client {} is dropped: {}", client.number(), error.what()));
+    client.hang_up();
+  }
+}
+
+Client* Server::find(uint64_t number) const {
+  const auto found = std::ranges::find(clients_, number, [](const auto& c) { return c->number(); });
+  return found == clients_.end() ? nullptr : found->get();
+}
+
+size_t Server::count(bool (*which)(const Client&)) const {
+  return static_cast<size_t>(std::ranges::count_if(clients_, [&](const auto& c) { return which(*c); }));
 }
 
 void Server::end(Client& client, std::string_view code, const std::string& text, Clock::time_point now) {
@@ -94,29 +123,63 @@ void Server::end(Client& client, std::string_view code, const std::string& text,
   client.end(error_line(code, text, {}, true), now);
 }
 
+void Server::turn_away(Client& client, std::string_view code, const std::string& text, Clock::time_point now) {
+  if (count([](const Client& c) { return c.ending(); }) < most_turned_away)
+    end(client, code, text, now);
+  else
+    client.hang_up();
+}
+
+Server::ReadLine Server::parse(const Line& line) const {
+  try {
+    return {line.client, line.received, parse_message(line.text, places_)};
+  } catch (const ProtocolError& error) {
+    return {line.client, line.received, error};
+  } catch (const std::exception& error) {
+    return {line.client, line.received, ProtocolError("failed", fmt::format("not understood: {}", error.what()))};
+  }
+}
+
 void Server::read(Client& client, Clock::time_point now) {
   do {
-    while (const auto line = client.next_line(now)) handle(client, *line, now);
+    while (auto text = client.next_line(now)) {
+      Line line{client.number(), now, std::move(*text)};
+      if (line.text.size() <= short_bytes) {
+        handle(client, parse(line), now);
+      } else {
+        client.reading = true;
+        parser_.give(std::move(line));
+      }
+    }
   } while (flush_refusals(client, now));  // which makes room for more lines
 }
 
-void Server::handle(Client& client, std::string_view line, Clock::time_point now) {
-  try {
-    Message message = parse_message(line, places_);
-    if (auto* hello = std::get_if<Hello>(&message)) {
-      greet(client, std::move(*hello), now);
-    } else if (std::holds_alternative<Bye>(message)) {
-      client.end(bye_line("as you wish"), now);
-    } else if (!client.hello) {
-      end(client, "hello_first", "the first message is hello", now);
-    } else {
-      queue(client, std::move(std::get<FrameMessage>(message)), now);
-    }
-  } catch (const ProtocolError& error) {
+void Server::take_lines(Clock::time_point now) {
+  while (auto line = parser_.take()) {
+    Client* const client = find(line->client);
+    if (!client) continue;
+    client->reading = false;
+    if (!client->ending()) talk(*client, [&] { handle(*client, std::move(*line), now); });
+  }
+}
+
+void Server::handle(Client& client, ReadLine line, Clock::time_point now) {
+  if (const auto* error = std::get_if<ProtocolError>(&line.message)) {
     if (client.hello)
-      refuse(client, error, now);
+      refuse(client, *error, now);
     else
-      end(client, error.code, error.what(), now);
+      end(client, error->code, error->what(), now);
+    return;
+  }
+  auto& message = std::get<Message>(line.message);
+  if (auto* hello = std::get_if<Hello>(&message)) {
+    greet(client, std::move(*hello), now);
+  } else if (std::holds_alternative<Bye>(message)) {
+    client.end(bye_line("as you wish"), now);
+  } else if (!client.hello) {
+    end(client, "hello_first", "the first message is hello", now);
+  } else {
+    queue(client, std::move(std::get<FrameMessage>(message)), line.received);
   }
 }
 
@@ -127,17 +190,19 @@ void Server::greet(Client& client, Hello hello, Clock::time_point now) {
                fmt::format("protocol {} is not spoken here, {} is", hello.protocol, protocol_version), now);
   if (!token_.empty() && !same_token(token_, hello.token))
     return end(client, "token", "hello needs the token of this server", now);
+  if (const size_t guests = count(is_guest); guests >= limits_.max_clients)
+    return end(client, "too_many_clients", fmt::format("{} clients are here already (live.max_clients)", guests), now);
   client.hello = std::move(hello);
   client.hello->token.clear();
   client.say(world_line_, now);
 }
 
-void Server::queue(Client& client, FrameMessage message, Clock::time_point now) {
+void Server::queue(Client& client, FrameMessage message, Clock::time_point received) {
   if (client.hello->free_running && !client.pending.empty()) {
     client.skipped += client.pending.size();
     client.pending.clear();
   }
-  client.pending.push_back({std::move(message), now, {}});
+  client.pending.push_back({std::move(message), received, {}});
 }
 
 // Answers come in the order of frames, refusals among them; a free-running client has no order to keep.
@@ -165,12 +230,14 @@ bool Server::flush_refusals(Client& client, Clock::time_point now) {
 void Server::take_answer(Clock::time_point now) {
   const std::optional<Answer> answer = solver_.take();
   if (!answer) return;
-  const auto found = std::ranges::find(clients_, answer->client, [](const auto& c) { return c->number(); });
-  if (found != clients_.end()) {
-    (*found)->solving = false;
-    (*found)->say(answer->line, now);
+  if (!answer->failure.empty()) log_(fmt::format("client {}: {}", answer->client, answer->failure));
+  if (Client* const client = find(answer->client)) {
+    client->solving = false;
+    talk(*client, [&] { client->say(answer->line, now); });
   }
-  if (answer->fatal) throw RuntimeError("the device failed: " + answer->line);
+  if (!answer->fatal) return;
+  for (const auto& client : clients_) client->end(bye_line("the device failed, and the server ends"), now);
+  throw DeviceError("the device failed: " + answer->failure);
 }
 
 // In turn: the first client after the last one served that has a frame and room for its answer.

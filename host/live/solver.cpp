@@ -1,79 +1,53 @@
-// A slot for a job, a slot for its answer, and an eventfd that wakes poll().
-// Errors of poses are the client's; those of the device end the server.
+// Errors of poses are the client's, those of a frame cost that frame, and those of the device end the server.
 #include "live/solver.hpp"
 
-#include <sys/eventfd.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include "live/answer.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::live {
 
-Solver::Solver(Simulation& simulation) : simulation_(simulation), event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (*event_ < 0) throw RuntimeError("no file descriptor is left for the solver's thread: raise ulimit -n");
-  thread_ = std::thread([this] { run(); });
+Solve solve_with(Simulation& simulation) {
+  return [&simulation](const Job& job, bool afresh) {
+    const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+    const FrameMessage& message = job.message;
+    const Clock::time_point start = Clock::now();
+    if (message.cold || afresh) simulation.forget();
+    const LiveFrame frame = simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
+    const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
+    return channels_line(message, frame, job.detail, job.skipped, times);
+  };
 }
 
-Solver::~Solver() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
-}
+Solver::Solver(Solve solve) : solve_(std::move(solve)), worker_([this](Job& job) { return answer(job); }) {}
 
 void Solver::give(Job job) {
   busy_ = true;
-  {
-    const std::lock_guard lock(mutex_);
-    job_ = std::move(job);
-  }
-  wake_.notify_one();
+  worker_.give(std::move(job));
 }
 
 std::optional<Answer> Solver::take() {
-  uint64_t ignored = 0;
-  if (read(*event_, &ignored, sizeof ignored) < 0) return {};
-  const std::lock_guard lock(mutex_);
-  busy_ = false;
-  return std::exchange(answer_, std::nullopt);
+  std::optional<Answer> out = worker_.take();
+  if (out) busy_ = false;
+  return out;
 }
 
-void Solver::run() {
-  while (true) {
-    std::optional<Job> job;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return ends_ || job_; });
-      if (ends_) return;
-      job = std::exchange(job_, std::nullopt);
-    }
-    Answer answer = solve(*job);
-    const std::lock_guard lock(mutex_);
-    answer_ = std::move(answer);
-    const uint64_t one = 1;
-    [[maybe_unused]] const ssize_t written = write(*event_, &one, sizeof one);  // cannot block: it is at 0 or 1
-  }
-}
-
-Answer Solver::solve(const Job& job) {
-  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
-  const FrameMessage& message = job.message;
-  const auto error = [&](std::string_view code, const std::string& text, bool fatal) {
-    return Answer{job.client, error_line(code, text, message.frame, fatal), fatal};
-  };
+Answer Solver::answer(const Job& job) {
+  const uint64_t frame = job.message.frame;
   try {
-    const Clock::time_point start = Clock::now();
-    if (message.cold) simulation_.forget();
-    const LiveFrame frame = simulation_.run_poses(*job.traffic, message.time_s, message.vehicles);
-    const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
-    return {job.client, channels_line(message, frame, job.detail, job.skipped, times)};
+    std::string line = solve_(job, afresh_);
+    afresh_ = false;
+    return {job.client, std::move(line), {}, false};
   } catch (const PoseError& e) {
-    return error(e.code, e.what(), false);
+    return {job.client, error_line(e.code, e.what(), frame, false), {}, false};
+  } catch (const DeviceError& e) {
+    return {job.client, error_line("server", e.what(), frame, true), e.what(), true};
   } catch (const std::exception& e) {
-    return error("server", e.what(), true);
+    afresh_ = true;
+    const std::string text =
+        fmt::format("this frame could not be solved: {}; the next one starts from nothing", e.what());
+    return {job.client, error_line("failed", text, frame, false), text, false};
   }
 }
 

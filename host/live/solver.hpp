@@ -1,17 +1,16 @@
-// The thread that solves: one frame at a time, from whichever client the server says.
-// Assumes one giver and taker of jobs, the thread of the sockets. The simulation is used on no other thread meanwhile.
+// Solves one frame at a time on a thread of its own, from whichever client the server says, and makes every failure an
+// answer. Assumes one giver and taker of jobs, the thread of the sockets; what solves is used on no other thread
+// meanwhile.
 #pragma once
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
-#include "live/endpoint.hpp"
 #include "live/message.hpp"
+#include "live/worker.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::live {
@@ -30,36 +29,33 @@ struct Job {
 struct Answer {
   uint64_t client = 0;
   std::string line;
-  bool fatal = false;  // of the server: the device failed
+  std::string failure;  // what the log is told, empty where the frame was solved or the client's poses were wrong
+  bool fatal = false;   // of the server: the device failed
 };
+
+// The answer to a job. afresh: nothing of earlier frames is to be relied upon. Throws PoseError where the poses are
+// wrong, DeviceError where the device is of no use any more, anything else where this one frame failed.
+using Solve = std::function<std::string(const Job& job, bool afresh)>;
+Solve solve_with(Simulation& simulation);
 
 class Solver {
  public:
-  explicit Solver(Simulation& simulation);
-  ~Solver();  // ends after the frame that it is at
-  Solver(const Solver&) = delete;
-  Solver& operator=(const Solver&) = delete;
+  explicit Solver(Solve solve);
 
   // From give() to take() there is one job at most.
   bool idle() const { return !busy_; }
   void give(Job job);
   // Readable once an answer is there.
-  int descriptor() const { return *event_; }
+  int descriptor() const { return worker_.descriptor(); }
   std::optional<Answer> take();
 
  private:
-  void run();
-  Answer solve(const Job& job);
+  Answer answer(const Job& job);
 
-  Simulation& simulation_;
-  Descriptor event_;
-  bool busy_ = false;  // of the giver's thread alone
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::optional<Job> job_;
-  std::optional<Answer> answer_;
-  bool ends_ = false;
-  std::thread thread_;
+  Solve solve_;
+  bool afresh_ = false;  // of the worker's thread: the frame before failed in the middle
+  bool busy_ = false;    // of the giver's thread
+  Worker<Job, Answer> worker_;
 };
 
 }  // namespace wavetracer::live

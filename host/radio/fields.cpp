@@ -2,7 +2,6 @@
 // Rows are independent of each other, and all but the grouping by link runs on all cores.
 #include "radio/fields.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
@@ -12,7 +11,6 @@
 
 #include "radio/constants.hpp"
 #include "radio/link_groups.hpp"
-#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
@@ -89,9 +87,9 @@ void resize(Paths& paths, size_t rows, size_t vertices) {
       [&] { paths.vertex_offset.resize(rows + 1); });
 }
 
-uint32_t most_ports(const auto& ends) {
+uint32_t most_ports(const std::vector<Antenna>& antennas) {
   uint32_t ports = 1;
-  for (const auto& end : ends) ports = std::max(ports, end.antenna.ports());
+  for (const Antenna& antenna : antennas) ports = std::max(ports, antenna.ports());
   return ports;
 }
 
@@ -100,11 +98,12 @@ uint32_t most_ports(const auto& ends) {
 FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models,
                        std::span<const Instance> instances)
     : interactions_(scene, config, models, instances), origin_m_(scene.origin_m) {
-  const auto make_ends = [&](const std::vector<RadioEnd>& ends, std::vector<End>& made, std::vector<EndState>& still) {
+  const auto make_ends = [&](const std::vector<RadioEnd>& ends, std::vector<Antenna>& made,
+                             std::vector<EndState>& still) {
     for (const RadioEnd& end : ends) {
-      made.push_back({end.name, make_antenna(end)});
+      made.push_back(make_antenna(end));
       still.push_back({.position_m = to_vector(end.position_m) - scene.origin_m,
-                       .rotation = made.back().antenna.rotation(),
+                       .rotation = made.back().rotation(),
                        .velocity_m_s = to_vector(end.velocity_m_s)});
     }
   };
@@ -116,15 +115,8 @@ FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const
 
 void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs,
                           const SiblingQuestion& sibling, Paths& paths, size_t row) const {
-  const End &tx = transmitters_[geometry.tx[path]], &rx = receivers_[geometry.rx[path]];
+  const Antenna &tx = transmitters_[geometry.tx[path]], &rx = receivers_[geometry.rx[path]];
   const glm::dvec3 departure = legs.directions().front(), arrival = -legs.directions().back();
-  if (departure == glm::dvec3{0}) {
-    throw RuntimeError(
-        fmt::format("transmitter \"{}\" stands in the very point where its path to receiver \"{}\" first "
-                    "ends (a surface or that receiver); move it",
-                    tx.name, rx.name));
-  }
-
   const uint64_t first = geometry.first[path], first_vertex = paths.vertex_offset[row];
   const size_t count = geometry.first[path + 1] - first;
   for (size_t m = 0; m < count; ++m) {
@@ -135,8 +127,7 @@ void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const World
     paths.vertex_instance[first_vertex + m] = place.instance;
   }
   const SphericalBasis departure_basis = basis_of(departure), arrival_basis = basis_of(arrival);
-  const Matrix2 m =
-      interactions_.carried(geometry, path, state, legs, departure_basis, arrival_basis, sibling);
+  const Matrix2 m = interactions_.carried(geometry, path, state, legs, departure_basis, arrival_basis, sibling);
 
   const Angles aod = angles_of(departure), aoa = angles_of(arrival);
   paths.tx[row] = geometry.tx[path];
@@ -151,13 +142,13 @@ void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const World
   const double wavelength_m = interactions_.wavelength_m();
   const std::span instances(paths.vertex_instance.data() + first_vertex, count);
   paths.doppler_hz[row] = closing_speed_m_s(legs, state, geometry, path, instances) / wavelength_m + 0.0;
-  const PortFields sent = tx.antenna.fields(departure, departure_basis, state.transmitters[geometry.tx[path]].rotation);
-  const PortFields heard = rx.antenna.fields(arrival, arrival_basis, state.receivers[geometry.rx[path]].rotation);
+  const PortFields sent = tx.fields(departure, departure_basis, state.transmitters[geometry.tx[path]].rotation);
+  const PortFields heard = rx.fields(arrival, arrival_basis, state.receivers[geometry.rx[path]].rotation);
   const double at_1_m = wavelength_m / (4 * std::numbers::pi);
   double power = 0;
-  for (uint32_t t = 0; t < tx.antenna.ports(); ++t) {
+  for (uint32_t t = 0; t < tx.ports(); ++t) {
     const FieldPair come{m[0] * sent[t].theta + m[1] * sent[t].phi, m[2] * sent[t].theta + m[3] * sent[t].phi};
-    for (uint32_t r = 0; r < rx.antenna.ports(); ++r) {
+    for (uint32_t r = 0; r < rx.ports(); ++r) {
       std::complex<double>& a = paths.a[row][r * tx_ports_ + t];
       a = at_1_m * (heard[r].theta * come.theta + heard[r].phi * come.phi);
       power += std::norm(a);
@@ -166,7 +157,10 @@ void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const World
   paths.gain_db[row] = 10 * std::log10(power);
 }
 
-Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state) const {
+Paths FieldModel::compute(uint32_t frame, PathGeometry found, const WorldState& state, LeftOut* left_out) const {
+  LeftOut near;
+  const PathGeometry geometry = without_near_ends(std::move(found), interactions_.surfaces(), state, near);
+  if (left_out) *left_out = std::move(near);
   std::vector<double> delay_s(geometry.size());
   tbb::parallel_for(size_t{0}, geometry.size(),
                     [&](size_t path) { delay_s[path] = path_length_m(state, geometry, path) / speed_of_light_m_s; });

@@ -9,6 +9,7 @@
 #include "radio/antenna.hpp"
 #include "radio/interactions.hpp"
 #include "radio/legs.hpp"
+#include "radio/near_ends.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/path_geometry.hpp"
 #include "wavetracer/paths.hpp"
@@ -37,24 +38,20 @@ class FieldModel {
   //     surfaces and edges that turn it.
   //   gain_db: over all pairs of ports, -inf if an antenna is blind in that direction.
   //   vertex_surface: its number in the static scene, or in the model of the instance in vertex_instance.
-  // Throws RuntimeError for another interaction and for ends that stand in the same point.
-  Paths compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state) const;
+  // Paths of near ends are left out (radio/near_ends.hpp) and counted in left_out. Throws RuntimeError for another
+  // interaction.
+  Paths compute(uint32_t frame, PathGeometry geometry, const WorldState& state, LeftOut* left_out = nullptr) const;
   // The same with every end where the configuration has it, and no instances.
-  Paths compute(uint32_t frame, const PathGeometry& geometry) const { return compute(frame, geometry, still_); }
+  Paths compute(uint32_t frame, PathGeometry geometry) const { return compute(frame, std::move(geometry), still_); }
 
  private:
-  struct End {
-    std::string name;
-    Antenna antenna;
-  };
-
   // Writes row `row` of the result.
   void evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs,
                 const SiblingQuestion& sibling, Paths& paths, size_t row) const;
 
   Interactions interactions_;
   glm::dvec3 origin_m_;
-  std::vector<End> transmitters_, receivers_;
+  std::vector<Antenna> transmitters_, receivers_;
   uint32_t tx_ports_, rx_ports_;  // the most that any end of that side has
   WorldState still_;
 };

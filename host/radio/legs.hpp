@@ -19,7 +19,7 @@ class Legs {
 
   double length_m() const { return length_m_; }
   // From the transmitter on, one more than interactions; directions of unit length. The first is 0 where a path ends
-  // where it starts.
+  // where it starts: paths of near ends are left out before (radio/near_ends.hpp).
   const std::vector<glm::dvec3>& directions() const { return directions_; }
   const std::vector<double>& lengths_m() const { return lengths_m_; }
 

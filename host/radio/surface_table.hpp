@@ -2,6 +2,7 @@
 // Assumes that instances number their surfaces without overlap, from Instance::first_surface on.
 #pragma once
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,13 @@ class SurfaceTable {
   glm::dvec3 normal(const SurfacePlace& place, const WorldState& state) const {
     const glm::dvec3& normal = surface(place).normal;
     return place.instance == no_instance ? normal : state.instances[place.instance].rotation * normal;
+  }
+  // Signed distance of a point of the world from the surface's plane.
+  double above(const SurfacePlace& place, const WorldState& state, const glm::dvec3& p) const {
+    const Surface& s = surface(place);
+    if (place.instance == no_instance) return glm::dot(s.normal, p) - s.offset_m;
+    const Placement& body = state.instances[place.instance];
+    return glm::dot(body.rotation * s.normal, p - body.position_m) - s.offset_m;
   }
 
  private:

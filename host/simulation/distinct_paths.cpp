@@ -11,16 +11,11 @@
 #include <tuple>
 
 #include "radio/link_groups.hpp"
+#include "radio/path_rows.hpp"
 
 namespace wavetracer {
 
 namespace {
-
-// The entries of one path in a column that has one an interaction.
-template <class T>
-std::span<const T> of_path(const PathGeometry& paths, const std::vector<T>& column, uint32_t path) {
-  return std::span(column).subspan(paths.first[path], paths.first[path + 1] - paths.first[path]);
-}
 
 std::strong_ordering compare_sequences(const PathGeometry& paths, uint32_t a, uint32_t b) {
   const auto depth = [&](uint32_t path) { return paths.first[path + 1] - paths.first[path]; };
@@ -71,28 +66,6 @@ size_t keep_distinct(const PathGeometry& paths, std::span<uint32_t> rows) {
   for (size_t at = 0; at < rows.size(); ++at)
     if (!dropped[at]) rows[kept++] = rows[at];
   return kept;
-}
-
-PathGeometry rows_of(const PathGeometry& paths, const std::vector<uint32_t>& rows) {
-  PathGeometry out;
-  out.tx.resize(rows.size());
-  out.rx.resize(rows.size());
-  out.first.resize(rows.size() + 1);
-  for (size_t i = 0; i < rows.size(); ++i)
-    out.first[i + 1] = out.first[i] + paths.first[rows[i] + 1] - paths.first[rows[i]];
-  out.surface.resize(out.first.back());
-  out.interaction.resize(out.first.back());
-  out.vertex.resize(out.first.back());
-  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t i) {
-    const uint32_t row = rows[i];
-    out.tx[i] = paths.tx[row];
-    out.rx[i] = paths.rx[row];
-    const auto to = static_cast<std::ptrdiff_t>(out.first[i]);
-    std::ranges::copy(of_path(paths, paths.surface, row), out.surface.begin() + to);
-    std::ranges::copy(of_path(paths, paths.interaction, row), out.interaction.begin() + to);
-    std::ranges::copy(of_path(paths, paths.vertex, row), out.vertex.begin() + to);
-  });
-  return out;
 }
 
 }  // namespace

@@ -145,7 +145,8 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s,
       const glm::dvec3 velocity_m_s = (pose.position_m - known->second.position_m) / passed_s;
       if (glm::length(velocity_m_s) <= jump_m_s) {
         placed.velocity_m_s = velocity_m_s;
-        placed.angular_velocity_rad_s = turning(known->second.orientation, now.orientation, passed_s);
+        const glm::dvec3 turn_rad_s = turning(known->second.orientation, now.orientation, passed_s);
+        if (within(turn_rad_s, most_rad_s)) placed.angular_velocity_rad_s = turn_rad_s;
       }
     }
     placed.velocity_m_s = pose.velocity_m_s.value_or(placed.velocity_m_s);

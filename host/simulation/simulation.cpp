@@ -15,6 +15,7 @@
 #include "simulation/distinct_paths.hpp"
 #include "simulation/exact_paths.hpp"
 #include "simulation/features.hpp"
+#include "simulation/launch_sides.hpp"
 #include "simulation/launch_slopes.hpp"
 #include "simulation/link_block.hpp"
 #include "simulation/listeners.hpp"
@@ -116,7 +117,8 @@ struct Simulation::State {
   Origins origins;
   std::optional<InstancePlacement> place;  // where there are instances
   bool reuse = false;
-  uint64_t warm_frames = 0;            // since the last cold one, which counts
+  uint64_t warm_frames = 0;  // since the last cold one, which counts
+  std::optional<LaunchSides> launch_sides;
   std::optional<LaunchSlopes> slopes;  // with trace.directions = "horizon"
   std::optional<RayTrails> trails;     // with trace.reception = "sphere" or output.waypoints
   std::optional<Discovery> discovery;
@@ -129,9 +131,12 @@ struct Simulation::State {
 
   bool compiling = false;  // launches are there to be compiled
 
+  LeftOut left_out;  // of the last frame, which is told once the names of its ends are known
+
   FrameResult solve(uint32_t frame, WorldState frame_world, const LinkBlock* block = nullptr);
   void compile_launches();
   void forget();
+  void warn_of_near_ends(FrameResult& result) const;
   void begin_frame();
   DiscoveryCounts discover(const WorldState& state, const LinkBlock* block);
   PathGeometry received_paths(const RadioEnds& ends, FrameCounts& counts, Stopwatch& host);
@@ -158,6 +163,10 @@ DiscoveryCounts Simulation::State::discover(const WorldState& state, const LinkB
   if (compiling) {
     first.resize(std::min<size_t>(first.size(), 1));
     then.resize(std::min<size_t>(then.size(), 1));
+  }
+  if (!trails) {  // which follow one launch a transmitter
+    first = launch_sides->of(first, state);
+    then = launch_sides->of(then, state);
   }
   if (slopes) {
     const SlopeTables tables = (*slopes)(state, origins);
@@ -192,6 +201,12 @@ void Simulation::State::compile_launches() {
   solve(0, world->state(0));
   compiling = false;
   forget();
+}
+
+void Simulation::State::warn_of_near_ends(FrameResult& result) const {
+  const auto name = [](const std::vector<RadioEnd>& ends) { return [&](uint32_t end) { return ends[end].name; }; };
+  if (!left_out.empty())
+    result.warnings.push_back(left_out_warning(left_out, name(config.transmitters), name(config.receivers)));
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths. Leaves `host` at the time since the device was
@@ -229,6 +244,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   if (s.trace.transmission)
     mark_opaque(s.device_scene,
                 opaque_surfaces(s.scene, s.world->models(), s.world->instances(), config.radio.frequency_hz));
+  s.launch_sides.emplace(s.scene, s.world->models(), s.world->instances());
   s.setup["build"] = watch.lap();
   OrderChoice order;
   if (config.order.method == "auto") {
@@ -296,6 +312,7 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   WorldState world = state_->world->state(frame);
   const double poses_seconds = watch.lap();
   FrameResult out = state_->solve(frame, std::move(world));
+  state_->warn_of_near_ends(out);
   out.seconds["poses"] = poses_seconds;
   out.seconds["frame"] += poses_seconds;
   return out;
@@ -320,6 +337,7 @@ FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters)
                                           s.world->transmitter_of_receiver(), s.origins);
   const double poses_seconds = watch.lap();
   FrameResult out = s.solve(frame, std::move(world), &block);
+  s.warn_of_near_ends(out);
   forget();
   out.seconds["poses"] = poses_seconds;
   out.seconds["frame"] += poses_seconds;
@@ -335,6 +353,9 @@ LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<c
   out.result.seconds["poses"] = poses_seconds;
   out.result.seconds["frame"] += poses_seconds;
   state_->world->set_names(traffic, out);
+  const auto name = [](const std::vector<std::string>& names) { return [&](uint32_t end) { return names[end]; }; };
+  if (!state_->left_out.empty())
+    out.result.warnings.push_back(left_out_warning(state_->left_out, name(out.transmitters), name(out.receivers)));
   return out;
 }
 
@@ -373,7 +394,7 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   }
 
   const double paths_seconds = host_watch.lap();
-  out.paths = fields->compute(frame, geometry, out.world);
+  out.paths = fields->compute(frame, std::move(geometry), out.world, &left_out);
   const double fields_seconds = host_watch.lap(), frame_seconds = watch.lap();
 
   out.seconds = context->profile();

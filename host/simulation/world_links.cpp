@@ -65,7 +65,8 @@ std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitter
       if (!allowed(transmitters_.vehicles[tx], receivers_.vehicles[rx])) continue;
       const double distance_m = glm::distance(transmitters[tx].position_m, receivers[rx].position_m);
       // What an antenna on a vehicle sends to itself is no link; a receiver at a transmitter hears its echoes.
-      const bool itself = distance_m == 0 && transmitters_.vehicles[tx] != no_vehicle;
+      const uint32_t vehicle = transmitters_.vehicles[tx];
+      const bool itself = distance_m == 0 && vehicle != no_vehicle && vehicle == receivers_.vehicles[rx];
       if (!itself && distance_m <= config_.max_distance_m) out.push_back({tx, rx});
     }
   }

@@ -161,12 +161,14 @@ struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type
 
 struct LiveConfig {  // [live]: what `wavetracer serve` accepts
   double margin_m = 100;  // vehicles may be as far outside of the scene's box
-  uint32_t max_clients = 8;
+  uint32_t max_clients = 8;              // that have said hello
+  uint32_t max_strangers = 8;            // that have not
   uint64_t max_message_bytes = 1048576;  // a line
   uint64_t max_queue_bytes = 67108864;   // unread answers of a client
   uint32_t max_pending_frames = 4;       // a client, not yet answered
   double max_rate_hz = 1000;             // messages of a client
-  double message_timeout_s = 5;          // from the first byte of a line to its end, and until hello
+  double hello_timeout_s = 3;            // from connecting to the end of hello
+  double message_timeout_s = 5;          // from the first byte of a line to its end
   double idle_timeout_s = 300;           // 0: none
   double send_timeout_s = 10;            // answers unread
 };

@@ -1,5 +1,6 @@
 // Messages of clients without a socket: what is read, and what is refused with which code.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <random>
@@ -126,6 +127,31 @@ TEST_CASE("depth is bounded before anything is built") {
     CHECK(code_of(deep) == "bad_json");
     CHECK(text_of(deep).find("nest deeper") != std::string::npos);
   }
+}
+
+TEST_CASE("what no message has is refused where it begins to be too much, and a frame keeps its number") {
+  const auto many = [](const std::string& one, int count) {
+    std::string out = one;
+    for (int k = 1; k < count; ++k) out += "," + one;
+    return out;
+  };
+  // Every text ends in what is no JSON: whoever read so far would say bad_json of it.
+  try {
+    parse_message(R"({"message":"frame","frame":3,"vehicles":[)" + many("{}", 5) + "!", 4);
+    FAIL("accepted");
+  } catch (const ProtocolError& error) {
+    CHECK(error.code == "no_place");
+    CHECK(error.frame == 3);
+  }
+  CHECK(code_of(R"({"message":"frame","frame":3,"vehicles":[)" + many("{}", 4) + "!") == "bad_json");
+  for (const char* const begin : {R"({"message":[)", R"({"message":{)", R"({"vehicles":[{"position_m":[)", "[", "{"}) {
+    CAPTURE(begin);
+    const std::string where = begin;
+    std::string text = where;
+    for (int k = 0; k < 17; ++k) text += (k ? "," : "") + (where.back() == '{' ? fmt::format("\"{}\":1", k) : "1");
+    CHECK(text_of(text + "!").find("more than 16 entries") != std::string::npos);
+  }
+  CHECK(code_of(frame(many(vehicle(R"("position_m":[1,2,3],"yaw_deg":4)"), 4))) == "");
 }
 
 TEST_CASE("mutations of a message are read or refused, nothing else") {

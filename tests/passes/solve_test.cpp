@@ -97,12 +97,15 @@ TEST_CASE("with occlusion: the sets of brute force, in towns of boxes") {
   }
 }
 
-TEST_CASE("a receiver at a transmitter has no line of sight; reflections straight back remain") {
+// Fields leave the line of sight out, and say so (radio/near_ends.hpp).
+TEST_CASE("a receiver at a transmitter: a line of sight of no length, and the reflection straight back") {
   const Exact exact(reference::scene_of_quads({{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}}), {{1, 1, 3}}, {{1, 1, 3}},
                     all_sequences(1, 1, 1), 1);
-  REQUIRE(exact.solved.size() == 1);
-  CHECK(exact.solved[0].points == std::vector<glm::dvec3>{{1, 1, 0}});
-  CHECK(exact.visible() == 1);
+  REQUIRE(exact.solved.size() == 2);
+  CHECK(exact.visible() == 2);
+  CHECK(exact.solved[0].points.size() + exact.solved[1].points.size() == 1);
+  for (const auto& row : exact.solved)
+    for (const glm::dvec3& point : row.points) CHECK(point == glm::dvec3{1, 1, 0});
 }
 
 TEST_CASE("nothing is solved through a surface, even where points of two surfaces coincide") {

@@ -74,6 +74,14 @@ TEST_CASE("links go both ways where every link has one the other way, whatever k
   }
 }
 
+TEST_CASE("two vehicles in one place: their antennas are linked, and none is to itself") {
+  Config config;
+  config.tracks = {{.id = "a", .waypoints = {{0, 3, 4, 0}}}, {.id = "b", .waypoints = {{0, 3, 4, 0}}}};
+  config.mounts = {mount("roof", "*", "both", {0, 0, 1.6})};
+  config.links.same_vehicle = true;
+  CHECK(World(config, static_scene()).state(0).links == std::vector<Link>{{0, 1}, {1, 0}});
+}
+
 TEST_CASE("types, names and steps that are not known") {
   const TemporaryFolder folder;
   const std::string odd = two_vehicles("spaceship");

@@ -15,6 +15,10 @@ typedef uint64_t wt_ulong;
 // The longest chain of interactions; private arrays of the exact solve have this size.
 #define WT_MAX_DEPTH 32u
 
+// A point closer than this to a surface's plane is on that surface: an antenna there is not hidden by it, nor does it
+// reflect or scatter to it. Ten times the float32 rounding of coordinates of a kilometre, and less than any wall is thick.
+#define WT_ON_SURFACE_M 1e-4
+
 // Structure of arrays: a ray queue of capacity n is WT_RAY_PLANES * n words; plane p of ray i is word p * n + i.
 #define WT_RAY_ORIGIN 0     // three planes, float
 #define WT_RAY_DIRECTION 3  // three planes, float, unit length

@@ -1,0 +1,104 @@
+// Planes are rejected in float32, with a bound on its rounding, then judged in double within the box of their surface.
+// A box is more than its surface: a launch too many costs rays, and never a path.
+#include "simulation/launch_sides.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "wavetracer/device/moving.h"
+#include "wavetracer/device/records.h"
+
+namespace wavetracer {
+namespace {
+
+constexpr size_t most_planes = 3;  // of a corner
+
+double size_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+// As far beside a surface as a reflected ray starts (kernels/lib/mirror.clh).
+double step_beside(const glm::dvec3& p) { return 1.9e-6 * std::max(size_of(p), 0.1); }
+
+}  // namespace
+
+LaunchSides::Planes::Planes(const Scene& of)
+    : scene(&of), radius_m(glm::length(glm::max(glm::abs(of.lower), glm::abs(of.upper)))) {
+  for (const Surface& s : of.surfaces) {
+    x.push_back(static_cast<float>(s.normal.x));
+    y.push_back(static_cast<float>(s.normal.y));
+    z.push_back(static_cast<float>(s.normal.z));
+    offset.push_back(static_cast<float>(s.offset_m));
+  }
+}
+
+void LaunchSides::Planes::find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const {
+  const auto px = static_cast<float>(p.x), py = static_cast<float>(p.y), pz = static_cast<float>(p.z);
+  const auto bound = static_cast<float>(tolerance_m + 1e-6 * (radius_m + size_of(p)));
+  constexpr size_t block = 256;
+  for (size_t first = 0; first < x.size(); first += block) {
+    const size_t end = std::min(first + block, x.size());
+    bool any = false;  // no branch a plane, so that compilers use vectors
+    for (size_t i = first; i < end; ++i) any |= std::abs(x[i] * px + y[i] * py + z[i] * pz - offset[i]) <= bound;
+    for (size_t i = first; any && i < end; ++i) {
+      const Surface& s = scene->surfaces[i];
+      const double above_m = glm::dot(s.normal, p) - s.offset_m;
+      if (std::abs(above_m) <= tolerance_m && glm::all(glm::greaterThanEqual(p, s.lower - tolerance_m)) &&
+          glm::all(glm::lessThanEqual(p, s.upper + tolerance_m)))
+        found.push_back({s.normal, above_m});
+    }
+  }
+}
+
+LaunchSides::LaunchSides(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances)
+    : instances_(instances), static_(scene), models_(models.begin(), models.end()) {}
+
+// Planes that are one are listed once: patches of the ground, walls that touch.
+std::vector<LaunchSides::Plane> LaunchSides::planes_at(const Launcher& launcher, const WorldState& state,
+                                                       double step_m) const {
+  const glm::dvec3& p = launcher.position_m;
+  const double tolerance_m = std::max(WT_ON_SURFACE_M, step_m);
+  std::vector<Plane> found;
+  static_.find(p, tolerance_m, found);
+  for (uint32_t i = 0; i < state.instances.size(); ++i) {
+    const Placement& body = state.instances[i];
+    const Planes& model = models_[instances_[i].model];
+    if (!body.present || launcher.source == (WT_OWN | i)) continue;
+    if (glm::distance(p, body.position_m) > model.radius_m + tolerance_m) continue;
+    const size_t first = found.size();
+    model.find(glm::transpose(body.rotation) * (p - body.position_m), tolerance_m, found);
+    for (size_t k = first; k < found.size(); ++k) found[k].normal = body.rotation * found[k].normal;
+  }
+  std::vector<Plane> out;
+  for (const Plane& plane : found) {
+    const auto same = [&](const Plane& other) { return std::abs(glm::dot(plane.normal, other.normal)) > 1 - 1e-6; };
+    if (out.size() < most_planes && std::ranges::none_of(out, same)) out.push_back(plane);
+  }
+  return out;
+}
+
+std::vector<Launcher> LaunchSides::of(const std::vector<Launcher>& launchers, const WorldState& state) const {
+  std::vector<std::vector<Launcher>> sides(launchers.size());
+  tbb::parallel_for(size_t{0}, launchers.size(), [&](size_t i) {
+    sides[i] = {launchers[i]};
+    const double step_m = step_beside(launchers[i].position_m);
+    for (const Plane& plane : planes_at(launchers[i], state, step_m)) {
+      std::vector<Launcher> both;
+      for (const Launcher& from : sides[i])
+        for (const double side : {1.0, -1.0}) {
+          const double beside_m = side * std::max(step_m, side * plane.above_m);
+          Launcher& next = both.emplace_back(from);
+          next.position_m += (beside_m - plane.above_m) * plane.normal;
+        }
+      sides[i] = std::move(both);
+    }
+  });
+  std::vector<Launcher> out;
+  for (const std::vector<Launcher>& each : sides) out.insert(out.end(), each.begin(), each.end());
+  return out;
+}
+
+}  // namespace wavetracer

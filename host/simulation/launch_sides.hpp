@@ -1,0 +1,44 @@
+// Launches from antennas on surfaces. Rays start where float32 has the antenna, which may be behind a surface that it
+// stands on or just in front of; paths are decided in double, where a surface closer than 0.1 mm hides nothing from an
+// antenna (kernels/lib/legs.clh). So such an antenna launches from both sides of the surface, a step beside it.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "passes/generate_rays.hpp"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/world.hpp"
+
+namespace wavetracer {
+
+// Keeps references to the models and the instances.
+class LaunchSides {
+ public:
+  LaunchSides(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances);
+
+  // The same launchers, those on surfaces once for each side of each of them, three surfaces at most.
+  std::vector<Launcher> of(const std::vector<Launcher>& launchers, const WorldState& state) const;
+
+ private:
+  // A plane of unit normal, and how far above it a point lies.
+  struct Plane {
+    glm::dvec3 normal;
+    double above_m;
+  };
+  // The planes of a scene in float32, to be gone through for every launcher of every frame.
+  struct Planes {
+    explicit Planes(const Scene& scene);
+    const Scene* scene;
+    std::vector<float> x, y, z, offset;
+    double radius_m;  // of the scene about its own origin
+    // Appends those that the point is on.
+    void find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const;
+  };
+  std::vector<Plane> planes_at(const Launcher& launcher, const WorldState& state, double step_m) const;
+
+  std::span<const Instance> instances_;
+  Planes static_;
+  std::vector<Planes> models_;
+};
+
+}  // namespace wavetracer
