@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include "files/input_file.hpp"
 #include "output/foreign_file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -52,6 +53,7 @@ fs::path paths_file(const fs::path& path) {
     throw InputError(
         fmt::format("{}: {}; name the folder that `wavetracer run -o` has written to, or the paths.h5 in it",
                     path.string(), folder ? "holds no paths.h5" : "there is no such file"));
+  check_input_file(file, "the paths.h5 of a run");
   return file;
 }
 

@@ -22,10 +22,11 @@ struct LinkSide {
 class LinkRules {
  public:
   LinkRules() = default;
-  // Throws ConfigError for a pattern of names that no end has.
+  // Throws ConfigError for a pattern of names that no end has, RuntimeError for more pairs than a drive can have.
   LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers);
 
   // The links of ends that are present, sorted. Ends of one and the same place have no path that a ray could tell.
+  // Throws RuntimeError where more pairs are present than a frame can have.
   std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;
 
  private:

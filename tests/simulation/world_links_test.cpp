@@ -1,6 +1,7 @@
 // World: links against counted pairs, what it refuses, how far it reaches, and traffic that it generates.
 #include "simulation/name_pattern.hpp"
 #include "simulation/world_fixture.hpp"
+#include "simulation/world_links.hpp"
 #include "simulation/world_trajectories.hpp"
 
 using namespace wavetracer;
@@ -41,6 +42,25 @@ TEST_CASE("ends that stand in the same place are one end; what stands keeps the 
   CHECK(world.state(0).links == std::vector<Link>{{0, 0}, {0, 1}, {1, 0}, {1, 1}});
   CHECK(world.receiver_of_transmitter() == std::vector<uint32_t>{no_end, 0});
   CHECK(world.transmitter_of_receiver() == std::vector<uint32_t>{1, no_end});
+}
+
+TEST_CASE("more pairs than a drive or a frame can have are an error that says so") {
+  const auto side = [](size_t ends) {
+    return LinkSide{std::vector<std::string>(ends, "a"), std::vector<uint32_t>(ends, 0)};
+  };
+  const auto limit = [](const std::string& said) {
+    return doctest::Contains((said + " pairs, the limit: mount antennas on fewer vehicles").c_str());
+  };
+  CHECK_THROWS_WITH_AS(LinkRules({}, side(300'000), side(300'000)),
+                       limit("300000 transmitters and 300000 receivers of all frames are more than 68719476736"),
+                       RuntimeError);
+  const LinkRules rules({}, side(100'000), side(100'000));
+  std::vector<EndState> ends(100'000, EndState{.present = false});
+  CHECK(rules(ends, ends).empty());
+  for (size_t i = 0; i < 40'000; ++i) ends[i].present = true;
+  CHECK_THROWS_WITH_AS(rules(ends, ends),
+                       limit("40000 transmitters and 40000 receivers of one frame are more than 1073741824"),
+                       RuntimeError);
 }
 
 TEST_CASE("types, names and steps that are not known") {
