@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include "config/fields.hpp"
+#include "files/input_file.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
 #include "wavetracer/error.hpp"
@@ -26,6 +27,7 @@ void check_file(const std::string& file, const std::string& key, const std::stri
         fmt::format("{}{} is \"{}\", which cannot be read: {}; relative paths start at the config file's "
                     "folder",
                     where, key, file, std::strerror(errno)));
+  check_input_file(file, key.c_str());
 }
 
 // Vehicles in the streets of one city would drive through the houses of another.

@@ -12,6 +12,7 @@
 #include "config/fields.hpp"
 #include "config/spelling.hpp"
 #include "config/values.hpp"
+#include "files/input_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -263,12 +264,16 @@ Config parse_config(std::string_view toml, const std::string& file_name, const s
 }
 
 Config load_config(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  constexpr uint64_t most_bytes = uint64_t{64} << 20;
+  const auto fail = [&](const std::string& why) {
+    throw ConfigError(fmt::format("{}: cannot be read as a config file: {}; `wavetracer init` prints one to start from",
+                                  file.string(), why));
+  };
+  if (const std::string problem = input_file_problem(file, "a configuration", most_bytes); !problem.empty())
+    fail(problem);
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  std::error_code unnameable;
-  if (fs::is_directory(file, unnameable) || !in || !(text << in.rdbuf()))
-    throw ConfigError(
-        fmt::format("{}: cannot be read as a config file; `wavetracer init` prints one to start from", file.string()));
+  if (!in || !(text << in.rdbuf())) fail("it is empty, or its permissions do not let it be read");
   return parse_config(text.str(), file.string(), sets);
 }
 

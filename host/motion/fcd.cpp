@@ -66,7 +66,16 @@ class FcdReader {
   [[noreturn]] void fail(std::string_view what) const { fail_at(file(), line(), what); }
 
   void parse(std::string_view chunk, bool last) {
-    if (XML_Parse(parser_.get(), chunk.data(), static_cast<int>(chunk.size()), last) == XML_STATUS_OK) return;
+    constexpr uint64_t longest = 1 << 20;  // expat reads an open tag or comment anew with every chunk
+    bytes_ += chunk.size();
+    if (XML_Parse(parser_.get(), chunk.data(), static_cast<int>(chunk.size()), last) == XML_STATUS_OK) {
+      const XML_Index begin = XML_GetCurrentByteIndex(parser_.get());  // of what is open
+      if (!last && begin >= 0 && bytes_ - static_cast<uint64_t>(begin) > longest) {
+        fail(fmt::format("a tag, an attribute or a comment of more than {} bytes begins here; this is no FCD output",
+                         longest));
+      }
+      return;
+    }
     if (error_) std::rethrow_exception(error_);
     const XML_Error code = XML_GetErrorCode(parser_.get());
     if (last) {
@@ -237,6 +246,7 @@ class FcdReader {
   TrackBuilder tracks_;
   std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
   std::exception_ptr error_;  // thrown in a callback
+  uint64_t bytes_ = 0;        // given to the parser
   int depth_ = 0;             // of open elements
   bool has_timestep_ = false;
   double time_s_ = 0;

@@ -39,12 +39,6 @@ void write_attribute(hid_t object, const std::string& name, hid_t file_type, hid
   checked(H5Awrite(attribute, memory_type, value), "write attribute " + name);
 }
 
-std::vector<hsize_t> shape_of(hid_t space, const std::string& path) {
-  std::vector<hsize_t> shape(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space), "measure " + path)));
-  checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "measure " + path);
-  return shape;
-}
-
 Id memory_access() {
   constexpr size_t growth_bytes = size_t{1} << 20;
   Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up a file in memory");
@@ -67,6 +61,12 @@ Silence::Silence() {
 }
 
 Silence::~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+
+std::vector<hsize_t> shape_of(hid_t space, const std::string& path) {
+  std::vector<hsize_t> shape(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space), "measure " + path)));
+  checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "measure " + path);
+  return shape;
+}
 
 void write_attribute(hid_t object, const std::string& name, const std::string& text) {
   const Id type = string_type();
@@ -171,29 +171,16 @@ uint64_t make_room(const File& file, const std::string& path, const Meaning& mea
   return offset == HADDR_UNDEF ? 0 : offset;
 }
 
-Extent extent_of(const File& file, const std::string& path) {
-  const Id dataset(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path);
-  const Id space(H5Dget_space(dataset), H5Sclose, "measure dataset " + path);
-  const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
-  const std::vector<hsize_t> shape = shape_of(space, path);
-  if (shape.empty()) throw RuntimeError("dataset " + path + " has no rows");
-  Extent extent{shape[0], H5Tget_size(type), 0};
-  for (size_t i = 1; i < shape.size(); ++i) extent.row_bytes *= shape[i];
-  if (extent.rows == 0 || extent.row_bytes == 0) return extent;
-  extent.offset = H5Dget_offset(dataset);
-  if (extent.offset == HADDR_UNDEF) throw RuntimeError("dataset " + path + " is not stored in one piece");
-  return extent;
-}
-
 void check_stored(hid_t dataset, const std::string& path) {
+  constexpr hsize_t most_unpacked = 1032;  // bytes of one that is stored: deflate makes no more
   const Id properties(H5Dget_create_plist(dataset), H5Pclose, "read the layout of " + path);
-  if (H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_nfilters(properties) > 0) return;
+  const bool packed = H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_nfilters(properties) > 0;
   const Id space(H5Dget_space(dataset), H5Sclose, "measure dataset " + path);
   const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
   hsize_t bytes = H5Tget_size(type);
   for (const hsize_t n : shape_of(space, path))
     if (__builtin_mul_overflow(bytes, n, &bytes)) throw RuntimeError(path + " is too large");
-  if (H5Dget_storage_size(dataset) < bytes) throw RuntimeError(path + " is cut short");
+  if (H5Dget_storage_size(dataset) < bytes / (packed ? most_unpacked : 1)) throw RuntimeError(path + " is cut short");
 }
 
 Column::Column(const File& file, const std::string& path)
@@ -201,7 +188,19 @@ Column::Column(const File& file, const std::string& path)
       dataset_(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path),
       type_(H5Dget_type(dataset_), H5Tclose, "find the type of " + path),
       space_(H5Dget_space(dataset_), H5Sclose, "measure dataset " + path),
-      meaning_{text_attribute(dataset_, "units"), text_attribute(dataset_, "description")},
       shape_(shape_of(space_, path)) {}
+
+Meaning Column::meaning() const { return {text_attribute(dataset_, "units"), text_attribute(dataset_, "description")}; }
+
+Extent Column::extent() const {
+  if (shape_.empty()) throw RuntimeError("dataset " + path_ + " has no rows");
+  check_stored(dataset_, path_);
+  Extent extent{shape_[0], H5Tget_size(type_), 0};
+  for (size_t i = 1; i < shape_.size(); ++i) extent.row_bytes *= shape_[i];
+  if (extent.rows == 0 || extent.row_bytes == 0) return extent;
+  extent.offset = H5Dget_offset(dataset_);
+  if (extent.offset == HADDR_UNDEF) throw RuntimeError("dataset " + path_ + " is not stored in one piece");
+  return extent;
+}
 
 }  // namespace wavetracer::hdf5

@@ -133,25 +133,28 @@ struct Extent {
   hsize_t rows = 0;
   uint64_t row_bytes = 0, offset = 0;
 };
-// Throws RuntimeError where it is not in one piece, as those of our files are.
-Extent extent_of(const File& file, const std::string& path);
+
+// The size of each dimension. path: for the error.
+std::vector<hsize_t> shape_of(hid_t space, const std::string& path);
 
 // What is stored must be what the shape says: the library fills in for the rest, and a small file could ask for all
-// memory. Not known of compressed datasets, as others may write them. Throws RuntimeError.
+// memory. Of compressed datasets, as others may write them, at least what deflate needs. Throws RuntimeError.
 void check_stored(hid_t dataset, const std::string& path);
 
 // What a dataset of rows is.
 class Column {
  public:
   Column(const File& file, const std::string& path);
+  const std::string& path() const { return path_; }
   hid_t type() const { return type_; }  // that of the file
-  const Meaning& meaning() const { return meaning_; }
+  Meaning meaning() const;
   const std::vector<hsize_t>& shape() const { return shape_; }
+  // Throws RuntimeError where the rows are not there, or not in one piece, as those of our files are.
+  Extent extent() const;
 
  private:
   std::string path_;
   Id dataset_, type_, space_;
-  Meaning meaning_;
   std::vector<hsize_t> shape_;
 };
 

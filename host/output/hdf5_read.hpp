@@ -1,17 +1,12 @@
 // Datasets of a file that may be anybody's: shapes and types are checked before memory is taken for them.
+// The library faults on some damaged files whatever is checked, so this runs in a child process (foreign_file.hpp).
 // Throws RuntimeError with the dataset's path and what is wrong with it.
 #pragma once
-#include <functional>
 #include <string>
 #include <vector>
 #include "output/hdf5.hpp"
 
 namespace wavetracer::hdf5 {
-
-// Lets a child process do what reads a file, whose exceptions do not matter here. The library (1.10) faults on some
-// damaged files; so that ends the child, and is a RuntimeError that says so, instead of this process. No other thread may
-// be at work with the library meanwhile.
-void rehearse(const std::function<void()>& reading);
 
 // A dataset of numbers, (rows, inner...), converted to T as it is read.
 template <typename T>
@@ -21,9 +16,10 @@ class NumberColumn {
   NumberColumn(const File& file, const std::string& path, std::vector<hsize_t> inner = {});
   hsize_t rows() const { return shape_[0]; }
   const std::vector<hsize_t>& shape() const { return shape_; }
+  hsize_t row_values() const { return row_values_; }
+  void check_rows(hsize_t first, hsize_t count) const;
   // Whole rows, which must be there.
   std::vector<T> read(hsize_t first, hsize_t count) const;
-  std::vector<T> read() const { return read(0, rows()); }
 
  private:
   std::string path_;

@@ -7,7 +7,6 @@
 #include <optional>
 #include "output/earlier_run.hpp"
 #include "output/h5_outputs.hpp"
-#include "output/hdf5_read.hpp"
 #include "output/merge_outputs.hpp"
 #include "output/run_record.hpp"
 #include "output/summary_json.hpp"
@@ -80,22 +79,6 @@ void check_agrees(const Shard& a, const Shard& b, const fs::path& folder) {
                     folder.string(), unit_words(b.unit), b.totals.counts.paths, a.totals.counts.paths));
 }
 
-// Parts come from anywhere, so they are opened where a damaged one does no harm first. In the order of merge_found():
-// what an error leaves unread here must be left unread there.
-void rehearse_merge(const H5Output& output, const std::vector<fs::path>& files) {
-  for (const fs::path& file : files) {
-    try {
-      hdf5::rehearse([&] {
-        check_parts(output, {file});
-        hdf5::File head;
-        copy_head(file, output, head);
-      });
-    } catch (const RuntimeError& error) {
-      throw RuntimeError(fmt::format("{}: {}; compute it again with --resume", file.string(), error.what()));
-    }
-  }
-}
-
 }  // namespace
 
 FoundParts find_parts(const std::vector<fs::path>& directories) {
@@ -148,13 +131,9 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   const std::span<const H5Output> outputs = h5_outputs(record.config);
   if (parts.files.size() != outputs.size() + 1)
     throw RuntimeError(found.record.string() + " does not belong to the parts beside it: output.waypoints differs");
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    rehearse_merge(outputs[i], parts.files[i]);
-    check_parts(outputs[i], parts.files[i]);
-  }
   PendingDirectory folder(directory);
   std::vector<PendingFile> files =
-      merge_outputs(record.config, parts, directory, [&](const H5Output& output, hdf5::File& head) {
+      merge_outputs(record.config, parts, Parts::foreign, directory, [&](const H5Output& output, hdf5::File& head) {
         copy_head(parts.files.at(static_cast<size_t>(&output - outputs.data())).front(), output, head);
       });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

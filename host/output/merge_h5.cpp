@@ -1,8 +1,11 @@
-// One walk over the parts, one of them open at a time, then the tables. HDF5 copies no row: it has one thread, and would
-// take a second for each gigabyte.
-// Assumes that all parts have the datasets of the first, in equal shapes but for their rows.
+// One walk over the parts, one of them open beside the first at a time, then the tables. HDF5 copies no row: it has one
+// thread, and would take a second for each gigabyte. Parts may be anybody's: each must have the datasets of the first,
+// in equal shapes but for their rows.
 #include "output/merge_h5.hpp"
+#include <fmt/format.h>
+#include <algorithm>
 #include <fstream>
+#include <string>
 #include <vector>
 #include "wavetracer/error.hpp"
 
@@ -16,18 +19,27 @@ using Groups = std::span<const char* const>;
 
 // A dataset of the merged file on its way.
 struct Target {
-  std::string path;
+  Column like;   // of the first part
   bool offsets;  // has one entry more than rows, and counts on from part to part
   hsize_t rows = 0;
   uint64_t base = 0;
-  uint64_t row_bytes = 0;  // of the first part
 };
 
-std::vector<Target> targets_in(const File& part, Groups groups) {
-  std::vector<Target> targets;
+std::vector<std::string> datasets_in(const File& part, Groups groups) {
+  std::vector<std::string> paths;
   for (const std::string group : groups)
-    for (const std::string& name : part.members(group))
-      targets.push_back({.path = group + "/" + name, .offsets = name.ends_with("_offset")});
+    for (const std::string& name : part.members(group)) paths.push_back(group + "/" + name);
+  return paths;
+}
+
+std::vector<Target> targets_in(const File& part, const std::vector<std::string>& datasets) {
+  std::vector<Target> targets;
+  for (const std::string& path : datasets) {
+    Target& target = targets.emplace_back(Column(part, path), path.ends_with("_offset"));
+    if (target.offsets &&
+        (target.like.shape().size() != 1 || H5Tequal(target.like.type(), hdf5::Type<uint64_t>::file()) <= 0))
+      throw RuntimeError(path + " holds no offsets");
+  }
   return targets;
 }
 
@@ -39,11 +51,10 @@ void make_groups(const File& part, Groups groups, const File& merged) {
 }
 
 // Where the rows of the new table begin in the merged file.
-uint64_t make_table(const Target& target, const File& first, const File& merged) {
-  const Column like(first, target.path);
-  std::vector<hsize_t> shape = like.shape();
+uint64_t make_table(const Target& target, const File& merged) {
+  std::vector<hsize_t> shape = target.like.shape();
   shape[0] = target.rows;
-  return hdf5::make_room(merged, target.path, like.meaning(), like.type(), shape);
+  return hdf5::make_room(merged, target.like.path(), target.like.meaning(), target.like.type(), shape);
 }
 
 uint64_t number_at(std::ifstream& file, uint64_t offset, const std::string& path) {
@@ -53,38 +64,83 @@ uint64_t number_at(std::ifstream& file, uint64_t offset, const std::string& path
   return number;
 }
 
+bool same_rows(const Column& a, const Column& b) {
+  return a.shape().size() == b.shape().size() &&
+         std::equal(a.shape().begin() + 1, a.shape().end(), b.shape().begin() + 1) && H5Tequal(a.type(), b.type()) > 0;
+}
+
 // The rows of this part, and where they go in the table.
-Piece take(Target& target, const Extent& extent, std::ifstream& file) {
-  if (target.offsets && extent.rows == 0) throw RuntimeError(target.path + " is empty");
-  if (target.row_bytes == 0) target.row_bytes = extent.row_bytes;
-  if (target.row_bytes != extent.row_bytes) throw RuntimeError(target.path + " has other rows than in the first part");
+Piece take(Target& target, const File& part, std::ifstream& file) {
+  const Column column(part, target.like.path());
+  const Extent extent = column.extent();
+  if (!same_rows(column, target.like))
+    throw RuntimeError(column.path() + " has another shape or type than in the first part");
+  if (target.offsets && extent.rows == 0) throw RuntimeError(column.path() + " is empty");
   const hsize_t repeated = target.offsets && target.rows > 0 ? 1 : 0;  // what the part before ended with
   const hsize_t rows = extent.rows - repeated;
   const Piece piece{extent.offset + repeated * extent.row_bytes, target.rows * extent.row_bytes,
                     rows * extent.row_bytes, target.base};
   target.rows += rows;
-  if (target.offsets) target.base += number_at(file, extent.offset + (extent.rows - 1) * extent.row_bytes, target.path);
+  if (target.offsets)
+    target.base += number_at(file, extent.offset + (extent.rows - 1) * extent.row_bytes, column.path());
   return piece;
+}
+
+// What each part brings to each dataset, in the order of the targets.
+class Walk {
+ public:
+  Walk(const std::filesystem::path& first, Groups groups)
+      : groups_(groups),
+        first_(File::open_to_read(first)),
+        datasets_(datasets_in(first_, groups)),
+        targets_(targets_in(first_, datasets_)) {}
+
+  std::vector<Piece> take_part(const std::filesystem::path& path) {
+    const File part = File::open_to_read(path);
+    if (datasets_in(part, groups_) != datasets_) throw RuntimeError("it has other datasets than the first part");
+    std::ifstream file(path, std::ios::binary);
+    std::vector<Piece> pieces;
+    for (Target& target : targets_) pieces.push_back(take(target, part, file));
+    return pieces;
+  }
+
+  void make_tables(const File& merged, Pieces& pieces) const {
+    make_groups(first_, groups_, merged);
+    for (size_t i = 0; i < targets_.size(); ++i) {
+      const uint64_t start = make_table(targets_[i], merged);
+      for (std::vector<Piece>& of_part : pieces) of_part[i].to += start;
+    }
+  }
+
+ private:
+  Groups groups_;
+  File first_;
+  std::vector<std::string> datasets_;
+  std::vector<Target> targets_;
+};
+
+template <typename Reading>
+auto reading(const std::filesystem::path& part, const Reading& read) {
+  try {
+    return read();
+  } catch (const RuntimeError& error) {
+    throw InputError(fmt::format("{}: {}; compute it again with --resume", part.string(), error.what()));
+  }
 }
 
 }  // namespace
 
-Pieces merge_frames_h5(std::span<const std::filesystem::path> parts, Groups groups, const File& merged) {
-  std::vector<Target> targets;
+Pieces merge_frames_h5(std::span<const std::filesystem::path> parts, Groups groups, const File& merged,
+                       const BeginPart& begin) {
+  begin(parts.front());
+  Walk walk = reading(parts.front(), [&] { return Walk(parts.front(), groups); });
   Pieces pieces;
-  for (const std::filesystem::path& path : parts) {
-    const File part = File::open_to_read(path);
-    if (targets.empty()) targets = targets_in(part, groups);
-    std::ifstream file(path, std::ios::binary);
-    std::vector<Piece>& of_part = pieces.emplace_back();
-    for (Target& target : targets) of_part.push_back(take(target, hdf5::extent_of(part, target.path), file));
+  for (const std::filesystem::path& part : parts) {
+    begin(part);
+    pieces.push_back(reading(part, [&] { return walk.take_part(part); }));
   }
-  const File first = File::open_to_read(parts.front());
-  make_groups(first, groups, merged);
-  for (size_t i = 0; i < targets.size(); ++i) {
-    const uint64_t start = make_table(targets[i], first, merged);
-    for (std::vector<Piece>& of_part : pieces) of_part[i].to += start;
-  }
+  begin(parts.front());
+  walk.make_tables(merged, pieces);
   return pieces;
 }
 

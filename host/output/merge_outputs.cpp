@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include "output/limited_child.hpp"
 #include "output/links_csv.hpp"
 #include "output/merge_h5.hpp"
 #include "wavetracer/error.hpp"
@@ -30,36 +32,91 @@ void set_path_count(const File& merged) {
                 "write /frames/path_offset");
 }
 
-Pieces merge_blocks_h5(std::span<const fs::path> parts, const File& merged) {
-  Pieces shared = merge_frames_h5(parts.first(1), shared_groups, merged);
-  Pieces all = merge_frames_h5(parts, own_groups, merged);
+Pieces merge_blocks_h5(std::span<const fs::path> parts, const File& merged, const BeginPart& begin) {
+  Pieces shared = merge_frames_h5(parts.first(1), shared_groups, merged, begin);
+  Pieces all = merge_frames_h5(parts, own_groups, merged, begin);
   std::ranges::copy(shared[0], std::back_inserter(all[0]));
   return all;
 }
 
-PendingFile merge_h5(const H5Output& output, std::span<const fs::path> parts, bool of_one_frame, const fs::path& path,
-                     const WriteHead& write_head) {
-  PendingFile file(path);
-  File head;
-  write_head(output, head);
-  const auto image = head.image();
-  file.write(image);
-  constexpr uint64_t slack = uint64_t{1} << 20;  // for the tables of contents
-  uint64_t size = image.size() + slack;
-  for (const fs::path& part : parts) size += fs::file_size(part);
-  file.reserve(size);
-  const Pieces pieces = [&] {
+// An output on its way: all that the HDF5 library does to it, before and after the rows are copied.
+struct Draft {
+  const H5Output& output;
+  std::span<const fs::path> parts;
+  bool of_one_frame;
+  const WriteHead& write_head;
+  PendingFile& file;
+
+  Pieces make_tables(const BeginPart& begin) const {
+    begin(parts.front());
+    File head;
+    write_head(output, head);
+    const auto image = head.image();
+    file.write(image);
+    constexpr uint64_t slack = uint64_t{1} << 20;  // for the tables of contents
+    uint64_t size = image.size() + slack;
+    for (const fs::path& part : parts) size += fs::file_size(part);
+    file.reserve(size);
     File merged = File::open_to_write(file.temporary());
-    Pieces found = of_one_frame ? merge_blocks_h5(parts, merged) : merge_frames_h5(parts, output.growing_groups, merged);
+    const Pieces pieces = of_one_frame ? merge_blocks_h5(parts, merged, begin)
+                                       : merge_frames_h5(parts, output.growing_groups, merged, begin);
     merged.flush();
-    return found;
-  }();
-  copy_pieces(parts, pieces, file);
-  if (of_one_frame) {
+    return pieces;
+  }
+
+  void finish() const {
+    if (!of_one_frame) return;
     File merged = File::open_to_write(file.temporary());
     set_path_count(merged);
     merged.flush();
   }
+};
+
+// Pieces as bytes: of each part their number, then they themselves.
+void send(const Pieces& pieces, LimitedChild::Reply& reply) {
+  for (const std::vector<Piece>& of_part : pieces) {
+    const uint64_t count = of_part.size();
+    reply.send(&count, sizeof count);
+    reply.send(of_part.data(), count * sizeof(Piece));
+  }
+}
+
+Pieces pieces_in(std::string_view bytes) {
+  Pieces pieces;
+  const auto take = [&bytes](void* to, uint64_t count, size_t size) {
+    if (count > bytes.size() / size) throw RuntimeError("the process that reads the parts answers too little");
+    std::memcpy(to, bytes.data(), count * size);
+    bytes.remove_prefix(count * size);
+  };
+  while (!bytes.empty()) {
+    uint64_t count = 0;
+    take(&count, 1, sizeof count);
+    std::vector<Piece>& of_part = pieces.emplace_back(std::min<uint64_t>(count, bytes.size() / sizeof(Piece)));
+    take(of_part.data(), count, sizeof(Piece));
+  }
+  return pieces;
+}
+
+void write_own(const Draft& draft) {
+  copy_pieces(draft.parts, draft.make_tables([](const fs::path&) {}), draft.file);
+  draft.finish();
+}
+
+void write_foreign(const Draft& draft) {
+  constexpr std::string_view tables = "tables", finish = "finish";
+  LimitedChild child(draft.parts.front().string(), [&](std::string_view request, LimitedChild::Reply& reply) {
+    if (request == finish) return draft.finish();
+    send(draft.make_tables([&reply](const fs::path& part) { reply.at_file(part.string()); }), reply);
+  });
+  copy_pieces(draft.parts, pieces_in(child.request(tables)), draft.file);
+  child.request(finish);
+}
+
+PendingFile merge_h5(const H5Output& output, std::span<const fs::path> parts, bool of_one_frame, Parts whose,
+                     const fs::path& path, const WriteHead& write_head) {
+  PendingFile file(path);
+  const Draft draft{output, parts, of_one_frame, write_head, file};
+  whose == Parts::own ? write_own(draft) : write_foreign(draft);
   file.sync();
   return file;
 }
@@ -80,37 +137,15 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to)
   return written;
 }
 
-bool same_type(const Column& a, const Column& b) { return H5Tequal(a.type(), b.type()) > 0; }
-
-void check_part(const File& part, const File& first, const H5Output& output) {
-  for (const std::string group : output.growing_groups) {
-    const std::vector<std::string> names = part.members(group);
-    if (names != first.members(group)) throw RuntimeError("group " + group + " has other members than the first part");
-    for (const std::string& member : names) {
-      const std::string name = group + "/" + member;
-      const Column column(part, name), like(first, name);
-      const auto &shape = column.shape(), &expected = like.shape();
-      const bool same = !shape.empty() && shape.size() == expected.size() &&
-                        std::equal(shape.begin() + 1, shape.end(), expected.begin() + 1) && same_type(column, like);
-      if (!same) throw RuntimeError(name + " has another shape or type than in the first part");
-      if (member.ends_with("_offset") &&
-          (shape.size() != 1 || shape[0] == 0 || H5Tequal(column.type(), hdf5::Type<uint64_t>::file()) <= 0))
-        throw RuntimeError(name + " holds no offsets");
-      hdf5::check_stored(Id(H5Dopen2(part.id(), name.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + name), name);
-      hdf5::extent_of(part, name);
-    }
-  }
-}
-
 }  // namespace
 
-std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, const fs::path& directory,
-                                       const WriteHead& write_head) {
+std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose,
+                                       const fs::path& directory, const WriteHead& write_head) {
   std::vector<PendingFile> files;
   const std::span<const H5Output> outputs = h5_outputs(config);
   for (size_t i = 0; i < outputs.size(); ++i)
     files.push_back(
-        merge_h5(outputs[i], parts.files.at(i), parts.of_one_frame, directory / outputs[i].name, write_head));
+        merge_h5(outputs[i], parts.files.at(i), parts.of_one_frame, whose, directory / outputs[i].name, write_head));
   join_links_csv(parts.files.at(outputs.size()), files.emplace_back(directory / "links.csv"));
   files.back().sync();
   return files;
@@ -125,18 +160,6 @@ void copy_head(const fs::path& path, const H5Output& output, File& head) {
     if (std::ranges::find(output.growing_groups, "/" + name) == output.growing_groups.end())
       hdf5::checked(H5Ocopy(file.id(), name.c_str(), to, name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                     "copy /" + name + " of " + path.string());
-}
-
-void check_parts(const H5Output& output, const std::vector<fs::path>& files) {
-  if (files.empty()) return;
-  const File first = File::open_to_read(files.front());
-  for (const fs::path& path : files) {
-    try {
-      check_part(File::open_to_read(path), first, output);
-    } catch (const RuntimeError& error) {
-      throw RuntimeError(fmt::format("{}: {}; compute it again with --resume", path.string(), error.what()));
-    }
-  }
 }
 
 }  // namespace wavetracer

@@ -199,7 +199,7 @@ std::vector<fs::path> Shards::merge(const Run& run, Frames unfinished) {
     for (size_t i = 0; i < parts_on_the_way.size(); ++i) parts.files[i].push_back(parts_on_the_way[i].temporary());
   }
   std::vector<PendingFile> files =
-      merge_outputs(run.config, parts, directory_,
+      merge_outputs(run.config, parts, Parts::own, directory_,
                     [&run](const H5Output& output, hdf5::File& head) { output.encode_head(run, head); });
   Totals totals = this->totals();
   add(totals, wavetracer::totals_of(unfinished));

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "files/input_file.hpp"
 #include "radio/pattern.hpp"
 #include "wavetracer/error.hpp"
 
@@ -70,6 +71,7 @@ void insert(const std::string& file, Samples& samples, size_t line, const std::a
 }
 
 Samples read_samples(const std::string& file) {
+  check_input_file(file, "the antenna pattern", uint64_t{256} << 20);  // bytes; one of every degree has 4 MB
   std::ifstream stream(file);
   if (!stream) throw InputError(fmt::format("{}: the antenna pattern cannot be opened", file));
   Samples samples;

@@ -1,19 +1,20 @@
 // Offsets and indices of the file are checked once, at opening or with the frame that uses them.
-// Assumes one thread: the HDF5 library is not thread safe.
+// Assumes one thread: the child that reads answers one request at a time.
 #include "results/saved_run.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include "output/hdf5_read.hpp"
+#include "files/input_file.hpp"
+#include "output/foreign_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
 
 namespace fs = std::filesystem;
-using hdf5::NumberColumn;
+using hdf5::ForeignFile;
 
 std::vector<glm::dvec3> vectors(const std::vector<double>& values) {
   std::vector<glm::dvec3> out(values.size() / 3);
@@ -49,23 +50,24 @@ fs::path paths_file(const fs::path& path) {
   const bool folder = fs::is_directory(path, ignored);
   const fs::path file = folder ? path / "paths.h5" : path;
   if (!fs::exists(file, ignored))
-    throw InputError(fmt::format("{}: {}; name the folder that `wavetracer run -o` has written to, or the paths.h5 in it",
-                                 path.string(), folder ? "holds no paths.h5" : "there is no such file"));
+    throw InputError(
+        fmt::format("{}: {}; name the folder that `wavetracer run -o` has written to, or the paths.h5 in it",
+                    path.string(), folder ? "holds no paths.h5" : "there is no such file"));
+  check_input_file(file, "the paths.h5 of a run");
   return file;
 }
 
-std::vector<RadioEnd> read_ends(const hdf5::File& file, const std::string& group) {
-  const std::vector<std::string> names = hdf5::read_strings(file, group + "/name");
+std::vector<RadioEnd> read_ends(const ForeignFile& file, const std::string& group) {
+  const std::vector<std::string> names = file.strings(group + "/name");
   std::vector<RadioEnd> ends(names.size());
   const auto texts = [&](const char* name, std::string RadioEnd::*field) {
-    const std::vector<std::string> values = hdf5::read_strings(file, group + "/" + name);
+    const std::vector<std::string> values = file.strings(group + "/" + name);
     if (values.size() != ends.size()) throw RuntimeError(group + "/" + name + " is not as long as name");
     for (size_t i = 0; i < ends.size(); ++i) ends[i].*field = values[i];
   };
   const auto triples = [&](const char* name, std::array<double, 3> RadioEnd::*field) {
-    const NumberColumn<double> column(file, group + "/" + name, {3});
-    if (column.rows() != ends.size()) throw RuntimeError(group + "/" + name + " is not as long as name");
-    const std::vector<glm::dvec3> values = vectors(column.read());
+    const std::vector<glm::dvec3> values = vectors(file.all_rows<double>(group + "/" + name, {3}));
+    if (values.size() != ends.size()) throw RuntimeError(group + "/" + name + " is not as long as name");
     for (size_t i = 0; i < ends.size(); ++i) ends[i].*field = {values[i].x, values[i].y, values[i].z};
   };
   for (size_t i = 0; i < ends.size(); ++i) ends[i].name = names[i];
@@ -81,7 +83,7 @@ std::vector<RadioEnd> read_ends(const hdf5::File& file, const std::string& group
 
 struct SavedRun::State {
   fs::path path;
-  hdf5::File file;
+  ForeignFile file;
   std::string version, device, config;
   double frequency_hz = 0;
   std::vector<RadioEnd> transmitters, receivers;
@@ -91,50 +93,51 @@ struct SavedRun::State {
   std::vector<double> times_s;
   std::vector<uint64_t> first_path, first_pose, first_link;
 
-  explicit State(const fs::path& where) : path(where), file(hdf5::File::open_to_read(where)) {
+  explicit State(const fs::path& where) : path(where), file(where) {
     read_root();
     read_world();
     read_index();
   }
 
   void read_root() {
-    if (hdf5::root_text(file, "format") != "wavetracer paths") throw RuntimeError("its format is not \"wavetracer paths\"");
-    version = hdf5::root_text(file, "version");
-    if (const double format = hdf5::root_number(file, "format_version"); format != 1)
-      throw RuntimeError(fmt::format("it has version {} of the format, written by wavetracer {}; this program reads "
-                                     "version 1",
-                                     format, version));
-    device = hdf5::root_text(file, "device");
-    config = hdf5::root_text(file, "config");
-    frequency_hz = hdf5::root_number(file, "frequency_hz");
+    if (file.root_text("format") != "wavetracer paths") throw RuntimeError("its format is not \"wavetracer paths\"");
+    version = file.root_text("version");
+    if (const double format = file.root_number("format_version"); format != 1)
+      throw RuntimeError(
+          fmt::format("it has version {} of the format, written by wavetracer {}; this program reads "
+                      "version 1",
+                      format, version));
+    device = file.root_text("device");
+    config = file.root_text("config");
+    frequency_hz = file.root_number("frequency_hz");
     if (!(frequency_hz > 0) || !std::isfinite(frequency_hz)) throw RuntimeError("its frequency is not above zero");
   }
 
   void read_world() {
     transmitters = read_ends(file, "/transmitters");
     receivers = read_ends(file, "/receivers");
-    const auto ids = hdf5::read_strings(file, "/instances/id"), types = hdf5::read_strings(file, "/instances/type"),
-               models = hdf5::read_strings(file, "/instances/model");
+    const auto ids = file.strings("/instances/id"), types = file.strings("/instances/type"),
+               models = file.strings("/instances/model");
     if (types.size() != ids.size() || models.size() != ids.size())
       throw RuntimeError("/instances has columns of unequal length");
     for (size_t i = 0; i < ids.size(); ++i) instances.push_back({ids[i], types[i], models[i]});
   }
 
   void read_index() {
-    numbers = NumberColumn<uint32_t>(file, "/frames/frame").read();
-    times_s = NumberColumn<double>(file, "/frames/time_s").read();
-    first_path = NumberColumn<uint64_t>(file, "/frames/path_offset").read();
+    numbers = file.all_rows<uint32_t>("/frames/frame");
+    times_s = file.all_rows<double>("/frames/time_s");
+    first_path = file.all_rows<uint64_t>("/frames/path_offset");
     if (numbers.empty() || times_s.size() != numbers.size() || first_path.size() != numbers.size() + 1)
       throw RuntimeError("/frames has no rows, or columns of unequal length");
     if (std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) != numbers.end())
       throw RuntimeError("/frames/frame does not go up");
-    check_offsets(first_path, NumberColumn<double>(file, "/paths/delay_s").rows(), "/frames/path_offset");
-    first_pose = first_rows(NumberColumn<uint32_t>(file, "/poses/frame").read(), numbers, "/poses/frame");
-    first_link = first_rows(NumberColumn<uint32_t>(file, "/links/frame").read(), numbers, "/links/frame");
-    const NumberColumn<double> a(file, "/paths/a_re", {0, 0});
+    check_offsets(first_path, file.shape("/paths/delay_s")[0], "/frames/path_offset");
+    first_pose = first_rows(file.all_rows<uint32_t>("/poses/frame"), numbers, "/poses/frame");
+    first_link = first_rows(file.all_rows<uint32_t>("/links/frame"), numbers, "/links/frame");
+    const std::vector<uint64_t> a = file.shape("/paths/a_re", {0, 0});
     const auto ports = [&](size_t axis) {
-      if (a.shape()[axis] < 1 || a.shape()[axis] > 2) throw RuntimeError("/paths/a_re has no port, or more than two");
-      return static_cast<uint32_t>(a.shape()[axis]);
+      if (a[axis] < 1 || a[axis] > 2) throw RuntimeError("/paths/a_re has no port, or more than two");
+      return static_cast<uint32_t>(a[axis]);
     };
     rx_ports = ports(1);
     tx_ports = ports(2);
@@ -152,10 +155,10 @@ struct SavedRun::State {
 void SavedRun::State::read_columns(size_t row, Paths& paths) const {
   const uint64_t first = first_path[row], count = first_path[row + 1] - first;
   const auto numbers_of = [&](const char* name) {
-    return NumberColumn<uint32_t>(file, std::string("/paths/") + name).read(first, count);
+    return file.rows<uint32_t>(std::string("/paths/") + name, first, count);
   };
   const auto values_of = [&](const char* name) {
-    return NumberColumn<double>(file, std::string("/paths/") + name).read(first, count);
+    return file.rows<double>(std::string("/paths/") + name, first, count);
   };
   paths.frame = numbers_of("frame");
   paths.tx = numbers_of("tx");
@@ -175,8 +178,8 @@ void SavedRun::State::read_columns(size_t row, Paths& paths) const {
 void SavedRun::State::read_coefficients(size_t row, Paths& paths) const {
   const uint64_t first = first_path[row], count = first_path[row + 1] - first;
   const size_t ports = size_t{rx_ports} * tx_ports;
-  const std::vector<double> re = NumberColumn<double>(file, "/paths/a_re", {rx_ports, tx_ports}).read(first, count),
-                            im = NumberColumn<double>(file, "/paths/a_im", {rx_ports, tx_ports}).read(first, count);
+  const std::vector<double> re = file.rows<double>("/paths/a_re", first, count, {rx_ports, tx_ports}),
+                            im = file.rows<double>("/paths/a_im", first, count, {rx_ports, tx_ports});
   paths.rx_ports = rx_ports;
   paths.tx_ports = tx_ports;
   paths.a.resize(count);
@@ -186,7 +189,7 @@ void SavedRun::State::read_coefficients(size_t row, Paths& paths) const {
 
 void SavedRun::State::read_vertices(size_t row, Paths& paths) const {
   const uint64_t first = first_path[row], count = first_path[row + 1] - first;
-  paths.vertex_offset = NumberColumn<uint64_t>(file, "/paths/vertex_offset").read(first, count + 1);
+  paths.vertex_offset = file.rows<uint64_t>("/paths/vertex_offset", first, count + 1);
   const uint64_t base = paths.vertex_offset.front(), end = paths.vertex_offset.back();
   if (end < base) throw RuntimeError("/paths/vertex_offset goes down");
   const uint64_t vertices = end - base;
@@ -195,10 +198,10 @@ void SavedRun::State::read_vertices(size_t row, Paths& paths) const {
   for (size_t i = 0; i < count; ++i)
     if (paths.depth[i] != paths.vertex_offset[i + 1] - paths.vertex_offset[i])
       throw RuntimeError("/paths/depth is not the number of vertices of the path");
-  paths.vertex_position_m = vectors(NumberColumn<double>(file, "/vertices/position_m", {3}).read(base, vertices));
-  paths.vertex_interaction = NumberColumn<uint8_t>(file, "/vertices/interaction").read(base, vertices);
-  paths.vertex_surface = NumberColumn<uint32_t>(file, "/vertices/surface").read(base, vertices);
-  paths.vertex_instance = NumberColumn<uint32_t>(file, "/vertices/instance").read(base, vertices);
+  paths.vertex_position_m = vectors(file.rows<double>("/vertices/position_m", base, vertices, {3}));
+  paths.vertex_interaction = file.rows<uint8_t>("/vertices/interaction", base, vertices);
+  paths.vertex_surface = file.rows<uint32_t>("/vertices/surface", base, vertices);
+  paths.vertex_instance = file.rows<uint32_t>("/vertices/instance", base, vertices);
   for (const uint32_t instance : paths.vertex_instance)
     if (instance != no_instance && instance >= instances.size())
       throw RuntimeError("/vertices/instance names a row that there is not");
@@ -206,12 +209,11 @@ void SavedRun::State::read_vertices(size_t row, Paths& paths) const {
 
 void SavedRun::State::read_poses(size_t row, SavedFrame& frame) const {
   const uint64_t first = first_pose[row], count = first_pose[row + 1] - first;
-  const std::vector<uint32_t> instance = NumberColumn<uint32_t>(file, "/poses/instance").read(first, count);
+  const std::vector<uint32_t> instance = file.rows<uint32_t>("/poses/instance", first, count);
   check_below(instance, instances.size(), "/poses/instance");
-  const std::vector<glm::dvec3>
-      position = vectors(NumberColumn<double>(file, "/poses/position_m", {3}).read(first, count)),
-      velocity = vectors(NumberColumn<double>(file, "/poses/velocity_m_s", {3}).read(first, count));
-  const std::vector<double> rotation = NumberColumn<double>(file, "/poses/rotation", {3, 3}).read(first, count);
+  const std::vector<glm::dvec3> position = vectors(file.rows<double>("/poses/position_m", first, count, {3})),
+                                velocity = vectors(file.rows<double>("/poses/velocity_m_s", first, count, {3}));
+  const std::vector<double> rotation = file.rows<double>("/poses/rotation", first, count, {3, 3});
   for (size_t i = 0; i < count; ++i) {
     SavedPose pose{instance[i], position[i], velocity[i]};
     for (int r = 0; r < 3; ++r)
@@ -222,8 +224,7 @@ void SavedRun::State::read_poses(size_t row, SavedFrame& frame) const {
 
 void SavedRun::State::read_motion(size_t row, SavedFrame& frame) const {
   const auto of = [&](const std::string& name, size_t ends) {
-    const NumberColumn<double> column(file, "/frames/" + name, {ends, 3});
-    return vectors(column.read(row, 1));
+    return vectors(file.rows<double>("/frames/" + name, row, 1, {ends, 3}));
   };
   frame.transmitter_position_m = of("transmitter_position_m", transmitters.size());
   frame.transmitter_velocity_m_s = of("transmitter_velocity_m_s", transmitters.size());
@@ -233,8 +234,8 @@ void SavedRun::State::read_motion(size_t row, SavedFrame& frame) const {
 
 void SavedRun::State::read_links(size_t row, SavedFrame& frame) const {
   const uint64_t first = first_link[row], count = first_link[row + 1] - first;
-  const std::vector<uint32_t> tx = NumberColumn<uint32_t>(file, "/links/tx").read(first, count),
-                              rx = NumberColumn<uint32_t>(file, "/links/rx").read(first, count);
+  const std::vector<uint32_t> tx = file.rows<uint32_t>("/links/tx", first, count),
+                              rx = file.rows<uint32_t>("/links/rx", first, count);
   check_below(tx, transmitters.size(), "/links/tx");
   check_below(rx, receivers.size(), "/links/rx");
   for (size_t i = 0; i < count; ++i) frame.links.push_back({tx[i], rx[i]});
@@ -256,7 +257,6 @@ SavedFrame SavedRun::State::read_frame(size_t row) const {
 SavedRun::SavedRun(const fs::path& path) {
   const fs::path file = paths_file(path);
   try {
-    hdf5::rehearse([&file] { State(file).read_frame(0); });
     state_ = std::make_unique<State>(file);
   } catch (const RuntimeError& e) {
     throw InputError(fmt::format("{}: cannot be read as the paths.h5 of a run: {}", file.string(), e.what()));

@@ -8,19 +8,13 @@
 #include <cstring>
 #include <fstream>
 
+#include "files/input_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 
 std::string read_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw InputError(fmt::format("{}: no such file; paths are relative to the file that names them", path.string()));
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(fmt::format("{}: is a folder; name the scene file inside it", path.string()));
-  }
+  check_input_file(path, "the file", uint64_t{4} << 30);  // bytes; parsers take several times as much
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
   std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

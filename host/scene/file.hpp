@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// Throws InputError when the file is missing, a folder, or unreadable.
+// Throws InputError when the file is missing, no plain file, larger than 4 GiB, or unreadable.
 std::string read_file(const std::filesystem::path& path);
 // Throws RuntimeError when the file cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view content);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "files/input_file.hpp"
 #include "scene/build.hpp"
 #include "scene/city.hpp"
 #include "scene/mitsuba.hpp"
@@ -33,13 +34,7 @@ RawScene read_single_ply(const std::filesystem::path& path) {
 }
 
 std::string first_bytes(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    throw InputError(fmt::format("{}: no such file; scene.file is relative to the configuration file", path.string()));
-  }
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError(fmt::format("{}: is a folder; name the scene file inside it", path.string()));
-  }
+  check_input_file(path, "the scene file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(fmt::format("{}: cannot be opened; check its permissions", path.string()));
   std::string head(256, '\0');
@@ -64,8 +59,9 @@ RawScene read_raw(const std::filesystem::path& path) {
   if (text.starts_with('<') || suffix == ".xml") return read_mitsuba(path);
   if (text.starts_with("ply\n") || text.starts_with("ply\r") || suffix == ".ply") return read_single_ply(path);
   if (text.starts_with("glTF") || suffix == ".glb" || suffix == ".gltf" || suffix == ".obj") {
-    RawScene raw = read_model(path);
-    raw.y_up = suffix != ".obj";  // glTF 2.0, section 3.4
+    const ModelFormat format = model_format(path);
+    RawScene raw = read_model(path, format);
+    raw.y_up = format == ModelFormat::gltf;  // glTF 2.0, section 3.4
     return raw;
   }
   throw InputError(
@@ -89,8 +85,8 @@ void apply_units(RawScene& raw, const SceneConfig& config) {
   }
 }
 
-Scene finish(RawScene raw, const SceneConfig& scene, const std::vector<MaterialConfig>& materials,
-             double frequency_hz, bool with_wedges) {
+Scene finish(RawScene raw, const SceneConfig& scene, const std::vector<MaterialConfig>& materials, double frequency_hz,
+             bool with_wedges) {
   apply_units(raw, scene);
   ResolvedMaterials resolved = resolve_materials(raw, scene, materials, frequency_hz);
   return build_scene(raw, std::move(resolved), with_wedges);

@@ -13,6 +13,7 @@
 #include <set>
 #include <string_view>
 
+#include "files/input_file.hpp"
 #include "scene/file.hpp"
 #include "scene/mitsuba_transform.hpp"
 #include "scene/model.hpp"
@@ -186,9 +187,8 @@ class MitsubaReader {
     if (!std::filesystem::exists(file, unnameable)) {
       throw InputError(fmt::format("{}: {}: there is no file {}", where(shape), describe(shape), file.string()));
     }
-    if (std::filesystem::is_directory(file, unnameable)) {
-      throw InputError(fmt::format("{}: {}: {} is a folder; name the mesh inside it", where(shape), describe(shape),
-                                   file.string()));
+    if (const std::string problem = input_file_problem(file, "the mesh"); !problem.empty()) {
+      throw InputError(fmt::format("{}: {}: {}: {}", where(shape), describe(shape), file.string(), problem));
     }
     std::string name = attribute(shape, "id");
     if (name.starts_with("mesh-")) name.erase(0, 5);  // as Sionna RT names its objects
@@ -212,7 +212,7 @@ class MitsubaReader {
 
   std::vector<RawMesh> read_meshes(const std::filesystem::path& file, const std::string& type) {
     if (type == "obj") {
-      RawScene model = read_model(file);
+      RawScene model = read_model(file, ModelFormat::obj);
       std::move(model.warnings.begin(), model.warnings.end(), std::back_inserter(raw_.warnings));
       return std::move(model.meshes);
     }

@@ -4,6 +4,7 @@
 #include "scene/model.hpp"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -108,19 +109,43 @@ void keep_readers(Assimp::Importer& importer, const std::string& suffix) {
   }
 }
 
-bool is_obj(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix == ".obj";
-}
+// Opens plain files only: an OBJ names a file of materials, a glTF names buffers, and a pipe would be waited for.
+// assimp chooses its reader by the suffix, so it is given a name that has one, and this knows the file that it stands
+// for.
+class PlainFiles : public Assimp::DefaultIOSystem {
+ public:
+  PlainFiles(std::string name, std::string file) : name_(std::move(name)), file_(std::move(file)) {}
+
+  bool Exists(const char* name) const override {
+    std::error_code unnameable;
+    return std::filesystem::is_regular_file(file_of(name), unnameable);
+  }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    return Exists(name) ? Assimp::DefaultIOSystem::Open(file_of(name), mode) : nullptr;
+  }
+
+ private:
+  const char* file_of(const char* name) const { return name == name_ ? file_.c_str() : name; }
+
+  std::string name_, file_;
+};
 
 }  // namespace
 
-RawScene read_model(const std::filesystem::path& path) {
-  if (!is_obj(path)) check_gltf(path);
+ModelFormat model_format(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix == ".obj" ? ModelFormat::obj : ModelFormat::gltf;
+}
+
+RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
+  const bool obj = format == ModelFormat::obj, fits = model_format(path) == format;
+  if (!obj) check_gltf(path);
+  const std::string name = path.string() + (fits ? "" : obj ? ".obj" : ".glb");
   Assimp::Importer importer;
-  keep_readers(importer, is_obj(path) ? "obj" : "gltf");
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+  importer.SetIOHandler(new PlainFiles(name, path.string()));  // which is the importer's now
+  keep_readers(importer, obj ? "obj" : "gltf");
+  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene || !scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {
     throw InputError(fmt::format("{}: cannot be read: {}", path.string(), importer.GetErrorString()));
   }

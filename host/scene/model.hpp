@@ -8,7 +8,11 @@
 
 namespace wavetracer {
 
-// Throws InputError that names the file and the mesh.
-RawScene read_model(const std::filesystem::path& path);
+enum class ModelFormat { obj, gltf };
+// By the suffix: all but .obj is glTF.
+ModelFormat model_format(const std::filesystem::path& path);
+
+// Whatever the suffix is. Throws InputError that names the file and the mesh.
+RawScene read_model(const std::filesystem::path& path, ModelFormat format);
 
 }  // namespace wavetracer

@@ -1,14 +1,20 @@
 // All pairs of the ends whose names are wanted and that are present, each tested.
-// Assumes that ends present at once number in the thousands at most: pairs are counted in millions.
+// Made for ends of which thousands are present at once: pairs are counted in millions, and limited.
 #include "simulation/world_links.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "simulation/name_pattern.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
+
+constexpr uint64_t most_pairs = uint64_t{1} << 36;          // 262,144 vehicles with an antenna each
+constexpr uint64_t most_present_pairs = uint64_t{1} << 30;  // seconds for the test of their distances
 
 std::vector<uint32_t> wanted(const std::vector<std::string>& patterns, const std::vector<std::string>& names,
                              const std::string& role) {
@@ -20,6 +26,15 @@ std::vector<uint32_t> wanted(const std::vector<std::string>& patterns, const std
   return out;
 }
 
+void check_pairs(size_t transmitters, size_t receivers, uint64_t most, const char* where) {
+  if (uint64_t{transmitters} * receivers <= most) return;
+  throw RuntimeError(
+      fmt::format("{} transmitters and {} receivers {} are more than {} pairs, the limit: mount antennas on "
+                  "fewer vehicles, name fewer of them in links.transmitters and links.receivers, or take "
+                  "a part of the trajectories",
+                  transmitters, receivers, where, most));
+}
+
 }  // namespace
 
 LinkRules::LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers)
@@ -27,7 +42,9 @@ LinkRules::LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide 
       transmitters_(std::move(transmitters)),
       receivers_(std::move(receivers)),
       wanted_transmitters_(wanted(config.transmitters, transmitters_.names, "transmitter")),
-      wanted_receivers_(wanted(config.receivers, receivers_.names, "receiver")) {}
+      wanted_receivers_(wanted(config.receivers, receivers_.names, "receiver")) {
+  check_pairs(wanted_transmitters_.size(), wanted_receivers_.size(), most_pairs, "of all frames");
+}
 
 bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
   if (tx_vehicle == no_vehicle && rx_vehicle == no_vehicle) return config_.i2i;
@@ -58,6 +75,9 @@ std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitter
   std::vector<uint32_t> present;
   std::copy_if(wanted_receivers_.begin(), wanted_receivers_.end(), std::back_inserter(present),
                [&](uint32_t rx) { return receivers[rx].present; });
+  const auto sending =
+      std::ranges::count_if(wanted_transmitters_, [&](uint32_t tx) { return transmitters[tx].present; });
+  check_pairs(static_cast<size_t>(sending), present.size(), most_present_pairs, "of one frame");
   std::vector<Link> out;
   for (const uint32_t tx : wanted_transmitters_) {
     if (!transmitters[tx].present) continue;

@@ -106,6 +106,26 @@ TEST_CASE("config errors exit 2 with file, line and column, and write nothing") 
   CHECK(folder.entries() == 2);
 }
 
+TEST_CASE("pipes and devices are no input files, and are not waited for") {
+  const Folder folder;
+  const std::string pipe = folder.path("pipe"), file = folder.file("a.toml", city + ends), out = folder.path("out");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  for (const auto& [path, said] : {std::pair{pipe, "is a pipe;"}, {std::string("/dev/zero"), "is a device;"}}) {
+    CAPTURE(path);
+    check(run_program({"validate", "-c", path}), 2, path + ": cannot be read as a config file: " + said);
+    check(run_program({"scene", "info", path}), 3, path + ": " + said);
+    check(run_program({"view", path}), 3, path + ": " + said);
+    check(run_program({"convert", path, "--to", "vtk", "-o", out}), 3, path + ": " + said);
+    check(run_program({"validate", "-c", file, "--set", "scene.generate=", "--set", "scene.file=" + path}), 3,
+          path + ": " + said);
+    for (const char* key : {"trajectories.file", "transmitter.0.antenna"})
+      check(run_program({"validate", "-c", file, "--set", std::string(key) + "=" + path}), 3, path + ": " + said);
+  }
+  const std::string materials = folder.file("a.obj", "mtllib pipe\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  check(run_program({"scene", "info", materials}), 3, "has no material");  // what an OBJ names is not waited for either
+  CHECK(folder.entries() == 3);
+}
+
 TEST_CASE("missing input files exit 3 and name the key") {
   const Folder folder;
   const std::string file = folder.file("a.toml", "scene.file = \"absent.xml\"\n" + ends);

@@ -5,5 +5,5 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;
   static fuzz::MemoryFile file("input.glb");
-  return fuzz::accept_or_refuse([&] { read_model(file.write(data, size)); });
+  return fuzz::accept_or_refuse([&] { read_model(file.write(data, size), ModelFormat::gltf); });
 }

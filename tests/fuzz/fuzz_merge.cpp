@@ -1,8 +1,8 @@
 // Fuzz target: a part of a run from elsewhere, as `wavetracer merge` reads it. The HDF5 library faults in a process of
-// its own, and may there: see hdf5::rehearse().
+// its own, and may there: see LimitedChild.
 #include <fstream>
+#include "fuzz/children.hpp"
 #include "fuzz/fuzz.hpp"
-#include "fuzz/rehearsal.hpp"
 #include "output/merge_folders.hpp"
 #include "output/sample_run.hpp"
 #include "output/shards.hpp"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class Part {
  public:
   Part() : folder_("/dev/shm/wavetracer-fuzz-part-" + std::to_string(getpid())) {
-    fuzz::tame_rehearsals();
+    fuzz::tame_children();
     const SampleRun sample;
     Shards shards(folder_, {"1.2.3", "0123", "cpu", 7, 8, 1});
     shards.share("0_of_1", true);

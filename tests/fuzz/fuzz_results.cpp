@@ -1,13 +1,13 @@
 // Fuzz target: paths.h5 as view, plot, convert and merge read it. The HDF5 library faults in a process of its own, and
-// may there: see hdf5::rehearse().
+// may there: see LimitedChild.
+#include "fuzz/children.hpp"
 #include "fuzz/fuzz.hpp"
-#include "fuzz/rehearsal.hpp"
 #include "results/saved_run.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;
   static fuzz::MemoryFile file;
-  [[maybe_unused]] static const int tame = fuzz::tame_rehearsals();
+  [[maybe_unused]] static const int tame = fuzz::tame_children();
   return fuzz::accept_or_refuse([&] {
     const SavedRun run(file.write(data, size));
     for (size_t row = 0; row < run.frame_count() && row < 4; ++row) run.frame(row);

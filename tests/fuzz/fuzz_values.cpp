@@ -1,12 +1,13 @@
 // Fuzz target: well-formed containers whose numbers and lengths come from the input, as view, plot and convert read
-// them. An input is a row of patches, 11 bytes each: the dataset, the element (16 bits), its value; of datasets from 128
-// on the value's first byte is the number of rows instead.
-// In place of output/hdf5_read.cpp stands a reader of datasets in memory: the library would take a hundred times as long.
+// them. An input is a row of patches, 11 bytes each: the dataset, the element (16 bits), its value; of datasets from
+// 128 on the value's first byte is the number of rows instead. In place of output/foreign_file.cpp stands a reader of
+// datasets in memory: the library would take a hundred times as long.
 #include <algorithm>
 #include <cstring>
 #include <unordered_map>
 #include "fuzz/fuzz.hpp"
-#include "output/hdf5_read.hpp"
+#include "output/foreign_file.hpp"
+#include "output/hdf5.hpp"
 #include "output/sample_run.hpp"
 #include "results/saved_run.hpp"
 
@@ -65,7 +66,7 @@ herr_t add_dataset(hid_t root, const char* name, const H5O_info_t* info, void* o
   return 0;
 }
 
-// paths.h5 of the sample, which stays: SavedRun opens it, though nothing is read from it.
+// paths.h5 of the sample, which stays: SavedRun is told of it, though nothing is read from it.
 class Sample {
  public:
   Sample() : folder_("/dev/shm/wavetracer-fuzz-sample-" + std::to_string(getpid())) {
@@ -115,47 +116,63 @@ void read_all(const std::filesystem::path& file) {
   }
 }
 
-herr_t keep_open(hid_t) { return 0; }
-
 }  // namespace
 
 namespace wavetracer::hdf5 {
 
-void rehearse(const std::function<void()>&) {}
+struct ForeignFile::Child {};
 
-template <typename T>
-NumberColumn<T>::NumberColumn(const File&, const std::string& path, std::vector<hsize_t> inner)
-    : path_(path), dataset_(0, keep_open, ""), space_(0, keep_open, ""), shape_(patched.numbers.at(path).shape) {
+ForeignFile::ForeignFile(const std::filesystem::path&) {}
+ForeignFile::~ForeignFile() = default;
+
+std::vector<uint64_t> ForeignFile::shape(const std::string& path, const std::vector<uint64_t>& inner) const {
   const Dataset& dataset = patched.numbers.at(path);
-  if (dataset.value_bytes != sizeof(T) || shape_.size() != inner.size() + 1) std::abort();
+  if (dataset.shape.size() != inner.size() + 1) std::abort();
   for (size_t i = 0; i < inner.size(); ++i)
-    if (inner[i] != 0 && shape_[i + 1] != inner[i]) throw RuntimeError(path + " has another shape");
-  row_values_ = dataset.row_bytes() / sizeof(T);
+    if (inner[i] != 0 && dataset.shape[i + 1] != inner[i]) throw RuntimeError(path + " has another shape");
+  return {dataset.shape.begin(), dataset.shape.end()};
 }
 
 template <typename T>
-std::vector<T> NumberColumn<T>::read(hsize_t first, hsize_t count) const {
-  if (first > rows() || count > rows() - first) throw RuntimeError(path_ + " has too few rows");
-  std::vector<T> out(count * row_values_);
+std::vector<T> ForeignFile::rows(const std::string& path, uint64_t first, uint64_t count,
+                                 const std::vector<uint64_t>& inner) const {
+  const uint64_t there = shape(path, inner)[0];
+  const Dataset& dataset = patched.numbers.at(path);
+  if (dataset.value_bytes != sizeof(T)) std::abort();
+  if (first > there || count > there - first) throw RuntimeError(path + " has too few rows");
+  std::vector<T> out(count * dataset.row_bytes() / sizeof(T));
   if (!out.empty())
-    std::memcpy(out.data(), patched.numbers.at(path_).values.data() + first * row_values_ * sizeof(T), out.size() * sizeof(T));
+    std::memcpy(out.data(), dataset.values.data() + first * dataset.row_bytes(), out.size() * sizeof(T));
   return out;
 }
 
-template class NumberColumn<uint8_t>;
-template class NumberColumn<uint32_t>;
-template class NumberColumn<uint64_t>;
-template class NumberColumn<double>;
+template <typename T>
+std::vector<T> ForeignFile::all_rows(const std::string& path, const std::vector<uint64_t>& inner) const {
+  return rows<T>(path, 0, shape(path, inner)[0], inner);
+}
 
-std::vector<std::string> read_strings(const File&, const std::string& path) { return patched.texts.at(path); }
-std::string root_text(const File&, const std::string& name) { return name == "format" ? "wavetracer paths" : name; }
-double root_number(const File&, const std::string&) { return 1; }
+template std::vector<uint8_t> ForeignFile::rows(const std::string&, uint64_t, uint64_t,
+                                                const std::vector<uint64_t>&) const;
+template std::vector<uint32_t> ForeignFile::rows(const std::string&, uint64_t, uint64_t,
+                                                 const std::vector<uint64_t>&) const;
+template std::vector<uint64_t> ForeignFile::rows(const std::string&, uint64_t, uint64_t,
+                                                 const std::vector<uint64_t>&) const;
+template std::vector<double> ForeignFile::rows(const std::string&, uint64_t, uint64_t,
+                                               const std::vector<uint64_t>&) const;
+template std::vector<uint32_t> ForeignFile::all_rows(const std::string&, const std::vector<uint64_t>&) const;
+template std::vector<uint64_t> ForeignFile::all_rows(const std::string&, const std::vector<uint64_t>&) const;
+template std::vector<double> ForeignFile::all_rows(const std::string&, const std::vector<uint64_t>&) const;
+
+std::vector<std::string> ForeignFile::strings(const std::string& path) const { return patched.texts.at(path); }
+std::string ForeignFile::root_text(const std::string& name) const {
+  return name == "format" ? "wavetracer paths" : name;
+}
+double ForeignFile::root_number(const std::string&) const { return 1; }
 
 }  // namespace wavetracer::hdf5
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const Sample sample;
-  static const hdf5::File open = hdf5::File::open_to_read(sample.file());  // opening it again is cheap
   static const std::vector<std::string> names = sorted_names(patched = sample.content());
   for (const uint8_t* p = data; p + patch_bytes <= data + size; p += patch_bytes)
     patch(patched.numbers.at(names[p[0] % 128 % names.size()]), p[0] >= 128, size_t{p[1]} + 256 * size_t{p[2]}, p + 3);

@@ -18,9 +18,9 @@ namespace wavetracer::test {
 
 inline constexpr double pi = std::numbers::pi;
 
-inline std::string gzip(const std::string& text) {
+inline std::string gzip(const std::string& text, int level = Z_BEST_SPEED) {
   z_stream stream{};
-  REQUIRE(deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK);
+  REQUIRE(deflateInit2(&stream, level, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK);
   std::string out(deflateBound(&stream, text.size()), '\0');
   std::string in = text;
   stream.next_in = reinterpret_cast<Bytef*>(in.data());

@@ -133,3 +133,18 @@ TEST_CASE("a vehicle at SUMO's invalid value is absent, whatever else is unknown
   check_contains(t.warnings.at(1), "1 samples have x or y = -1073741824");
   fails(fcd(timestep("0", off)), "drive.xml: has no vehicle in it");
 }
+
+TEST_CASE("a small file that unpacks to gigabytes ends early, with the limit") {
+  const std::string head = "<fcd-export>\n<timestep time=\"0\">" + good;
+  const std::string blanks(size_t{120} << 20, ' '), letters(size_t{2} << 20, 'a');
+  fails(gzip(head + blanks + "</timestep></fcd-export>", Z_BEST_COMPRESSION),
+        "drive.xml: unpacks to more than 300 times its");
+  fails(gzip("time,id,x,y\n" + blanks, Z_BEST_COMPRESSION), "drive.xml:2: the line has no end");
+  const std::string too_long = " of more than 1048576 bytes begins here";
+  for (const bool packed : {false, true})
+    for (const char* open : {"<vehicle id=\"", "<!--", "<"}) {
+      const std::string text = head + "\n" + open + letters;
+      fails(packed ? gzip(text) : text, "drive.xml:3: a tag, an attribute or a comment" + too_long);
+    }
+  CHECK(read_text(head + "<!--" + letters.substr(0, 900000) + "--></timestep></fcd-export>").tracks.size() == 1);
+}

@@ -1,8 +1,11 @@
 // What write_outputs() writes, SavedRun reads; what is damaged is refused with words, never trusted.
 // Files are damaged through the HDF5 library, so that they are well formed but for the one thing.
 #include <doctest/doctest.h>
+#include <unistd.h>
 #include <cmath>
+#include <csignal>
 #include <fstream>
+#include <memory>
 #include "output/hdf5.hpp"
 #include "output/sample_run.hpp"
 #include "results/saved_run.hpp"
@@ -31,6 +34,18 @@ std::string refusal(const fs::path& file) {
     return e.what();
   }
   return "";
+}
+
+// The processes that this one has started and that have not ended.
+std::vector<pid_t> children() {
+  std::vector<pid_t> out;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream stat(entry.path() / "stat");
+    pid_t process = 0, parent = 0;
+    std::string name, state;
+    if (stat >> process >> name >> state >> parent && parent == getpid()) out.push_back(process);
+  }
+  return out;
 }
 
 template <typename T>
@@ -99,8 +114,7 @@ TEST_CASE("a pose's rotation keeps its rows and columns") {
   const std::vector<FrameResult> frames = written.sample.frames();
   const SavedFrame frame = SavedRun(written.file).frame(1);
   REQUIRE(frame.poses.size() == 2);
-  for (const SavedPose& pose : frame.poses)
-    CHECK(pose.rotation == frames[1].world.instances[pose.instance].rotation);
+  for (const SavedPose& pose : frame.poses) CHECK(pose.rotation == frames[1].world.instances[pose.instance].rotation);
 }
 
 TEST_CASE("a run without paths is a run") {
@@ -147,9 +161,31 @@ TEST_CASE("every contradiction within the file is found") {
   CHECK(with("/poses/frame", 0, uint32_t{99}).find("/poses/frame") != std::string::npos);
   CHECK(with("/links/tx", 0, uint32_t{2}).find("/links/tx") != std::string::npos);
   CHECK(with("/vertices/instance", 1, uint32_t{2}).find("/vertices/instance") != std::string::npos);
-  for (const char* member : {"/paths/delay_s", "/paths/a_im", "/vertices/position_m", "/frames/time_s",
-                             "/frames/receiver_position_m", "/transmitters/name", "/instances/type", "/links", "/poses"})
+  for (const char* member :
+       {"/paths/delay_s", "/paths/a_im", "/vertices/position_m", "/frames/time_s", "/frames/receiver_position_m",
+        "/transmitters/name", "/instances/type", "/links", "/poses"})
     CHECK_MESSAGE(without(member) != "", member);
+}
+
+TEST_CASE("a file that faults the library in a later frame is an input error that names it") {
+  const Written written;
+  const SavedRun run(written.file);
+  CHECK(run.frame(0).number == 7);
+  REQUIRE(children().size() == 1);
+  kill(children()[0], SIGSEGV);
+  CHECK_THROWS_WITH_AS(run.frame(1), doctest::Contains((written.file.string() + ": the file is damaged").c_str()),
+                       InputError);
+  CHECK_THROWS_AS(run.frame(0), InputError);
+}
+
+TEST_CASE("several runs are read side by side, each to its end") {
+  const Written a, b;
+  auto first = std::make_unique<SavedRun>(a.file);
+  const SavedRun second(b.file);
+  CHECK(first->frame(1).number == second.frame(1).number);
+  first.reset();
+  CHECK(second.frame(0).number == 7);
+  CHECK(children().size() == 1);
 }
 
 TEST_CASE("a world that cannot be loaded again leaves a warning and room for every vehicle") {

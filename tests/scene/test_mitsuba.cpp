@@ -104,6 +104,19 @@ TEST_CASE("what is no geometry is skipped; what is unknown is a warning") {
   CHECK(raw.warnings[0].find("scene.xml:2: <volume>") != std::string::npos);
 }
 
+TEST_CASE("a shape is read as its type says, whatever the suffix of its file") {
+  const Files files;
+  for (const char* name : {"a.obj", "a.mesh", "a.glb", "a.ply", "a"}) {
+    CAPTURE(name);
+    files.folder.write(name, "# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    const RawScene raw = read_mitsuba(
+        files.scene("<shape type=\"obj\"><string name=\"filename\" value=\"" + std::string(name) + "\"/></shape>"));
+    REQUIRE(raw.meshes.size() == 1);
+    CHECK(raw.meshes[0].triangles.size() == 2);
+    CHECK(raw.meshes[0].where.ends_with(name));
+  }
+}
+
 TEST_CASE("Mitsuba errors name file, line and element") {
   const Files files;
   const auto fails = [&](const std::string& body, const char* message) {

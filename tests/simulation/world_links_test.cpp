@@ -1,6 +1,7 @@
 // World: links against counted pairs, what it refuses, how far it reaches, and traffic that it generates.
 #include "simulation/name_pattern.hpp"
 #include "simulation/world_fixture.hpp"
+#include "simulation/world_links.hpp"
 #include "simulation/world_trajectories.hpp"
 
 using namespace wavetracer;
@@ -80,6 +81,25 @@ TEST_CASE("two vehicles in one place: their antennas are linked, and none is to 
   config.mounts = {mount("roof", "*", "both", {0, 0, 1.6})};
   config.links.same_vehicle = true;
   CHECK(World(config, static_scene()).state(0).links == std::vector<Link>{{0, 1}, {1, 0}});
+}
+
+TEST_CASE("more pairs than a drive or a frame can have are an error that says so") {
+  const auto side = [](size_t ends) {
+    return LinkSide{std::vector<std::string>(ends, "a"), std::vector<uint32_t>(ends, 0)};
+  };
+  const auto limit = [](const std::string& said) {
+    return doctest::Contains((said + " pairs, the limit: mount antennas on fewer vehicles").c_str());
+  };
+  CHECK_THROWS_WITH_AS(LinkRules({}, side(300'000), side(300'000)),
+                       limit("300000 transmitters and 300000 receivers of all frames are more than 68719476736"),
+                       RuntimeError);
+  const LinkRules rules({}, side(100'000), side(100'000));
+  std::vector<EndState> ends(100'000, EndState{.present = false});
+  CHECK(rules(ends, ends).empty());
+  for (size_t i = 0; i < 40'000; ++i) ends[i].present = true;
+  CHECK_THROWS_WITH_AS(rules(ends, ends),
+                       limit("40000 transmitters and 40000 receivers of one frame are more than 1073741824"),
+                       RuntimeError);
 }
 
 TEST_CASE("types, names and steps that are not known") {

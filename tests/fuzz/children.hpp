@@ -1,4 +1,4 @@
-// The processes of hdf5::rehearse(), in which the HDF5 library may fault: that is no finding, and none may take long.
+// The children of LimitedChild, in which the HDF5 library may fault: that is no finding, and none may take long.
 // They must stay as they are, a process for each input: what faults depends on what the memory holds, so only a copy of
 // this process meets what this process would.
 #pragma once
@@ -13,12 +13,13 @@ namespace wavetracer::fuzz {
 
 inline void end_quietly_and_soon() {
   if (__sanitizer_set_death_callback) __sanitizer_set_death_callback(nullptr);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGPROF}) std::signal(signal, SIG_DFL);
-  const itimerval limit{{0, 0}, {0, 100000}};  // of the processor; a sound file takes 2 ms
-  setitimer(ITIMER_PROF, &limit, nullptr);
+  std::signal(SIGVTALRM, SIG_DFL);
+  // Of the processor, for all requests; a sound file takes 2 ms. LimitedChild's own timer is another one.
+  const itimerval limit{{0, 0}, {0, 100000}};
+  setitimer(ITIMER_VIRTUAL, &limit, nullptr);
 }
 
 // Once, before the first input.
-inline int tame_rehearsals() { return pthread_atfork(nullptr, nullptr, end_quietly_and_soon); }
+inline int tame_children() { return pthread_atfork(nullptr, nullptr, end_quietly_and_soon); }
 
 }  // namespace wavetracer::fuzz

@@ -1,0 +1,45 @@
+// The file is looked at, not opened: opening a pipe waits for its writer.
+#include "files/input_file.hpp"
+#include <fmt/format.h>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+const char* kind_of(std::filesystem::file_type type) {
+  switch (type) {
+    case std::filesystem::file_type::fifo:
+      return "a pipe";
+    case std::filesystem::file_type::socket:
+      return "a socket";
+    case std::filesystem::file_type::character:
+    case std::filesystem::file_type::block:
+      return "a device";
+    default:
+      return "no plain file";
+  }
+}
+
+}  // namespace
+
+std::string input_file_problem(const std::filesystem::path& path, const char* what, uint64_t most_bytes) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return "no such file; paths are relative to the file that names them";
+  if (status.type() == fs::file_type::none) return fmt::format("cannot be opened: {}", error.message());
+  if (fs::is_directory(status)) return fmt::format("is a folder; name {} inside it", what);
+  if (!fs::is_regular_file(status))
+    return fmt::format("is {}; {} must be a plain file: write its content to one", kind_of(status.type()), what);
+  const uint64_t bytes = fs::file_size(path, error);
+  if (!error && bytes > most_bytes)
+    return fmt::format("has {} bytes, and {} may have {}: is it a file of another kind?", bytes, what, most_bytes);
+  return "";
+}
+
+void check_input_file(const std::filesystem::path& path, const char* what, uint64_t most_bytes) {
+  if (const std::string problem = input_file_problem(path, what, most_bytes); !problem.empty())
+    throw InputError(fmt::format("{}: {}", path.string(), problem));
+}
+
+}  // namespace wavetracer
