@@ -118,3 +118,25 @@ TEST_CASE("two edges of one sheet, between which the wave runs along either side
   }
   CHECK(all["DD"] >= 4);
 }
+
+TEST_CASE("an end on a wall, on the ground or on an edge: every path is the same path the other way") {
+  const SceneFile house(parts_of(l_shaped()));
+  Kinds all;
+  for (const double gap_m : {-5e-5, 1e-7, 5e-5}) {
+    CAPTURE(gap_m);
+    const glm::dvec3 wall(-1.1, -4.2 - gap_m, 1.9), foot(3.9, -9.1, gap_m), edge(5.3 + gap_m, -4.2 - gap_m, 2.2);
+    for (const auto& [from, to] : {std::pair{wall, glm::dvec3(9.7, -7.1, 2.7)},
+                                   {foot, {11.3, 8.1, 2.2}},
+                                   {edge, {9.7, -7.1, 2.7}},
+                                   {wall, foot}}) {
+      Config config = everything(house, from, to);
+      config.trace.rays = 100000;
+      config.trace.max_diffractions = 1;  // two edges of the sheet that an end stands on are beyond what is computed
+      for (const auto& [kind, count] : exchange(config)) all[kind] += count;
+    }
+  }
+  for (const char* kind : {"R", "D", "DR", "DRR", "DT", "S"}) {
+    CAPTURE(std::string(kind));
+    CHECK(all[kind] > 0);
+  }
+}
