@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -48,6 +49,16 @@ TEST_CASE("a run writes three files and says what it found") {
   for (const char* name : {"out/paths.h5", "out/links.csv", "out/summary.json"})
     CHECK(std::filesystem::file_size(folder.path(name)) > 0);
   CHECK(lines(folder.path("out/links.csv")) == 2);
+}
+
+TEST_CASE("a small stack is enough to begin with") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const std::string command = "ulimit -s 64 && exec '" WAVETRACER_PROGRAM "' run -c '" + file + "' -o '" +
+                              folder.path("out") + "' > '" + folder.path("said") + "' 2>&1";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(std::filesystem::file_size(folder.path("out/paths.h5")) > 0);
 }
 
 TEST_CASE("a run says which features it had, why not others, and how many paths of each kind it found") {
