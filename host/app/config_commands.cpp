@@ -31,7 +31,8 @@ void add_validate(CLI::App& program) {
     std::string file;
     std::vector<std::string> sets;
   };
-  CLI::App* command = program.add_subcommand("validate", "Check a config file, what it names, and where its antennas and vehicles are");
+  CLI::App* command =
+      program.add_subcommand("validate", "Check a config file, what it names, and where its antennas and vehicles are");
   const auto options = std::make_shared<Options>();
   command->add_option("-c,--config", options->file, "Config file (TOML)")->required();
   command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
@@ -43,9 +44,10 @@ void add_validate(CLI::App& program) {
         config.scene.file.empty() ? "city \"" + config.scene.generate + "\"" : "scene " + config.scene.file;
     const std::string mounted =
         config.mounts.empty() ? "" : fmt::format(", antennas a vehicle: {}", config.mounts.size());
-    std::cout << fmt::format("{}: ok\n{}; standing transmitters: {}, receivers: {}{}; {} rays each, depth {}, {:g} GHz\n",
-                             options->file, scene, config.transmitters.size(), config.receivers.size(), mounted,
-                             rays_in_words(config.trace), config.trace.max_depth, config.radio.frequency_hz / 1e9);
+    std::cout << fmt::format(
+        "{}: ok\n{}; standing transmitters: {}, receivers: {}{}; {} rays each, depth {}, {:g} GHz\n", options->file,
+        scene, config.transmitters.size(), config.receivers.size(), mounted, rays_in_words(config.trace),
+        config.trace.max_depth, config.radio.frequency_hz / 1e9);
   });
 }
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include "app/folder_hold.hpp"
 #include "app/interrupt.hpp"
-#include "app/missing.hpp"
 #include "app/solve_frame.hpp"
 #include "app/team.hpp"
 #include "output/shards.hpp"
@@ -60,12 +59,20 @@ std::vector<FrameResult> solve_unit(const DriveTask& task, const Unit& unit, Pro
     const uint64_t all = task.run.config.transmitters.size();
     const TransmitterRange range{static_cast<uint32_t>(all * unit.block / unit.blocks),
                                  static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
-    if (!interrupted()) frames.push_back(solve_frame(task.simulation, unit.first, asked.repeat, range).result);
+    if (interrupted()) return frames;
+    frames.push_back(solve_frame(task.simulation, unit.first, asked.repeat, range).result);
+    frames[0].missing = task.simulation.explain_missing(frames[0]);
     return frames;
   }
+  bool explained = false;
   for (uint64_t frame = unit.first; frame <= unit.last && !interrupted(); ++frame) {
     progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count());
     frames.push_back(solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat).result);
+    // Why a drive has no path at all is asked once a unit; where others have found one, nobody will read it.
+    FrameResult& last = frames.back();
+    if (explained || last.world.links.empty() || !(last.paths.size() == 0 || asked.first == asked.last)) continue;
+    last.missing = task.simulation.explain_missing(last);
+    explained = true;
   }
   return frames;
 }
@@ -106,7 +113,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   add(results.totals, totals_of(frames));
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
-    results.files = shards.merge(with_missing_words(task.simulation, task.run, results), frames);
+    results.files = shards.merge(task.run, frames);
   }
   return results;
 }

@@ -7,6 +7,7 @@
 #include <new>
 #include "app/build_info.hpp"
 #include "app/commands.hpp"
+#include "app/stack.hpp"
 #include "app/usage.hpp"
 
 namespace {
@@ -65,9 +66,7 @@ int run_program(int argc, char** argv) {
   return static_cast<int>(invocation.code);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_and_report(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const wavetracer::Error& e) {
@@ -76,5 +75,15 @@ int main(int argc, char** argv) {
     return fail(ExitCode::runtime, "out of memory: lower trace.batch_rays or trace.rays, or use a smaller scene");
   } catch (const std::exception& e) {
     return fail(ExitCode::runtime, e.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return wavetracer::app::with_enough_stack([=] { return run_and_report(argc, argv); });
+  } catch (const wavetracer::Error& e) {
+    return fail(e.code(), e.what());
   }
 }

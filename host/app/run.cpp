@@ -16,7 +16,6 @@
 #include "app/inputs.hpp"
 #include "app/interrupt.hpp"
 #include "app/launch.hpp"
-#include "app/missing.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/solve_frame.hpp"
@@ -76,11 +75,11 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   if (interrupted()) return {};
   SolvedFrame solved = solve_frame(simulation, 0, run.summary.repeat_count);
   run.summary.repeat_count = solved.repeated;
-  const FrameResult& frame = solved.result;
-  Results results{totals_of({&frame, 1}), 0, link_figures(frame.paths, 0, frame.world.links), {}};
+  FrameResult& frame = solved.result;
+  frame.missing = simulation.explain_missing(frame);
   progress.line("writing to " + run.config.output.directory);
-  results.files = write_outputs(run.config.output.directory, with_missing_words(simulation, run, results), {&frame, 1});
-  return results;
+  return {totals_of({&frame, 1}), 0, link_figures(frame.paths, 0, frame.world.links),
+          write_outputs(run.config.output.directory, run, {&frame, 1})};
 }
 
 // What an interrupt left undone, and how to go on.
@@ -207,7 +206,9 @@ void run(const Options& options, Invocation& invocation) {
   } else {
     results = moving ? drive(task, progress) : run_still(simulation, run, progress);
   }
-  for (const std::string& warning : results.totals.warnings) progress.line("warning: " + warning);
+  std::vector<std::string> warnings = results.totals.warnings;
+  add_warnings(warnings, missing_words(results.totals));
+  for (const std::string& warning : warnings) progress.line("warning: " + warning);
   if (results.totals.frames > 0) std::cout << report(run, results) << std::flush;
   const bool whole = moving && results.totals.frames == run.summary.frames_asked;
   if (interrupted() && !whole && !together) {

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 #include "app/interrupt.hpp"
-#include "app/missing.hpp"
 #include "gpu/hash.hpp"
 #include "output/claims.hpp"
 #include "output/pending_file.hpp"
@@ -48,7 +47,7 @@ class Team {
     if (shared.missing > 0) return say_missing(shared);
     shared.results.totals = shards_.totals();
     progress_.line("writing to " + task_.run.config.output.directory);
-    shared.results.files = shards_.merge(with_missing_words(task_.simulation, task_.run, shared.results), {});
+    shared.results.files = shards_.merge(task_.run, {});
     mark(true);
     remove_claims(shards_.folder());
     return shared;

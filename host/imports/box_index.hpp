@@ -18,14 +18,20 @@ class BoxIndex {
     std::sort(entries_.begin(), entries_.end(),
               [](const Entry& a, const Entry& b) { return a.box.lower.x < b.box.lower.x; });
   }
-  // Calls visit(what) for every box that contains `box`, itself included. sort() comes first.
+  // Calls visit(what) for every box that contains `box`, itself included. sort() comes first. False, after the first of
+  // them, where they are more than maps of buildings have: each of a tower of n boxes is in n others.
   template <class Visit>
-  void containing(const Box& box, const Visit& visit) const {
+  bool containing(const Box& box, const Visit& visit) const {
+    constexpr size_t most = 200;
+    size_t found = 0;
     auto entry = std::lower_bound(entries_.begin(), entries_.end(), box.lower.x - widest_,
                                   [](const Entry& e, int64_t x) { return e.box.lower.x < x; });
     for (; entry != entries_.end() && entry->box.lower.x <= box.lower.x; ++entry) {
-      if (entry->box.contains(box)) visit(entry->what);
+      if (!entry->box.contains(box)) continue;
+      if (++found > most) return false;
+      visit(entry->what);
     }
+    return true;
   }
 
  private:

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "imports/map.hpp"
+#include "imports/rings.hpp"
 #include "scene/file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -23,6 +24,11 @@ constexpr double widest_map_deg = 2;  // 200 km: a slip, or a country, of which 
 constexpr auto kept_tags = std::to_array<const char*>({"building", "building:part", "height", "min_height",
                                                        "building:levels", "building:min_level", "roof:levels",
                                                        "roof:shape", "building:material", "roof:material", "location"});
+
+// The assembler compares each edge with all others beside it: 10^6 corners would take days. As many corners as a
+// polygon may have (rings.hpp), and several rings in a multipolygon; each way in a few multipolygons.
+constexpr size_t most_way_nodes = max_corners + 1, most_relation_nodes = 4 * max_corners, most_repeated = 4;
+constexpr const char* too_many_corners = "more than 5000 corners";
 
 bool is_yes(const osmium::TagList& tags, const char* key) {
   const char* const value = tags.get_value_by_key(key);
@@ -110,6 +116,7 @@ class OsmReader {
       ++map_.left_out["way that does not close, as clipped at the border of an extract"];
       return;
     }
+    way_nodes_ += way.nodes().size();
     ways_.push_back({way.id(), kept_ways_.committed()});
     kept_ways_.add_item(way);
     kept_ways_.commit();
@@ -135,11 +142,16 @@ class OsmReader {
 
   void assemble(const osmium::Way& way) {
     if (!is_building(way.tags()) || way.nodes().size() < 4 || !way.is_closed()) return;
+    if (way.nodes().size() > most_way_nodes) {
+      ++map_.left_out[too_many_corners];
+      return;
+    }
     build(way, "way", [&](osmium::area::Assembler& assembler, osmium::memory::Buffer& out) { assembler(way, out); });
   }
 
   void assemble(const osmium::Relation& relation) {
     std::vector<const osmium::Way*> members;
+    size_t nodes = 0;
     for (const auto& member : relation.members()) {
       if (member.type() != osmium::item_type::way) continue;
       const auto found = std::lower_bound(ways_.begin(), ways_.end(), Entry{member.ref(), 0}, by_id);
@@ -148,8 +160,17 @@ class OsmReader {
         return;
       }
       members.push_back(&kept_ways_.get<const osmium::Way>(found->offset));
+      nodes += members.back()->nodes().size();
     }
     if (members.empty()) return;
+    if (nodes > most_relation_nodes) {
+      ++map_.left_out[too_many_corners];
+      return;
+    }
+    if ((member_nodes_ += nodes) > most_repeated * way_nodes_ + most_relation_nodes) {
+      ++map_.left_out["multipolygon of ways that are in many others"];
+      return;
+    }
     build(relation, "relation",
           [&](osmium::area::Assembler& assembler, osmium::memory::Buffer& out) { assembler(relation, members, out); });
   }
@@ -199,6 +220,7 @@ class OsmReader {
   bool is_pbf_;
   Map map_;
   size_t nodes_ = 0;
+  size_t way_nodes_ = 0, member_nodes_ = 0;  // of the ways that are kept; of multipolygons so far, each time anew
   const osmium::area::AssemblerConfig assembler_config_{};
   osmium::index::map::SparseMemArray<osmium::unsigned_object_id_type, osmium::Location> locations_;
   std::set<osmium::object_id_type> member_ways_;

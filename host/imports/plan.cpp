@@ -16,6 +16,8 @@
 namespace wavetracer::imports {
 namespace {
 
+constexpr const char* too_many_around = "inside of more than 200 others";
+
 // The shift by whole metres that brings all footprints near the origin; none where they are there already, since the
 // coordinates may be those of vehicles.
 glm::dvec2 shift_to_origin(const Map& map, const std::string& name) {
@@ -128,16 +130,22 @@ class Planner {
     index.sort();
     std::vector<size_t> order(candidates_.size());
     std::iota(order.begin(), order.end(), size_t{0});
-    const auto area = [this](size_t i) { return twice_area(candidates_[i].solid.polygon.outer); };
+    std::vector<int64_t> areas;
+    for (const Candidate& c : candidates_) areas.push_back(twice_area(c.solid.polygon.outer));
+    const auto area = [&areas](size_t i) { return areas[i]; };
     std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return area(a) > area(b); });
     std::vector<bool> is_hole(candidates_.size());
     for (const size_t i : order) {
       if (candidates_[i].gone || candidates_[i].solid.part) continue;
       size_t parent = i;
-      index.containing(candidates_[i].box, [&](size_t k) {
+      const bool all = index.containing(candidates_[i].box, [&](size_t k) {
         if (k == i || (parent != i && area(k) >= area(parent)) || !encloses(candidates_[k], candidates_[i])) return;
         parent = k;
       });
+      if (!all) {
+        drop(candidates_[i], too_many_around);
+        continue;
+      }
       if (parent == i || is_hole[parent]) continue;
       is_hole[i] = cut(candidates_[parent].solid.polygon, candidates_[i].solid.polygon.outer);
     }
@@ -154,10 +162,9 @@ class Planner {
   // False, and nothing done, where the hole would touch the border.
   static bool cut(Polygon& polygon, Ring hole) {
     std::reverse(hole.begin(), hole.end());
+    if (!fits(polygon, hole)) return false;
     polygon.holes.push_back(std::move(hole));
-    if (fault(polygon).empty()) return true;
-    polygon.holes.pop_back();
-    return false;
+    return true;
   }
 
   void triangulate_all() {
@@ -175,10 +182,10 @@ class Planner {
       if (!candidates_[i].gone && !candidates_[i].solid.part) index.add(candidates_[i].box, i);
     }
     index.sort();
-    for (const Candidate& part : candidates_) {
+    for (Candidate& part : candidates_) {
       if (part.gone || !part.solid.part) continue;
       const Point inside = point_inside(part.solid);
-      index.containing({inside, inside}, [&](size_t i) {
+      const bool all = index.containing({inside, inside}, [&](size_t i) {
         const Polygon& outline = candidates_[i].solid.polygon;
         if (candidates_[i].gone || !contains(outline.outer, inside)) return;
         for (const Ring& hole : outline.holes) {
@@ -186,6 +193,7 @@ class Planner {
         }
         drop(candidates_[i], "outline of which the parts are built");
       });
+      if (!all) drop(part, too_many_around);
     }
   }
   // The centroid of the largest triangle.

@@ -30,6 +30,12 @@ bool collide(const Segment& s, const Segment& t) {
   return segments_meet(s.a, s.b, t.a, t.b);
 }
 
+size_t corners_of(const Polygon& polygon) {
+  size_t corners = polygon.outer.size();
+  for (const Ring& hole : polygon.holes) corners += hole.size();
+  return corners;
+}
+
 bool any_collision(const Polygon& polygon) {
   std::vector<Segment> segments;
   append(segments, polygon.outer, 0);
@@ -108,9 +114,7 @@ bool contains(const Ring& ring, const Point& p) {
 }
 
 std::string_view fault(const Polygon& polygon) {
-  size_t corners = polygon.outer.size();
-  for (const Ring& hole : polygon.holes) corners += hole.size();
-  if (corners > max_corners) return "more than 5000 corners";
+  if (corners_of(polygon) > max_corners) return "more than 5000 corners";
   if (polygon.outer.size() < 3) return "fewer than three corners";
   const Box box = box_of(polygon.outer);
   constexpr auto limit = static_cast<int64_t>(largest_coordinate_m) * grid_per_m;
@@ -131,6 +135,24 @@ std::string_view fault(const Polygon& polygon) {
     }
   }
   return {};
+}
+
+bool fits(const Polygon& polygon, const Ring& hole) {
+  if (corners_of(polygon) + hole.size() > max_corners || !contains(polygon.outer, hole[0])) return false;
+  const Box box = box_of(hole);
+  const auto meets = [&](const Ring& ring) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      if (std::max(a.x, b.x) < box.lower.x || std::min(a.x, b.x) > box.upper.x) continue;
+      for (size_t k = 0; k < hole.size(); ++k) {
+        if (segments_meet(a, b, hole[k], hole[(k + 1) % hole.size()])) return true;
+      }
+    }
+    return false;
+  };
+  return !meets(polygon.outer) && std::none_of(polygon.holes.begin(), polygon.holes.end(), [&](const Ring& other) {
+    return contains(other, hole[0]) || contains(hole, other[0]) || meets(other);
+  });
 }
 
 }  // namespace wavetracer::imports

@@ -56,5 +56,7 @@ bool contains(const Ring& ring, const Point& p);
 // Why this is no polygon with holes: rings that cross, touch, fold back, hold nothing or are out of place. Empty where
 // it is one. Sizes are checked first, so that any rings may be given.
 std::string_view fault(const Polygon& polygon);
+// Whether a polygon without a fault stays one with this hole too, a ring without a fault.
+bool fits(const Polygon& polygon, const Ring& hole);
 
 }  // namespace wavetracer::imports

@@ -75,6 +75,17 @@ Tags tags_of(const pugi::xml_node poly) {
   return out;
 }
 
+// What the report says of a polygon that is no building: its type, in letters that a terminal can show. Reports of
+// thousands of types help nobody.
+std::string left_out_type(std::string_view type, const std::map<std::string, uint64_t>& left_out) {
+  constexpr size_t most_types = 50;
+  std::string shown(type.substr(0, 40));
+  std::ranges::replace_if(
+      shown, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7F; }, ' ');
+  const std::string reason = fmt::format("polygon of the type '{}'", shown);
+  return left_out.size() < most_types || left_out.contains(reason) ? reason : "polygon of another type";
+}
+
 }  // namespace
 
 std::string_view root_element(std::string_view text) {
@@ -139,7 +150,7 @@ Map read_sumo_polygons(std::string_view content, const std::string& name) {
     ++count;
     const std::string_view type = poly.attribute("type").value();
     if (!type.starts_with("building")) {
-      ++map.left_out[fmt::format("polygon of the type '{}'", type.substr(0, 40))];
+      ++map.left_out[left_out_type(type, map.left_out)];
       continue;
     }
     const auto at = [&] { return where(content, poly.offset_debug(), name); };

@@ -104,20 +104,35 @@ class Clipper {
     return true;
   }
 
+  // Cutting an ear changes what is an ear beside it alone, so that the rest is not looked at again: only where rounds
+  // of bridges lie on each other may more have changed, which shows when no ear is left.
   std::vector<Triangle> clip() {
+    constexpr int most_looks = 10;  // at all corners
     std::vector<Triangle> out;
+    std::vector<char> ears;
     size_t i = 0, in_vain = 0;
-    while (loop_.size() > 3 && in_vain < loop_.size()) {
+    int looks = 0;
+    const auto look = [&](size_t k) { ears[k % loop_.size()] = is_ear(k % loop_.size()); };
+    while (loop_.size() > 3) {
+      if (ears.empty() || in_vain == loop_.size()) {
+        if (looks++ == most_looks) return {};
+        ears.resize(loop_.size());
+        for (size_t k = 0; k < loop_.size(); ++k) look(k);
+        in_vain = 0;
+      }
       i %= loop_.size();
-      if (is_ear(i)) {
+      if (ears[i]) {
         cut(i, out);
+        ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(i));
+        look(i);
+        look(i + loop_.size() - 1);
         in_vain = 0;
       } else {
         ++in_vain;
       }
       ++i;  // after a cut this passes over a corner, which makes fans rarer
     }
-    if (loop_.size() > 3 || turn(at(0), at(1), at(2)) <= 0) return {};
+    if (turn(at(0), at(1), at(2)) <= 0) return {};
     out.push_back({loop_[0], loop_[1], loop_[2]});
     return out;
   }

@@ -69,6 +69,12 @@ Shard decode(const Json& json) {
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
+  if (json.contains("missing")) {
+    const Json& missing = json.at("missing");
+    t.missing = {whole<uint64_t>(missing.at("links")), whole<uint64_t>(missing.at("in_grids")),
+                 missing.at("why").get<std::vector<std::string>>(),
+                 missing.at("why_in_grids").get<std::vector<std::string>>()};
+  }
   for (const Json& file : json.at("files")) shard.files.push_back({file.at("name"), whole<uint64_t>(file.at("bytes"))});
   check_files(shard);
   return shard;
@@ -100,6 +106,11 @@ std::string encode_manifest_line(const Shard& shard) {
   if (t.cache.on) json["cache"] = encode_cache(t.cache);
   json["seconds"] = t.seconds;
   json["warnings"] = t.warnings;
+  if (!t.missing.empty())
+    json["missing"] = {{"links", t.missing.links},
+                       {"in_grids", t.missing.in_grids},
+                       {"why", t.missing.why},
+                       {"why_in_grids", t.missing.why_in_grids}};
   json["files"] = files;
   json["run"] = {{"version", run.version}, {"config", run.config}, {"device_kind", run.device_kind},
                  {"first", run.first},     {"last", run.last},     {"repeat", run.repeat}};

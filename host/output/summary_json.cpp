@@ -74,6 +74,7 @@ Json warnings(const Run& run, const Totals& totals) {
   add_warnings(result, run.summary.warnings);
   add_warnings(result, run.scene.report.warnings);
   add_warnings(result, totals.warnings);
+  add_warnings(result, missing_words(totals));
   return result;
 }
 

@@ -1,6 +1,7 @@
 // Sums over frames and over shards of frames.
 // Assumes that what is added comes in the order of frames.
 #include "output/totals.hpp"
+#include <fmt/format.h>
 #include <algorithm>
 #include <numeric>
 #include "output/cache_counts.hpp"
@@ -37,6 +38,17 @@ void add(CacheSummary& sum, const CacheSummary& later) {
   sum = std::move(total);
 }
 
+// Later links of the same frame.
+void add(MissingLinks& sum, const MissingLinks& more) {
+  sum.links += more.links;
+  sum.in_grids += more.in_grids;
+  for (const auto member : {&MissingLinks::why, &MissingLinks::why_in_grids}) {
+    std::vector<std::string>& all = sum.*member;
+    all.insert(all.end(), (more.*member).begin(), (more.*member).end());
+    all.resize(std::min(all.size(), MissingLinks::shown));
+  }
+}
+
 Totals totals_of(const FrameResult& frame) {
   Totals totals;
   totals.frames = 1;
@@ -50,6 +62,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.cache = frame.cache;
   for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
   add_warnings(totals.warnings, frame.warnings);
+  totals.missing = frame.missing;
   return totals;
 }
 
@@ -78,6 +91,7 @@ void add(Totals& sum, const Totals& later) {
   for (const auto& [stage, values] : later.seconds)
     sum.seconds[stage].insert(sum.seconds[stage].end(), values.begin(), values.end());
   add_warnings(sum.warnings, later.warnings);
+  if (sum.missing.empty()) sum.missing = later.missing;
 }
 
 void add_block(Totals& sum, const Totals& more) {
@@ -88,9 +102,31 @@ void add_block(Totals& sum, const Totals& more) {
     all.resize(std::max(all.size(), values.size()), 0);
     for (size_t i = 0; i < values.size(); ++i) all[i] += values[i];
   }
+  MissingLinks missing = sum.missing;
+  add(missing, more.missing);
   add(sum, more);
   if (!empty) sum.frames -= more.frames;
   sum.seconds = std::move(seconds);
+  sum.missing = std::move(missing);
+}
+
+std::vector<std::string> missing_words(const Totals& totals) {
+  const bool none = totals.counts.paths == 0;
+  if (totals.frames == 0 || (totals.frames > 1 && !none)) return {};
+  const MissingLinks& missing = totals.missing;
+  std::vector<std::string> out;
+  if (none && totals.links == 0)
+    out.push_back("no path was found, because no frame has a link: look at [links], and at when vehicles are there");
+  else if (none)
+    out.push_back(fmt::format("no path was found, of {} links in {} frame{}", totals.links, totals.frames,
+                              totals.frames == 1 ? "" : "s"));
+  const auto say = [&](const std::vector<std::string>& why, uint64_t links) {
+    out.insert(out.end(), why.begin(), why.end());
+    if (links > why.size()) out.push_back(fmt::format("{} more links have no path", links - why.size()));
+  };
+  say(missing.why, missing.links);
+  if (none) say(missing.why_in_grids, missing.in_grids);
+  return out;
 }
 
 Totals totals_of(Frames frames) {

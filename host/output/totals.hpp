@@ -21,6 +21,7 @@ struct Totals {
   CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
   std::map<std::string, std::vector<double>> seconds;  // stage -> one value a frame
   std::vector<std::string> warnings;                   // each text once, in order of first appearance
+  MissingLinks missing;                                // of the first frame that was asked about
 };
 
 Totals totals_of(Frames frames);
@@ -36,6 +37,10 @@ uint64_t traced_segments(const Totals& totals);
 double median_seconds(const Totals& totals, const std::string& stage);
 // Sum of a stage over the frames.
 double sum_seconds(const Totals& totals, const std::string& stage);
+
+// What to say of links without a path: of one frame by name, of more only where no link has a path in any of them, because
+// vehicles that hide from each other are normal.
+std::vector<std::string> missing_words(const Totals& totals);
 
 // Appends the texts that are not there yet.
 void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more);

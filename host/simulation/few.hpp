@@ -10,12 +10,9 @@ namespace wavetracer {
 class Few {
  public:
   explicit Few(std::vector<std::string>& out) : out_(out) {}
-  // Whether it is still worth to find the words.
-  bool wants_more() const { return count_ < shown; }
   void add(const std::string& text) {
     if (count_++ < shown) out_.push_back(text);
   }
-  void skip() { ++count_; }
   // what: "more antennas are below the ground"; said with their number, where there are such.
   void end(const std::string& what) {
     if (count_ > shown) out_.push_back(fmt::format("{} {}", count_ - shown, what));

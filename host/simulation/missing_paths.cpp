@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "radio/opacity.hpp"
-#include "simulation/few.hpp"
 #include "simulation/receiver_grid.hpp"
 
 namespace wavetracer {
@@ -25,12 +26,10 @@ struct Obstacle {
 
 class Lines {
  public:
-  Lines(const Surroundings& around, const World& world, uint64_t frame)
-      : around_(around), world_(world), state_(world.state(frame)) {
+  Lines(const Surroundings& around, const World& world, const WorldState& state)
+      : around_(around), world_(world), state_(state) {
     for (const Scene& model : world.models()) models_.emplace_back(model);
   }
-
-  const WorldState& state() const { return state_; }
 
   // From transmitter to receiver, the nearest first; without the vehicles that carry them.
   std::vector<Obstacle> obstacles(const Link& link) const {
@@ -67,7 +66,7 @@ class Lines {
 
   const Surroundings& around_;
   const World& world_;
-  WorldState state_;
+  const WorldState& state_;
   std::vector<Surroundings> models_;
 };
 
@@ -75,13 +74,12 @@ class Lines {
 std::string through_walls(const Config& config, const Features& features, const std::vector<Obstacle>& obstacles) {
   const auto opaque = [&](const Obstacle& o) { return is_opaque(*o.material, config.radio.frequency_hz); };
   if (const auto wall = std::ranges::find_if(obstacles, opaque); wall != obstacles.end()) return {};
-  const size_t walls = obstacles.size(), most = std::min(config.trace.max_transmissions, config.trace.max_depth);
+  const size_t walls = obstacles.size();
   std::string more;
   if (!features.at("transmission").on) more = "trace.transmission = true";
   if (walls > config.trace.max_transmissions)
     more += fmt::format("{}trace.max_transmissions = {}", more.empty() ? "" : " with ", walls);
-  if (walls > most && walls > config.trace.max_depth)
-    more += fmt::format("{}trace.max_depth = {}", more.empty() ? "" : " and ", walls);
+  if (walls > config.trace.max_depth) more += fmt::format("{}trace.max_depth = {}", more.empty() ? "" : " and ", walls);
   if (more.empty()) return {};
   return fmt::format("{} lets it through {} wall{}", more, walls, walls == 1 ? "" : "s");
 }
@@ -101,56 +99,52 @@ std::string around_walls(const Config& config, const Features& features, const S
   return out;
 }
 
-// Links of the frame without those that have a path.
-std::vector<Link> missing_links(const Config& config, const World& world, const std::vector<Link>& all,
-                                std::span<const Link> found) {
-  std::vector<Link> out;
-  std::ranges::set_difference(all, found, std::back_inserter(out));
-  if (found.empty()) return out;
-  std::erase_if(out, [&](const Link& link) {
-    return std::ranges::any_of(config.receiver_grids, [&](const ReceiverGridConfig& grid) {
-      return grid_cell(grid.name, world.receivers()[link.rx].name).has_value();
-    });
-  });
-  return out;
+// Whether a body or the ground is around one of the ends alone: then nothing but what goes through it gets there.
+bool parted(const Surroundings& around, const glm::dvec3& a, const glm::dvec3& b) {
+  const auto place = [&](const glm::dvec3& p) {
+    const auto body = around.body_at(p);
+    return std::pair(around.below_ground(p).has_value(), body ? std::optional(body->number) : std::nullopt);
+  };
+  return place(a) != place(b);
 }
 
 }  // namespace
 
-std::vector<std::string> explain_missing(const Config& config, const Features& features, const Surroundings& around,
-                                         const World& world, uint64_t frame, std::span<const Link> found) {
-  std::vector<std::string> out;
-  const Lines lines(around, world, frame);
-  const auto place = [&](const EndState& end) {
-    const auto there = around.body_at(end.position_m);
-    return std::pair(around.below_ground(end.position_m).has_value(),
-                     there ? std::optional(there->number) : std::nullopt);
-  };
-  Few few(out);
-  for (const Link& link : missing_links(config, world, lines.state().links, found)) {
-    if (!few.wants_more()) {
-      few.skip();
-      continue;
-    }
+MissingLinks explain_missing(const Config& config, const Features& features, const Surroundings& around,
+                             const World& world, const FrameResult& frame) {
+  MissingLinks out;
+  const WorldState& state = frame.world;
+  const Lines lines(around, world, state);
+  const auto why = [&](const Link& link) {
     std::string text =
         fmt::format("{} -> {} has no path", world.transmitters()[link.tx].name, world.receivers()[link.rx].name);
     const std::vector<Obstacle> obstacles = lines.obstacles(link);
-    if (obstacles.empty()) {
-      few.add(text + (config.trace.reception == "sphere" ? ": no ray passed the receiver's sphere, so trace more rays"
-                                                         : ", though nothing is on its direct line"));
-      continue;
-    }
+    if (obstacles.empty())
+      return text + (config.trace.reception == "sphere" ? ": no ray passed the receiver's sphere, so trace more rays"
+                                                        : ", though nothing is on its direct line");
     text += fmt::format(": its direct line meets {} ({}) after {:.4g} m", obstacles[0].name,
                         obstacles[0].material->name, obstacles[0].distance_m);
     const std::string through = through_walls(config, features, obstacles);
     if (!through.empty()) text += "; " + through;
-    // Where a body or the ground is around one end alone, nothing but what goes through it gets there.
-    const bool parted = place(lines.state().transmitters[link.tx]) != place(lines.state().receivers[link.rx]);
-    const std::string beside = parted ? "" : around_walls(config, features, around.scene());
-    if (!beside.empty()) text += "; what may lead around it: " + beside;
-    few.add(text);
+    if (parted(around, state.transmitters[link.tx].position_m, state.receivers[link.rx].position_m)) return text;
+    const std::string beside = around_walls(config, features, around.scene());
+    return beside.empty() ? text : text + "; what may lead around it: " + beside;
+  };
+  const auto in_grid = [&](uint32_t rx) {
+    return std::ranges::any_of(config.receiver_grids, [&](const ReceiverGridConfig& grid) {
+      return grid_cell(grid.name, world.receivers()[rx].name).has_value();
+    });
+  };
+  size_t path = 0;  // links and paths are in one order
+  for (const Link& link : state.links) {
+    const size_t first = path;
+    while (path < frame.paths.size() && Link{frame.paths.tx[path], frame.paths.rx[path]} == link) ++path;
+    if (path > first) continue;
+    const bool cell = in_grid(link.rx);
+    std::vector<std::string>& words = cell ? out.why_in_grids : out.why;
+    ++(cell ? out.in_grids : out.links);
+    if (words.size() < MissingLinks::shown) words.push_back(why(link));
   }
-  few.end("more links have no path");
   return out;
 }
 

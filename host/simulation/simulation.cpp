@@ -297,9 +297,14 @@ std::vector<std::string> Simulation::warnings() const {
   return out;
 }
 
-std::vector<std::string> Simulation::explain_missing(uint32_t frame, std::span<const Link> found) const {
+MissingLinks Simulation::explain_missing(const FrameResult& frame) const {
   const State& s = *state_;
-  return wavetracer::explain_missing(s.config, s.features, Surroundings(s.scene), *s.world, frame, found);
+  const Paths& paths = frame.paths;
+  size_t found = 0;  // links that have a path; rows of a link are neighbours
+  for (size_t i = 0; i < paths.size(); ++i)
+    found += i == 0 || paths.tx[i] != paths.tx[i - 1] || paths.rx[i] != paths.rx[i - 1];
+  if (found == frame.world.links.size()) return {};
+  return wavetracer::explain_missing(s.config, s.features, Surroundings(s.scene), *s.world, frame);
 }
 
 const DeviceSummary& Simulation::device() const { return state_->device; }

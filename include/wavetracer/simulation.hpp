@@ -50,6 +50,15 @@ struct CacheSummary {
 // Seconds a stage: device stages from profiling events, host stages from a steady clock.
 using StageSeconds = std::map<std::string, double>;
 
+// Links without a path: why, of the first few, in words, and how many there are. Receivers of grids are counted apart,
+// because those that are inside of houses have none.
+struct MissingLinks {
+  static constexpr size_t shown = 5;
+  uint64_t links = 0, in_grids = 0;
+  std::vector<std::string> why, why_in_grids;
+  bool empty() const { return links + in_grids == 0; }
+};
+
 struct FrameResult {
   uint32_t frame = 0;
   WorldState world;
@@ -60,6 +69,7 @@ struct FrameResult {
   CacheSummary cache;
   WaypointRows waypoints;  // of output.waypoints samples a transmitter
   std::vector<std::string> warnings;
+  MissingLinks missing;  // by Simulation::explain_missing, where somebody asked
 };
 
 struct DeviceSummary {
@@ -130,9 +140,9 @@ class Simulation {
   const Config& config() const;
   const std::vector<Instance>& instances() const;
   const std::vector<Scene>& models() const;
-  // Why the other links of a frame have no path, a few by name: what their direct lines meet first, and which mechanism
-  // that is off may bring something. found: the links that have one, sorted.
-  std::vector<std::string> explain_missing(uint32_t frame, std::span<const Link> found) const;
+  // Why links of a frame have no path: what their direct lines meet first, and which mechanism that is off may bring
+  // something. It costs a pass over the scene.
+  MissingLinks explain_missing(const FrameResult& frame) const;
   // What loading the scene and the trajectories left out or made up; antennas and vehicles in places that cannot be meant.
   std::vector<std::string> warnings() const;
   const DeviceSummary& device() const;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -110,6 +111,16 @@ TEST_CASE("a run warns before it traces, and explains links without a path, on t
   CHECK(none[1] == "no path was found, of 1 links in 1 frame");
   CHECK(warnings({"--set", "trace.transmission=true"}) == std::vector<std::string>{deep});
   CHECK(warnings({"--processes", "2", "--set", "links.receivers=[\"deep\"]"}) == none);
+}
+
+TEST_CASE("a small stack is enough to begin with") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const std::string command = "ulimit -s 64 && exec '" WAVETRACER_PROGRAM "' run -c '" + file + "' -o '" +
+                              folder.path("out") + "' > '" + folder.path("said") + "' 2>&1";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(std::filesystem::file_size(folder.path("out/paths.h5")) > 0);
 }
 
 TEST_CASE("a run says which features it had, why not others, and how many paths of each kind it found") {

@@ -1,6 +1,9 @@
 // Damaged files of every kind end in an InputError or in a scene, never in anything else.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <ctime>
 #include <random>
 
 #include "imported.hpp"
@@ -22,7 +25,83 @@ bool survives(const std::string& text, const TemporaryFolder& folder) {
   return true;
 }
 
+// What the import of a map leaves out, of maps that it may refuse, in seconds of the processor.
+ImportSummary summary_of(const std::string& text) {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.output = folder.path() / "out";
+  const std::clock_t start = std::clock();
+  const ImportSummary summary = import_city(text, "map", options);
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 20);  // before there were limits: minutes to days
+  return summary;
+}
+
+std::string square_polygon(double x, double y, double side, const std::string& type = "building") {
+  return fmt::format("<poly id=\"p\" type=\"{}\" shape=\"{},{} {},{} {},{} {},{}\"/>", type, x, y, x + side, y,
+                     x + side, y + side, x, y + side);
+}
+std::string polygons(const std::string& text) {
+  return "<additional><location netOffset=\"0,0\" projParameter=\"!\"/>" + text + "</additional>";
+}
+
+const std::string too_many = "inside of more than 200 others";
+
 }  // namespace
+
+TEST_CASE("rings and multipolygons of too many nodes are left out before they are assembled") {
+  OsmText map;
+  map.way(rectangle(100, 0, 150, 40), {{"building", "yes"}});
+  Points comb;  // all edges are beside all others
+  for (int i = 0; i < 40000; ++i) comb.emplace_back(i % 4 == 0 || i % 4 == 3 ? 0 : 90, i / 2 * 0.03);
+  map.way(comb, {{"building", "yes"}});
+  const int part = map.way(comb, {});
+  map.relation({{part, "outer"}}, {{"building", "yes"}});
+  CHECK(summary_of(map.text()).left_out.at("more than 5000 corners") == 2);
+}
+
+TEST_CASE("ways that many multipolygons name are not assembled again and again") {
+  OsmText map;
+  map.way(rectangle(100, 0, 150, 40), {{"building", "yes"}});
+  Points comb;
+  for (int i = 0; i < 4990; ++i) comb.emplace_back(i % 4 == 0 || i % 4 == 3 ? 0 : 90, i / 2 * 0.03);
+  const int way = map.way(comb, {});
+  for (int i = 0; i < 2000; ++i) map.relation({{way, "outer"}}, {{"building", "yes"}});
+  CHECK(summary_of(map.text()).left_out.at("multipolygon of ways that are in many others") > 1980);
+}
+
+TEST_CASE("towers of polygons, and parts within them, take no square of their number") {
+  std::string nested, parts;
+  for (int i = 0; i < 20000; ++i) {
+    nested += square_polygon(i * 0.01, i * 0.01, 3000 - 0.02 * i);
+    parts += square_polygon(1400 + i % 100 * 2, 1400 + i / 100 * 2, 1, "building:part");
+  }
+  const ImportSummary summary = summary_of(polygons(nested + parts));
+  CHECK(summary.left_out.at(too_many) > 15000);
+  CHECK(summary.buildings + summary.parts > 0);
+}
+
+TEST_CASE("a building of many courtyards, and one inside of another that touches") {
+  std::string courtyards = square_polygon(0, 0, 4000);
+  for (int i = 0; i < 1200; ++i) courtyards += square_polygon(10 + i % 35 * 100, 10 + i / 35 * 100, 50);
+  const ImportSummary summary = summary_of(polygons(courtyards));
+  CHECK(summary.buildings == 1);
+  CHECK(summary.courtyards == 1200);
+  // The second one has an edge in common with the first: it is no courtyard but a building.
+  const ImportSummary touching = summary_of(polygons(square_polygon(0, 0, 100) + square_polygon(10, 10, 10) +
+                                                     square_polygon(20, 10, 10) + square_polygon(0, 50, 10)));
+  CHECK(touching.courtyards == 1);
+  CHECK(touching.buildings == 3);
+}
+
+TEST_CASE("a report names few types of polygons, in letters that a terminal can show") {
+  std::string text = square_polygon(0, 0, 9);
+  for (int i = 0; i < 200; ++i) text += square_polygon(0, 0, 9, fmt::format("a{}&#27;[31m&#10;", i));
+  const auto left_out = summary_of(polygons(text)).left_out;
+  CHECK(left_out.size() < 60);
+  CHECK(left_out.at("polygon of another type") > 100);
+  for (const auto& [reason, count] : left_out)
+    CHECK(std::ranges::none_of(reason, [](char c) { return static_cast<unsigned char>(c) < ' '; }));
+}
 
 TEST_CASE("texts with bytes changed, cut short, or nested deeply") {
   OsmText map;

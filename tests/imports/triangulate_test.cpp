@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <numbers>
 #include <random>
@@ -111,6 +112,30 @@ TEST_CASE("triangles of random stars with star-shaped holes") {
       }
     }
     if (fault(polygon).empty()) check_triangles(polygon);  // with few corners the outline may cut its holes
+  }
+}
+
+TEST_CASE("a spiral and a comb of 4900 corners, which have few ears at a time, take no cube of their number") {
+  std::vector<glm::dvec2> spiral, comb;
+  for (const int side : {0, 1})
+    for (int k = 0; k < 2450; ++k) {
+      const int i = side == 0 ? k : 2449 - k;
+      const double angle = i * 0.05, radius_m = 20 + 4 * side + 0.7 * i;
+      spiral.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle));
+    }
+  for (int i = 0; i < 4900; ++i) comb.emplace_back(i % 4 == 0 || i % 4 == 3 ? 0 : 3000, i / 2 * 0.5);
+  comb.insert(comb.end(), {{-5, 1225}, {-5, -5}});
+  for (const auto& outline : {spiral, comb}) {
+    Polygon polygon{ring(outline), {}};
+    orient(polygon);
+    REQUIRE(fault(polygon) == "");
+    const std::clock_t start = std::clock();
+    const std::vector<Triangle> triangles = triangulate(polygon);
+    CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 3);  // 20 s when every ear was looked for anew
+    CHECK(triangles.size() == polygon.outer.size() - 2);
+    int64_t sum = 0;
+    for (const Triangle& t : triangles) sum += turn(polygon.outer[t[0]], polygon.outer[t[1]], polygon.outer[t[2]]);
+    CHECK(sum == twice_area(polygon.outer));
   }
 }
 

@@ -24,11 +24,23 @@ const Quad ground{{-100, -100, 0}, {200, 0, 0}, {0, 200, 0}};
 Quad wall(double x) { return {{x, -20, 0}, {0, 40, 0}, {0, 0, 20}}; }
 const Points left{{-10, 0, 2}}, right{{10, 0, 2}};
 
-Texts texts(const std::vector<Part>& parts, const Config& config, const std::vector<Link>& found = {}) {
+// found: links that have a path.
+MissingLinks missing(const std::vector<Part>& parts, const Config& config, const std::vector<Link>& found = {}) {
   const SceneFile file(parts);
   const Scene scene = load_scene_file(file.path(), {});
   const World world(config, scene);
-  return Texts(explain_missing(config, choose_features(config, scene, world), Surroundings(scene), world, 0, found));
+  FrameResult frame;
+  frame.world = world.state(0);
+  for (const Link& link : found) {
+    frame.paths.tx.push_back(link.tx);
+    frame.paths.rx.push_back(link.rx);
+    frame.paths.delay_s.push_back(0);
+  }
+  return explain_missing(config, choose_features(config, scene, world), Surroundings(scene), world, frame);
+}
+
+Texts texts(const std::vector<Part>& parts, const Config& config, const std::vector<Link>& found = {}) {
+  return Texts(missing(parts, config, found).why);
 }
 
 }  // namespace
@@ -89,16 +101,17 @@ TEST_CASE("a vehicle in the way is named; the one that carries the antenna is no
   CHECK(out[0].find("tx0 -> ego/inside has no path: its direct line meets vehicle \"truck\" (metal) after ") == 0);
 }
 
-TEST_CASE("five links, then their number; cells of a grid only where nothing has a path") {
+TEST_CASE("five links by name, all counted, and cells of grids apart") {
   const std::vector<Part> parts{{{ground}}, {{wall(0)}}};
   Points receivers;
   for (int i = 0; i < 9; ++i) receivers.push_back({10, 0.1 * i, 2});
   Config config = config_of("", left, receivers, 1, 3);
-  const Texts out = texts(parts, config);
-  REQUIRE(out.size() == 6);
-  CHECK(out[5] == "4 more links have no path");
-  config = config_of("", left, {}, 1, 3);
   config.receiver_grids = {{.name = "g", .x_min_m = 5, .x_max_m = 15, .y_min_m = -5, .y_max_m = 5, .step_m = 5}};
-  CHECK(texts(parts, config).size() == 4);
-  CHECK(texts(parts, config, {{0, 3}}).empty());
+  const MissingLinks out = missing(parts, config, {{0, 1}, {0, 1}, {0, 8}, {0, 10}});
+  CHECK(out.links == 7);
+  CHECK(out.why.size() == 5);
+  CHECK(out.why[1].find("tx0 -> rx2 has no path") == 0);
+  CHECK(out.in_grids == 3);
+  REQUIRE(out.why_in_grids.size() == 3);
+  CHECK(out.why_in_grids[1].find("tx0 -> g/0,1 has no path") == 0);
 }
