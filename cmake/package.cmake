@@ -1,7 +1,15 @@
 # `cpack -G DEB` in the build folder: the package wavetracer for Debian 12, with what its libraries need.
 # Assumes dpkg-dev (dpkg-shlibdeps) and gzip. tests/install/clean_system.sh installs it in a system of its own.
-set(WAVETRACER_MAINTAINER "wavetracer maintainers <maintainers@wavetracer.example>" CACHE STRING
-    "name and mail address that packages carry")
+# Debian wants a name and an address of who answers for a package: who builds it, as Debian's own tools are told, else
+# whoever minds the machine.
+set(maintainer "wavetracer developers <root@localhost>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(WAVETRACER_MAINTAINER "${maintainer}" CACHE STRING "name and mail address that packages carry: NAME <ADDRESS>")
+if(NOT WAVETRACER_MAINTAINER MATCHES "^[^<>]+ <[^<> ]+@[^<> ]+>$")
+  message(FATAL_ERROR "WAVETRACER_MAINTAINER is \"${WAVETRACER_MAINTAINER}\": give it as NAME <ADDRESS>")
+endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME wavetracer)
 set(CPACK_PACKAGE_CONTACT "${WAVETRACER_MAINTAINER}")

@@ -103,9 +103,9 @@ void export_run(const Options& options) {
   what.output = options.output;
   what.projection = options.projection;
   choose_rows(run, options.frames, what);
+  std::optional<RemoveOnInterrupt> guard(what.output);
   PendingDirectory parent(what.output.has_parent_path() ? what.output.parent_path() : fs::path("."));
   std::vector<std::string> warnings;
-  std::optional<RemoveOnInterrupt> guard(what.output);
   const Written written = exporter.write(run, what, warnings);
   guard.reset();
   parent.keep();

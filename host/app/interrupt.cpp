@@ -6,10 +6,14 @@
 #include <unistd.h>
 #include <csignal>
 #include <iostream>
+#include <vector>
+#include "convert/pending_folder.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 volatile std::sig_atomic_t raised = 0;
 
@@ -21,14 +25,24 @@ sigset_t ending_signals() {
   return set;
 }
 
-void wait_for_signal(const std::stop_token& stop, const std::filesystem::path& temporary) {
+// The path and the folders above it, the innermost first, as far as they are not there.
+std::vector<fs::path> missing(fs::path path) {
+  std::vector<fs::path> out;
+  std::error_code ignored;
+  for (; !path.empty() && path.has_relative_path() && !fs::exists(path, ignored); path = path.parent_path())
+    out.push_back(path);
+  return out;
+}
+
+void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, const std::vector<fs::path>& folders) {
   const sigset_t set = ending_signals();
   const timespec tenth{0, 100'000'000};
   while (!stop.stop_requested()) {
     if (sigtimedwait(&set, nullptr, &tenth) < 0) continue;
+    const auto hold = hold_pending_folders();  // to the end of the process
     std::error_code ignored;
-    for (int twice = 0; twice < 2; ++twice)  // files may be made while others are removed
-      std::filesystem::remove_all(temporary, ignored);
+    fs::remove_all(temporary, ignored);
+    for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty
     std::cerr << "wavetracer: interrupted; nothing was written" << std::endl;
     _exit(static_cast<int>(ExitCode::interrupted));
   }
@@ -44,12 +58,14 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-RemoveOnInterrupt::RemoveOnInterrupt(const std::filesystem::path& output) {
-  std::filesystem::path temporary = output.has_filename() ? output : output.parent_path();
+RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output) {
+  fs::path temporary = output.has_filename() ? output : output.parent_path();
   temporary += fmt::format(".{}.tmp", getpid());  // as output/pending_file.cpp and convert/pending_folder.cpp name it
   const sigset_t set = ending_signals();
   pthread_sigmask(SIG_BLOCK, &set, &before_);
-  waiting_ = std::jthread([temporary](const std::stop_token& stop) { wait_for_signal(stop, temporary); });
+  waiting_ = std::jthread([temporary, folders = missing(output)](const std::stop_token& stop) {
+    wait_for_signal(stop, temporary, folders);
+  });
 }
 
 RemoveOnInterrupt::~RemoveOnInterrupt() {

@@ -12,7 +12,8 @@ void catch_interrupts();
 bool interrupted();
 
 // While it lives, SIGINT and SIGTERM end the process at once, with exit code 130, and leave nothing of what is being
-// written to `output` (PendingFile and PendingFolder) behind. For commands whose work has no places to stop at.
+// written to `output` (PendingFile and PendingFolder) behind, nor the folders above it that are not there yet. For
+// commands whose work has no places to stop at.
 class RemoveOnInterrupt {
  public:
   explicit RemoveOnInterrupt(const std::filesystem::path& output);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 #include "config/spelling.hpp"
+#include "wavetracer/names.hpp"
 
 namespace wavetracer::config {
 namespace {
@@ -103,6 +104,9 @@ std::string assign_text(const Field& field, const std::string& key, std::string&
   if (!text) return wrong_type(field, key, value);
   const std::string& given = text->get();
   if (field.required && given.empty()) return key + " is empty: give it a name";
+  if (field.form == Form::plain && has_control_character(given))  // file systems have odder names
+    return fmt::format("{} = {} has a control character, which tables and plots cannot show: leave it out", key,
+                       toml_string(given));
   to = given;
   if (field.form == Form::input_file || field.form == Form::output_folder) to = resolved_path(folder, given);
   if (field.choices.empty() || std::find(field.choices.begin(), field.choices.end(), given) != field.choices.end())

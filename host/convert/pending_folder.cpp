@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::mutex adding;
+
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw RuntimeError(
       fmt::format("cannot write {}: {}; choose another folder with -o", path.string(), std::strerror(error)));
@@ -40,6 +42,7 @@ PendingFolder::~PendingFolder() {
 }
 
 void PendingFolder::append(const fs::path& name, std::span<const std::byte> bytes) const {
+  const std::lock_guard lock(adding);
   const fs::path file = temporary_ / name;
   std::error_code error;
   if (name.has_parent_path()) fs::create_directories(file.parent_path(), error);
@@ -50,6 +53,8 @@ void PendingFolder::append(const fs::path& name, std::span<const std::byte> byte
   out.close();
   if (!out) fail(path_ / name, errno != 0 ? errno : EIO);
 }
+
+std::unique_lock<std::mutex> hold_pending_folders() { return std::unique_lock(adding); }
 
 fs::path PendingFolder::commit() {
   const int descriptor = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "config/spelling.hpp"
+#include "wavetracer/names.hpp"
 
 namespace wavetracer::live {
 namespace {
@@ -138,8 +139,7 @@ class Object {
   std::string id(const char* key) const {
     std::string out = text(key, max_id_bytes);
     if (out.empty()) refuse("bad_value", name(key) + " is empty");
-    if (std::ranges::any_of(out, [](char c) { return (c >= 0 && c < ' ') || c == 127; }))
-      refuse("bad_value", name(key) + " has control characters");
+    if (has_control_character(out)) refuse("bad_value", name(key) + " has control characters");
     return out;
   }
   bool flag(const char* key) const {

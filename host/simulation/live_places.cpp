@@ -11,6 +11,7 @@
 
 #include "config/spelling.hpp"
 #include "simulation/name_pattern.hpp"
+#include "wavetracer/names.hpp"
 
 namespace wavetracer {
 namespace {
@@ -86,6 +87,7 @@ void LivePlaces::check(const LivePose& pose) const {
   const auto refuse = [&](const char* code, const std::string& what) {
     throw PoseError(code, fmt::format("vehicle \"{}\": {}", pose.id, what));
   };
+  if (has_control_character(pose.id)) refuse("bad_value", "its id has control characters");
   const glm::dvec3 &p = pose.position_m, &lower = bounds_.lower_m, &upper = bounds_.upper_m;
   for (int axis = 0; axis < 3; ++axis)
     if (!(p[axis] >= lower[axis] && p[axis] <= upper[axis]))

@@ -138,6 +138,12 @@ TEST_CASE("what is missing or said twice") {
                  "a.toml:9:8: receiver.name = \"t\" is taken");
   check_contains(error_of(scene + ends + "[[receiver]]\nname = \"\"\nposition_m = [0, 0, 0]\n"),
                  "receiver.name is empty");
+  for (const char* character : {"\\n", "\\u0000", "\\u007f", "\\t"}) {
+    const std::string name = std::string("name = \"a") + character + "b\"";
+    const std::string error = error_of(scene + ends + "[[receiver]]\n" + name + "\nposition_m = [0, 0, 0]\n");
+    check_contains(error, "a.toml:9:8: receiver.name = ");
+    check_contains(error, "has a control character");
+  }
   check_contains(error_of("scene.generate = \"--seed 1\"\n" + scene + ends), "exclude each other");
   check_contains(error_of(scene + "[[material]]\nname = \"m\"\na = 2\npermittivity = 3\n" + ends), "give one kind");
 }

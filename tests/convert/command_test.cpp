@@ -1,6 +1,11 @@
 // `wavetracer convert` as it is typed: formats by name and by suffix, frames by number, and its words where they are
 // not.
 #include <doctest/doctest.h>
+#include <signal.h>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
 #include "app/program.hpp"
 #include "output/output.hpp"
 #include "output/sample_run.hpp"
@@ -13,6 +18,22 @@ namespace {
 std::string sample_folder(const Folder& folder) {
   const SampleRun sample;
   write_outputs(folder.path("run"), sample.run(), sample.drive(5, 5));
+  return folder.path("run");
+}
+
+// A frame with so many receivers, each in a place of its own.
+std::string crowded_folder(const Folder& folder, size_t receivers) {
+  SampleRun sample;
+  std::vector<FrameResult> frames = sample.drive(0, 1);
+  EndState& last = frames.front().world.receivers.back();
+  last.present = true;
+  while (sample.config.receivers.size() < receivers) {
+    sample.config.receivers.push_back({.name = "r" + std::to_string(sample.config.receivers.size())});
+    EndState next = frames.front().world.receivers.back();
+    next.position_m.x += 1;
+    frames.front().world.receivers.push_back(next);
+  }
+  write_outputs(folder.path("run"), sample.run(), frames);
   return folder.path("run");
 }
 
@@ -68,4 +89,29 @@ TEST_CASE("errors say what to do, and leave nothing behind") {
   CHECK(contains(nothing.err, "there is no such file"));
   CHECK(convert({}).code == 2);
   CHECK(convert({run}).code == 2);
+}
+
+TEST_CASE("ns3: more files than a file system bears are refused, with their number") {
+  const Folder folder;
+  const std::string run = crowded_folder(folder, 1000);
+  const Outcome outcome = convert({run, "--to", "ns3", "-o", folder.path("out")});
+  CHECK(outcome.code == 3);
+  CHECK(contains(outcome.err, "ns3: 1002 nodes would be 1003002 files"));
+  CHECK(contains(outcome.err, "at most 1000000 are written"));
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("an export that is interrupted leaves nothing behind") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Folder folder;
+    const std::string run = crowded_folder(folder, 500);  // a quarter of a million files
+    Program program({"convert", run, "--to", "ns3", "-o", folder.path("out/")});
+    for (int i = 0; i < 500 && folder.entries() == 1; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    REQUIRE(folder.entries() > 1);
+    program.signal(signal);
+    const Outcome outcome = program.wait();
+    CHECK(outcome.code == 130);
+    CHECK(contains(outcome.err, "interrupted; nothing was written"));
+    CHECK(folder.entries() == 1);
+  }
 }

@@ -40,6 +40,16 @@ TEST_CASE("attributes that are missing or no numbers") {
   }
 }
 
+TEST_CASE("ids and types without control characters") {
+  const std::string of = "x=\"1\" y=\"2\" angle=\"90\" speed=\"3\"";
+  for (const std::string character : {"&#10;", "&#9;", "&#127;"}) {
+    fails(fcd(timestep("0", "<vehicle id=\"a" + character + "b\" type=\"car\" " + of + "/>")),
+          "its id or type has a control character");
+    fails(fcd(timestep("0", "<vehicle id=\"a\" type=\"c" + character + "r\" " + of + "/>")),
+          "drive.xml:3: <vehicle id=\"a\">: its id or type has a control character");
+  }
+}
+
 TEST_CASE("times and ids out of order") {
   fails(fcd(timestep("5", good) + timestep("4", good)),
         "drive.xml:4: time goes backwards, from 5 s in line 3 to 4 s; timesteps must be in order");

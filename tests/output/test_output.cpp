@@ -107,6 +107,18 @@ TEST_CASE("paths.h5 holds the world of every frame, in file coordinates") {
   CHECK(h5.numbers("/links/rx") == Values{0, 1, 0, 1, 0, 1, 0, 1});
 }
 
+TEST_CASE("links.csv quotes what RFC 4180 wants quoted, and changes no name") {
+  SampleRun sample;
+  const std::vector<std::pair<std::string, std::string>> names = {
+      {"=1+1", "=1+1"}, {"@a", "@a"}, {"-a", "-a"}, {"a\"b", "\"a\"\"b\""}, {"a,b", "\"a,b\""}, {"a b", "a b"}};
+  for (const auto& [name, cell] : names) {
+    CAPTURE(name);
+    sample.config.receivers[0].name = name;
+    const std::string csv = slurp(write_outputs(folder, sample.run(), sample.frames())[1]);
+    CHECK(csv.find("\n0,\"rsu, north\"," + cell + ",1,") != std::string::npos);
+  }
+}
+
 TEST_CASE("links.csv has a row a link, quoted names, and -inf where no path is") {
   const SampleRun sample;
   std::istringstream csv(slurp(write_outputs(folder, sample.run(), sample.frames())[1]));
