@@ -119,9 +119,39 @@ TEST_CASE("device directions are the host's, bit for bit") {
       const Launch launch(map, n);
       size_t different = 0;
       for (uint32_t i = 0; i < n; ++i)
-        different += rays[i] != Ray{{1.5f, -2.25f, 0.125f}, launch.direction(map, i), WT_NONE, WT_ROOT | 3};
+        different +=
+            rays[i] !=
+            Ray{{1.5f, -2.25f, 0.125f}, launch.direction(map, i), WT_NONE, WT_ROOT | 3 | (i & 3) << WT_QUARTER_SHIFT};
       CHECK(different == 0);
     }
+}
+
+TEST_CASE("a ray's quarter is its number in the launch: of every index, of a share, in an order, from the middle on") {
+  GenerateRays generate = generator("horizon", 4000);
+  const auto quarters = [](const RayQueue& queue) {
+    std::vector<uint32_t> out;
+    for (const Ray& ray : download(queue)) {
+      CHECK((ray.node & ~WT_QUARTER_BITS) == (WT_ROOT | 5));
+      out.push_back(ray.node >> WT_QUARTER_SHIFT & 3);
+    }
+    return out;
+  };
+  for (const uint64_t stride : {1, 4, 7}) {
+    CAPTURE(stride);
+    const uint64_t phase = stride - 1;
+    RayQueue queue = make_ray_queue(context(), 140, "rays");
+    generate(queue, launcher(5, {0, 0, 0}), phase, 37, stride);
+    generate(queue, launcher(5, {0, 0, 0}), phase + 37 * stride, 70, stride);
+    std::vector<uint32_t> expected;
+    for (uint32_t number = 0; number < 107; ++number) expected.push_back(number % 4);
+    CHECK(quarters(queue) == expected);
+  }
+  std::vector<uint32_t> order(100 + 16), expected;
+  for (uint32_t k = 0; k < 100; ++k) order[k] = k * 37 % 100;
+  for (uint32_t k = 0; k < 100; ++k) expected.push_back((50 + order[k]) % 4);
+  RayQueue queue = make_ray_queue(context(), 140, "rays");
+  generate(queue, launcher(5, {0, 0, 0}), 50, 100, context().buffer(order, "order"));
+  CHECK(quarters(queue) == expected);
 }
 
 TEST_CASE("large launch indices: the last of 2^31 rays are the host's") {

@@ -44,7 +44,8 @@ void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>&
       std::erase_if(alive, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
       HitList hits = upload_hits(surfaces, rays.size());
       const uint32_t count = scan(hits.block_hits, (queue.count + block - 1) / block);
-      interact(scene, queue, hits, count, set.table(), set.counters(), set.ages(), set.now(), next, false);
+      interact(scene, queue, hits, count, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
+               false);
       std::swap(queue, next);
     }
     if (!set.overflowed()) return;
