@@ -174,7 +174,12 @@ TEST_CASE(
       std::map<std::vector<uint32_t>, uint32_t> out;
       const std::vector<uint64_t> table = set.table().read();
       for (uint32_t slot = 0; slot < table.size(); ++slot)
-        if (table[slot] != WT_EMPTY) out[sequence_of(table, slot).surfaces] = slot;
+        if (table[slot] != WT_EMPTY) {
+          std::vector<uint32_t> surfaces;
+          for (uint32_t n = slot; !(n & WT_ROOT); n = static_cast<uint32_t>(table[n] >> 32))
+            surfaces.insert(surfaces.begin(), static_cast<uint32_t>(table[n]));
+          out[surfaces] = slot;
+        }
       return out;
     };
     std::vector<uint32_t> bits(set.table().size(), 0);

@@ -79,13 +79,16 @@ TEST_CASE(
 }
 
 TEST_CASE("the estimate of the formula, by hand") {
-  MissedCounts of{.frames = 1, .paths = {6, 3, 2, 9}, .rare_power = 0.9, .found_power = 4, .power = 10};
-  const Missed missed = estimate_missed(of);
-  CHECK(missed.paths.estimate == doctest::Approx(0.5 * 36 / 4));
-  CHECK(missed.paths.low ==
-        doctest::Approx(0.375 * std::pow(6 - 1.96 * std::sqrt(6.0), 2) / (4 + 1.96 * std::sqrt(3.0))));
-  CHECK(missed.paths.high == doctest::Approx(std::pow(6 + std::sqrt(7.0), 2) / 4));
-  CHECK(missed.power_share.estimate == doctest::Approx(4.5 * 0.1 / 10));
+  const Missed missed = estimate_missed(
+      {.frames = 1, .paths = {60, 30, 20, 90}, .rare_power = 9, .found_power = 40, .power = 100});
+  const double few = 60 - 1.96 * std::sqrt(60.0), many = 60 + 1.96 * std::sqrt(61.0);
+  CHECK(missed.paths.estimate == doctest::Approx(0.5 * 3600 / 31));
+  CHECK(missed.paths.low == std::floor(0.375 * few * few / (31 + 1.96 * std::sqrt(30.0))));
+  CHECK(missed.paths.low > 15);
+  CHECK(missed.paths.high == doctest::Approx(1.5 * many * many / 31));
+  CHECK(missed.power_share.estimate == doctest::Approx(missed.paths.estimate * 0.1 / 100));
+  CHECK(missed.power_share.low == doctest::Approx(missed.paths.low * 0.1 / 100 / 5));
+  CHECK(missed.power_share.high == doctest::Approx(missed.paths.high * 0.1 / 100 * 5));
 }
 
 TEST_CASE("where nothing was missed by any quarter, three paths of the mean power may be missed") {
