@@ -22,7 +22,7 @@ constexpr double deviations = 1.96;
 constexpr double power_factor = 5;
 
 MissedRange missed_paths(double f1, double f2) {
-  const double few = std::max(f1 - deviations * std::sqrt(f1), 0.0), many = f1 + deviations * std::sqrt(f1 + 1);
+  const double few = std::max(f1 - deviations * std::sqrt(f1), 0.0), many = f1 + deviations * std::sqrt(f1);
   return {.estimate = measured * f1 * f1 / (f2 + 1),
           .low = std::floor(chao * few * few / (f2 + deviations * std::sqrt(f2) + 1)),
           .high = std::max(unseen, most * many * many / (f2 + 1))};

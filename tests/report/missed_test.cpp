@@ -54,7 +54,7 @@ bool holds(const MissedRange& range, double truth) { return range.low <= truth &
 
 TEST_CASE(
     "of simulated launches the intervals hold the truth in nine cases of ten, and the estimate is near in the mean") {
-  for (const double decades : {2.0, 2.5, 3.0})
+  for (const double decades : {1.5, 2.0, 2.5})
     for (const uint32_t count : {20u, 200u, 2000u}) {
       CAPTURE(decades);
       CAPTURE(count);
@@ -73,15 +73,15 @@ TEST_CASE(
       CHECK(power_held >= 90);
       CAPTURE(estimated);
       CAPTURE(truth);
-      CHECK(estimated > truth / 3);
-      CHECK(estimated < truth * 3);
+      CHECK(estimated > truth / 2);
+      CHECK(estimated < 2 * truth + launches);
     }
 }
 
 TEST_CASE("the estimate of the formula, by hand") {
   const Missed missed = estimate_missed(
       {.frames = 1, .paths = {60, 30, 20, 90}, .rare_power = 9, .found_power = 40, .power = 100});
-  const double few = 60 - 1.96 * std::sqrt(60.0), many = 60 + 1.96 * std::sqrt(61.0);
+  const double few = 60 - 1.96 * std::sqrt(60.0), many = 60 + 1.96 * std::sqrt(60.0);
   CHECK(missed.paths.estimate == doctest::Approx(0.5 * 3600 / 31));
   CHECK(missed.paths.low == std::floor(0.375 * few * few / (31 + 1.96 * std::sqrt(30.0))));
   CHECK(missed.paths.low > 15);
