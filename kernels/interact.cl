@@ -1,6 +1,7 @@
 // interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in
 // order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: nothing is reflected.
 // With WT_THROUGH every such ray also goes on straight, in the same place of the queue `through`.
+// quarters: of each node gets the bits of the rays that reach it.
 // With WT_AGES, ages[node] becomes `now` for every node that a ray reaches.
 // With WT_SAMPLES, ends[sample] becomes the node. With WT_LABELS, queues have all planes of records.h.
 #include "lib/block_rank.clh"
@@ -15,12 +16,15 @@ inline void note_end(const global float* rays, uint capacity, uint i, uint node,
 #endif
 }
 
-// Ray i goes on as ray j of a queue, from o along d.
+inline uint quarter_bit(uint word) { return 1u << (word >> WT_QUARTER_SHIFT & 3u); }
+
+// Ray i goes on as ray j of a queue, from o along d, with its quarter.
 inline void store_ray(const global float* rays, const global float* hits, uint capacity, uint i, uint surface,
                       uint node, float3 o, float3 d, global float* queue, uint j) {
   wt_store_float3(queue, capacity, WT_RAY_ORIGIN, j, o);
   wt_store_float3(queue, capacity, WT_RAY_DIRECTION, j, d);
-  wt_store_word(queue, capacity, WT_RAY_NODE, j, node);
+  const uint quarter = wt_load_word(rays, capacity, WT_RAY_NODE, i) & WT_QUARTER_BITS;
+  wt_store_word(queue, capacity, WT_RAY_NODE, j, node | quarter);
   wt_store_word(queue, capacity, WT_RAY_SURFACE, j, surface);
 #if defined(WT_SAMPLES) || defined(WT_LABELS)
   wt_store_word(queue, capacity, WT_RAY_SAMPLE, j, wt_load_word(rays, capacity, WT_RAY_SAMPLE, i));
@@ -37,7 +41,7 @@ inline void store(const global wt_surface* surfaces, const global float* rays, c
                   uint i, uint surface, uint node, uint last, global float* next, global float* through, uint j) {
   float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
 #ifdef WT_THROUGH
-  store_ray(rays, hits, capacity, i, surface, wt_load_word(rays, capacity, WT_RAY_NODE, i),
+  store_ray(rays, hits, capacity, i, surface, wt_node_of(wt_load_word(rays, capacity, WT_RAY_NODE, i)),
             wt_behind(surfaces + surface, hits[i], o, d), d, through, j);
   if (last) return;
 #endif
@@ -59,18 +63,20 @@ inline bool goes_on(uint last) {
 // is kept.
 kernel void interact(const global float* rays, const global float* hits, uint capacity, uint ray_count,
                      const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table,
-                     uint mask, global wt_counters* counters, global float* next, uint last, global uint* ages,
+                     uint mask, global uint* quarters, global wt_counters* counters, global float* next, uint last, global uint* ages,
                      uint now, global uint* ends, global float* through) {
   const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
   const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, ray_count);
   if (first >= ray_count) return;
   uint j = block_offsets[first_block];
-  uint last_parent = WT_NONE, last_surface = WT_NONE, last_node = WT_NONE;
+  uint last_parent = WT_NONE, last_surface = WT_NONE, last_node = WT_NONE, found = 0;
   for (uint i = first; i < end; ++i) {
     const uint surface = wt_load_word(hits, capacity, WT_HIT_SURFACE, i);
     if (surface == WT_NONE) continue;
-    const uint parent = wt_load_word(rays, capacity, WT_RAY_NODE, i);
+    const uint word = wt_load_word(rays, capacity, WT_RAY_NODE, i), parent = wt_node_of(word);
     if (parent != last_parent || surface != last_surface) {
+      wt_note_quarters(quarters, last_node, found);
+      found = 0;
       last_node = wt_trie_insert(table, mask, parent, surface);
       last_parent = parent;
       last_surface = surface;
@@ -79,24 +85,28 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
       if (last_node != WT_NONE) ages[last_node] = now;
 #endif
     }
+    found |= quarter_bit(word);
     note_end(rays, capacity, i, last_node, ends);
     if (goes_on(last)) store(surfaces, rays, hits, capacity, i, surface, last_node, last, next, through, j);
     ++j;
   }
+  wt_note_quarters(quarters, last_node, found);
 }
 #else
 // One ray a work-item, one block a work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
     const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
-    const global wt_surface* surfaces, global ulong* table, uint mask, global wt_counters* counters, global float* next,
-    uint last, global uint* ages, uint now, global uint* ends, global float* through) {
+    const global wt_surface* surfaces, global ulong* table, uint mask, global uint* quarters, global wt_counters* counters,
+    global float* next, uint last, global uint* ages, uint now, global uint* ends, global float* through) {
   local uint alive[WT_BLOCK_MASKS];
   const uint i = get_global_id(0);
   const uint surface = i < ray_count ? wt_load_word(hits, capacity, WT_HIT_SURFACE, i) : WT_NONE;
   wt_mark_block(alive, surface != WT_NONE);
   if (surface == WT_NONE) return;
-  const uint node = wt_trie_insert(table, mask, wt_load_word(rays, capacity, WT_RAY_NODE, i), surface);
+  const uint word = wt_load_word(rays, capacity, WT_RAY_NODE, i);
+  const uint node = wt_trie_insert(table, mask, wt_node_of(word), surface);
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
+  wt_note_quarters(quarters, node, quarter_bit(word));
 #ifdef WT_AGES
   if (node != WT_NONE) ages[node] = now;
 #endif

@@ -2,6 +2,7 @@
 // ray hits something, or never. The queue is labelled; a work-item takes one ray, and 16 receivers at once.
 // With WT_ANSWERED some rays were answered by a ray cache, which then says what they pass.
 #include "lib/hit.clh"
+#include "lib/trie.clh"
 #include "wavetracer/device/waypoints.h"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -41,7 +42,7 @@ inline void append(const global float* rays, uint capacity, uint i, uint receive
                    global wt_reception* out, uint out_capacity, global uint* counter) {
   const uint slot = atomic_inc(counter);
   if (slot >= out_capacity) return;
-  const wt_reception r = {wt_load_word(rays, capacity, WT_RAY_NODE, i),
+  const wt_reception r = {wt_node_of(wt_load_word(rays, capacity, WT_RAY_NODE, i)),
                           wt_load_word(rays, capacity, WT_RAY_REGION, i),
                           receiver,
                           wt_load_word(rays, capacity, WT_RAY_SAMPLE, i),

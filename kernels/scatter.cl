@@ -36,7 +36,7 @@ kernel void lit(const global ulong* table, const global uint* nodes, uint node_c
 
 // rows_per_item rows a work-item. first_row: of each of lit's entries, and row_count after the last; an entry's rows go
 // by tiles, then by receivers. centres: in the coordinates of the scene or model.
-kernel void scatter(const global ulong* table, const global uint4* entries, const global uint* first_row,
+kernel void scatter(const global ulong* table, const global uint* quarters, const global uint4* entries, const global uint* first_row,
                     uint entry_count, uint row_count, uint rows_per_item, const global wt_exact_surface* surfaces,
                     const global uint4* tiles_of, const global double* centres,
                     const global wt_exact_instance* instances, uint max_depth, global wt_solved* solved,
@@ -71,6 +71,7 @@ kernel void scatter(const global ulong* table, const global uint4* entries, cons
     solved[row].depth = 1;
     solved[row].blocked = 0;
     solved[row].node = entries[entry].x;
+    solved[row].quarters = wt_found_by(quarters, entries[entry].x);
     vstore3(p, (size_t)row * max_depth, vertices);
     sequences[(size_t)row * max_depth] = WT_STEP_SCATTERING | (tiles_of[surface].x + tile);
   }

@@ -3,6 +3,7 @@
 // regrow runs once a depth.
 // With WT_AGES, ages[slot] is twice the last frame in which the sequence was met, by a ray, as a neighbour or by a
 // path, and one more if by a ray; a node is never older than its children. `now` is that of rays in this frame.
+// quarters: see lib/trie.clh. What is entered for another sequence is found by who found that one.
 #include "lib/trie.clh"
 
 // Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number.
@@ -14,8 +15,10 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
   if (i < capacity) nodes[i] = slot;
 }
 
-inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* ages, uint now) {
+inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* quarters, uint found,
+                  global uint* ages, uint now) {
   const uint node = wt_trie_insert(table, mask, parent, surface);
+  wt_note_quarters(quarters, node, found << WT_EXCHANGED_SHIFT);
 #ifdef WT_AGES
   if (node != WT_NONE) atomic_max(ages + node, now - 1);
 #endif
@@ -30,7 +33,8 @@ inline uint enter(global ulong* table, uint mask, uint parent, uint surface, glo
 // may miss the other (nearly all missed paths of street scenes are such), so both are entered: for every listed node,
 // every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always.
 kernel void commute(global ulong* table, uint mask, const global uint* nodes, uint node_count,
-                    const global wt_surface* surfaces, global wt_counters* counters, global uint* ages, uint now) {
+                    const global wt_surface* surfaces, global uint* quarters, global wt_counters* counters,
+                    global uint* ages, uint now) {
   const uint i = get_global_id(0);
   if (i >= node_count || (nodes[i] & WT_ROOT)) return;
 #ifdef WT_AGES
@@ -43,6 +47,7 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
     chain[depth] = wt_trie_surface(key);
     parents[depth++] = wt_trie_parent(key);
   }
+  const uint found = wt_load_relaxed_u32(quarters + nodes[i]) & WT_ALL_QUARTERS;
   for (uint k = 0; k + 1 < depth; ++k) {
     const global float* a = surfaces[chain[k]].normal;
     const global float* b = surfaces[chain[k + 1]].normal;
@@ -50,9 +55,9 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
     // A surface never follows itself: its image of an image is the thing itself, and rounding would see a path through
     // it.
     if ((k + 2 < depth && chain[k + 2] == chain[k]) || (k > 0 && chain[k - 1] == chain[k + 1])) continue;
-    uint node = enter(table, mask, parents[k + 1], chain[k], ages, now);
-    node = enter(table, mask, node, chain[k + 1], ages, now);
-    for (uint j = k; j-- > 0;) node = enter(table, mask, node, chain[j], ages, now);
+    uint node = enter(table, mask, parents[k + 1], chain[k], quarters, found, ages, now);
+    node = enter(table, mask, node, chain[k + 1], quarters, found, ages, now);
+    for (uint j = k; j-- > 0;) node = enter(table, mask, node, chain[j], quarters, found, ages, now);
     if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
   }
 }
@@ -60,8 +65,8 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
 // Inserts the nodes of one depth of the old table into the new one, but those older than `oldest`, and notes where they
 // went.
 kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, global uint* moved, global ulong* table,
-                   uint mask, global wt_counters* counters, const global uint* old_ages, global uint* ages,
-                   uint oldest) {
+                   uint mask, const global uint* old_quarters, global uint* quarters, global wt_counters* counters,
+                   const global uint* old_ages, global uint* ages, uint oldest) {
   const uint slot = get_global_id(0);
   if (slot >= old_slots || old_table[slot] == WT_EMPTY) return;
   const uint parent = wt_trie_parent(old_table[slot]);
@@ -75,6 +80,7 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
       wt_trie_insert(table, mask, parent & WT_ROOT ? parent : moved[parent], wt_trie_surface(old_table[slot]));
   moved[slot] = node;
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
+  if (node != WT_NONE) quarters[node] = old_quarters[slot];
 #ifdef WT_AGES
   if (node != WT_NONE) ages[node] = old_ages[slot];
 #endif
@@ -83,8 +89,8 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
 // The sequences of visible paths are as young as the frame, and so are their prefixes.
 // Joined ones are entered.
 kernel void keep(global ulong* table, uint mask, const global wt_solved* solved, uint solved_count,
-                 const global uint* sequences, uint max_depth, global wt_counters* counters, global uint* ages,
-                 uint now) {
+                 const global uint* sequences, uint max_depth, global uint* quarters, global wt_counters* counters,
+                 global uint* ages, uint now) {
   const uint i = get_global_id(0);
   if (i >= solved_count || solved[i].blocked) return;
   if (solved[i].node != WT_NONE) {
@@ -96,7 +102,7 @@ kernel void keep(global ulong* table, uint mask, const global wt_solved* solved,
   for (uint k = 0; k < solved[i].depth; ++k) {
     const uint step = sequences[(size_t)i * max_depth + k];
     if ((step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) continue;  // the trie holds reflections only
-    node = enter(table, mask, node, step, ages, now);
+    node = enter(table, mask, node, step, quarters, solved[i].quarters, ages, now);
   }
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
 }

@@ -3,7 +3,8 @@
 #include "lib/reflections.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-kernel void solve(const global ulong* table, const global double4* transmitters, const global double4* receivers,
+kernel void solve(const global ulong* table, const global uint* quarters, const global double4* transmitters,
+                  const global double4* receivers,
                   const global wt_exact_surface* surfaces, const global double* triangles,
                   const global wt_exact_instance* instances,
                   const global wt_candidate* candidates, uint candidate_count, uint max_depth, global wt_solved* solved,
@@ -35,6 +36,8 @@ kernel void solve(const global ulong* table, const global double4* transmitters,
   solved[slot].depth = depth;
   solved[slot].blocked = 0;
   solved[slot].node = back == WT_NONE ? candidates[i].node : WT_NONE;
+  solved[slot].quarters =
+      wt_found_by(quarters, candidates[i].node) & (back == WT_NONE ? WT_ALL_QUARTERS : wt_found_by(quarters, back));
   for (uint k = 0; k < depth; ++k) {
     const size_t at = (size_t)slot * max_depth + k;
     vstore3(points[k], at, vertices);

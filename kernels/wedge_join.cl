@@ -26,6 +26,7 @@ inline void emit(const global wt_wedge_prefix* a, const global wt_wedge_prefix* 
   out[slot].wedges[0] = wedge_a;
   out[slot].wedges[1] = wedge_b;
   out[slot].receiver = receiver;
+  out[slot].quarters = a->quarters & b->quarters;
 }
 
 // May the leg between a prefix and a point of the edge leave its last surface?

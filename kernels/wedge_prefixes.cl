@@ -4,9 +4,18 @@
 #include "lib/wedge.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
+// Quarters whose rays see the wedge from here on its other face.
+inline uint by_other_face(const global ulong* table, uint mask, const global uint* quarters, uint node, uint seen,
+                          const global wt_wedge* w) {
+  const uint other = w->surfaces[w->surfaces[0] == seen];
+  const uint beside = other == seen ? WT_NONE : wt_trie_find(table, mask, node, other);
+  return beside == WT_NONE ? 0u : wt_found_by(quarters, beside);
+}
+
 // One node a work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
 // entry WT_WEDGE_KEY is what to sort by, and its prefix is listed.
-kernel void wedge_prefixes(const global ulong* table, uint mask, const global uint* nodes, uint node_count,
+kernel void wedge_prefixes(const global ulong* table, uint mask, const global uint* quarters,
+                           const global uint* nodes, uint node_count,
                            const global double4* origins, const global wt_exact_surface* surfaces,
                            const global uint* first_wedges, const global uint* surface_wedges,
                            const global wt_wedge* wedges, global uint* keys,
@@ -18,6 +27,7 @@ kernel void wedge_prefixes(const global ulong* table, uint mask, const global ui
   const uint node = wt_trie_parent(table[nodes[i]]);
   double3 image = origins[origin].xyz;
   for (uint k = 0; k < depth; ++k) image = wt_reflected(surfaces + chain[k], image);
+  const uint found = wt_found_by(quarters, nodes[i]);
   // The vehicle that carries an antenna hides nothing from it, nor does it diffract.
   const uint own = depth == 0 ? wt_end_instance(origins[origin]) : WT_NONE;
   for (uint k = first_wedges[seen]; k < first_wedges[seen + 1]; ++k) {
@@ -30,6 +40,8 @@ kernel void wedge_prefixes(const global ulong* table, uint mask, const global ui
     const uint slot = atomic_inc(&counters->wedge_prefixes);
     if (slot >= capacity) continue;
     keys[slot] = WT_WEDGE_KEY(number, depth);
+    prefixes[slot].quarters =
+        found == WT_ALL_QUARTERS ? found : found | by_other_face(table, mask, quarters, node, seen, w);
     prefixes[slot].node = node;
     prefixes[slot].origin = origin;
     prefixes[slot].depth = depth;

@@ -79,6 +79,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   solved[slot].depth = total;
   solved[slot].blocked = 0;
   solved[slot].node = WT_NONE;
+  solved[slot].quarters = c.quarters;
   size_t at = (size_t)slot * max_depth;
   for (uint k = 0; k < depth; ++k, ++at) {
     vstore3(points[k], at, vertices);

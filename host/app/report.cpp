@@ -97,6 +97,18 @@ std::string path_line(const Totals& totals) {
   return fmt::format("paths      {}{}\n", totals.counts.paths, kinds);
 }
 
+// What rays may have missed; nothing where that is not known.
+std::string missed_line(const Run& run, const Totals& totals) {
+  if (totals.missed.frames == 0) return "";
+  const Missed missed = estimate_missed(totals.missed);
+  const std::string about =
+      missed.paths.estimate < 0.5 ? "probably none" : fmt::format("about {:.0f}", missed.paths.estimate);
+  return fmt::format("missed     {} of {} paths ({:.0f} to {:.0f}), {:.1g} of the power ({:.1g} to {:.1g}): {}\n",
+                     about, totals.counts.paths, missed.paths.low, std::ceil(missed.paths.high),
+                     missed.power_share.estimate, missed.power_share.low, missed.power_share.high,
+                     run.config.trace.rays == 0 ? "a higher trace.recall finds more" : "more trace.rays find more");
+}
+
 std::string count_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
   const uint64_t traced = traced_segments(totals);
@@ -148,7 +160,8 @@ std::string report(const Run& run, const Results& results) {
   if (!run.instances.empty())
     out += fmt::format("vehicles   {} of {} models\n", run.instances.size(), run.models.size());
   if (!run.summary.order.reason.empty()) out += "order      " + run.summary.order.reason + "\n";
-  out += feature_line(run) + count_lines(run, results.totals) + link_lines(run, results);
+  out += feature_line(run) + count_lines(run, results.totals) + link_lines(run, results) +
+         missed_line(run, results.totals);
   out += "written    ";
   for (size_t i = 0; i < results.files.size(); ++i) out += (i == 0 ? "" : ", ") + results.files[i].string();
   return out + "\n";

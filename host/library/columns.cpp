@@ -74,6 +74,7 @@ constexpr Row rows[] = {
     {"aoa_theta_rad", of_paths<&Paths::aoa_theta_rad>},
     {"aoa_phi_rad", of_paths<&Paths::aoa_phi_rad>},
     {"doppler_hz", of_paths<&Paths::doppler_hz>},
+    {"quarters", of_paths<&Paths::quarters>},
     {"vertex_offset", of_paths<&Paths::vertex_offset>},
     {"vertex_position_m", of_paths<&Paths::vertex_position_m>},
     {"vertex_interaction", of_paths<&Paths::vertex_interaction>},

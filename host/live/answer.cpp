@@ -99,6 +99,24 @@ void write_vertices(Line& line, const LiveFrame& frame, size_t first, size_t end
   });
 }
 
+// What rays may have missed in the frame.
+void write_missed(Line& line, const Missed& missed) {
+  const auto range = [&](const char* name, const MissedRange& of) {
+    line.raw(name);
+    line.raw("{\"estimate\":");
+    line.number(of.estimate);
+    line.key("low");
+    line.number(of.low);
+    line.key("high");
+    line.number(of.high);
+    line.raw("}");
+  };
+  line.key("missed");
+  range("{\"paths\":", missed.paths);
+  range(",\"power_share\":", missed.power_share);
+  line.raw("}");
+}
+
 Json vector_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
@@ -191,12 +209,15 @@ std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Det
     line.number(link.rms_delay_spread_s);
     line.key("doppler_spread_hz");
     line.number(link.doppler_spread_hz);
+    line.key("missed_power_share");
+    line.number(link.missed_power_share);
     const size_t end = row + link.paths;
     if (detail != Detail::links) write_paths(line, paths, row, end);
     if (detail == Detail::vertices) write_vertices(line, frame, row, end);
     row = end;
     line.raw("}");
   });
+  if (result.missed.frames > 0) write_missed(line, estimate_missed(result.missed));
   if (!result.warnings.empty()) {
     line.key("warnings");
     line.list(0, result.warnings.size(), [&](size_t i) { line.text(result.warnings[i]); });

@@ -13,7 +13,7 @@ namespace wavetracer {
 namespace {
 
 constexpr std::string_view header =
-    "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los\n";
+    "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,missed_power_share\n";
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
@@ -41,9 +41,9 @@ void write_links_csv(const Run& run, Frames frames, PendingFile& file) {
   for (const FrameResult& frame : frames) {
     text.clear();
     for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:d}\n", frame.world.time_s, tx[link.tx],
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:d},{}\n", frame.world.time_s, tx[link.tx],
                      rx[link.rx], link.paths, link.path_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
-                     link.doppler_spread_hz, link.los);
+                     link.doppler_spread_hz, link.los, link.missed_power_share);
     file.write(bytes(text));
   }
 }

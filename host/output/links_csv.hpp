@@ -9,7 +9,7 @@
 namespace wavetracer {
 
 // tx and rx are the names of the config, or the row number where a name is empty. A link without a path has a gain of
-// "-inf" and delay and Doppler figures of "nan". los is 1 or 0.
+// "-inf" and delay, Doppler and missed figures of "nan". los is 1 or 0.
 void write_links_csv(const Run& run, Frames frames, PendingFile& file);
 
 // The rows of all parts, which write_links_csv() wrote, under one header. Throws RuntimeError.

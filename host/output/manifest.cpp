@@ -33,6 +33,26 @@ void check_files(const Shard& shard) {
       refuse("\"" + file.name + "\" is no file of this shard");
 }
 
+Json encode_missed(const MissedCounts& missed) {
+  return {{"frames", missed.frames},
+          {"paths", missed.paths},
+          {"rare_power", missed.rare_power},
+          {"found_power", missed.found_power},
+          {"power", missed.power}};
+}
+
+MissedCounts decode_missed(const Json& json) {
+  MissedCounts out;
+  out.frames = whole<uint64_t>(json.at("frames"));
+  const std::vector<uint64_t> paths = whole_numbers(json.at("paths"));
+  if (paths.size() != out.paths.size()) refuse("not the four numbers of paths that quarters of a launch found");
+  std::ranges::copy(paths, out.paths.begin());
+  out.rare_power = json.at("rare_power");
+  out.found_power = json.at("found_power");
+  out.power = json.at("power");
+  return out;
+}
+
 Shard decode(const Json& json) {
   Shard shard;
   const Json& run = json.at("run");
@@ -66,6 +86,7 @@ Shard decode(const Json& json) {
   if (kinds.size() != t.kinds.size()) refuse("other kinds of paths than those of this version");
   std::ranges::copy(kinds, t.kinds.begin());
   t.segments_per_depth = whole_numbers(json.at("segments_per_depth"));
+  if (json.contains("missed")) t.missed = decode_missed(json.at("missed"));
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -103,6 +124,7 @@ std::string encode_manifest_line(const Shard& shard) {
                     {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
   json["kinds"] = t.kinds;  // in the order of path_kinds
   json["segments_per_depth"] = t.segments_per_depth;
+  if (t.missed.frames > 0) json["missed"] = encode_missed(t.missed);
   if (t.cache.on) json["cache"] = encode_cache(t.cache);
   json["seconds"] = t.seconds;
   json["warnings"] = t.warnings;

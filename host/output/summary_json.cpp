@@ -1,6 +1,8 @@
 // Builds summary.json; keys keep this order, so that two summaries compare line by line.
 // Numbers that do not exist (a rate without a time) are null.
 #include "output/summary_json.hpp"
+#include <fmt/format.h>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -46,6 +48,13 @@ Json path_counts(const PathKindCounts& kinds) {
   Json json;
   for (size_t i = 0; i < kinds.size(); ++i) json[std::string(path_kinds[i])] = kinds[i];
   return json;
+}
+
+// Three digits: more would be those of rounding, and would depend on how frames were shared out.
+double three_digits(double value) { return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr); }
+
+Json range(const MissedRange& of) {
+  return {{"estimate", three_digits(of.estimate)}, {"low", three_digits(of.low)}, {"high", three_digits(of.high)}};
 }
 
 // Of each: whether it was on, and if not, why.
@@ -113,6 +122,10 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["features"] = features(summary.features);
   json["counts"] = counts(totals);
   json["paths_by_kind"] = path_counts(totals.kinds);
+  if (totals.missed.frames > 0) {
+    const Missed missed = estimate_missed(totals.missed);
+    json["missed"] = {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
+  }
   json["links"] = totals.links;
   json["segments_per_depth"] = totals.segments_per_depth;
   json["seconds"] = stage_seconds(run, totals, write_seconds);

@@ -58,6 +58,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.links = frame.world.links.size();
   totals.counts = frame.counts;
   totals.kinds = count_path_kinds(frame.paths);
+  totals.missed = frame.missed;
   totals.segments_per_depth = frame.segments_per_depth;
   totals.cache = frame.cache;
   for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
@@ -86,6 +87,7 @@ void add(Totals& sum, const Totals& later) {
   sum.links += later.links;
   add(sum.counts, later.counts);
   add(sum.kinds, later.kinds);
+  add(sum.missed, later.missed);
   add(sum.segments_per_depth, later.segments_per_depth);
   add(sum.cache, later.cache);
   for (const auto& [stage, values] : later.seconds)
@@ -96,6 +98,8 @@ void add(Totals& sum, const Totals& later) {
 
 void add_block(Totals& sum, const Totals& more) {
   const bool empty = sum.frames == 0;
+  MissedCounts missed = sum.missed;
+  add_part(missed, more.missed);
   std::map<std::string, std::vector<double>> seconds = sum.seconds;
   for (const auto& [stage, values] : more.seconds) {
     std::vector<double>& all = seconds[stage];
@@ -106,6 +110,7 @@ void add_block(Totals& sum, const Totals& more) {
   add(missing, more.missing);
   add(sum, more);
   if (!empty) sum.frames -= more.frames;
+  sum.missed = missed;
   sum.seconds = std::move(seconds);
   sum.missing = std::move(missing);
 }

@@ -17,6 +17,7 @@ struct Totals {
   uint64_t vertices = 0, links = 0;
   FrameCounts counts;
   PathKindCounts kinds{};  // of counts.paths
+  MissedCounts missed;
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
   std::map<std::string, std::vector<double>> seconds;  // stage -> one value a frame

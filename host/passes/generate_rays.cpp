@@ -27,10 +27,10 @@ GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& direct
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
   generate_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes, queue.capacity,
-            queue.count, count, first, stride, directions_.parameter, directions_.level, directions_.faces,
-            heights_->tables(), heights_->place(from.heights), static_cast<float>(from.position_m.x),
-            static_cast<float>(from.position_m.y), static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter,
-            from.source);
+            queue.count, count, first, stride, static_cast<uint32_t>(first / stride & 3), directions_.parameter,
+            directions_.level, directions_.faces, heights_->tables(), heights_->place(from.heights),
+            static_cast<float>(from.position_m.x), static_cast<float>(from.position_m.y),
+            static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter, from.source);
   queue.count += count;
 }
 

@@ -29,7 +29,8 @@ class GenerateRays {
   // heights: of directions = "horizon"; not given: the first table of LaunchHeights alone.
   GenerateRays(gpu::Context& context, const LaunchDirections& directions,
                std::shared_ptr<const LaunchHeights> heights = {});
-  // Appends the launch indices first, first + stride, ..., `count` of them, of this end.
+  // Appends the launch indices first, first + stride, ..., `count` of them, of this end. Rays of a launch of every
+  // stride-th index are numbered by index / stride.
   void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride = 1);
   // Appends the launch indices first + order[0 .. count - 1]. order has 16 elements more, of any value.
   void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,

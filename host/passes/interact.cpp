@@ -29,13 +29,13 @@ Interact::Interact(gpu::Context& context, bool keep_ages, bool samples, bool lab
 }
 
 void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const HitList& hits, uint32_t hit_count,
-                          gpu::Buffer<uint64_t>& trie, gpu::Buffer<wt_counters>& counters, gpu::Buffer<uint32_t>& ages,
-                          uint32_t now, RayQueue& next, bool last, const gpu::Buffer<uint32_t>* ends,
-                          RayQueue* through) {
+                          gpu::Buffer<uint64_t>& trie, gpu::Buffer<uint32_t>& quarters,
+                          gpu::Buffer<wt_counters>& counters, gpu::Buffer<uint32_t>& ages, uint32_t now, RayQueue& next,
+                          bool last, const gpu::Buffer<uint32_t>* ends, RayQueue* through) {
   gpu::Kernel& kernel = through ? kernel_through_ : kernel_;
   kernel({(rays.count + rays_per_item_ - 1) / rays_per_item_, local_}, "interact", rays.planes, hits.planes,
          rays.capacity, rays.count, hits.block_hits, scene.surfaces, trie, static_cast<uint32_t>(trie.size() - 1),
-         counters, next.planes, static_cast<uint32_t>(last), ages, now, ends ? *ends : ages,
+         quarters, counters, next.planes, static_cast<uint32_t>(last), ages, now, ends ? *ends : ages,
          through ? through->planes : next.planes);
   if (!last) next.count = hit_count;
   if (through) through->count = hit_count;

@@ -14,13 +14,13 @@ class Interact {
   explicit Interact(gpu::Context& context, bool keep_ages = false, bool samples = false, bool labels = false,
                     bool transmission = false);
   // next.count becomes hit_count, unless this is the last depth, when next is left alone. Sequences that rays
-  // reach get the age `now`, where ages are kept. ends: one a sample, needed where samples are followed.
-  // through, of the capacity of the others: its count becomes hit_count, and ray i is ray i of next, not reflected but
-  // behind the surface, with the node that it came with.
+  // reach get the bits of their quarters, and the age `now`, where ages are kept. ends: one a sample, needed where
+  // samples are followed. through, of the capacity of the others: its count becomes hit_count, and ray i is ray i of
+  // next, not reflected but behind the surface, with the node that it came with.
   void operator()(const DeviceScene& scene, const RayQueue& rays, const HitList& hits, uint32_t hit_count,
-                  gpu::Buffer<uint64_t>& trie, gpu::Buffer<wt_counters>& counters, gpu::Buffer<uint32_t>& ages,
-                  uint32_t now, RayQueue& next, bool last, const gpu::Buffer<uint32_t>* ends = nullptr,
-                  RayQueue* through = nullptr);
+                  gpu::Buffer<uint64_t>& trie, gpu::Buffer<uint32_t>& quarters, gpu::Buffer<wt_counters>& counters,
+                  gpu::Buffer<uint32_t>& ages, uint32_t now, RayQueue& next, bool last,
+                  const gpu::Buffer<uint32_t>* ends = nullptr, RayQueue* through = nullptr);
 
  private:
   gpu::Kernel kernel_, kernel_through_;

@@ -82,7 +82,8 @@ std::vector<uint32_t> Scatter::place_rows(uint32_t entry_count) {
 }
 
 SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                                const gpu::Buffer<uint32_t>& nodes, uint32_t node_count) {
+                                const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes,
+                                uint32_t node_count) {
   solved_.count = 0;
   const bool any = node_count > 0 && ends.transmitter_count > 0 && ends.receiver_count > 0;
   const uint32_t entry_count = any ? find_lit(scene, ends, trie, nodes, node_count) : 0;
@@ -92,9 +93,9 @@ SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends,
   solved_.count = first_row.back();
   // A search for the entry serves many rows where there are few cores, and neighbours write side by side elsewhere.
   const uint32_t rows_per_item = context_.info().cpu ? 64 : 1;
-  scatter_({(size_t{solved_.count} + rows_per_item - 1) / rows_per_item, local_}, "scatter", trie, entries_, first_row_,
-           entry_count, solved_.count, rows_per_item, scene.exact_surfaces, tiles_of_, centres_, scene.exact_instances,
-           solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences);
+  scatter_({(size_t{solved_.count} + rows_per_item - 1) / rows_per_item, local_}, "scatter", trie, quarters, entries_,
+           first_row_, entry_count, solved_.count, rows_per_item, scene.exact_surfaces, tiles_of_, centres_,
+           scene.exact_instances, solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences);
   return solved_;
 }
 

@@ -19,7 +19,8 @@ class Scatter {
   // wt_solved::node is that of the tile's surface, seen from the transmitter.
   // Throws RuntimeError, naming trace.tile_m, where the rows outgrow the buffers of the device.
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                         const gpu::Buffer<uint32_t>& nodes, uint32_t node_count);
+                         const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes,
+                         uint32_t node_count);
 
  private:
   // Fills entries_, all of them; their number.

@@ -26,6 +26,7 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
 
 void Sequences::resize(uint64_t slots) {
   table_ = context_.buffer<uint64_t>(slots, "sequences");
+  quarters_ = context_.buffer<uint32_t>(slots, "quarters of sequences");
   ages_ = context_.buffer<uint32_t>(keep_ages_ ? slots : 1, "ages of sequences");
   context_.fill(ages_, 0, "sequences");
   clear();
@@ -33,6 +34,7 @@ void Sequences::resize(uint64_t slots) {
 
 void Sequences::clear() {
   context_.fill(table_, WT_EMPTY, "sequences");
+  context_.fill(quarters_, 0, "sequences");
   counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
 }
 
@@ -43,16 +45,17 @@ void Sequences::begin_frame() {
 
 gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest) {
   const gpu::Buffer<uint64_t> old_table = table_;
-  const gpu::Buffer<uint32_t> old_ages = ages_;
+  const gpu::Buffer<uint32_t> old_quarters = quarters_, old_ages = ages_;
   gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old_table.size(), "moved sequences");
   for (;; slots *= 4) {
-    // Checked at every step: a slot must leave the bit of WT_ROOT free.
-    if (slots > uint64_t{1} << 30)
-      throw RuntimeError("the set of distinct sequences has outgrown 2^30 slots; lower trace.rays or trace.max_depth");
+    // Checked at every step: a slot must leave the bits of WT_ROOT and of a ray's quarter free.
+    if (slots > uint64_t{1} << WT_QUARTER_SHIFT)
+      throw RuntimeError("the set of distinct sequences has outgrown 2^29 slots; lower trace.rays or trace.max_depth");
     resize(slots);
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
       regrow_({old_table.size(), 64}, "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth, moved,
-              table_, static_cast<uint32_t>(table_.size() - 1), counters_, old_ages, ages_, oldest);
+              table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_, old_ages, ages_,
+              oldest);
     if (!overflowed()) return moved;
   }
 }
@@ -70,13 +73,13 @@ void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
   // What does not fit is found again.
   keep_({solved.count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), solved.headers, solved.count,
-        solved.sequences, solved.max_depth, counters_, ages_, now());
+        solved.sequences, solved.max_depth, quarters_, counters_, ages_, now());
 }
 
 void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   for (;;) {
     commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
-             surfaces, counters_, ages_, now());
+             surfaces, quarters_, counters_, ages_, now());
     if (!overflowed()) return;
     // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
     // full.

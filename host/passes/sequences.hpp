@@ -14,6 +14,9 @@ class Sequences {
   // Empties the set and the counters.
   void clear();
   gpu::Buffer<uint64_t>& table() { return table_; }
+  // Of the slots: which quarters of the launches found them, see wt_found_by in kernels/lib/trie.clh. They live as long
+  // as the sequence.
+  gpu::Buffer<uint32_t>& quarters() { return quarters_; }
   gpu::Buffer<wt_counters>& counters() { return counters_; }
   // Of the slots: twice the last frame, counted by begin_frame, in which a ray, an exchange or a path was there, and
   // one more if a ray was. One element if not kept.
@@ -49,7 +52,7 @@ class Sequences {
   bool keep_ages_;
   gpu::Kernel collect_, commute_, regrow_, follow_, keep_;
   gpu::Buffer<uint64_t> table_;
-  gpu::Buffer<uint32_t> ages_;
+  gpu::Buffer<uint32_t> quarters_, ages_;
   uint32_t frame_ = 1;
   gpu::Buffer<uint32_t> nodes_;
   uint32_t roots_ = 0;  // roots at the head of nodes_

@@ -14,12 +14,12 @@ Solve::Solve(gpu::Context& context, uint32_t max_depth) : context_(context), ker
 }
 
 SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                              const gpu::Buffer<wt_candidate>& candidates, uint32_t candidate_count,
-                              gpu::Buffer<wt_counters>& counters) {
+                              const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<wt_candidate>& candidates,
+                              uint32_t candidate_count, gpu::Buffer<wt_counters>& counters) {
   solved_.count = fill_list(
       counters, &wt_counters::solved, "solve", [&] { return solved_.headers.size(); },
       [&] {
-        kernel_({candidate_count, 16}, "solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
+        kernel_({candidate_count, 16}, "solve", trie, quarters, ends.transmitters, ends.receivers, scene.exact_surfaces,
                 scene.exact_triangles, scene.exact_instances, candidates, candidate_count, solved_.max_depth,
                 solved_.headers, solved_.vertices, solved_.sequences, static_cast<uint32_t>(solved_.headers.size()),
                 counters);

@@ -11,8 +11,8 @@ class Solve {
  public:
   Solve(gpu::Context& context, uint32_t max_depth);
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                         const gpu::Buffer<wt_candidate>& candidates, uint32_t candidate_count,
-                         gpu::Buffer<wt_counters>& counters);
+                         const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<wt_candidate>& candidates,
+                         uint32_t candidate_count, gpu::Buffer<wt_counters>& counters);
 
  private:
   gpu::Context& context_;

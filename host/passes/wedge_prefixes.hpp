@@ -20,7 +20,8 @@ class WedgePrefixes {
   explicit WedgePrefixes(gpu::Context& context);
   // nodes: of the trie, in any order; roots among them are passed over. The keys are not sorted yet.
   WedgePrefixList& operator()(const DeviceScene& scene, const Wedges& wedges, const RadioEnds& ends,
-                              const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
+                              const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
+                              const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                               gpu::Buffer<wt_counters>& counters);
 
  private:

@@ -171,6 +171,8 @@ Paths FieldModel::compute(uint32_t frame, PathGeometry found, const WorldState& 
   paths.tx_ports = tx_ports_;
   resize(paths, geometry.size(), geometry.vertex.size());
   std::ranges::fill(paths.frame, frame);
+  if (!geometry.quarters.empty())
+    for (const uint32_t path : order) paths.quarters.push_back(geometry.quarters[path]);
   for (size_t row = 0; row < order.size(); ++row)
     paths.vertex_offset[row + 1] =
         paths.vertex_offset[row] + geometry.first[order[row] + 1] - geometry.first[order[row]];

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wavetracer/missed.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -48,6 +50,9 @@ LinkFigures figures(const Paths& paths, RowRange rows) {
   } else {
     link.mean_delay_s = link.rms_delay_spread_s = link.doppler_spread_hz = std::numeric_limits<double>::quiet_NaN();
   }
+  const MissedCounts missed = missed_counts(paths, rows.begin, rows.end);
+  link.missed_power_share = missed.frames > 0 && power > 0 ? estimate_missed(missed).power_share.estimate
+                                                           : std::numeric_limits<double>::quiet_NaN();
   return link;
 }
 

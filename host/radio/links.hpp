@@ -10,7 +10,8 @@
 
 namespace wavetracer {
 
-// Delay and Doppler figures are weighted by power; they are NaN, and the gain is -inf, where no power arrives.
+// Delay and Doppler figures are weighted by power; they and the missed share are NaN, and the gain is -inf, where no
+// power arrives.
 struct LinkFigures {
   uint32_t frame = 0, tx = 0, rx = 0;
   uint32_t paths = 0;
@@ -19,6 +20,8 @@ struct LinkFigures {
   double rms_delay_spread_s = 0;
   double doppler_spread_hz = 0;  // rms about the mean
   bool los = false;              // one of the paths has no interaction
+  // Power that was missed, estimated (wavetracer/missed.hpp), against that which arrives; NaN where that is not known.
+  double missed_power_share = 0;
 };
 
 // One entry for each of the frame's links, in their order; a link without a path is there with paths = 0.

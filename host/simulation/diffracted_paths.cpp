@@ -16,8 +16,8 @@ DiffractedPaths::DiffractedPaths(gpu::Context& context, Wedges wedges, const std
 SolvedList& DiffractedPaths::operator()(const DeviceScene& scene, const RadioEnds& ends, Sequences& sequences,
                                     uint32_t node_count, uint64_t& candidates) {
   wedges_(scene);
-  WedgePrefixList& prefixes =
-      prefixes_(scene, wedges_, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
+  WedgePrefixList& prefixes = prefixes_(scene, wedges_, ends, sequences.table(), sequences.quarters(),
+                                        sequences.nodes(), node_count, sequences.counters());
   const size_t words = sort_.temporary_words(prefixes.count);
   if (temporary_.size() < words) temporary_ = context_.buffer<uint32_t>(words + words / 4, "sort");
   if (prefixes.count > 0) sort_(prefixes.keys, prefixes.order, prefixes.count, temporary_, wedges_.key_bits());

@@ -255,8 +255,9 @@ void Discovery::trace_reflected(const DeviceScene& scene, Interact& interact, Di
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
     const bool split = stage.transmissions > 0 && depth < depth_;
     if (depth <= depth_)
-      interact(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.counters(), sequences_.ages(),
-               sequences_.now(), next_, depth == last, ends, split ? &transmitted_[depth - 1] : nullptr);
+      interact(scene, rays_, hits_, hit_count, sequences_.table(), sequences_.quarters(), sequences_.counters(),
+               sequences_.ages(), sequences_.now(), next_, depth == last, ends,
+               split ? &transmitted_[depth - 1] : nullptr);
     if (split) waiting.push_back({depth + 1, stage.transmissions - 1});
     counts.segments_per_depth[depth - 1] += rays_.count;
     counts.hits += hit_count;

@@ -39,8 +39,9 @@ bool one_path(const PathGeometry& paths, uint32_t a, uint32_t b) {
 }
 
 // Sorts the rows of one link, moves those that differ from every earlier one to the front, and returns their number.
-// Rows of one depth are compared through their first vertex's x.
-size_t keep_distinct(const PathGeometry& paths, std::span<uint32_t> rows) {
+// What the others were found by, those that stay were found by, too. Rows of one depth are compared through their first
+// vertex's x.
+size_t keep_distinct(const PathGeometry& paths, std::span<uint32_t> rows, std::vector<uint8_t>& quarters) {
   std::ranges::sort(rows, [&](uint32_t a, uint32_t b) {
     const auto order = compare_sequences(paths, a, b);
     return order != 0 ? order < 0 : a < b;
@@ -57,14 +58,21 @@ size_t keep_distinct(const PathGeometry& paths, std::span<uint32_t> rows) {
     by_x[at] = {points.size(), points.empty() ? 0.0 : points[0].x, at};
   }
   std::ranges::sort(by_x, {}, [](const Place& p) { return std::tuple(p.depth, p.x, p.at); });
-  std::vector<char> dropped(rows.size(), 0);
-  for (size_t at = 1; at < rows.size(); ++at) dropped[at] = compare_sequences(paths, rows[at - 1], rows[at]) == 0;
+  std::vector<uint32_t> same(rows.size());  // the first that each is the same as
+  std::iota(same.begin(), same.end(), 0);
+  for (uint32_t at = 1; at < rows.size(); ++at)
+    if (compare_sequences(paths, rows[at - 1], rows[at]) == 0) same[at] = at - 1;
   for (size_t a = 0; a < by_x.size(); ++a)
     for (size_t b = a + 1; b < by_x.size() && by_x[a].near(by_x[b]); ++b)
-      if (one_path(paths, rows[by_x[a].at], rows[by_x[b].at])) dropped[std::max(by_x[a].at, by_x[b].at)] = 1;
+      if (one_path(paths, rows[by_x[a].at], rows[by_x[b].at])) {
+        const auto [first, second] = std::minmax(by_x[a].at, by_x[b].at);
+        same[second] = std::min(same[second], first);
+      }
+  if (!quarters.empty())
+    for (size_t at = rows.size(); at-- > 0;) quarters[rows[same[at]]] |= quarters[rows[at]];
   size_t kept = 0;
   for (size_t at = 0; at < rows.size(); ++at)
-    if (!dropped[at]) rows[kept++] = rows[at];
+    if (same[at] == at) rows[kept++] = rows[at];
   return kept;
 }
 
@@ -72,15 +80,19 @@ size_t keep_distinct(const PathGeometry& paths, std::span<uint32_t> rows) {
 
 PathGeometry distinct_paths(const PathGeometry& found) {
   LinkGroups links = group_by_link(found.tx, found.rx);
+  std::vector<uint8_t> quarters = found.quarters;
   std::vector<size_t> kept(links.size());
-  tbb::parallel_for(size_t{0}, links.size(), [&](size_t link) { kept[link] = keep_distinct(found, links.rows(link)); });
+  tbb::parallel_for(size_t{0}, links.size(),
+                    [&](size_t link) { kept[link] = keep_distinct(found, links.rows(link), quarters); });
   std::vector<uint32_t> rows;
   rows.reserve(found.size());
   for (size_t link = 0; link < links.size(); ++link) {
     const auto of_link = links.rows(link).first(kept[link]);
     rows.insert(rows.end(), of_link.begin(), of_link.end());
   }
-  return rows_of(found, rows);
+  PathGeometry out = rows_of(found, rows);
+  for (size_t i = 0; i < out.quarters.size(); ++i) out.quarters[i] = quarters[rows[i]];
+  return out;
 }
 
 }  // namespace wavetracer

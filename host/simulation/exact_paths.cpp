@@ -55,7 +55,8 @@ PathGeometry ExactPaths::operator()(const DeviceScene& scene, const RadioEnds& e
     append(diffracted, sequences, paths, host);
   }
   if (scatter_) {
-    SolvedList& scattered = (*scatter_)(scene, ends, sequences.table(), sequences.nodes(), node_count);
+    SolvedList& scattered =
+        (*scatter_)(scene, ends, sequences.table(), sequences.quarters(), sequences.nodes(), node_count);
     counts.candidates += scattered.count;
     check_legs(scene, ends, scattered, counts);
     append(scattered, sequences, paths, host);
@@ -68,7 +69,7 @@ SolvedList& ExactPaths::specular(const DeviceScene& scene, const RadioEnds& ends
   uint32_t count = candidates_(scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
   if (meeting_) count = (*meeting_)(scene, ends, sequences, node_count, candidates_.list(), count);
   counts.candidates = count;
-  return solve_(scene, ends, sequences.table(), candidates_.list(), count, sequences.counters());
+  return solve_(scene, ends, sequences.table(), sequences.quarters(), candidates_.list(), count, sequences.counters());
 }
 
 void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, FrameCounts& counts) {

@@ -50,6 +50,7 @@ PathGeometry paths_of(const LinkBlock& block, const PathGeometry& paths) {
   PathGeometry out;
   out.tx = cut(paths.tx, from, to);
   out.rx = cut(paths.rx, from, to);
+  if (!paths.quarters.empty()) out.quarters = cut(paths.quarters, from, to);
   out.first = cut(paths.first, from, to + 1);
   for (uint64_t& first : out.first) first -= base;
   out.surface = cut(paths.surface, base, last);

@@ -29,6 +29,7 @@ PathGeometry with_reversed_twins(PathGeometry paths, std::span<const uint32_t> r
     source.push_back(row);
     paths.tx.push_back(twin->tx);
     paths.rx.push_back(twin->rx);
+    if (!paths.quarters.empty()) paths.quarters.push_back(paths.quarters[row]);
     paths.first.push_back(paths.first.back() + paths.first[row + 1] - paths.first[row]);
   }
   if (source.empty()) return paths;

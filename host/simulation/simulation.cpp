@@ -399,7 +399,9 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   }
 
   const double paths_seconds = host_watch.lap();
+  if (sphere || cache) geometry.quarters.clear();  // what they find, no smaller launch tells of
   out.paths = fields->compute(frame, std::move(geometry), out.world, &left_out);
+  if (found.rays > 0) out.missed = missed_counts(out.paths, 0, out.paths.size());
   const double fields_seconds = host_watch.lap(), frame_seconds = watch.lap();
 
   out.seconds = context->profile();

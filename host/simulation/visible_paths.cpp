@@ -35,6 +35,7 @@ void append_visible(const SolvedList& solved, PathGeometry& out) {
     visible.push_back(i);
     out.tx.push_back(headers[i].transmitter);
     out.rx.push_back(headers[i].receiver);
+    out.quarters.push_back(static_cast<uint8_t>(headers[i].quarters));
     out.first.push_back(out.first.back() + headers[i].depth);
   }
   out.surface.resize(out.first.back());

@@ -22,6 +22,9 @@ struct Paths {
   std::vector<double> delay_s, gain_db;
   std::vector<std::array<std::complex<double>, 4>> a;
   std::vector<double> aod_theta_rad, aod_phi_rad, aoa_theta_rad, aoa_phi_rad, doppler_hz;
+  // Which quarters of the launch found the path, a bit each (missed.hpp); empty where that is not known. A path that
+  // needs no ray has all four.
+  std::vector<uint8_t> quarters;
   std::vector<uint64_t> vertex_offset{0};  // size() + 1 entries
   // One entry an interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 #include "wavetracer/config.hpp"
+#include "wavetracer/missed.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/waypoints.hpp"
@@ -64,6 +65,7 @@ struct FrameResult {
   WorldState world;
   Paths paths;
   FrameCounts counts;
+  MissedCounts missed;  // frames = 0 with a ray cache or trace.reception = "sphere", and where no rays were launched
   StageSeconds seconds;
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;

@@ -107,6 +107,8 @@ typedef struct wavetracer_column {
                                                              does not have are 0.
      aod_theta_rad, aod_phi_rad, aoa_theta_rad, aoa_phi_rad  float64    from +z; from +x towards +y
      doppler_hz                                              float64
+     quarters                                                uint8      a bit for each quarter of the launch that found
+                                                             the path; no rows where that is not known
    Rows vertex_offset[i] to vertex_offset[i + 1] of these are the interactions of path i, from the transmitter on:
      vertex_offset                                           uint64     one row more than there are paths
      vertex_position_m                                       float64 x 3, file coordinates

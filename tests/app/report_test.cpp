@@ -57,3 +57,19 @@ TEST_CASE("the report counts what was solved, or with spheres what was caught, a
   CHECK(contains(app::report(sample.run(), results), "\nsequences  80 distinct, 6 segments passed receivers\n"));
   CHECK(contains(app::report(sample.run(), results), "\nwritten    out/paths.h5, out/waypoints.h5\n"));
 }
+
+TEST_CASE("the report ends with what may have been missed, where that is known") {
+  SampleRun sample;
+  app::Results results{totals_of(sample.frames()), 8, {}, {}};
+  const auto report = [&] { return app::report(sample.run(), results); };
+  CHECK_FALSE(contains(report(), "missed"));
+  results.totals.missed = {.frames = 1, .paths = {6, 3, 2, 9}, .rare_power = 9e-6, .found_power = 0.4, .power = 1};
+  CHECK(contains(report(),
+                 "\nmissed     about 4 of 5 paths (0 to 44), 5e-06 of the power (0 to 0.0002): more trace.rays "
+                 "find more\n"));
+  results.totals.missed.paths = {0, 0, 0, 9};
+  sample.config.trace.rays = 0;
+  CHECK(contains(report(),
+                 "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.7): a higher "
+                 "trace.recall finds more\n"));
+}

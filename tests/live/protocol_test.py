@@ -88,7 +88,9 @@ def steps_and_detail(listen):
                 # The truck carries no antenna; rsu sends and does not listen.
                 expect(names == {("rsu", "ego/roof"), ("rsu", "other/roof"), ("ego/roof", "other/roof"),
                                  ("other/roof", "ego/roof")}, names)
+                expect(answer["missed"]["paths"]["high"] >= answer["missed"]["paths"]["low"] >= 0, answer["missed"])
                 for link in answer["links"]:
+                    expect(not link["paths"] or link["missed_power_share"] >= 0, link)
                     expect(("delay_s" in link) == (detail != "links"), link)
                     expect(("vertices_m" in link) == (detail == "vertices"), link)
                     if detail != "links" and link["paths"]:

@@ -125,11 +125,12 @@ TEST_CASE("links.csv has a row a link, quoted names, and -inf where no path is")
   std::vector<std::string> lines;
   for (std::string line; std::getline(csv, line);) lines.push_back(line);
   REQUIRE(lines.size() == 1 + 2 * 4);
-  CHECK(lines[0] == "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los");
+  CHECK(lines[0] ==
+        "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,missed_power_share");
   CHECK(lines[1].starts_with("0,\"rsu, north\",car,1,"));
-  CHECK(lines[1].ends_with(",1"));
+  CHECK(lines[1].ends_with(",1,nan"));
   CHECK(lines[2].starts_with("0,\"rsu, north\",1,1,"));
-  CHECK(lines[2].ends_with(",0"));
+  CHECK(lines[2].ends_with(",0,nan"));
   CHECK(lines[4].starts_with("0,rsu,1,0,-inf,"));
   CHECK(lines[5].starts_with("0.1,\"rsu, north\",car,1,"));
 }

@@ -66,7 +66,8 @@ inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Seq
     std::erase_if(sequences, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
     HitList hits = upload_hits(surfaces, rays.size());
     const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
-    interact(scene, queue, hits, alive, set.table(), set.counters(), set.ages(), set.now(), next, false);
+    interact(scene, queue, hits, alive, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
+             false);
     std::swap(queue, next);
   }
 }
@@ -150,7 +151,7 @@ struct Exact {
       candidates.emplace(s, c.receiver);
     }
     Solve solve(context(), max_depth);
-    SolvedList& list = solve(uploaded, ends, set.table(), find.list(), candidate_count, set.counters());
+    SolvedList& list = solve(uploaded, ends, set.table(), set.quarters(), find.list(), candidate_count, set.counters());
     Occlusion occlusion(context(), uploaded);
     if (list.count > 0) occlusion(uploaded, ends, list);
     read(list);

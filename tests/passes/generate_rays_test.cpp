@@ -44,6 +44,11 @@ Launcher launcher(uint32_t transmitter, glm::dvec3 position_m, uint32_t source =
   return {transmitter, position_m, source, 1};
 }
 
+// What a ray of this number in its launch begins as.
+uint32_t numbered(uint32_t root, uint64_t number) {
+  return root | static_cast<uint32_t>(number & 3) << WT_QUARTER_SHIFT;
+}
+
 GenerateRays generator(const std::string& map, uint64_t n) {
   return GenerateRays(context(), LaunchDirections(map, n, seed), launch_heights());
 }
@@ -119,9 +124,38 @@ TEST_CASE("device directions are the host's, bit for bit") {
       const Launch launch(map, n);
       size_t different = 0;
       for (uint32_t i = 0; i < n; ++i)
-        different += rays[i] != Ray{{1.5f, -2.25f, 0.125f}, launch.direction(map, i), WT_NONE, WT_ROOT | 3};
+        different +=
+            rays[i] != Ray{{1.5f, -2.25f, 0.125f}, launch.direction(map, i), WT_NONE, numbered(WT_ROOT | 3, i)};
       CHECK(different == 0);
     }
+}
+
+TEST_CASE("a ray's quarter is its number in the launch: of every index, of a share, in an order, from the middle on") {
+  GenerateRays generate = generator("horizon", 4000);
+  const auto quarters = [](const RayQueue& queue) {
+    std::vector<uint32_t> out;
+    for (const Ray& ray : download(queue)) {
+      CHECK((ray.node & ~WT_QUARTER_BITS) == (WT_ROOT | 5));
+      out.push_back(ray.node >> WT_QUARTER_SHIFT & 3);
+    }
+    return out;
+  };
+  for (const uint64_t stride : {1, 4, 7}) {
+    CAPTURE(stride);
+    const uint64_t phase = stride - 1;
+    RayQueue queue = make_ray_queue(context(), 140, "rays");
+    generate(queue, launcher(5, {0, 0, 0}), phase, 37, stride);
+    generate(queue, launcher(5, {0, 0, 0}), phase + 37 * stride, 70, stride);
+    std::vector<uint32_t> expected;
+    for (uint32_t number = 0; number < 107; ++number) expected.push_back(number % 4);
+    CHECK(quarters(queue) == expected);
+  }
+  std::vector<uint32_t> order(100 + 16), expected;
+  for (uint32_t k = 0; k < 100; ++k) order[k] = k * 37 % 100;
+  for (uint32_t k = 0; k < 100; ++k) expected.push_back((50 + order[k]) % 4);
+  RayQueue queue = make_ray_queue(context(), 140, "rays");
+  generate(queue, launcher(5, {0, 0, 0}), 50, 100, context().buffer(order, "order"));
+  CHECK(quarters(queue) == expected);
 }
 
 TEST_CASE("large launch indices: the last of 2^31 rays are the host's") {
@@ -172,7 +206,10 @@ TEST_CASE("a share of the directions: every stride-th launch index, with the sur
       const Launch launch(map, n);
       size_t different = 0;
       for (uint32_t k = 0; k < count; ++k)
-        different += rays[k] != Ray{{1, 2, 3}, launch.direction(map, 7 + stride * k), source, WT_ROOT | 2};
+        different += rays[k] != Ray{{1, 2, 3},
+                                    launch.direction(map, 7 + stride * k),
+                                    source,
+                                    numbered(WT_ROOT | 2, (7 + stride * k) / stride)};
       CHECK(different == 0);
     }
 }
@@ -201,7 +238,9 @@ TEST_CASE("an order is followed, and its rays leave what they should") {
   const Launch launch("hilbert", n);
   size_t different = 0;
   for (uint32_t k = 0; k < count; ++k)
-    different += rays[k] != Ray{{4, 5, 6}, launch.direction("hilbert", first + order[k]), source, WT_ROOT | 1};
+    different +=
+        rays[k] !=
+        Ray{{4, 5, 6}, launch.direction("hilbert", first + order[k]), source, numbered(WT_ROOT | 1, first + order[k])};
   CHECK(different == 0);
 }
 
@@ -245,7 +284,8 @@ TEST_CASE("samples: the ray of a cell and a launcher, with its number, and an en
       const device::wt_direction d = (map == "horizon" ? device::wt_direction_horizon : device::wt_direction_hilbert)(
           cell[i], directions.parameter, directions.level, directions.faces, height_tables().data(),
           from * height_table_size);
-      different += rays[k] != Ray{to_float(origins[from]), {d.x, d.y, d.z}, sources[from], roots[from]};
+      different +=
+          rays[k] != Ray{to_float(origins[from]), {d.x, d.y, d.z}, sources[from], numbered(roots[from], cell[i])};
       different += std::bit_cast<uint32_t>(numbers[k]) != i;
     }
     CHECK(different == 0);

@@ -39,7 +39,7 @@ Met meet(const std::vector<reference::Quad>& quads, const std::vector<glm::dvec3
   Met out;
   out.joined = join(scene, radio, set.nodes(), candidates, 0, set.counters());
   Solve solve(context(), max_depth);
-  const SolvedList& solved = solve(scene, radio, set.table(), candidates, out.joined, set.counters());
+  const SolvedList& solved = solve(scene, radio, set.table(), set.quarters(), candidates, out.joined, set.counters());
   if (solved.count == 0) return out;
   const auto headers = solved.headers.read(0, solved.count);
   const auto surfaces = solved.sequences.read(0, size_t{solved.count} * max_depth);

@@ -70,8 +70,9 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
   const uint32_t node_count =
       set.collect(static_cast<uint32_t>(world.transmitters.size() + world.listeners.size()));
   Scatter scatter(context(), tiles, world.surface_count(), max_depth);
-  scatter(scene, ends, set.table(), set.nodes(), node_count);  // twice: nothing of the first run may be left
-  SolvedList& list = scatter(scene, ends, set.table(), set.nodes(), node_count);
+  scatter(scene, ends, set.table(), set.quarters(), set.nodes(),
+          node_count);  // twice: nothing of the first run may be left
+  SolvedList& list = scatter(scene, ends, set.table(), set.quarters(), set.nodes(), node_count);
   Run run;
   run.listed = list.count;
   if (list.count == 0) return run;

@@ -44,7 +44,8 @@ void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>&
       std::erase_if(alive, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
       HitList hits = upload_hits(surfaces, rays.size());
       const uint32_t count = scan(hits.block_hits, (queue.count + block - 1) / block);
-      interact(scene, queue, hits, count, set.table(), set.counters(), set.ages(), set.now(), next, false);
+      interact(scene, queue, hits, count, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
+               false);
       std::swap(queue, next);
     }
     if (!set.overflowed()) return;
@@ -206,7 +207,8 @@ TEST_CASE("keep renews the sequences of visible solved paths with their prefixes
   const std::vector<uint64_t> table = set.table().read();
   SolvedList solved;
   solved.max_depth = max_depth;
-  std::vector<wt_solved> headers{{.transmitter = 1, .receiver = 0, .depth = 0, .blocked = 0, .node = WT_ROOT | 1}};
+  std::vector<wt_solved> headers{{.transmitter = 1, .receiver = 0, .depth = 0, .blocked = 0, .node = WT_ROOT | 1,
+                                  .quarters = WT_ALL_QUARTERS}};
   std::vector<uint32_t> surfaces(max_depth, WT_NONE);
   std::vector<Sequence> visible;
   for (uint32_t i = transmitter_count; i < count; i += 4) {
@@ -216,7 +218,8 @@ TEST_CASE("keep renews the sequences of visible solved paths with their prefixes
       s.surfaces.insert(s.surfaces.begin(), static_cast<uint32_t>(table[node]));
     s.transmitter = node & ~WT_ROOT;
     const bool blocked = i % 8 == 0;
-    headers.push_back({s.transmitter, 0, static_cast<uint32_t>(s.surfaces.size()), blocked, nodes[i]});
+    headers.push_back({s.transmitter, 0, static_cast<uint32_t>(s.surfaces.size()), blocked, nodes[i],
+                       WT_ALL_QUARTERS});
     if (!blocked) visible.push_back(s);
     s.surfaces.resize(max_depth, WT_NONE);
     surfaces.insert(surfaces.end(), s.surfaces.begin(), s.surfaces.end());
@@ -256,7 +259,8 @@ TEST_CASE("keep enters joined paths by their reflections, and passes over what t
       row.push_back(surface);
     }
     const bool blocked = i % 4 == 1;
-    headers.push_back({joined[i].transmitter, 0, static_cast<uint32_t>(row.size()), blocked, WT_NONE});
+    headers.push_back({joined[i].transmitter, 0, static_cast<uint32_t>(row.size()), blocked, WT_NONE,
+                       WT_ALL_QUARTERS});
     row.resize(solved.max_depth, WT_NONE);
     steps.insert(steps.end(), row.begin(), row.end());
     if (!blocked) visible.push_back(joined[i]);

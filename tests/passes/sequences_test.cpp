@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <map>
 
 #include "passes/exact.hpp"
 #include "passes/triangles.hpp"
@@ -156,5 +157,49 @@ TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, 
     REQUIRE(contents(set, 2) == with_prefixes(sequences));
     set.commute(scene.surfaces, set.collect(2), 4);
     CHECK(contents(set, 2) == with_prefixes(expected));
+  }
+}
+
+TEST_CASE(
+    "what an exchange finds is found by who found its source, not by whom other exchanges lead on; growth keeps it") {
+  // Walls across x and y and the ground: all neighbours exchange, and exchanges of exchanges are there, too.
+  const DeviceScene scene = scene_of_normals({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const std::vector<Sequence> sequences{{0, {0, 1, 2}}, {0, {1, 0, 2}}, {0, {2, 1, 0}}};
+  for (const uint64_t slots : {uint64_t{1024}, uint64_t{16}}) {  // the second must grow on the way
+    CAPTURE(slots);
+    Sequences set(context(), slots);
+    enter(set, scene, sequences, 3);
+    // The rays of these sequences were of quarters 0, 1 and 2.
+    const auto nodes = [&] {
+      std::map<std::vector<uint32_t>, uint32_t> out;
+      const std::vector<uint64_t> table = set.table().read();
+      for (uint32_t slot = 0; slot < table.size(); ++slot)
+        if (table[slot] != WT_EMPTY) {
+          std::vector<uint32_t> surfaces;
+          for (uint32_t n = slot; !(n & WT_ROOT); n = static_cast<uint32_t>(table[n] >> 32))
+            surfaces.insert(surfaces.begin(), static_cast<uint32_t>(table[n]));
+          out[surfaces] = slot;
+        }
+      return out;
+    };
+    std::vector<uint32_t> bits(set.table().size(), 0);
+    for (const auto& [surfaces, slot] : nodes())
+      for (uint32_t q = 0; q < 3; ++q)
+        if (std::equal(surfaces.begin(), surfaces.end(), sequences[q].surfaces.begin())) bits[slot] |= 1u << q;
+    set.quarters().write(bits);
+    set.commute(scene.surfaces, set.collect(1), 3);
+    const std::vector<uint32_t> quarters = set.quarters().read();
+    const auto all = nodes();
+    const auto found_by = [&](const std::vector<uint32_t>& surfaces) {
+      const uint32_t word = quarters[all.at(surfaces)];
+      return (word | word >> 4) & WT_ALL_QUARTERS;
+    };
+    CHECK(found_by({0, 1, 2}) == 0b011);  // itself, and the exchange of 1 0 2
+    CHECK(found_by({1, 0, 2}) == 0b011);
+    CHECK(found_by({0, 2, 1}) == 0b001);  // one exchange from 0 1 2, two from the others
+    CHECK(found_by({1, 2, 0}) == 0b110);  // one from 1 0 2 and from 2 1 0
+    CHECK(found_by({2, 1, 0}) == 0b100);
+    CHECK(found_by({2, 0, 1}) == 0b100);
+    CHECK(found_by({1, 2}) == 0b110);  // of the prefix of 1 2 0, and exchanged from 2 1
   }
 }

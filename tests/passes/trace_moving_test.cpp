@@ -62,7 +62,10 @@ TEST_CASE("labels follow a ray through its reflections") {
   context().fill(trie, WT_EMPTY);
   auto counters = context().buffer<wt_counters>(1, "counters");
   auto ages = context().buffer<uint32_t>(1, "ages");
-  Interact(context(), false, false, true)(scene, queue, hits, hit_count, trie, counters, ages, 0, next, false);
+  auto quarters = context().buffer<uint32_t>(4096, "quarters");
+  context().fill(quarters, 0);
+  Interact(context(), false, false, true)(scene, queue, hits, hit_count, trie, quarters, counters, ages, 0, next,
+                                          false);
   REQUIRE(next.count == hit_count);
   REQUIRE(hit_count > 100);
   uint32_t j = 0;

@@ -75,7 +75,8 @@ std::vector<wt_waypoint> rows_after(const Scene& scene, const std::vector<Labell
     trace_pass(uploaded, queue, hits);
     waypoints(queue, hits, k);
     const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
-    interact(uploaded, queue, hits, alive, set.table(), set.counters(), set.ages(), set.now(), next, false);
+    interact(uploaded, queue, hits, alive, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
+             false);
     std::swap(queue, next);
   }
   std::vector<uint32_t> samples;

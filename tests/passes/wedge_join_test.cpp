@@ -51,7 +51,8 @@ Run join(const World& world, uint32_t prefix_depth, uint32_t max_depth, bool pai
   enter(set, scene, all_sequences(origins, 9, prefix_depth + 1), prefix_depth + 1);
   const uint32_t node_count = set.collect(ends.transmitter_count);
   WedgePrefixes see(context());
-  WedgePrefixList& list = see(scene, wedges, ends, set.table(), set.nodes(), node_count, set.counters());
+  WedgePrefixList& list =
+      see(scene, wedges, ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
   Sort sort(context());
   auto temporary = context().buffer<uint32_t>(sort.temporary_words(list.count), "sort");
   sort(list.keys, list.order, list.count, temporary, wedges.key_bits());

@@ -44,7 +44,7 @@ Listed list(const World& world, const std::vector<Sequence>& sequences, uint32_t
   const uint32_t node_count = set.collect(ends.transmitter_count);
   WedgePrefixes pass(context());
   const WedgePrefixList& found =
-      pass(scene, wedges, ends, set.table(), set.nodes(), node_count, set.counters());
+      pass(scene, wedges, ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
   Listed out{{}, wedges.wedges().read(), scene.exact_surfaces.read()};
   const std::vector<uint64_t> table = set.table().read();
   const std::vector<uint32_t> keys = found.keys.read(0, found.count);

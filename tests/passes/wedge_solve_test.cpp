@@ -50,8 +50,11 @@ std::map<size_t, PathRow> solve(const Scene& scene, const std::vector<glm::dvec3
   for (const uint32_t node : set.nodes().read(0, count)) nodes[sequence_of(table, node)] = node;
   std::vector<wt_wedge_candidate> candidates;
   for (const Question& q : questions)
-    candidates.push_back({nodes.at({q.transmitter, q.before}), nodes.at({first_listener + q.receiver, q.after}),
-                          {q.wedges[0], q.wedges.size() > 1 ? q.wedges[1] : WT_NONE}, q.receiver});
+    candidates.push_back({nodes.at({q.transmitter, q.before}),
+                          nodes.at({first_listener + q.receiver, q.after}),
+                          {q.wedges[0], q.wedges.size() > 1 ? q.wedges[1] : WT_NONE},
+                          q.receiver,
+                          WT_ALL_QUARTERS});
   WedgeSolve pass(context(), max_depth);
   const SolvedList& list = pass(uploaded, wedges, ends, set.table(), context().buffer(candidates, "candidates"),
                                 static_cast<uint32_t>(candidates.size()), set.counters());
@@ -285,8 +288,8 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
       Sequences set(context(), 64);
       set.clear();
       WedgeSolve pass(context(), 3);
-      const auto candidates =
-          context().buffer(std::vector<wt_wedge_candidate>{{WT_ROOT, WT_ROOT | 1, {0, WT_NONE}, 0}}, "candidates");
+      const auto candidates = context().buffer(
+          std::vector<wt_wedge_candidate>{{WT_ROOT, WT_ROOT | 1, {0, WT_NONE}, 0, WT_ALL_QUARTERS}}, "candidates");
       const SolvedList& list = pass(scene, wedges, ends, set.table(), candidates, 1, set.counters());
       CHECK(list.count == (own_tx || own_rx ? 0 : 1));
       if (list.count) CHECK(glm::distance(download_rows(list)[0].points[0], *expected) < 1e-6);

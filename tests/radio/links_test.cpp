@@ -140,3 +140,16 @@ TEST_CASE("figures of many links are those of each link alone") {
     if (one.paths > 0) CHECK(all[i].rms_delay_spread_s == one.rms_delay_spread_s);
   }
 }
+
+TEST_CASE("what a link misses is estimated from its own paths; nothing where it is not known who found them") {
+  Paths paths;
+  for (uint32_t i = 0; i < 3; ++i) add(paths, 0, 0, i, 1e-6 * (1 + i), 1e-5, 0);
+  add(paths, 0, 1, 1, 1e-6, 1e-5, 0);
+  CHECK(std::isnan(link_figures(paths, 0, all_links(1, 2))[0].missed_power_share));
+  for (uint32_t i = 0; i < 4; ++i) paths.depth[i] = 1;
+  paths.quarters = {0b1111, 0b0001, 0b0010, 0b1110};
+  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 3));
+  CHECK(links[0].missed_power_share == test::near(0.5 * 4 / 3, 1e-12));  // two paths missed, as strong as a third
+  CHECK(links[1].missed_power_share == 0);
+  CHECK(std::isnan(links[2].missed_power_share));
+}

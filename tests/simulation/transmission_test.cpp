@@ -94,7 +94,7 @@ std::vector<PathRow> paths(const Scene& scene, const TraceConfig& config, const 
   Candidates candidates(context());
   const uint32_t count = candidates(uploaded, ends, set.table(), set.nodes(), nodes, set.counters());
   Solve solve(context(), config.max_depth);
-  SolvedList& solved = solve(uploaded, ends, set.table(), candidates.list(), count, set.counters());
+  SolvedList& solved = solve(uploaded, ends, set.table(), set.quarters(), candidates.list(), count, set.counters());
   Transmissions transmissions(context(), uploaded, std::min(config.max_transmissions, config.max_depth));
   if (solved.count > 0) transmissions(uploaded, ends, solved);
   std::vector<PathRow> rows = download_rows(solved);

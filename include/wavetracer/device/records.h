@@ -22,7 +22,7 @@ typedef uint64_t wt_ulong;
 // Structure of arrays: a ray queue of capacity n is WT_RAY_PLANES * n words; plane p of ray i is word p * n + i.
 #define WT_RAY_ORIGIN 0     // three planes, float
 #define WT_RAY_DIRECTION 3  // three planes, float, unit length
-#define WT_RAY_NODE 6       // trie node of the prefix that the ray has lived through, or a root
+#define WT_RAY_NODE 6       // trie node of the prefix that the ray has lived through, or a root; and its quarter
 #define WT_RAY_SURFACE 7    // surface that the ray left, WT_NONE at a transmitter
 #define WT_RAY_PLANES 8
 // More planes where samples are followed (WT_SAMPLES, WT_LABELS): the number of the sample, counted in its launch.
@@ -45,6 +45,12 @@ typedef uint64_t wt_ulong;
 // A trie node is its slot; its key is (parent << 32) | surface. The parent of a first surface is the root of a
 // transmitter.
 #define WT_ROOT 0x80000000u
+// The rays of a launch are counted, and their number modulo 4 is their quarter of it: it rides in two bits of
+// WT_RAY_NODE that no slot and no transmitter needs. A ray whose prefix found no slot has WT_NONE there.
+#define WT_QUARTER_SHIFT 29u
+#define WT_QUARTER_BITS 0x60000000u
+// What is known of a sequence or path: a bit a quarter that found it.
+#define WT_ALL_QUARTERS 15u
 
 // What discovery needs of a surface (float32, recentred).
 typedef struct {
@@ -123,6 +129,7 @@ typedef struct {
   float along;     // of the image: where its foot on the edge's line is, from the start of the edge
   float away;      // and how far from that line
   float length;    // of the edge
+  wt_uint quarters;  // that found it
 } wt_wedge_prefix;
 
 // What such prefixes are sorted by: the wedge, then the depth, so that those that are short enough stand together.
@@ -135,6 +142,7 @@ typedef struct {
   wt_uint back;
   wt_uint wedges[2];
   wt_uint receiver;
+  wt_uint quarters;  // that found both prefixes
 } wt_wedge_candidate;
 
 // A solved candidate. Its vertex j is three doubles at (index * max_depth + j) * 3, its surface, with WT_STEP_KIND, at
@@ -145,6 +153,7 @@ typedef struct {
   wt_uint depth;
   wt_uint blocked;  // 0 until a leg is found obstructed
   wt_uint node;     // of its sequence; WT_NONE if it was joined of two
+  wt_uint quarters;  // of the launch that found it
 } wt_solved;
 
 // Counters that the passes share; one small buffer, cleared a frame.

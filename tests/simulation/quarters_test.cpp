@@ -1,0 +1,221 @@
+// Which quarters of a launch found a path, and what that says of those that none has found.
+// The oracle of the first is a launch of the rays of a quarter alone.
+#include "radio/links.hpp"
+#include "radio/opacity.hpp"
+#include "scene/load.hpp"
+#include "simulation/drive.hpp"
+#include "simulation/exact_paths.hpp"
+#include "simulation/features.hpp"
+#include "simulation/tree_choice.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+Config town(uint64_t rays, uint32_t max_depth = 4) {
+  Config config = config_of("", {{0, 0, 12}, {100, 3, 2}},
+                            {{60, -2, 1.5}, {-97, 4, 1.5}, {40, 7, 1.5}, {-3, -50, 5}, {103, 50, 2}}, rays, max_depth);
+  config.scene.generate = "--blocks 4x4";
+  return config;
+}
+
+// A street whose ends send and receive.
+Config radios(const SceneFile& file, uint64_t rays, uint32_t max_depth) {
+  const Points ends{{-31.3, 2.17, 4.1}, {27.1, 5.21, 1.9}, {-8.7, 9.4, 1.3}};
+  Config config = config_of(file.path(), ends, ends, rays, max_depth);
+  config.trace.directions = "hilbert";
+  return config;
+}
+
+// What a launch of these directions alone finds.
+PathGeometry found(const Config& config, DirectionShare share) {
+  gpu::Context context;
+  const Scene scene = load_scene(config);
+  const World world(config, scene);
+  const TraceConfig trace = with_features(config.trace, choose_features(config, scene, world));
+  const Origins origins =
+      make_origins(world.receiver_of_transmitter(), world.transmitter_of_receiver(), trace.diffraction);
+  const WorldState state = world.state(0);
+  std::vector<glm::dvec3> from;
+  for (const EndState& end : state.transmitters) from.push_back(end.position_m);
+  DeviceScene device = choose_tree(context, scene, trace, from, world.reach_m());
+  if (trace.transmission)
+    mark_opaque(device, opaque_surfaces(scene, world.models(), world.instances(), config.radio.frequency_hz));
+  Discovery discovery(context, device, trace, {}, false, trace.join ? joined_depth(trace.max_depth) : trace.max_depth);
+  ExactPaths exact(context, device, scene, world, trace, origins);
+  const RadioEnds ends = make_radio_ends(context, state.transmitters, state.receivers, state.links, origins.listeners);
+  discovery(device, sending(state), share);
+  if (const std::vector<Launcher> listeners = listening(state, origins); !listeners.empty()) {
+    discovery.listen(trace.rays / 3);
+    discovery(device, listeners, share, LaunchedBy::listeners);
+  }
+  FrameCounts counts;
+  Stopwatch host;
+  return exact(device, ends, discovery.sequences(), counts, host);
+}
+
+bool same_path(const PathGeometry& a, size_t i, const PathGeometry& b, size_t j) {
+  const uint64_t depth = a.first[i + 1] - a.first[i];
+  if (a.tx[i] != b.tx[j] || a.rx[i] != b.rx[j] || depth != b.first[j + 1] - b.first[j]) return false;
+  for (uint64_t k = 0; k < depth; ++k)
+    if (a.interaction[a.first[i] + k] != b.interaction[b.first[j] + k] ||
+        glm::distance(a.vertex[a.first[i] + k], b.vertex[b.first[j] + k]) > 2e-4)
+      return false;
+  return true;
+}
+
+void check_quarters(const Config& config) {
+  const PathGeometry whole = found(config, {});
+  REQUIRE(whole.quarters.size() == whole.size());
+  size_t rare = 0, wrong = 0;
+  for (const uint8_t quarters : whole.quarters) rare += quarters != WT_ALL_QUARTERS;
+  for (uint32_t quarter = 0; quarter < 4; ++quarter) {
+    const PathGeometry part = found(config, {quarter, 4});
+    for (size_t i = 0; i < whole.size(); ++i) {
+      bool there = false;
+      for (size_t j = 0; j < part.size() && !there; ++j) there = same_path(whole, i, part, j);
+      wrong += there != ((whole.quarters[i] >> quarter & 1) != 0);
+    }
+  }
+  CAPTURE(whole.size());
+  CHECK(rare > 5);
+  CHECK(rare < whole.size());
+  CHECK(wrong == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a path has the quarters whose rays find it alone: reflections and their exchanges") {
+  Config config = town(6000, 3);
+  config.trace.directions = "hilbert";
+  check_quarters(config);
+}
+
+TEST_CASE("a path has the quarters whose rays find it alone: joined of two ends") {
+  const SceneFile file(street());
+  Config config = radios(file, 300, 4);
+  config.trace.join = true;
+  check_quarters(config);
+}
+
+TEST_CASE("a path has the quarters whose rays find it alone: diffracted, once and twice, on either face") {
+  const SceneFile file(street());
+  Config config = config_of(file.path(), {{-31.3, 2.17, 4.1}}, {{27.1, 5.21, 1.9}}, 300, 3);
+  config.trace.directions = "hilbert";
+  config.trace.diffraction = true;
+  config.trace.free_edges = true;
+  check_quarters(config);
+}
+
+TEST_CASE("a path has the quarters whose rays find it alone: transmitted and scattered") {
+  const SceneFile file(street());
+  Config config = radios(file, 100, 3);
+  config.trace.transmission = true;
+  check_quarters(config);
+  Config rough = town(200, 1);
+  rough.trace.directions = "hilbert";
+  rough.trace.scattering = true;
+  rough.trace.tile_m = 20;
+  rough.materials.emplace_back();
+  rough.materials[0].name = "concrete";
+  rough.materials[0].scattering = 0.3;
+  check_quarters(rough);
+}
+
+TEST_CASE("of a launch of few rays the interval holds what a large one finds more") {
+  const FrameResult truth = run(town(1000000));
+  for (const uint64_t rays : {3000, 10000, 30000}) {
+    CAPTURE(rays);
+    const FrameResult few = run(town(rays));
+    REQUIRE(few.missed.frames == 1);
+    const auto missed_paths = static_cast<double>(missing(truth.paths, few.paths));
+    const Missed missed = estimate_missed(few.missed);
+    CAPTURE(missed_paths);
+    CAPTURE(missed.paths.low);
+    CAPTURE(missed.paths.estimate);
+    CAPTURE(missed.paths.high);
+    CHECK(missed.paths.low <= missed_paths);
+    CHECK(missed_paths <= missed.paths.high);
+    if (rays == 3000) CHECK(missed_paths > 0);
+    double power = 0, more = 0;
+    const std::vector<uint32_t> at = counterparts(truth.paths, few.paths);
+    for (size_t i = 0; i < at.size(); ++i)
+      for (const auto& a : truth.paths.a[i]) (at[i] == no_row ? more : power) += std::norm(a);
+    CHECK(more / power >= missed.power_share.low);
+    CHECK(more / power <= missed.power_share.high);
+  }
+}
+
+TEST_CASE("batches, orders of rays and shapes of launches change no quarter, fixed or refined") {
+  for (const uint64_t rays : {uint64_t{20000}, uint64_t{0}}) {
+    Config config = town(rays);
+    const FrameResult whole = run(config);
+    REQUIRE(whole.missed.frames == 1);
+    REQUIRE(whole.paths.quarters.size() == whole.paths.size());
+    CHECK(whole.missed.paths[0] + whole.missed.paths[1] > 0);
+    config.trace.batch_rays = 1000;
+    CHECK(run(config).paths.quarters == whole.paths.quarters);
+    config.launch.shape = "2d";
+    CHECK(run(config).paths.quarters == whole.paths.quarters);
+    if (rays == 0) continue;
+    config.order.method = "morton";
+    config.order.each_depth = true;
+    CHECK(run(config).paths.quarters == whole.paths.quarters);
+  }
+}
+
+TEST_CASE(
+    "frames that reuse know all launches since the first: what was rare is known better, and repeats do not differ") {
+  Config config = town(10000);
+  config.tracks = {{"a", "passenger", {{0, -60, -3.1, 0}, {2, -59.9, -3.1, 0}}}};
+  config.time.step_s = 0.2;
+  Simulation drive(config), again(config);
+  const FrameResult first = drive.run_frame(0);
+  FrameResult last;
+  for (uint32_t frame = 1; frame <= 10; ++frame) last = drive.run_frame(frame);
+  const auto known = [](const FrameResult& frame) {
+    return static_cast<double>(frame.missed.paths[3]) / static_cast<double>(frame.paths.size());
+  };
+  REQUIRE(last.missed.frames == 1);
+  CHECK(known(first) < 1);
+  CHECK(known(last) >= known(first));
+  for (uint32_t frame = 0; frame <= 10; ++frame) {
+    const FrameResult repeated = again.run_frame(frame);
+    if (frame == 10) CHECK(repeated.paths.quarters == last.paths.quarters);
+  }
+}
+
+TEST_CASE("spheres and ray caches say nothing of what was missed; without rays nothing is to be missed") {
+  Config config = town(20000, 2);
+  config.trace.reception = "sphere";
+  const FrameResult sphere = run(config);
+  CHECK(sphere.missed.frames == 0);
+  CHECK(sphere.paths.quarters.empty());
+  config.trace.reception = "exact";
+  config.cache.kind = "open";
+  const FrameResult cached = run(config);
+  CHECK(cached.missed.frames == 0);
+  REQUIRE(cached.paths.size() > 0);
+  for (const LinkFigures& link : link_figures(cached.paths, 0, cached.world.links))
+    CHECK(std::isnan(link.missed_power_share));
+  const FrameResult direct = run(town(20000, 0));
+  CHECK(direct.missed.frames == 0);
+  for (const LinkFigures& link : link_figures(direct.paths, 0, direct.world.links))
+    if (link.paths > 0) CHECK(link.missed_power_share == 0);
+}
+
+TEST_CASE("a block of transmitters knows of its links what the whole frame knows") {
+  Config config = town(20000, 3);
+  Simulation simulation(config);
+  const FrameResult whole = simulation.run_frame(0), second = simulation.run_block(0, {1, 2});
+  std::vector<uint8_t> expected;
+  for (size_t i = 0; i < whole.paths.size(); ++i)
+    if (whole.paths.tx[i] == 1) expected.push_back(whole.paths.quarters[i]);
+  CHECK(second.paths.quarters == expected);
+  MissedCounts parts = simulation.run_block(0, {0, 1}).missed;
+  add_part(parts, second.missed);
+  CHECK(parts.frames == 1);
+  CHECK(parts.paths == whole.missed.paths);
+  CHECK(parts.power == doctest::Approx(whole.missed.power));
+}
