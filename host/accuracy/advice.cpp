@@ -26,22 +26,22 @@ std::string keys(const Row& row) { return fmt::format("{}", fmt::join(row.settin
 std::string milliseconds(const Row& row) { return fmt::format("{:.3g} ms", 1e3 * row.frame_s); }
 
 std::string decibels(const report::PathError& error) {
-  return std::isnan(error.power_median_db)
-             ? ""
-             : fmt::format("{:.2g} dB at the median link, {:.2g} dB at the worst", error.power_median_db,
-                           error.power_max_db);
+  return std::isnan(error.power_median_db) ? ""
+                                           : fmt::format("{:.2g} dB at the median link, {:.2g} dB at the worst",
+                                                         error.power_median_db, error.power_max_db);
 }
 
 // What a limit asks of rays or depth, or that nothing keeps it.
-std::string limit_text(const Study& study, const std::string& what, const std::vector<std::string>& axes, double limit) {
+std::string limit_text(const Study& study, const std::string& what, const std::vector<std::string>& axes,
+                       double limit) {
   const Row *best = cheapest(study, axes, limit), *whole = reference(study, axes.front());
   const std::string start = fmt::format("{}, at most 10^{:.0f} of the power lost: ", what, std::log10(limit));
-  if (!best)
-    return start + fmt::format("only the reference, {} ({} a frame)", keys(*whole), milliseconds(*whole));
-  return start + fmt::format("{} ({} a frame; loses {} of the power and {} of the paths). {}, which is what this is "
-                             "measured against, takes {:.3g} times as long",
-                             keys(*best), milliseconds(*best), share_text(best->error.lost_power),
-                             share_text(best->error.lost_share), keys(*whole), whole->frame_s / best->frame_s);
+  if (!best) return start + fmt::format("only the reference, {} ({} a frame)", keys(*whole), milliseconds(*whole));
+  return start + fmt::format(
+                     "{} ({} a frame; loses {} of the power and {} of the paths). {}, which is what this is "
+                     "measured against, takes {:.3g} times as long",
+                     keys(*best), milliseconds(*best), share_text(best->error.lost_power),
+                     share_text(best->error.lost_share), keys(*whole), whole->frame_s / best->frame_s);
 }
 
 void add_limits(const Study& study, const std::string& what, const std::vector<std::string>& axes,
@@ -52,23 +52,24 @@ void add_limits(const Study& study, const std::string& what, const std::vector<s
 
 void add_deeper(const Study& study, std::vector<std::string>& out) {
   const Row* deeper = reference(study, "depth");
-  const auto own = std::find_if(study.rows.begin(), study.rows.end(),
-                                [](const Row& row) { return row.own && row.setting.axis == "depth" && !row.reference; });
+  const auto own = std::find_if(study.rows.begin(), study.rows.end(), [](const Row& row) {
+    return row.own && row.setting.axis == "depth" && !row.reference;
+  });
   if (!deeper || own == study.rows.end() || !(own->error.lost > 0)) return;
-  out.push_back(fmt::format("One interaction more than yours, {}, would add {} of the power and {} of the paths{}, for "
-                            "{:.3g} times the time",
-                            keys(*deeper), share_text(own->error.lost_power), share_text(own->error.lost_share),
-                            decibels(own->error).empty() ? "" : " (" + decibels(own->error) + ")",
-                            deeper->frame_s / own->frame_s));
+  out.push_back(fmt::format(
+      "One interaction more than yours, {}, would add {} of the power and {} of the paths{}, for "
+      "{:.3g} times the time",
+      keys(*deeper), share_text(own->error.lost_power), share_text(own->error.lost_share),
+      decibels(own->error).empty() ? "" : " (" + decibels(own->error) + ")", deeper->frame_s / own->frame_s));
 }
 
 void add_reuse(const Study& study, std::vector<std::string>& out) {
   const Row *on = find(study, "reuse", "on"), *off = find(study, "reuse", "off");
   if (!on || !off || !reference(study, "rays")) return;
-  out.push_back(fmt::format("Reuse from frame to frame, trace.reuse=true: {} a frame and {} of the power lost; without "
-                            "it {} and {}",
-                            milliseconds(*on), share_text(on->error.lost_power), milliseconds(*off),
-                            share_text(off->error.lost_power)));
+  out.push_back(fmt::format(
+      "Reuse from frame to frame, trace.reuse=true: {} a frame and {} of the power lost; without "
+      "it {} and {}",
+      milliseconds(*on), share_text(on->error.lost_power), milliseconds(*off), share_text(off->error.lost_power)));
 }
 
 // What is gained by it, on top of the user's other settings.
@@ -82,8 +83,7 @@ std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row&
     text += fmt::format("{} more paths, {} of all power", error.lost, share_text(error.lost_power));
     if (!decibels(error).empty()) text += "; path gains change by " + decibels(error);
   }
-  if (error.links_lost > 0)
-    text += fmt::format("; {} links have no path without it", error.links_lost);
+  if (error.links_lost > 0) text += fmt::format("; {} links have no path without it", error.links_lost);
   return text + fmt::format("; a frame takes {} with it, {} without. {}", milliseconds(on), milliseconds(off),
                             on.own    ? "Yours is on"
                             : off.own ? "Yours is off"

@@ -74,8 +74,8 @@ const std::vector<Mechanism>& mechanisms() {
 std::vector<Axis> axes(const Config& own, bool drive, recipes::RayRange rays) {
   std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
   for (const Mechanism& mechanism : mechanisms())
-    all.push_back({{mechanism.feature, "on", mechanism.on, mechanism.feature},
-                   {{mechanism.feature, "off", mechanism.off}}});
+    all.push_back(
+        {{mechanism.feature, "on", mechanism.on, mechanism.feature}, {{mechanism.feature, "off", mechanism.off}}});
   return all;
 }
 

@@ -1,5 +1,5 @@
-// Frames are cold, because what a frame finds should depend on the setting alone, and are timed on a device that is warm.
-// Where sequences are reused, the ten frames before launch every direction once (trace.refresh_rays by default).
+// Frames are cold, because what a frame finds should depend on the setting alone, and are timed on a device that is
+// warm. Where sequences are reused, the ten frames before launch every direction once (trace.refresh_rays by default).
 #include "accuracy/measure.hpp"
 #include <algorithm>
 #include "output/median.hpp"

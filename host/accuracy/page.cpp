@@ -39,8 +39,9 @@ std::string table_html(const std::vector<Row>& rows) {
 }
 
 std::string frames_text(const Study& study) {
-  const std::string times = fmt::format(
-      "the time of a frame is the median of warm frames, each solved {} times; references of the rays once", study.repeats);
+  const std::string times =
+      fmt::format("the time of a frame is the median of warm frames, each solved {} times; references of the rays once",
+                  study.repeats);
   if (!study.drive) return fmt::format("one frame with {} links; {}", study.links, times);
   return fmt::format("{} frames spread over the drive, {} links in all, each frame cold but for the rows of reuse; {}",
                      study.frames, study.links, times);
@@ -61,13 +62,15 @@ std::string page_html(const Study& study, const std::string& command_line, const
       "driver {})</li>\n<li>scene: {}</li>\n<li>{}</li>\n<li>date: {:%Y-%m-%d}, wavetracer {}</li>\n<li>command: "
       "<code>{}</code></li>\n</ul>\n",
       style, escaped(study.config_file), escaped(study.device.name), escaped(study.device.platform),
-      escaped(study.device.driver), escaped(study.scene), escaped(frames_text(study)),
-      fmt::gmtime(std::time(nullptr)), WAVETRACER_VERSION, escaped(command_line));
+      escaped(study.device.driver), escaped(study.scene), escaped(frames_text(study)), fmt::gmtime(std::time(nullptr)),
+      WAVETRACER_VERSION, escaped(command_line));
   text += "<h2>What to set</h2>\n<ul>\n";
   for (const std::string& item : recommendations(study)) text += fmt::format("<li>{}</li>\n", escaped(item));
   text +=
-      "</ul>\n<h2>Every setting</h2>\n<p>One axis changes at a time, everything else is as in the configuration. Losses "
-      "and errors are against the reference of the axis, which is in bold; rays, auto and reuse share theirs. Gains are "
+      "</ul>\n<h2>Every setting</h2>\n<p>One axis changes at a time, everything else is as in the configuration. "
+      "Losses "
+      "and errors are against the reference of the axis, which is in bold; rays, auto and reuse share theirs. Gains "
+      "are "
       "of links that have paths in both; the errors of spreads are means over these links. On the plot, what loses "
       "nothing lies on the bottom.</p>\n";
   return text + svg + table_html(study.rows) + "</body>\n</html>\n";
@@ -75,8 +78,7 @@ std::string page_html(const Study& study, const std::string& command_line, const
 
 Written write_files(const Study& study, const std::string& command_line, const fs::path& folder) {
   plots::Drawn drawn = plots::draw(front_figure(study), plots::Format::svg, folder);
-  const std::string svg =
-      drawn.problem.empty() ? recipes::inline_svg(file_text(drawn.files.back()), "accuracy-") : "";
+  const std::string svg = drawn.problem.empty() ? recipes::inline_svg(file_text(drawn.files.back()), "accuracy-") : "";
   const std::string page = page_html(study, command_line, svg);
   std::vector<PendingFile> files;
   files.emplace_back(folder / "accuracy.html", std::as_bytes(std::span(page)));

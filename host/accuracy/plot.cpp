@@ -32,15 +32,15 @@ std::string panel(const std::vector<std::string>& axes, const std::string& y, co
   std::string text = fmt::format("set title '{0}' noenhanced\nset ylabel '{0}, share' noenhanced\nset key {1}\nplot ",
                                  label, key ? "at graph 1.05, 1 left top Left reverse noenhanced" : "off");
   for (size_t i = 0; i < axes.size(); ++i) {
-    const std::string points =
-        fmt::format("'accuracy.csv' skip 1 using (strcol({}) eq '{}' ? 1e3 * column({}) : NaN):(column({}) > {:g} ? "
-                    "column({}) : {:g})",
-                    column("axis"), plots::quoted(axes[i]), column("frame_s"), column(y), none, column(y), none);
+    const std::string points = fmt::format(
+        "'accuracy.csv' skip 1 using (strcol({}) eq '{}' ? 1e3 * column({}) : NaN):(column({}) > {:g} ? "
+        "column({}) : {:g})",
+        column("axis"), plots::quoted(axes[i]), column("frame_s"), column(y), none, column(y), none);
     const std::string_view colour = plots::colours[i % plots::colours.size()];
-    text += fmt::format("{}{} with points pointtype 7 pointsize 0.8 linecolor '{}' title '{}', \\\n  {}:{} with labels "
-                        "noenhanced left offset 0.6,0.5 font ',9' textcolor '{}' notitle",
-                        i == 0 ? "" : ", \\\n  ", points, colour, plots::quoted(axes[i]), points, column("setting"),
-                        colour);
+    text += fmt::format(
+        "{}{} with points pointtype 7 pointsize 0.8 linecolor '{}' title '{}', \\\n  {}:{} with labels "
+        "noenhanced left offset 0.6,0.5 font ',9' textcolor '{}' notitle",
+        i == 0 ? "" : ", \\\n  ", points, colour, plots::quoted(axes[i]), points, column("setting"), colour);
   }
   return text + "\n";
 }

@@ -63,9 +63,10 @@ class Measurement {
     out_.links = measured_own_.links;
     out_.drive = measured_own_.world_frames > 1;
     if (out_.links == 0)
-      throw ConfigError(fmt::format("{}: none of the {} measured frames has a link, so there is nothing to compare; "
-                                    "look at [links], and at where and when transmitters and receivers are there",
-                                    request_.file, out_.frames));
+      throw ConfigError(
+          fmt::format("{}: none of the {} measured frames has a link, so there is nothing to compare; "
+                      "look at [links], and at where and when transmitters and receivers are there",
+                      request_.file, out_.frames));
     return true;
   }
 
@@ -90,7 +91,11 @@ class Measurement {
   }
 
   void add(const Setting& setting, const Measured& measured, const Measured& reference, bool is_reference, bool own) {
-    Row row{.setting = setting, .reference = is_reference, .own = own, .error = {}, .refusal = measured.refusal,
+    Row row{.setting = setting,
+            .reference = is_reference,
+            .own = own,
+            .error = {},
+            .refusal = measured.refusal,
             .warnings = measured.warnings};
     if (row.measured()) {
       row.frame_s = measured.frame_s;

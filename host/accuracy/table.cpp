@@ -73,15 +73,24 @@ std::string encode_csv(const std::vector<Row>& rows) {
 }
 
 std::vector<std::string> short_columns() {
-  return {"axis",    "setting",      "",       "frame ms", "paths",     "lost paths", "lost power",
-          "gain dB", "worst link dB", "delay spread ns", "Doppler spread Hz", "links lost"};
+  return {"axis",
+          "setting",
+          "",
+          "frame ms",
+          "paths",
+          "lost paths",
+          "lost power",
+          "gain dB",
+          "worst link dB",
+          "delay spread ns",
+          "Doppler spread Hz",
+          "links lost"};
 }
 
 std::vector<std::string> short_cells(const Row& row) {
   const report::PathError& e = row.error;
   const std::string role = row.reference ? row.own ? "reference, yours" : "reference" : row.own ? "yours" : "";
-  if (!row.measured())
-    return {row.setting.axis, row.setting.name, note(row), "", "", "", "", "", "", "", "", ""};
+  if (!row.measured()) return {row.setting.axis, row.setting.name, note(row), "", "", "", "", "", "", "", "", ""};
   return {row.setting.axis,
           row.setting.name,
           role,

@@ -51,7 +51,8 @@ void run_accuracy(const Options& options, Invocation& invocation) {
 }  // namespace
 
 void add_accuracy(CLI::App& program, Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("accuracy", "Measure speed against error of a config, and say what to set");
+  CLI::App* command =
+      program.add_subcommand("accuracy", "Measure speed against error of a config, and say what to set");
   const auto options = std::make_shared<Options>();
   accuracy::Request& request = options->request;
   command->add_option("-c,--config", request.file, "Config file (TOML)")->required();

@@ -15,9 +15,10 @@ std::vector<std::string> advice(const Run& run, const Totals& totals) {
   const bool edges_left_out = found != run.summary.features.end() && found->second.reason == diffraction_off;
   const uint64_t sight = totals.kinds[0];  // at most one a link
   if (!edges_left_out || totals.counts.paths == 0 || 2 * sight >= totals.links) return {};
-  return {fmt::format("line of sight on {} of {} links, and trace.diffraction = false leaves out all that comes around edges: "
-                      "set it to true, or ask `wavetracer accuracy -c FILE` what it would add",
-                      sight, totals.links)};
+  return {fmt::format(
+      "line of sight on {} of {} links, and trace.diffraction = false leaves out all that comes around edges: "
+      "set it to true, or ask `wavetracer accuracy -c FILE` what it would add",
+      sight, totals.links)};
 }
 
 }  // namespace wavetracer

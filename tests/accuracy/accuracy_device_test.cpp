@@ -26,8 +26,8 @@ std::string end(const std::string& kind, const std::string& name, const glm::dve
 }
 
 std::string config_text(const SceneFile& scene, const std::string& trace, const Points& receivers) {
-  std::string text = fmt::format("scene.file = \"{}\"\n[trace]\n{}", scene.path().string(), trace) +
-                     end("transmitter", "tx", tx);
+  std::string text =
+      fmt::format("scene.file = \"{}\"\n[trace]\n{}", scene.path().string(), trace) + end("transmitter", "tx", tx);
   for (size_t i = 0; i < receivers.size(); ++i) text += end("receiver", fmt::format("rx{}", i), receivers[i]);
   return text;
 }
@@ -38,7 +38,8 @@ SceneFile screen() {
 }
 
 accuracy::Study study(const std::string& file, recipes::RayRange rays) {
-  const accuracy::Request request{.file = file, .sets = {}, .rays = rays, .device = "", .repeats = 1, .command_line = ""};
+  const accuracy::Request request{
+      .file = file, .sets = {}, .rays = rays, .device = "", .repeats = 1, .command_line = ""};
   return accuracy::study(request, {[](const std::string&) {}, [] { return false; }});
 }
 
@@ -57,8 +58,8 @@ std::vector<std::pair<int, double>> lattice(int orders) {
       for (int k = -orders; k <= orders; ++k) {
         const int order = std::abs(i) + std::abs(j) + std::abs(k);
         if (order > orders) continue;
-        const double d = glm::distance(
-            glm::dvec3(image(tx.x, size.x, i), image(tx.y, size.y, j), image(tx.z, size.z, k)), rx);
+        const double d =
+            glm::distance(glm::dvec3(image(tx.x, size.x, i), image(tx.y, size.y, j), image(tx.z, size.z, k)), rx);
         ++out[order].first;
         out[order].second += 1 / (d * d);
       }
@@ -107,7 +108,8 @@ TEST_CASE("what a mechanism adds is the difference of two runs, and a recommenda
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = screen();
-  const std::string file = folder.file("screen.toml", config_text(scene, "max_depth = 2\nrays = 3000\n", {rx, {2, 4, 1}}));
+  const std::string file =
+      folder.file("screen.toml", config_text(scene, "max_depth = 2\nrays = 3000\n", {rx, {2, 4, 1}}));
   const accuracy::Study edges = study(file, {1000, 30000});
   const auto frame = [&](const std::vector<std::string>& keys) { return run(load_config(file, keys)).paths; };
   const Paths on = frame({"trace.diffraction=true"}), off = frame({"trace.diffraction=false"});
@@ -133,8 +135,8 @@ TEST_CASE("a setting that the configuration excludes has a row that says why") {
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = screen();
-  const std::string file =
-      folder.file("join.toml", config_text(scene, "max_depth = 1\nrays = 1000\nreception = \"sphere\"\n", {rx, {2, 4, 1}}));
+  const std::string file = folder.file(
+      "join.toml", config_text(scene, "max_depth = 1\nrays = 1000\nreception = \"sphere\"\n", {rx, {2, 4, 1}}));
   const accuracy::Study spheres = study(file, {1000, 1000});
   CHECK(row(spheres, "auto", "recall 0.9").refusal.find("trace.rays = \"auto\" refines") != std::string::npos);
   CHECK(row(spheres, "diffraction", "on").refusal.find("receives reflected rays alone") != std::string::npos);
@@ -174,8 +176,10 @@ TEST_CASE("an interrupt leaves the settings that are complete") {
   const SceneFile scene = screen();
   const std::string file = folder.file("a.toml", config_text(scene, "max_depth = 1\nrays = 1000\n", {rx}));
   size_t said = 0;
-  const accuracy::Request request{.file = file, .sets = {}, .rays = {1000, 10000}, .device = "", .repeats = 1, .command_line = ""};
-  const accuracy::Study cut = accuracy::study(request, {[&](const std::string&) { ++said; }, [&] { return said == 4; }});
+  const accuracy::Request request{
+      .file = file, .sets = {}, .rays = {1000, 10000}, .device = "", .repeats = 1, .command_line = ""};
+  const accuracy::Study cut =
+      accuracy::study(request, {[&](const std::string&) { ++said; }, [&] { return said == 4; }});
   REQUIRE(cut.rows.size() == 3);  // and one line before them
   CHECK(cut.planned > 10);
   CHECK(cut.rows[0].reference);

@@ -34,14 +34,15 @@ Row refused(const std::string& axis, const std::string& name, const std::string&
 Study made() {
   Study out;
   out.device.name = "a device";
-  out.rows = {row("rays", "10000000", 1, 0, true), row("rays", "10000", 0.01, 0.002), row("rays", "100000", 0.02, 5e-4),
-              row("rays", "1000000", 0.1, 1e-6),   row("auto", "recall 0.99", 0.03, 2e-4),
-              refused("auto", "recall 0.9", "a reason, with a \"comma\"")};
+  out.rows = {row("rays", "10000000", 1, 0, true),    row("rays", "10000", 0.01, 0.002),
+              row("rays", "100000", 0.02, 5e-4),      row("rays", "1000000", 0.1, 1e-6),
+              row("auto", "recall 0.99", 0.03, 2e-4), refused("auto", "recall 0.9", "a reason, with a \"comma\"")};
   return out;
 }
 
 bool has(const std::vector<std::string>& texts, const std::string& part) {
-  return std::any_of(texts.begin(), texts.end(), [&](const auto& text) { return text.find(part) != std::string::npos; });
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const auto& text) { return text.find(part) != std::string::npos; });
 }
 
 }  // namespace
@@ -79,9 +80,10 @@ TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one 
     all.push_back(axis.reference);
     for (const Setting& setting : all) {
       CAPTURE(setting.name);
-      CHECK_NOTHROW(parse_config("scene.generate = \"--blocks 2\"\n[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 2]\n"
-                                 "[[receiver]]\nname = \"b\"\nposition_m = [9, 0, 2]\n",
-                                 "a.toml", setting.keys));
+      CHECK_NOTHROW(
+          parse_config("scene.generate = \"--blocks 2\"\n[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 2]\n"
+                       "[[receiver]]\nname = \"b\"\nposition_m = [9, 0, 2]\n",
+                       "a.toml", setting.keys));
     }
   }
 }
@@ -96,8 +98,9 @@ TEST_CASE("frames lie in the middles of equal parts of a drive; a short one has 
 TEST_CASE("a row of the table has every column; a refusal says why, quoted, and has no number") {
   const Study study = made();
   const std::string text = encode_csv(study.rows);
-  CHECK(text.starts_with("axis,setting,reference,own,frame_s,paths,lost_paths,lost_power,gain_median_db,gain_worst_db,"
-                         "delay_spread_ns,doppler_spread_hz,links,links_lost,keys,note\n"));
+  CHECK(
+      text.starts_with("axis,setting,reference,own,frame_s,paths,lost_paths,lost_power,gain_median_db,gain_worst_db,"
+                       "delay_spread_ns,doppler_spread_hz,links,links_lost,keys,note\n"));
   CHECK(text.find("\nrays,100000,false,false,0.02,100,0.0005,0.0005,0.0005,0.0005,,,0,0,trace.rays=100000,\n") !=
         std::string::npos);
   CHECK(text.find("\nauto,recall 0.9,false,false,,,,,,,,,,,,\"not measured: a reason, with a \"\"comma\"\"\"\n") !=
@@ -119,8 +122,9 @@ TEST_CASE("a mechanism is described by what is missing without it") {
   study.rows.insert(study.rows.end(), {on, off, refused("scattering", "on", "no material scatters")});
   study.rows.back().reference = true;
   const auto words = recommendations(study);
-  CHECK(has(words, "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; path gains change by 1.2 dB "
-                   "at the median link, 31 dB at the worst; 3 links have no path without it; a frame takes 500 ms with "
-                   "it, 100 ms without. Yours is off"));
+  CHECK(has(words,
+            "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; path gains change by 1.2 dB "
+            "at the median link, 31 dB at the worst; 3 links have no path without it; a frame takes 500 ms with "
+            "it, 100 ms without. Yours is off"));
   CHECK(has(words, "scattering off rough surfaces: not measured, because no material scatters"));
 }

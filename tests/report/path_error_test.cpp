@@ -87,8 +87,8 @@ TEST_CASE("the surface of another vehicle, an edge, a wall that is passed: other
   for (const auto& [interaction, instance] :
        {std::pair{reflection, 0u}, {reflection, 1u}, {diffraction, no_instance}, {transmission, no_instance}}) {
     Paths both = reference, other;
-    add(other, 0, 0, 150, 0.1, {3}, interaction, instance);
-    add(both, 0, 0, 150, 0.1, {3}, interaction, instance);
+    add(other, 0, 0, 150, 0.1, {3}, {}, interaction, instance);
+    add(both, 0, 0, 150, 0.1, {3}, {}, interaction, instance);
     CHECK(path_error(reference, other).paired == 0);
     const PathError lost = path_error(both, reference);
     CHECK(lost.lost == 1);
