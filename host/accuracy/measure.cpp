@@ -9,16 +9,13 @@ namespace wavetracer::accuracy {
 namespace {
 
 constexpr uint32_t lead_frames = 10;
+constexpr double slow_frame_s = 2;  // is not repeated: what starting the device costs is little of it
 
 class Meter {
  public:
-  Meter(Simulation& simulation, Measured& out) : simulation_(simulation), out_(out) {}
+  explicit Meter(Measured& out) : out_(out) {}
 
-  FrameResult solve(uint32_t frame, bool timed) {
-    FrameResult result = simulation_.run_frame(frame);
-    if (timed) seconds_.push_back(result.seconds.at("frame"));
-    return result;
-  }
+  void time(const FrameResult& result) { seconds_.push_back(result.seconds.at("frame")); }
 
   void keep(FrameResult&& result) {
     out_.paths += result.paths.size();
@@ -29,21 +26,25 @@ class Meter {
   }
 
  private:
-  Simulation& simulation_;
   Measured& out_;
   std::vector<double> seconds_;
 };
 
 // False where it was interrupted.
-bool measure_cold(Simulation& simulation, Meter& meter, const std::vector<uint32_t>& frames, const How& how,
-                  bool once) {
-  if (!once) meter.solve(frames.front(), false);
+bool measure_cold(Simulation& simulation, Meter& meter, const std::vector<uint32_t>& frames, const How& how) {
+  bool warm = false;
   for (const uint32_t frame : frames) {
     FrameResult result;
-    for (uint32_t repeat = 0; repeat < (once ? 1 : how.repeats); ++repeat) {
+    for (uint32_t timed = 0; timed < how.repeats;) {
       if (how.interrupted()) return false;
       simulation.forget();
-      result = meter.solve(frame, true);
+      result = simulation.run_frame(frame);
+      const bool slow = result.seconds.at("frame") > slow_frame_s;
+      if (warm || slow) {
+        meter.time(result);
+        timed = slow ? how.repeats : timed + 1;
+      }
+      warm = true;
     }
     meter.keep(std::move(result));
   }
@@ -58,7 +59,8 @@ bool measure_reuse(Simulation& simulation, Meter& meter, const std::vector<uint3
     if (!goes_on) simulation.forget();
     for (uint32_t next = goes_on ? *last + 1 : lead; next <= frame; ++next) {
       if (how.interrupted()) return false;
-      FrameResult result = meter.solve(next, goes_on || next > lead || next == frame);
+      FrameResult result = simulation.run_frame(next);
+      if (goes_on || next > lead || next == frame) meter.time(result);
       if (next == frame) meter.keep(std::move(result));
     }
     last = frame;
@@ -76,7 +78,7 @@ std::vector<uint32_t> spread_frames(uint64_t of, uint32_t count) {
   return frames;
 }
 
-std::optional<Measured> measure(const Config& config, const Setting& setting, const How& how, bool once) {
+std::optional<Measured> measure(const Config& config, const Setting& setting, const How& how) {
   Simulation simulation(config, how.device);
   Measured out;
   out.device = simulation.device();
@@ -86,10 +88,10 @@ std::optional<Measured> measure(const Config& config, const Setting& setting, co
     out.refusal = feature.on ? "" : feature.reason;
     if (!feature.on) return out;
   }
-  Meter meter(simulation, out);
+  Meter meter(out);
   const std::vector<uint32_t> frames = spread_frames(simulation.frame_count(), how.frames);
-  const bool whole = setting.leads ? measure_reuse(simulation, meter, frames, how)
-                                   : measure_cold(simulation, meter, frames, how, once);
+  const bool whole =
+      setting.leads ? measure_reuse(simulation, meter, frames, how) : measure_cold(simulation, meter, frames, how);
   if (!whole) return std::nullopt;
   return out;
 }

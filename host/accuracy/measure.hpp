@@ -30,7 +30,7 @@ struct How {
   std::function<bool()> interrupted;
 };
 
-// Nothing where it was interrupted. once: each frame is solved once, without one before to warm the device.
-std::optional<Measured> measure(const Config& config, const Setting& setting, const How& how, bool once);
+// Nothing where it was interrupted. A frame of more than two seconds is solved once.
+std::optional<Measured> measure(const Config& config, const Setting& setting, const How& how);
 
 }  // namespace wavetracer::accuracy

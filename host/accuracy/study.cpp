@@ -55,7 +55,7 @@ class Measurement {
   bool measure_own() {
     host_.say("measuring your own settings first");
     std::optional<Measured> measured =
-        measure(own_, {}, {request_.device, request_.frames, request_.repeats, host_.interrupted}, false);
+        measure(own_, {}, {request_.device, request_.frames, request_.repeats, host_.interrupted});
     if (!measured) return false;
     measured_own_ = std::move(*measured);
     out_.device = measured_own_.device;
@@ -75,13 +75,13 @@ class Measurement {
   }
 
   // Nothing where it was interrupted; a refusal where the configuration or the device cannot do it.
-  std::optional<Measured> try_measure(const Setting& setting, bool once, bool& own) const {
+  std::optional<Measured> try_measure(const Setting& setting, bool& own) const {
     Measured refused;
     try {
       const Config config = config_of(setting);
       own = is_own(config, setting);
       if (own) return measured_own_;
-      return measure(config, setting, {request_.device, request_.frames, request_.repeats, host_.interrupted}, once);
+      return measure(config, setting, {request_.device, request_.frames, request_.repeats, host_.interrupted});
     } catch (const Error& e) {
       refused.refusal = one_line(e.what());
     } catch (const std::bad_alloc&) {
@@ -110,7 +110,7 @@ class Measurement {
 
   bool measure_axis(const Axis& axis) {
     bool own = false;
-    const std::optional<Measured> reference = try_measure(axis.reference, axis.reference.axis == "rays", own);
+    const std::optional<Measured> reference = try_measure(axis.reference, own);
     if (!reference) return false;
     add(axis.reference, *reference, *reference, true, own);
     if (!axis.reference.needs.empty() && !reference->refusal.empty()) {  // nothing to switch off
@@ -119,7 +119,7 @@ class Measurement {
     }
     for (const Setting& setting : axis.settings) {
       own = false;
-      const std::optional<Measured> measured = try_measure(setting, false, own);
+      const std::optional<Measured> measured = try_measure(setting, own);
       if (!measured) return false;
       add(setting, *measured, *reference, false, own);
     }
