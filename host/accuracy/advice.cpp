@@ -32,22 +32,31 @@ std::string decibels(const report::PathError& error) {
 }
 
 // What a limit asks of rays or depth, or that nothing keeps it.
-std::string limit_text(const Study& study, const std::string& what, const std::vector<std::string>& axes,
-                       double limit) {
-  const Row *best = cheapest(study, axes, limit), *whole = reference(study, axes.front());
-  const std::string start = fmt::format("{}, at most 10^{:.0f} of the power lost: ", what, std::log10(limit));
-  if (!best) return start + fmt::format("only the reference, {} ({} a frame)", keys(*whole), milliseconds(*whole));
-  return start + fmt::format(
-                     "{} ({} a frame; loses {} of the power and {} of the paths). {}, which is what this is "
-                     "measured against, takes {:.3g} times as long",
-                     keys(*best), milliseconds(*best), share_text(best->error.lost_power),
-                     share_text(best->error.lost_share), keys(*whole), whole->frame_s / best->frame_s);
+std::string limit_text(const Row* best, const Row& whole) {
+  if (!best) return fmt::format("only the reference, {} ({} a frame)", keys(whole), milliseconds(whole));
+  return fmt::format(
+      "{} ({} a frame; loses {} of the power and {} of the paths). {}, which is what this is measured against, takes "
+      "{:.3g} times as long",
+      keys(*best), milliseconds(*best), share_text(best->error.lost_power), share_text(best->error.lost_share),
+      keys(whole), whole.frame_s / best->frame_s);
 }
 
+// Limits with the same answer share a sentence.
 void add_limits(const Study& study, const std::string& what, const std::vector<std::string>& axes,
                 std::vector<std::string>& out) {
-  if (!reference(study, axes.front())) return;
-  for (const double limit : allowed_losses) out.push_back(limit_text(study, what, axes, limit));
+  const Row* whole = reference(study, axes.front());
+  if (!whole) return;
+  std::vector<std::pair<const Row*, std::string>> answers;
+  for (const double limit : allowed_losses) {
+    const Row* best = cheapest(study, axes, limit);
+    const std::string share = fmt::format("10^{:.0f}", std::log10(limit));
+    if (!answers.empty() && answers.back().first == best)
+      answers.back().second += " and " + share;
+    else
+      answers.emplace_back(best, share);
+  }
+  for (const auto& [best, shares] : answers)
+    out.push_back(fmt::format("{}, at most {} of the power lost: {}", what, shares, limit_text(best, *whole)));
 }
 
 void add_deeper(const Study& study, std::vector<std::string>& out) {
@@ -83,7 +92,9 @@ std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row&
     text += fmt::format("{} more paths, {} of all power", error.lost, share_text(error.lost_power));
     if (!decibels(error).empty()) text += "; path gains change by " + decibels(error);
   }
-  if (error.links_lost > 0) text += fmt::format("; {} links have no path without it", error.links_lost);
+  if (error.links_lost > 0)
+    text += fmt::format("; {} no path without it",
+                        error.links_lost == 1 ? "one link has" : fmt::format("{} links have", error.links_lost));
   return text + fmt::format("; a frame takes {} with it, {} without. {}", milliseconds(on), milliseconds(off),
                             on.own    ? "Yours is on"
                             : off.own ? "Yours is off"

@@ -39,7 +39,7 @@ std::string panel(const std::vector<std::string>& axes, const std::string& y, co
     const std::string_view colour = plots::colours[i % plots::colours.size()];
     text += fmt::format(
         "{}{} with points pointtype 7 pointsize 0.8 linecolor '{}' title '{}', \\\n  {}:{} with labels "
-        "noenhanced left offset 0.6,0.5 font ',9' textcolor '{}' notitle",
+        "noenhanced left rotate by 50 offset 0.3,0.6 font ',9' textcolor '{}' notitle",
         i == 0 ? "" : ", \\\n  ", points, colour, plots::quoted(axes[i]), points, column("setting"), colour);
   }
   return text + "\n";
@@ -70,7 +70,7 @@ plots::Figure front_figure(const Study& study) {
       "set yrange [{2:g}:2]\n"
       "set ytics add ('none' {3:g})\n"
       "set xlabel 'time of a frame, ms'\n"
-      "set multiplot layout 1,2 title '{4}' noenhanced margins screen 0.07,0.85,0.12,0.85 spacing screen 0.08\n",
+      "set multiplot layout 1,2 title '{4}' noenhanced margins screen 0.07,0.83,0.13,0.86 spacing screen 0.08\n",
       0.7 * least, 2 * most, 0.5 * none, none,
       plots::quoted(fmt::format("Speed against error, {}", study.device.name)));
   figure.commands += panel(axes, "lost_power", "lost power", false) + panel(axes, "lost_paths", "lost paths", true) +
