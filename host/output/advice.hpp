@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// A sentence an item, with the key to set. Nothing where no path was found at all: that has warnings of its own.
+// A sentence an item, with the key to set. Nothing where no path was found at all, or a warning names the key already.
 std::vector<std::string> advice(const Run& run, const Totals& totals);
 
 }  // namespace wavetracer

@@ -54,6 +54,9 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
   CHECK_FALSE(advised());  // no edge of the sample diffracts
   run.summary.features["diffraction"].reason = "trace.diffraction = false";
   CHECK(advised());
+  results.totals.warnings = {"a link has no path; trace.diffraction = true may help"};
+  CHECK_FALSE(advised());
+  results.totals.warnings.clear();
   results.totals.links = 2;
   CHECK_FALSE(advised());
   results.totals.links = 8;
