@@ -46,6 +46,7 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_init(program);
   wavetracer::app::add_scene(program);
   wavetracer::app::add_bench(program, invocation);
+  wavetracer::app::add_accuracy(program, invocation);
   wavetracer::app::add_view(program);
   wavetracer::app::add_plot(program);
   wavetracer::app::add_convert(program);

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include "output/advice.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -162,6 +163,7 @@ std::string report(const Run& run, const Results& results) {
   if (!run.summary.order.reason.empty()) out += "order      " + run.summary.order.reason + "\n";
   out += feature_line(run) + count_lines(run, results.totals) + link_lines(run, results) +
          missed_line(run, results.totals);
+  for (const std::string& text : advice(run, results.totals)) out += "advice     " + text + "\n";
   out += "written    ";
   for (size_t i = 0; i < results.files.size(); ++i) out += (i == 0 ? "" : ", ") + results.files[i].string();
   return out + "\n";

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include "output/advice.hpp"
 #include "output/cache_json.hpp"
 #include "output/median.hpp"
 
@@ -77,13 +78,14 @@ Json cache(const CacheConfig& asked, const CacheSummary& done) {
   return json;
 }
 
-// The run's own warnings and the frames', each text once, in order of first appearance.
+// The run's own warnings and the frames', each text once, in order of first appearance; then advice.
 Json warnings(const Run& run, const Totals& totals) {
   std::vector<std::string> result;
   add_warnings(result, run.summary.warnings);
   add_warnings(result, run.scene.report.warnings);
   add_warnings(result, totals.warnings);
   add_warnings(result, missing_words(totals));
+  add_warnings(result, advice(run, totals));
   return result;
 }
 

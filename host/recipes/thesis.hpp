@@ -35,6 +35,8 @@ std::string speed_error_table(const std::vector<CacheRow>& rows);
 std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device);
 // A page without links to anything outside of it.
 std::string thesis_html(const ThesisPage& page);
+// Text as HTML shows it, also between quotes of an attribute.
+std::string escaped(std::string text);
 // An SVG document as an element of a page: no prolog, and identifiers that begin with `prefix`.
 std::string inline_svg(const std::string& document, const std::string& prefix);
 

@@ -17,14 +17,6 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
-std::string escaped(std::string text) {
-  replace_all(text, "&", "&amp;");
-  replace_all(text, "<", "&lt;");
-  replace_all(text, ">", "&gt;");
-  replace_all(text, "\"", "&quot;");
-  return text;
-}
-
 // Of every study, drive and setting the row with the most rays; settings without a cache of their own, which others are
 // measured by, are left out.
 std::vector<CacheRow> best_known(const std::vector<CacheRow>& rows) {
@@ -81,6 +73,14 @@ constexpr const char* style =
     "ul{font-size:13px;color:#555}.problem{color:#b00}";
 
 }  // namespace
+
+std::string escaped(std::string text) {
+  replace_all(text, "&", "&amp;");
+  replace_all(text, "<", "&lt;");
+  replace_all(text, ">", "&gt;");
+  replace_all(text, "\"", "&quot;");
+  return text;
+}
 
 std::string family(const std::string& setting) {
   std::string text = setting;

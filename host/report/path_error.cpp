@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace wavetracer::report {
@@ -17,18 +18,20 @@ constexpr double speed_of_light_m_s = 299792458;
 
 double share(double part, double whole) { return whole > 0 ? part / whole : undefined; }
 
-std::span<const uint32_t> sequence(const Paths& paths, size_t path) {
-  return {paths.vertex_surface.data() + paths.vertex_offset[path],
-          paths.vertex_offset[path + 1] - paths.vertex_offset[path]};
+// What a vertex touches: numbers of surfaces are those of one model, and those of edges are numbers of their own.
+auto touched(const Paths& paths, uint64_t vertex) {
+  return std::tuple(paths.vertex_surface[vertex], paths.vertex_instance[vertex], paths.vertex_interaction[vertex]);
 }
 
 // Negative, zero or positive as path i of a comes before, is, or comes after path j of b.
 int compare(const Paths& a, size_t i, const Paths& b, size_t j) {
   if (a.tx[i] != b.tx[j]) return a.tx[i] < b.tx[j] ? -1 : 1;
   if (a.rx[i] != b.rx[j]) return a.rx[i] < b.rx[j] ? -1 : 1;
-  const std::span<const uint32_t> x = sequence(a, i), y = sequence(b, j);
-  const auto order = std::lexicographical_compare_three_way(x.begin(), x.end(), y.begin(), y.end());
-  return order < 0 ? -1 : order > 0 ? 1 : 0;
+  uint64_t k = a.vertex_offset[i], m = b.vertex_offset[j];
+  const uint64_t end_a = a.vertex_offset[i + 1], end_b = b.vertex_offset[j + 1];
+  for (; k < end_a && m < end_b; ++k, ++m)
+    if (const auto order = touched(a, k) <=> touched(b, m); order != 0) return order < 0 ? -1 : 1;
+  return k < end_a ? 1 : m < end_b ? -1 : 0;
 }
 
 std::vector<size_t> sorted(const Paths& paths) {
@@ -45,7 +48,7 @@ double power(const Paths& paths, size_t path) {
 }
 
 struct LinkPaths {
-  std::vector<double> delays_s, powers;
+  std::vector<double> delays_s, dopplers_hz, powers;
   double power() const { return std::accumulate(powers.begin(), powers.end(), 0.0); }
 };
 
@@ -54,6 +57,7 @@ std::map<std::pair<uint32_t, uint32_t>, LinkPaths> links_of(const Paths& paths, 
   for (const size_t path : order) {
     LinkPaths& link = links[{paths.tx[path], paths.rx[path]}];
     link.delays_s.push_back(paths.delay_s[path]);
+    link.dopplers_hz.push_back(paths.doppler_hz[path]);
     link.powers.push_back(power(paths, path));
   }
   return links;
@@ -89,7 +93,7 @@ void compare_links(const Paths& reference, const std::vector<size_t>& a, const P
                    const std::vector<size_t>& b, PathError& out) {
   const auto links_a = links_of(reference, a), links_b = links_of(paths, b);
   std::vector<double> errors_db;
-  double spreads_ns = 0;
+  double spreads_ns = 0, spreads_hz = 0;
   for (const auto& [ends, link] : links_a) {
     const auto found = links_b.find(ends);
     if (found == links_b.end()) {
@@ -98,7 +102,8 @@ void compare_links(const Paths& reference, const std::vector<size_t>& a, const P
     }
     const LinkPaths& other = found->second;
     errors_db.push_back(std::abs(share_db(other.power()) - share_db(link.power())));
-    spreads_ns += 1e9 * std::abs(delay_spread(other.delays_s, other.powers) - delay_spread(link.delays_s, link.powers));
+    spreads_ns += 1e9 * std::abs(rms_spread(other.delays_s, other.powers) - rms_spread(link.delays_s, link.powers));
+    spreads_hz += std::abs(rms_spread(other.dopplers_hz, other.powers) - rms_spread(link.dopplers_hz, link.powers));
   }
   out.links = errors_db.size();
   out.links_spurious = links_b.size() - out.links;
@@ -109,6 +114,7 @@ void compare_links(const Paths& reference, const std::vector<size_t>& a, const P
       errors_db.size() % 2 == 1 ? errors_db[middle] : 0.5 * (errors_db[middle - 1] + errors_db[middle]);
   out.power_max_db = errors_db.back();
   out.delay_spread_ns = spreads_ns / static_cast<double>(out.links);
+  out.doppler_spread_hz = spreads_hz / static_cast<double>(out.links);
 }
 
 // Of all vertices, in the order of the paths.
@@ -125,15 +131,15 @@ glm::dvec3 centroid(const Paths& paths, const std::vector<size_t>& order) {
 
 double share_db(double share) { return 10 * std::log10(share); }
 
-double delay_spread(std::span<const double> delays, std::span<const double> powers) {
+double rms_spread(std::span<const double> values, std::span<const double> powers) {
   double total = 0, mean = 0, squares = 0;
-  for (size_t i = 0; i < delays.size(); ++i) {
+  for (size_t i = 0; i < values.size(); ++i) {
     total += powers[i];
-    mean += powers[i] * delays[i];
+    mean += powers[i] * values[i];
   }
   if (!(total > 0)) return undefined;
   mean /= total;
-  for (size_t i = 0; i < delays.size(); ++i) squares += powers[i] * (delays[i] - mean) * (delays[i] - mean);
+  for (size_t i = 0; i < values.size(); ++i) squares += powers[i] * (values[i] - mean) * (values[i] - mean);
   return std::sqrt(squares / total);
 }
 
@@ -172,6 +178,7 @@ void PathErrorMean::add(const PathError& error) {
   add_defined(spurious_power_, error.spurious_power);
   add_defined(power_median_db_, error.power_median_db);
   add_defined(delay_spread_ns_, error.delay_spread_ns);
+  add_defined(doppler_spread_hz_, error.doppler_spread_hz);
   add_defined(delay_ns_, error.delay_ns);
   add_defined(l1_m_, error.l1_m);
   add_defined(l2_m_, error.l2_m);
@@ -189,6 +196,7 @@ PathError PathErrorMean::mean() const {
   out.spurious_power = spurious_power_.mean();
   out.power_median_db = power_median_db_.mean();
   out.delay_spread_ns = delay_spread_ns_.mean();
+  out.doppler_spread_hz = doppler_spread_hz_.mean();
   out.delay_ns = delay_ns_.mean();
   out.l1_m = l1_m_.mean();
   out.l2_m = l2_m_.mean();

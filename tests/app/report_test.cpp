@@ -1,6 +1,7 @@
 // The closing words of a run, from made-up results.
 #include "app/report.hpp"
 #include <doctest/doctest.h>
+#include "output/advice.hpp"
 #include "output/sample_run.hpp"
 #include "program.hpp"
 
@@ -39,6 +40,31 @@ TEST_CASE("the report names what was computed, and why not what was asked for be
   sample.config.trace.reflection = false;
   run.summary.features = {{"reflection", {false, "trace.reflection = false"}}};
   CHECK(contains(report(), "\nfeatures   line of sight alone\n"));
+}
+
+TEST_CASE("without line of sight on most links, diffraction that is off is advised") {
+  const SampleRun sample;
+  app::Results results{totals_of(sample.frames()), 8, {}, {}};  // line of sight on 1 of 8 links
+  Run run = sample.run();
+  const auto advised = [&] {
+    const std::string text = app::report(run, results);
+    CHECK(contains(text, "\nadvice     ") == !advice(run, results.totals).empty());
+    return contains(text, "\nadvice     line of sight on 1 of 8 links, and trace.diffraction = false leaves out all");
+  };
+  CHECK_FALSE(advised());  // no edge of the sample diffracts
+  run.summary.features["diffraction"].reason = "trace.diffraction = false";
+  CHECK(advised());
+  results.totals.warnings = {"a link has no path; trace.diffraction = true may help"};
+  CHECK_FALSE(advised());
+  results.totals.warnings.clear();
+  results.totals.links = 2;
+  CHECK_FALSE(advised());
+  results.totals.links = 8;
+  results.totals.counts.paths = 0;
+  CHECK_FALSE(advised());
+  results.totals.counts.paths = 5;
+  run.summary.features["diffraction"] = {true, {}};
+  CHECK_FALSE(advised());
 }
 
 TEST_CASE("the report counts paths by kind, those that there are") {

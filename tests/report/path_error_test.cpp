@@ -13,16 +13,20 @@ namespace {
 constexpr double metres_a_ns = 0.299792458;
 
 void add(Paths& paths, uint32_t tx, uint32_t rx, double delay_ns, double amplitude,
-         const std::vector<uint32_t>& surfaces, const glm::dvec3& at = {}) {
+         const std::vector<uint32_t>& surfaces, const glm::dvec3& at = {}, uint8_t interaction = reflection,
+         uint32_t instance = no_instance, double doppler_hz = 0) {
   paths.frame.push_back(0);
   paths.tx.push_back(tx);
   paths.rx.push_back(rx);
   paths.depth.push_back(static_cast<uint32_t>(surfaces.size()));
   paths.delay_s.push_back(1e-9 * delay_ns);
+  paths.doppler_hz.push_back(doppler_hz);
   paths.a.push_back({amplitude, 0, 0, 0});
   for (const uint32_t surface : surfaces) {
     paths.vertex_surface.push_back(surface);
     paths.vertex_position_m.push_back(at);
+    paths.vertex_interaction.push_back(interaction);
+    paths.vertex_instance.push_back(instance);
   }
   paths.vertex_offset.push_back(paths.vertex_surface.size());
 }
@@ -77,6 +81,31 @@ TEST_CASE("lost and spurious paths: count, share and power; the sequence's order
   CHECK(error.l2_m == 0);  // the vertices are where they were
 }
 
+TEST_CASE("the surface of another vehicle, an edge, a wall that is passed: other paths, whatever their numbers") {
+  Paths reference;
+  add(reference, 0, 0, 140, 0.8, {3});
+  for (const auto& [interaction, instance] :
+       {std::pair{reflection, 0u}, {reflection, 1u}, {diffraction, no_instance}, {transmission, no_instance}}) {
+    Paths both = reference, other;
+    add(other, 0, 0, 150, 0.1, {3}, {}, interaction, instance);
+    add(both, 0, 0, 150, 0.1, {3}, {}, interaction, instance);
+    CHECK(path_error(reference, other).paired == 0);
+    const PathError lost = path_error(both, reference);
+    CHECK(lost.lost == 1);
+    CHECK(lost.lost_power == doctest::Approx(0.01 / 0.65));
+    CHECK(path_error(both, other).lost_power == doctest::Approx(0.64 / 0.65));
+  }
+}
+
+TEST_CASE("spreads of Doppler shifts differ by what the powers make of them") {
+  Paths reference, paths;
+  add(reference, 0, 0, 100, 3, {}, {}, reflection, no_instance, 100);
+  add(reference, 0, 0, 100, 1, {3}, {}, reflection, no_instance, -100);
+  add(paths, 0, 0, 100, 3, {}, {}, reflection, no_instance, 100);
+  CHECK(path_error(reference, paths).doppler_spread_hz == doctest::Approx(60));  // of 0.9 and 0.1 of the power
+  CHECK(path_error(reference, reference).doppler_spread_hz == 0);
+}
+
 TEST_CASE("one surface more or another link is another path") {
   Paths reference, paths;
   add(reference, 0, 1, 10, 1, {2});
@@ -96,11 +125,11 @@ TEST_CASE("one surface more or another link is another path") {
 }
 
 TEST_CASE("delay spread: two equal paths have half their distance, and a path alone has none") {
-  CHECK(delay_spread(std::vector<double>{100, 140}, std::vector<double>{3, 3}) == doctest::Approx(20));
+  CHECK(rms_spread(std::vector<double>{100, 140}, std::vector<double>{3, 3}) == doctest::Approx(20));
   // Bernoulli: sqrt(p (1 - p)) of the distance.
-  CHECK(delay_spread(std::vector<double>{0, 100}, std::vector<double>{9, 1}) == doctest::Approx(30));
-  CHECK(delay_spread(std::vector<double>{7}, std::vector<double>{2}) == 0);
-  CHECK(std::isnan(delay_spread({}, {})));
+  CHECK(rms_spread(std::vector<double>{0, 100}, std::vector<double>{9, 1}) == doctest::Approx(30));
+  CHECK(rms_spread(std::vector<double>{7}, std::vector<double>{2}) == 0);
+  CHECK(std::isnan(rms_spread({}, {})));
   Paths reference, paths;
   add(reference, 0, 0, 100, 1, {});
   add(reference, 0, 0, 140, 1, {1});

@@ -1,0 +1,82 @@
+// The axes, cheapest setting first.
+// Assumes the keys of the field table (host/config/fields.cpp), which checks them when a setting is read.
+#include "accuracy/axes.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <set>
+
+namespace wavetracer::accuracy {
+namespace {
+
+Setting of_rays(uint64_t rays) { return {"rays", recipes::grouped(rays), {fmt::format("trace.rays={}", rays)}}; }
+
+Setting of_recall(double recall) {
+  return {"auto", fmt::format("recall {:g}", recall), {"trace.rays=auto", fmt::format("trace.recall={:g}", recall)}};
+}
+
+Setting of_depth(uint32_t depth) {
+  return {"depth", std::to_string(depth), {fmt::format("trace.max_depth={}", depth)}};
+}
+
+// Once and three times every power of ten of the range, its ends, and the user's own number.
+std::set<uint64_t> ray_steps(uint64_t own, recipes::RayRange range) {
+  std::set<uint64_t> steps = {range.first, range.last};
+  for (uint64_t decade = 1000; decade <= range.last; decade *= 10)
+    for (const uint64_t rays : {decade, 3 * decade})
+      if (range.first <= rays && rays <= range.last) steps.insert(rays);
+  if (own > 0) steps.insert(own);
+  return steps;
+}
+
+Axis ray_axis(const Config& own, bool drive, recipes::RayRange range) {
+  const std::set<uint64_t> steps = ray_steps(own.trace.rays, range);
+  Axis axis{of_rays(10 * *steps.rbegin()), {}};
+  for (const uint64_t rays : steps) axis.settings.push_back(of_rays(rays));
+  std::set<double> recalls = {0.9, 0.99, 0.999};
+  if (own.trace.rays == 0) recalls.insert(own.trace.recall);
+  for (const double recall : recalls) axis.settings.push_back(of_recall(recall));
+  if (drive) {
+    axis.settings.push_back({"reuse", "on", {"trace.reuse=true"}, {}, true});
+    axis.settings.push_back({"reuse", "off", {"trace.reuse=false"}});
+  }
+  return axis;
+}
+
+Axis depth_axis(const Config& own) {
+  Axis axis{of_depth(own.trace.max_depth + 1), {}};
+  for (uint32_t depth = 0; depth <= own.trace.max_depth; ++depth) axis.settings.push_back(of_depth(depth));
+  return axis;
+}
+
+}  // namespace
+
+const std::vector<Mechanism>& mechanisms() {
+  static const std::vector<Mechanism> all = {
+      {"diffraction", "trace.diffraction", "diffraction", {"trace.diffraction=true"}, {"trace.diffraction=false"}},
+      {"double_diffraction",
+       "trace.max_diffractions",
+       "diffraction at a second edge",
+       {"trace.diffraction=true", "trace.max_diffractions=2"},
+       {"trace.diffraction=true", "trace.max_diffractions=1"}},
+      {"transmission",
+       "trace.transmission",
+       "transmission through walls",
+       {"trace.transmission=true"},
+       {"trace.transmission=false"}},
+      {"scattering",
+       "trace.scattering",
+       "scattering off rough surfaces",
+       {"trace.scattering=true"},
+       {"trace.scattering=false"}}};
+  return all;
+}
+
+std::vector<Axis> axes(const Config& own, bool drive, recipes::RayRange rays) {
+  std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
+  for (const Mechanism& mechanism : mechanisms())
+    all.push_back(
+        {{mechanism.feature, "on", mechanism.on, mechanism.feature}, {{mechanism.feature, "off", mechanism.off}}});
+  return all;
+}
+
+}  // namespace wavetracer::accuracy

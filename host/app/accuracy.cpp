@@ -1,0 +1,74 @@
+// `wavetracer accuracy`: speed against error of the user's own scene, and what to set.
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include "accuracy/advice.hpp"
+#include "accuracy/files.hpp"
+#include "accuracy/table.hpp"
+#include "app/commands.hpp"
+#include "app/inputs.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "config/config_file.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  accuracy::Request request;
+  std::string directory = "out/accuracy", rays;
+};
+
+void run_accuracy(const Options& options, Invocation& invocation) {
+  accuracy::Request request = options.request;
+  request.command_line = invocation.command_line;
+  if (!options.rays.empty()) request.rays = recipes::parse_ray_range(options.rays);
+  check_inputs(load_config(request.file, request.sets));
+  const fs::path folder = fs::absolute(options.directory).lexically_normal();
+  check_output_folder(folder);
+  catch_interrupts();
+  Progress progress;
+  const recipes::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
+  const accuracy::Study study = accuracy::study(request, host);
+  if (interrupted()) {
+    invocation.code = ExitCode::interrupted;
+    progress.line(study.rows.empty() ? "interrupted before the first setting; nothing was written"
+                                     : fmt::format("interrupted; what is written is whole, after {} of {} settings",
+                                                   study.rows.size(), study.planned));
+  }
+  if (study.rows.empty()) return;
+  const accuracy::Written written = accuracy::write_files(study, request.command_line, folder);
+  if (!written.problem.empty()) progress.line(written.problem);
+  std::cout << accuracy::encode_text(study.rows) << "\n";
+  for (const std::string& item : accuracy::recommendations(study)) std::cout << "- " << item << ".\n";
+  std::cout << "\nwritten    ";
+  for (size_t i = 0; i < written.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << written.files[i].string();
+  std::cout << std::endl;
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& program, Invocation& invocation) {
+  CLI::App* command =
+      program.add_subcommand("accuracy", "Measure speed against error of a config, and say what to set");
+  const auto options = std::make_shared<Options>();
+  accuracy::Request& request = options->request;
+  command->add_option("-c,--config", request.file, "Config file (TOML)")->required();
+  command->add_option("-o,--output", options->directory, "Folder for the table, the plot and the page")
+      ->capture_default_str();
+  command->add_option("--set", request.sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
+  command->add_option("--device", request.device, "Index, or part of a platform's or device's name");
+  command->add_option("--rays", options->rays,
+                      "Fewest and most rays, A:B; default 1e4:1e6. The reference launches ten times the most");
+  command->add_option("--frames", request.frames, "Frames of a drive, spread over it")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--repeat", request.repeats, "Solve each frame N times; the median time counts")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->callback([options, &invocation] { run_accuracy(*options, invocation); });
+}
+
+}  // namespace wavetracer::app

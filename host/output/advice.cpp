@@ -1,0 +1,32 @@
+// One rule: without line of sight most of the power may come around edges.
+#include "output/advice.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace wavetracer {
+namespace {
+
+// As choose_features() words it. Whether the scene has edges is not known then: only diffraction looks for them.
+constexpr const char* diffraction_off = "trace.diffraction = false";
+
+// What was said of links without a path names the same key.
+bool said(const std::vector<std::string>& warnings) {
+  return std::ranges::any_of(
+      warnings, [](const std::string& text) { return text.find("trace.diffraction") != std::string::npos; });
+}
+
+}  // namespace
+
+std::vector<std::string> advice(const Run& run, const Totals& totals) {
+  const auto found = run.summary.features.find("diffraction");
+  const bool edges_left_out = found != run.summary.features.end() && found->second.reason == diffraction_off;
+  const uint64_t sight = totals.kinds[0];  // at most one a link
+  if (!edges_left_out || totals.counts.paths == 0 || 2 * sight >= totals.links) return {};
+  if (said(run.summary.warnings) || said(totals.warnings)) return {};
+  return {fmt::format(
+      "line of sight on {} of {} links, and trace.diffraction = false leaves out all that comes around edges: "
+      "set it to true, or ask `wavetracer accuracy -c FILE` what it would add",
+      sight, totals.links)};
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,188 @@
+// Studies of scenes whose answers are known: the image lattice of a box, a screen with an edge. Then the program.
+// What needs a device is skipped, saying so, where there is none.
+#include <signal.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "accuracy/advice.hpp"
+#include "accuracy/study.hpp"
+#include "app/program.hpp"
+#include "simulation/run.hpp"
+#include "wavetracer/config_file.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+const glm::dvec3 size{8, 5, 3}, tx{1.37, 2.21, 1.55}, rx{6.13, 3.42, 0.87};
+
+std::string end(const std::string& kind, const std::string& name, const glm::dvec3& at) {
+  return fmt::format("[[{}]]\nname = \"{}\"\nposition_m = [{}, {}, {}]\npolarization = \"VH\"\n", kind, name, at.x,
+                     at.y, at.z);
+}
+
+std::string config_text(const SceneFile& scene, const std::string& trace, const Points& receivers) {
+  std::string text =
+      fmt::format("scene.file = \"{}\"\n[trace]\n{}", scene.path().string(), trace) + end("transmitter", "tx", tx);
+  for (size_t i = 0; i < receivers.size(); ++i) text += end("receiver", fmt::format("rx{}", i), receivers[i]);
+  return text;
+}
+
+// A screen between the transmitter and the first receiver, and a wall aside by which both have a path.
+SceneFile screen() {
+  return SceneFile({Quad{{4, 0, 0}, {0, 4.5, 0}, {0, 0, 4}}, Quad{{-5, 9, -2}, {20, 0, 0}, {0, 0, 8}}});
+}
+
+accuracy::Study study(const std::string& file, recipes::RayRange rays) {
+  const accuracy::Request request{
+      .file = file, .sets = {}, .rays = rays, .device = "", .repeats = 1, .command_line = ""};
+  return accuracy::study(request, {[](const std::string&) {}, [] { return false; }});
+}
+
+const accuracy::Row& row(const accuracy::Study& study, const std::string& axis, const std::string& name) {
+  for (const accuracy::Row& row : study.rows)
+    if (row.setting.axis == axis && row.setting.name == name) return row;
+  FAIL("no row " << axis << " " << name);
+  return study.rows.front();
+}
+
+// Number and power of the paths of a box with walls of perfect conductors, by order: spread by distance alone.
+std::vector<std::pair<int, double>> lattice(int orders) {
+  std::vector<std::pair<int, double>> out(orders + 1, {0, 0.0});
+  for (int i = -orders; i <= orders; ++i)
+    for (int j = -orders; j <= orders; ++j)
+      for (int k = -orders; k <= orders; ++k) {
+        const int order = std::abs(i) + std::abs(j) + std::abs(k);
+        if (order > orders) continue;
+        const double d =
+            glm::distance(glm::dvec3(image(tx.x, size.x, i), image(tx.y, size.y, j), image(tx.z, size.z, k)), rx);
+        ++out[order].first;
+        out[order].second += 1 / (d * d);
+      }
+  return out;
+}
+
+std::string contents(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("a box: a million rays lose nothing, and a depth loses what its images say") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene(reference::box_walls({0, 0, 0}, size));
+  const std::string file = folder.file("box.toml", config_text(scene, "max_depth = 1\nrays = 1000000\n", {rx}));
+  const accuracy::Study box = study(file, {1000000, 1000000});
+  const accuracy::Row& million = row(box, "rays", "1,000,000");
+  CHECK(million.own);
+  CHECK(million.paths == 7);
+  CHECK(million.error.lost == 0);
+  CHECK(million.error.lost_power == 0);
+  CHECK(million.error.power_max_db == 0);
+  CHECK(row(box, "depth", "2").reference);
+  const auto order = lattice(2);  // 1, 6, 18 paths
+  double whole = 0, found = 0;
+  int lost = 24;
+  for (const auto& [paths, power] : order) whole += power;
+  for (const int depth : {0, 1}) {
+    found += order[depth].second;
+    lost = 25 - (depth == 0 ? 1 : 7);
+    const accuracy::Row& shallow = row(box, "depth", std::to_string(depth));
+    CHECK(shallow.error.lost_share == doctest::Approx(lost / 25.0));
+    CHECK(shallow.error.lost_power == doctest::Approx(1 - found / whole).epsilon(0.01));
+  }
+  // A closed room of metal needs nothing else: its edges are convex outside only.
+  CHECK(row(box, "diffraction", "off").error.lost == 0);
+  CHECK(row(box, "transmission", "on").refusal == "all materials are metals or half spaces, which nothing passes");
+  CHECK(row(box, "scattering", "on").refusal.find("no material of the scene") == 0);
+}
+
+TEST_CASE("what a mechanism adds is the difference of two runs, and a recommendation holds") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = screen();
+  const std::string file =
+      folder.file("screen.toml", config_text(scene, "max_depth = 2\nrays = 3000\n", {rx, {2, 4, 1}}));
+  const accuracy::Study edges = study(file, {1000, 30000});
+  const auto frame = [&](const std::vector<std::string>& keys) { return run(load_config(file, keys)).paths; };
+  const Paths on = frame({"trace.diffraction=true"}), off = frame({"trace.diffraction=false"});
+  const accuracy::Row& without = row(edges, "diffraction", "off");
+  const report::PathError error = report::path_error(on, off);
+  REQUIRE(error.lost > 0);
+  CHECK(without.own);
+  CHECK(without.error.lost == error.lost);
+  CHECK(without.error.power_median_db == error.power_median_db);
+  CHECK(without.error.power_max_db == error.power_max_db);
+  CHECK(without.error.power_max_db > 0.01);
+  // The promise of every recommendation, by runs of its own.
+  const Paths reference = frame({"trace.rays=300000"});
+  for (const double limit : accuracy::allowed_losses) {
+    const accuracy::Row* best = accuracy::cheapest(edges, {"rays", "auto"}, limit);
+    REQUIRE(best);
+    CHECK_FALSE(best->setting.keys.empty());
+    CHECK(report::path_error(reference, frame(best->setting.keys)).lost_power <= limit);
+  }
+}
+
+TEST_CASE("a setting that the configuration excludes has a row that says why") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = screen();
+  const std::string file = folder.file(
+      "join.toml", config_text(scene, "max_depth = 1\nrays = 1000\nreception = \"sphere\"\n", {rx, {2, 4, 1}}));
+  const accuracy::Study spheres = study(file, {1000, 1000});
+  CHECK(row(spheres, "auto", "recall 0.9").refusal.find("trace.rays = \"auto\" refines") != std::string::npos);
+  CHECK(row(spheres, "diffraction", "on").refusal.find("receives reflected rays alone") != std::string::npos);
+  CHECK(row(spheres, "rays", "1,000").measured());
+}
+
+TEST_CASE("the program writes table, plot and page; no link is an error; Ctrl-C ends it with 130") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = screen();
+  const std::string file = folder.file("a.toml", config_text(scene, "max_depth = 1\nrays = 1000\n", {rx}));
+  const std::string out = folder.path("out");
+  const Outcome done = run_program({"accuracy", "-c", file, "-o", out, "--rays", "1e3:3e3", "--repeat", "1"});
+  CAPTURE(done.err);
+  REQUIRE(done.code == 0);
+  CHECK(contains(done.out, "Rays, at most 10^-3"));
+  CHECK(contains(done.out, "Diffraction (trace.diffraction=true): "));
+  CHECK(contains(contents(out + "/accuracy.csv"), "\nrays,\"3,000\",false,false,"));
+  CHECK(contains(contents(out + "/accuracy.csv"), "\nrays,\"1,000\",false,true,"));
+  CHECK(contains(contents(out + "/accuracy.html"), "<h2>What to set</h2>"));
+  CHECK(contains(contents(out + "/accuracy.gp"), "gnuplot accuracy.gp"));
+  const Outcome no_link = run_program({"accuracy", "-c", file, "-o", out, "--set", "links.max_distance_m=1"});
+  CHECK(no_link.code == 2);
+  CHECK(contains(no_link.err, "has a link, so there is nothing to compare"));
+  Program stopped({"accuracy", "-c", file, "-o", folder.path("cut"), "--repeat", "1000000"});
+  for (int i = 0; i < 600 && !contains(stopped.messages(), "your own settings"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  stopped.signal(SIGINT);
+  const Outcome cut = stopped.wait();
+  CHECK(cut.code == 130);
+  CHECK(contains(cut.err, "interrupted before the first setting; nothing was written"));
+}
+
+TEST_CASE("an interrupt leaves the settings that are complete") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = screen();
+  const std::string file = folder.file("a.toml", config_text(scene, "max_depth = 1\nrays = 1000\n", {rx}));
+  size_t said = 0;
+  const accuracy::Request request{
+      .file = file, .sets = {}, .rays = {1000, 10000}, .device = "", .repeats = 1, .command_line = ""};
+  const accuracy::Study cut =
+      accuracy::study(request, {[&](const std::string&) { ++said; }, [&] { return said == 4; }});
+  REQUIRE(cut.rows.size() == 3);  // and one line before them
+  CHECK(cut.planned > 10);
+  CHECK(cut.rows[0].reference);
+  for (const accuracy::Row& done : cut.rows) CHECK(done.error.reference_paths > 0);
+  CHECK_FALSE(accuracy::recommendations(cut).empty());
+}

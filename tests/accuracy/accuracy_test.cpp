@@ -1,0 +1,133 @@
+// What is varied, which row is recommended, and the table: rows made by hand, no device.
+#include <doctest/doctest.h>
+#include <algorithm>
+#include "accuracy/advice.hpp"
+#include "accuracy/axes.hpp"
+#include "accuracy/files.hpp"
+#include "accuracy/table.hpp"
+#include "wavetracer/config_file.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::accuracy;
+
+namespace {
+
+Row row(const std::string& axis, const std::string& name, double frame_s, double lost_power, bool reference = false) {
+  Row out;
+  out.setting = {axis, name, {"trace.rays=" + name}};
+  out.frame_s = frame_s;
+  out.reference = reference;
+  out.paths = 100;
+  out.error.lost = lost_power > 0 ? 10 : 0;
+  out.error.lost_share = out.error.lost_power = lost_power;
+  out.error.power_median_db = out.error.power_max_db = lost_power;
+  return out;
+}
+
+Row refused(const std::string& axis, const std::string& name, const std::string& why) {
+  Row out;
+  out.setting = {axis, name, {}};
+  out.refusal = why;
+  return out;
+}
+
+Study made() {
+  Study out;
+  out.device.name = "a device";
+  out.rows = {row("rays", "10000000", 1, 0, true),    row("rays", "10000", 0.01, 0.002),
+              row("rays", "100000", 0.02, 5e-4),      row("rays", "1000000", 0.1, 1e-6),
+              row("auto", "recall 0.99", 0.03, 2e-4), refused("auto", "recall 0.9", "a reason, with a \"comma\"")};
+  return out;
+}
+
+bool has(const std::vector<std::string>& texts, const std::string& part) {
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const auto& text) { return text.find(part) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("the fastest setting within a loss is recommended, never the reference") {
+  Study study = made();
+  CHECK(cheapest(study, {"rays", "auto"}, 1e-3)->setting.name == "100000");
+  CHECK(cheapest(study, {"rays", "auto"}, 1e-5)->setting.name == "1000000");
+  CHECK(cheapest(study, {"auto"}, 1e-3)->setting.name == "recall 0.99");
+  CHECK(cheapest(study, {"rays"}, 1e-7) == nullptr);
+  CHECK(has(recommendations(study), "10^-3 of the power lost: trace.rays=100000 (20 ms a frame"));
+  CHECK(has(recommendations(study), "10^-5 of the power lost: trace.rays=1000000 (100 ms a frame"));
+  study.rows[2].error.lost_power = 1e-5;
+  CHECK(has(recommendations(study), "Rays, at most 10^-3 and 10^-5 of the power lost: trace.rays=100000 (20 ms"));
+  study = made();
+  study.rows[3] = row("rays", "1000000", 0.1, 2e-5);
+  CHECK(has(recommendations(study), "10^-5 of the power lost: only the reference, trace.rays=10000000 (1e+03 ms"));
+}
+
+TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one more, mechanisms on and off") {
+  Config own;
+  own.trace.rays = 200000;
+  own.trace.max_depth = 2;
+  const std::vector<Axis> still = axes(own, false, default_rays), drive = axes(own, true, {1000, 5000});
+  std::vector<std::string> names;
+  for (const Setting& setting : still[0].settings) names.push_back(setting.name);
+  CHECK(names == std::vector<std::string>{"10,000", "30,000", "100,000", "200,000", "300,000", "1,000,000",
+                                          "recall 0.9", "recall 0.99", "recall 0.999"});
+  CHECK(still[0].reference.keys == std::vector<std::string>{"trace.rays=10000000"});
+  CHECK(drive[0].reference.keys == std::vector<std::string>{"trace.rays=2000000"});  // the user's are the most
+  CHECK(drive[0].settings.back().keys == std::vector<std::string>{"trace.reuse=false"});
+  CHECK(still[1].reference.keys == std::vector<std::string>{"trace.max_depth=3"});
+  CHECK(still[1].settings.size() == 3);
+  CHECK(still.size() == 2 + mechanisms().size());
+  // Every key and value is one that a configuration accepts.
+  for (const Axis& axis : drive) {
+    std::vector<Setting> all = axis.settings;
+    all.push_back(axis.reference);
+    for (const Setting& setting : all) {
+      CAPTURE(setting.name);
+      CHECK_NOTHROW(
+          parse_config("scene.generate = \"--blocks 2\"\n[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 2]\n"
+                       "[[receiver]]\nname = \"b\"\nposition_m = [9, 0, 2]\n",
+                       "a.toml", setting.keys));
+    }
+  }
+}
+
+TEST_CASE("frames lie in the middles of equal parts of a drive; a short one has all of them") {
+  CHECK(spread_frames(11, 5) == std::vector<uint32_t>{1, 3, 5, 7, 9});
+  CHECK(spread_frames(1, 5) == std::vector<uint32_t>{0});
+  CHECK(spread_frames(3, 5) == std::vector<uint32_t>{0, 1, 2});
+  CHECK(spread_frames(1000, 1) == std::vector<uint32_t>{500});
+}
+
+TEST_CASE("a row of the table has every column; a refusal says why, quoted, and has no number") {
+  const Study study = made();
+  const std::string text = encode_csv(study.rows);
+  CHECK(
+      text.starts_with("axis,setting,reference,own,frame_s,paths,lost_paths,lost_power,gain_median_db,gain_worst_db,"
+                       "delay_spread_ns,doppler_spread_hz,links,links_lost,keys,note\n"));
+  CHECK(text.find("\nrays,100000,false,false,0.02,100,0.0005,0.0005,0.0005,0.0005,,,0,0,trace.rays=100000,\n") !=
+        std::string::npos);
+  CHECK(text.find("\nauto,recall 0.9,false,false,,,,,,,,,,,,\"not measured: a reason, with a \"\"comma\"\"\"\n") !=
+        std::string::npos);
+  CHECK(encode_text(study.rows).find("not measured: a reason") != std::string::npos);
+  const std::string page = page_html(study, "wavetracer accuracy -c a<b", "<svg></svg>");
+  CHECK(page.find("a&lt;b") != std::string::npos);
+  CHECK(page.find("<td>100000</td>") != std::string::npos);
+  CHECK(page.find("trace.rays=100000 (20 ms a frame") != std::string::npos);
+}
+
+TEST_CASE("a mechanism is described by what is missing without it") {
+  Study study = made();
+  Row on = row("diffraction", "on", 0.5, 0, true), off = row("diffraction", "off", 0.1, 0.25);
+  off.own = true;
+  off.error.power_median_db = 1.25;
+  off.error.power_max_db = 31;
+  off.error.links_lost = 3;
+  study.rows.insert(study.rows.end(), {on, off, refused("scattering", "on", "no material scatters")});
+  study.rows.back().reference = true;
+  const auto words = recommendations(study);
+  CHECK(has(words,
+            "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; path gains change by 1.2 dB "
+            "at the median link, 31 dB at the worst; 3 links have no path without it; a frame takes 500 ms with "
+            "it, 100 ms without. Yours is off"));
+  CHECK(has(words, "scattering off rough surfaces: not measured, because no material scatters"));
+}
