@@ -2,7 +2,6 @@
 // thread, and would take a second for each gigabyte. Parts may be anybody's: each must have the datasets of the first,
 // in equal shapes but for their rows.
 #include "output/merge_h5.hpp"
-#include <fmt/format.h>
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -119,25 +118,16 @@ class Walk {
   std::vector<Target> targets_;
 };
 
-template <typename Reading>
-auto reading(const std::filesystem::path& part, const Reading& read) {
-  try {
-    return read();
-  } catch (const RuntimeError& error) {
-    throw InputError(fmt::format("{}: {}; compute it again with --resume", part.string(), error.what()));
-  }
-}
-
 }  // namespace
 
 Pieces merge_frames_h5(std::span<const std::filesystem::path> parts, Groups groups, const File& merged,
                        const BeginPart& begin) {
   begin(parts.front());
-  Walk walk = reading(parts.front(), [&] { return Walk(parts.front(), groups); });
+  Walk walk = reading_part(parts.front(), [&] { return Walk(parts.front(), groups); });
   Pieces pieces;
   for (const std::filesystem::path& part : parts) {
     begin(part);
-    pieces.push_back(reading(part, [&] { return walk.take_part(part); }));
+    pieces.push_back(reading_part(part, [&] { return walk.take_part(part); }));
   }
   begin(parts.front());
   walk.make_tables(merged, pieces);
