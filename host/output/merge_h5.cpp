@@ -34,7 +34,8 @@ std::vector<std::string> datasets_in(const File& part, Groups groups) {
 std::vector<Target> targets_in(const File& part, const std::vector<std::string>& datasets) {
   std::vector<Target> targets;
   for (const std::string& path : datasets) {
-    Target& target = targets.emplace_back(Column(part, path), path.ends_with("_offset"));
+    targets.push_back({Column(part, path), path.ends_with("_offset")});
+    const Target& target = targets.back();
     if (target.offsets &&
         (target.like.shape().size() != 1 || H5Tequal(target.like.type(), hdf5::Type<uint64_t>::file()) <= 0))
       throw RuntimeError(path + " holds no offsets");
