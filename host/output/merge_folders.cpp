@@ -7,6 +7,7 @@
 #include <optional>
 #include "output/earlier_run.hpp"
 #include "output/h5_outputs.hpp"
+#include "output/merge_h5.hpp"
 #include "output/merge_outputs.hpp"
 #include "output/run_record.hpp"
 #include "output/summary_json.hpp"
@@ -134,7 +135,8 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   PendingDirectory folder(directory);
   std::vector<PendingFile> files =
       merge_outputs(record.config, parts, Parts::foreign, directory, [&](const H5Output& output, hdf5::File& head) {
-        copy_head(parts.files.at(static_cast<size_t>(&output - outputs.data())).front(), output, head);
+        const fs::path& first = parts.files.at(static_cast<size_t>(&output - outputs.data())).front();
+        reading_part(first, [&] { copy_head(first, output, head); });
       });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = encode_summary_json(record.run(), totals_of(found.shards), seconds, found.shards.size());

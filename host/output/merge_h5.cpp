@@ -2,7 +2,6 @@
 // thread, and would take a second for each gigabyte. Parts may be anybody's: each must have the datasets of the first,
 // in equal shapes but for their rows.
 #include "output/merge_h5.hpp"
-#include <fmt/format.h>
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -35,7 +34,8 @@ std::vector<std::string> datasets_in(const File& part, Groups groups) {
 std::vector<Target> targets_in(const File& part, const std::vector<std::string>& datasets) {
   std::vector<Target> targets;
   for (const std::string& path : datasets) {
-    Target& target = targets.emplace_back(Column(part, path), path.ends_with("_offset"));
+    targets.push_back({Column(part, path), path.ends_with("_offset")});
+    const Target& target = targets.back();
     if (target.offsets &&
         (target.like.shape().size() != 1 || H5Tequal(target.like.type(), hdf5::Type<uint64_t>::file()) <= 0))
       throw RuntimeError(path + " holds no offsets");
@@ -119,25 +119,16 @@ class Walk {
   std::vector<Target> targets_;
 };
 
-template <typename Reading>
-auto reading(const std::filesystem::path& part, const Reading& read) {
-  try {
-    return read();
-  } catch (const RuntimeError& error) {
-    throw InputError(fmt::format("{}: {}; compute it again with --resume", part.string(), error.what()));
-  }
-}
-
 }  // namespace
 
 Pieces merge_frames_h5(std::span<const std::filesystem::path> parts, Groups groups, const File& merged,
                        const BeginPart& begin) {
   begin(parts.front());
-  Walk walk = reading(parts.front(), [&] { return Walk(parts.front(), groups); });
+  Walk walk = reading_part(parts.front(), [&] { return Walk(parts.front(), groups); });
   Pieces pieces;
   for (const std::filesystem::path& part : parts) {
     begin(part);
-    pieces.push_back(reading(part, [&] { return walk.take_part(part); }));
+    pieces.push_back(reading_part(part, [&] { return walk.take_part(part); }));
   }
   begin(parts.front());
   walk.make_tables(merged, pieces);

@@ -7,8 +7,19 @@
 #include <span>
 #include "output/copy_pieces.hpp"
 #include "output/hdf5.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
+
+// What reads a part: its RuntimeError becomes an InputError that names the part.
+template <typename Read>
+auto reading_part(const std::filesystem::path& part, const Read& read) {
+  try {
+    return read();
+  } catch (const RuntimeError& error) {
+    throw InputError(part.string() + ": " + error.what() + "; compute it again with --resume");
+  }
+}
 
 // parts: files of one kind and run, in the order of their frames, at least one. Makes these groups of them in `merged`,
 // as if all frames had been encoded at once, but for the rows: the pieces say where those are and belong, once `merged`

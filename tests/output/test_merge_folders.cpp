@@ -133,6 +133,12 @@ TEST_CASE("a hostile part is an error that names it, and nothing is written") {
   CHECK_THROWS_WITH_AS(merge_found(find_parts({a}), folder.path() / "out", ""), doctest::Contains(part.c_str()),
                        InputError);
   CHECK_FALSE(fs::exists(folder.path() / "out"));
+  const fs::path first = shards / "frames_000003_000009.h5";
+  const std::string first_bytes = slurp(first);
+  std::ofstream(first, std::ios::binary) << std::string(first_bytes.size(), '\0');
+  CHECK_THROWS_WITH_AS(merge_found(find_parts({a}), folder.path() / "out", ""), doctest::Contains(first.c_str()),
+                       InputError);
+  std::ofstream(first, std::ios::binary) << first_bytes;
   // A part on which the library may fault (1.10.8 does): the second one, which the error must name.
   const std::string fault = slurp(fs::path(WAVETRACER_SOURCE) / "tests/fuzz/corpus/merge/fault_in_attribute.h5");
   std::ofstream(part, std::ios::binary) << fault;
