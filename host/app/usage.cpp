@@ -91,9 +91,9 @@ const CLI::App& find_command(const CLI::App& program, const std::vector<std::str
     if (found.empty()) {
       std::vector<std::string> known = command_names(*at);
       if (at == &program) known.push_back(config_topic);
-      throw ConfigError(fmt::format(
-          "help: there is nothing about \"{}\"{}; there is help about {}", word, config::hint(word, known),
-          known.empty() ? "`wavetracer help " + at->get_name() + "`" : fmt::format("{}", fmt::join(known, ", "))));
+      throw ConfigError(
+          fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, config::hint(word, known),
+                      known.empty() ? at->get_name() + " as a whole" : fmt::format("{}", fmt::join(known, ", "))));
     }
     at = found.front();
   }

@@ -62,7 +62,7 @@ Outcome bench(const Recipe& recipe, const Folder& folder, const std::string& con
   if (series || (recipe.study && recipe.study->rays.front() == 1000))
     words.insert(words.end(), {"--rays", "1000:1000"});
   words.insert(words.end(), {"--frames", "1"});
-  return run_program(words, {"PATH=" + folder.path()});  // no gnuplot
+  return run_program(words);
 }
 
 // In which kinds a recipe draws its figure here: caches and experiments launch many rays, so in one each, and
@@ -142,8 +142,7 @@ TEST_CASE("thesis: a configuration of vehicles alone has a page, which names the
   CHECK(wrong.code == 2);  // before the first figure, which would accept it, is measured
   CHECK(contains(wrong.err, "figure-6.2 gives cache.division its values itself"));
   const Outcome outcome = run_program({"bench", "thesis", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
-                                       "--repeat", "1", "--frames", "1"},
-                                      {"PATH=" + folder.path()});
+                                       "--repeat", "1", "--frames", "1"});
   CAPTURE(outcome.err);
   CHECK(outcome.code == 5);
   const std::string page = contents(folder.path("out/thesis.html"));
