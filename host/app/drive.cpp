@@ -3,9 +3,9 @@
 #include "app/drive.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
-#include "app/folder_hold.hpp"
 #include "app/interrupt.hpp"
 #include "app/solve_frame.hpp"
 #include "app/team.hpp"
@@ -28,9 +28,7 @@ void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std
     progress.line(fmt::format("--resume: {} of {} frames are there", done, all));
 }
 
-void keep_links(Results& results, const std::vector<FrameResult>& frames) {
-  if (frames.empty()) return;
-  const FrameResult& last = frames.back();
+void keep_links(Results& results, const FrameResult& last) {
   results.last_frame = last.frame;
   results.last_links = link_figures(last.paths, last.frame, last.world.links);
 }
@@ -51,69 +49,68 @@ Units units_of(const DriveTask& task) {
   return {task.identity.first, task.identity.last, task.run.config.output.shard_frames, task.blocks};
 }
 
-std::vector<FrameResult> solve_unit(const DriveTask& task, const Unit& unit, Progress& progress) {
-  std::vector<FrameResult> frames;
+bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress, Results* last) {
   const RunIdentity& asked = task.identity;
-  task.simulation.forget();
+  std::optional<TransmitterRange> block;
   if (unit.blocks > 1) {
     const uint64_t all = task.run.config.transmitters.size();
-    const TransmitterRange range{static_cast<uint32_t>(all * unit.block / unit.blocks),
-                                 static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
-    if (interrupted()) return frames;
-    frames.push_back(solve_frame(task.simulation, unit.first, asked.repeat, range).result);
-    frames[0].missing = task.simulation.explain_missing(frames[0]);
-    return frames;
+    block = {static_cast<uint32_t>(all * unit.block / unit.blocks),
+             static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
   }
+  task.simulation.forget();
+  writer.begin(unit);
   bool explained = false;
-  for (uint64_t frame = unit.first; frame <= unit.last && !interrupted(); ++frame) {
-    progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count());
-    frames.push_back(solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat).result);
+  for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
+    if (interrupted()) return false;
+    if (!block)
+      progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count());
+    FrameResult result = solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat, block).result;
+    const bool stop = frame == unit.last || interrupted();
     // Why a drive has no path at all is asked once a unit; where others have found one, nobody will read it.
-    FrameResult& last = frames.back();
-    if (explained || last.world.links.empty() || !(last.paths.size() == 0 || asked.first == asked.last)) continue;
-    last.missing = task.simulation.explain_missing(last);
-    explained = true;
+    const bool ask = block || asked.first == asked.last || result.paths.size() == 0;
+    if (!explained && !result.world.links.empty() && ask) {
+      result.missing = task.simulation.explain_missing(result);
+      explained = true;
+    }
+    if (last && stop) keep_links(*last, result);
+    writer.add(std::move(result));
+    if (stop) return frame == unit.last;
   }
-  return frames;
+  return true;
 }
 
 bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
-  std::vector<FrameResult> frames = solve_unit(task, unit, progress);
-  if (frames.size() < unit.frames()) return false;
-  writer.write(unit, std::move(frames));
-  return true;
+  const bool whole = solve_unit(task, unit, writer, progress, nullptr);
+  if (whole)
+    writer.end();
+  else
+    writer.drop();
+  return whole;
 }
 
 Results drive(const DriveTask& task, Progress& progress) {
   const std::string& directory = task.run.config.output.directory;
-  const ProcessInfo process = this_process("", 0);
-  Shards shards(directory, task.identity);
-  check_not_in_use(shards.folder(), process.job);
+  Shards shards(directory, task.identity, task.run.summary.inputs);
   if (task.resume) {
     shards.resume();
     say_what_is_there(shards, task.identity, directory, progress);
   }
   Results results;
-  std::optional<FolderHold> folder;
   UnitWriter writer(task.run, shards, progress);
-  std::vector<FrameResult> frames;
   const Units units = units_of(task);
   for (uint64_t index = 0; index < units.count() && !interrupted(); ++index) {
     const Unit unit = units.at(index);
     if (shards.finished(unit)) continue;
-    frames = solve_unit(task, unit, progress);
-    keep_links(results, frames);
-    if (frames.size() < unit.frames()) break;
-    if (!folder) folder.emplace(directory, process);
-    writer.write(unit, std::exchange(frames, {}));
+    if (!solve_unit(task, unit, writer, progress, &results)) break;
+    writer.end();
   }
   writer.finish();
-  if (folder) folder->keep();
+  std::unique_ptr<OpenUnit> unfinished = writer.unfinished();
   results.totals = shards.totals();
-  add(results.totals, totals_of(frames));
+  if (unfinished) add(results.totals, unfinished->totals());
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
-    results.files = shards.merge(task.run, frames);
+    results.files = shards.merge(task.run, std::move(unfinished));
   }
   return results;
 }

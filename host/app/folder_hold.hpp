@@ -1,7 +1,8 @@
-// DIR/shards, made where it is missing, with this process's file in it (output/process_files.hpp).
-// Folders that were made here go again unless keep() is called.
+// DIR/shards, made where it is missing, with this process's file in it (output/process_files.hpp): who writes there.
+// What was made here goes again where nothing was put into it.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include "output/pending_file.hpp"
 #include "output/process_files.hpp"
@@ -10,17 +11,23 @@ namespace wavetracer::app {
 
 class FolderHold {
  public:
+  // Throws RuntimeError where another process has the folder, see Presence.
   FolderHold(const std::filesystem::path& directory, ProcessInfo process)
-      : directory_(directory), shards_(directory / "shards"), presence_(shards_.path(), std::move(process)) {}
-  const ProcessInfo& process() const { return presence_.process(); }
-  void keep() {
-    directory_.keep();
-    shards_.keep();
+      : directory_(directory), shards_(directory / "shards") {
+    presence_.emplace(shards_.path(), std::move(process));
   }
+  ~FolderHold() {
+    presence_.reset();
+    std::error_code ignored;
+    std::filesystem::remove(shards_.path(), ignored);  // of an earlier drive, and empty now
+  }
+  FolderHold(const FolderHold&) = delete;
+  FolderHold& operator=(const FolderHold&) = delete;
+  const ProcessInfo& process() const { return presence_->process(); }
 
  private:
   PendingDirectory directory_, shards_;
-  Presence presence_;  // its file goes before its folder
+  std::optional<Presence> presence_;
 };
 
 }  // namespace wavetracer::app

@@ -3,10 +3,9 @@
 #include "app/inputs.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include "config/fields.hpp"
+#include "config/input_files.hpp"
 #include "files/input_file.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
@@ -39,26 +38,17 @@ void check_streets(const Config& config) {
   const std::string city = words(parse_traffic_options(config.scene.generate).grid),
                     traffic = words(parse_traffic_options(config.trajectories.generate).grid);
   if (city != traffic)
-    throw ConfigError(fmt::format("{}trajectories.generate has the streets of {}, scene.generate those of {}: vehicles "
-                                  "would drive through houses; give both the same",
-                                  config.file.empty() ? "" : config.file + ": ", traffic, city));
+    throw ConfigError(
+        fmt::format("{}trajectories.generate has the streets of {}, scene.generate those of {}: vehicles "
+                    "would drive through houses; give both the same",
+                    config.file.empty() ? "" : config.file + ": ", traffic, city));
 }
 
 }  // namespace
 
 void check_inputs(const Config& config) {
-  Config values = config;  // slots point to what may be written to
-  for (const config::Table& table : config::tables()) {
-    const size_t count = table.count ? table.count(values) : 1;
-    for (const config::Field& field : table.fields) {
-      if (field.form != config::Form::input_file && field.form != config::Form::choice_or_file) continue;
-      for (size_t i = 0; i < count; ++i) {
-        const std::string& value = *std::get<std::string*>(field.slot(values, i));
-        const bool named = std::find(field.choices.begin(), field.choices.end(), value) != field.choices.end();
-        if (!value.empty() && !named) check_file(value, table.name + "." + field.name, config.file);
-      }
-    }
-  }
+  Config values = config;  // what names files may be written to
+  for (const config::NamedFile& file : config::input_files(values)) check_file(*file.path, file.key, config.file);
   if (!config.scene.generate.empty()) parse_city_options(config.scene.generate);
   if (!config.trajectories.generate.empty()) parse_traffic_options(config.trajectories.generate);
   if (!config.scene.generate.empty() && !config.trajectories.generate.empty()) check_streets(config);

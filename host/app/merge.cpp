@@ -1,14 +1,15 @@
 // `wavetracer merge`: parts of a run that several processes or machines have written, made one.
 // It needs no device and none of the run's input files.
 #include <fmt/format.h>
+#include <unistd.h>
 #include <algorithm>
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/folder_hold.hpp"
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "output/merge_folders.hpp"
-#include "output/process_files.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -46,11 +47,26 @@ std::string missing_words(const FoundParts& found) {
   return out;
 }
 
+// Nobody else may write to the folders meanwhile. Parts may lie where this process cannot write.
+std::vector<std::unique_ptr<FolderHold>> hold_all(const std::vector<std::string>& directories, const fs::path& target) {
+  const ProcessInfo process = this_process("", 0);
+  std::vector<std::unique_ptr<FolderHold>> held;
+  held.push_back(std::make_unique<FolderHold>(target, process));
+  for (const std::string& directory : directories) {
+    const fs::path shards = fs::path(directory) / "shards";
+    if (access(shards.c_str(), W_OK) != 0)
+      check_not_in_use(shards);
+    else if (!fs::exists(process_file(shards, process)))
+      held.push_back(std::make_unique<FolderHold>(directory, process));
+  }
+  return held;
+}
+
 void merge(const Options& options, Invocation& invocation) {
   Progress progress;
   const fs::path target = target_of(options);
   check_output_folder(target);
-  for (const std::string& directory : options.directories) check_not_in_use(fs::path(directory) / "shards", "");
+  const std::vector<std::unique_ptr<FolderHold>> held = hold_all(options.directories, target);
   const FoundParts found = find_parts({options.directories.begin(), options.directories.end()});
   for (const std::string& damaged : found.damaged) progress.line("damaged: " + damaged);
   if (found.missing_count > 0) {

@@ -20,6 +20,7 @@
 #include "app/report.hpp"
 #include "app/solve_frame.hpp"
 #include "config/config_file.hpp"
+#include "config/input_files.hpp"
 #include "gpu/hash.hpp"
 #include "output/output.hpp"
 #include "wavetracer/simulation.hpp"
@@ -52,22 +53,27 @@ Config configuration(const Options& options, bool shared) {
     if (options.resume && !shared)
       throw ConfigError("--resume: nothing to resume, because a run without trajectories is one frame; leave it out");
   }
-  if (!options.directory.empty()) {
-    config.output.directory = fs::absolute(options.directory).lexically_normal().string();
-    config.text = resolved_config(config);
-  }
+  if (!options.directory.empty()) config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return config;
+}
+
+std::string hash_of(const std::vector<InputFile>& inputs) {
+  std::string text;
+  for (const InputFile& input : inputs) text += fmt::format("{}\n{} {}\n", input.name, input.bytes, input.hash);
+  return gpu::fnv1a_128(text);
 }
 
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
   Config elsewhere = config;
   elsewhere.output.directory.clear();  // a folder that was moved is still that of its run
+  for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
   return {summary.version,
           gpu::fnv1a_128(resolved_config(elsewhere)),
           summary.device.gpu ? "gpu" : "cpu",
           range.first,
           range.last,
-          summary.repeat_count};
+          summary.repeat_count,
+          hash_of(summary.inputs)};
 }
 
 // A world where nothing moves: one frame, written as it is.
@@ -149,7 +155,6 @@ std::optional<Results> run_shared(const DriveTask& task, const Options& options,
   const std::string& directory = task.run.config.output.directory;
   FolderHold folder(directory, this_process(job_of(part, task.identity), part.index));
   const Shared shared = drive_part(task, part, progress);
-  folder.keep();
   if (shared.missing > 0) {
     invocation.code = ExitCode::interrupted;
     progress.line(fmt::format("interrupted; {} parts of --shard {} are left; go on with --resume", shared.missing,
@@ -172,13 +177,13 @@ void run(const Options& options, Invocation& invocation) {
   const Config config = configuration(options, launching || part || together);
   check_inputs(config);
   check_output_folder(config.output.directory);
-  if (!part && !together) check_not_in_use(fs::path(config.output.directory) / "shards", "");
+  if (!part && !together) check_not_in_use(fs::path(config.output.directory) / "shards");
   catch_interrupts();
   Progress progress(together ? fmt::format("rank {}: ", ranks.rank) : "");
   if (launching) return launch_children(options, config, invocation, progress);
   take_share_of_cores(ranks);
   std::optional<FolderHold> folder;
-  if (together) folder.emplace(config.output.directory, this_process(ranks.job, ranks.rank));
+  if (!part) folder.emplace(config.output.directory, this_process(ranks.job, ranks.rank));
   if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
   Simulation simulation(config, device_of(options, ranks));
   const FrameRange range = parse_frames(options.frames, simulation.frame_count());
@@ -199,7 +204,6 @@ void run(const Options& options, Invocation& invocation) {
                        moving || (!part && !together) ? 1 : block_count(run.config)};
   Results results;
   if (part || together) {
-    if (folder) folder->keep();
     const auto shared = run_shared(task, options, ranks, folder ? &folder->process() : nullptr, invocation, progress);
     if (!shared) return;
     results = *shared;

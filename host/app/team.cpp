@@ -3,14 +3,13 @@
 #include "app/team.hpp"
 #include <fmt/format.h>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include "app/interrupt.hpp"
 #include "gpu/hash.hpp"
 #include "output/claims.hpp"
 #include "output/pending_file.hpp"
+#include "output/read_text.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
@@ -27,7 +26,7 @@ class Team {
       : task_(task),
         ranks_(ranks),
         progress_(progress),
-        shards_(task.run.config.output.directory, task.identity),
+        shards_(task.run.config.output.directory, task.identity, task.run.summary.inputs),
         claims_(shards_.folder(), me),
         writer_(task.run, shards_, progress),
         units_(units_of(task)),
@@ -41,9 +40,7 @@ class Team {
     say_if_idle();
     first_pass();
     Shared shared{{}, last_passes()};
-    if (interrupted() || merged()) return shared;
-    claims_.look();
-    if (!claims_.take("merge") || merged()) return shared;
+    if (!take_merge(shared.missing == 0)) return shared;
     if (shared.missing > 0) return say_missing(shared);
     shared.results.totals = shards_.totals();
     progress_.line("writing to " + task_.run.config.output.directory);
@@ -66,8 +63,9 @@ class Team {
   fs::path job_file() const { return shards_.folder() / "job.json"; }
 
   nlohmann::json job() const {
-    std::ifstream in(job_file(), std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    std::error_code none;
+    if (!fs::exists(job_file(), none)) return nlohmann::json::object();
+    const std::string text = read_text(job_file(), 1 << 16, "remove it and run again");
     nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
     return json.is_object() ? json : nlohmann::json::object();
   }
@@ -148,6 +146,20 @@ class Team {
     }
   }
 
+  // Whether this process is to merge. Who is not stays until somebody has: whoever merges may die over it.
+  bool take_merge(bool whole) {
+    for (; !interrupted() && !merged(); std::this_thread::sleep_for(poll_interval)) {
+      claims_.look();
+      const bool taken = claims_.take("merge");
+      if (taken && merged()) remove_claims(shards_.folder());  // this one came after the others had gone
+      if (taken || !whole) return taken && !merged();
+      if (claims_.state("merge") == ClaimState::failed && !merged())
+        throw RuntimeError("the processes that merged " + shards_.folder().string() +
+                           " were killed; run again with --resume");
+    }
+    return false;
+  }
+
   Shared say_missing(const Shared& shared) {
     std::string which;
     for (uint64_t index = 0, shown = 0; index < units_.count() && shown < 5; ++index)
@@ -169,7 +181,7 @@ Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessIn
 }
 
 Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
-  Shards shards(task.run.config.output.directory, task.identity);
+  Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs);
   shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
   UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);

@@ -84,7 +84,7 @@ class Parser {
     check_whole();
     finish();
     config_.file = file_;
-    config_.text = resolved_config(config_);
+    config_.text = echoed_config(config_);
     return std::move(config_);
   }
 

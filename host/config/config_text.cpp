@@ -72,14 +72,18 @@ std::string field_help() {
   return out;
 }
 
-std::string resolved_config(const Config& config) {
+namespace {
+
+// which: of a table and a field, whether the text has it.
+template <typename Which>
+std::string text_of(const Config& config, const Which& which) {
   std::string out;
   Config values = config;  // slots point to what may be written to
   const auto write = [&](const Table& table, size_t element) {
     out += (out.empty() ? "" : "\n") + header(table) + "\n";
     for (const Field& field : table.fields) {
       const std::string value = literal(field, field.slot(values, element));
-      if (!value.empty()) out += field.name + " = " + value + "\n";
+      if (!value.empty() && which(table, field)) out += field.name + " = " + value + "\n";
     }
   };
   for (const Table& table : tables()) {
@@ -91,6 +95,19 @@ std::string resolved_config(const Config& config) {
     for (size_t i = 0; i < count; ++i) write(table, i);
   }
   return out;
+}
+
+}  // namespace
+
+std::string resolved_config(const Config& config) {
+  return text_of(config, [](const Table&, const Field&) { return true; });
+}
+
+std::string echoed_config(const Config& config) {
+  return text_of(config, [&](const Table& table, const Field& field) {
+    return table.name != "output" ||
+           (field.name != "directory" && (field.name != "shard_frames" || config.trace.reuse));
+  });
 }
 
 }  // namespace wavetracer

@@ -1,7 +1,11 @@
 // FNV-1a of 128 bits and a splitmix64 fold.
 // Assumes a compiler with 128-bit integers (GCC, Clang) and a little-endian machine, as all OpenCL hosts here are.
 #include "gpu/hash.hpp"
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cstring>
 
@@ -26,6 +30,27 @@ uint64_t mix64(std::string_view bytes) {
     hash ^= hash >> 31;
   }
   return hash;
+}
+
+std::optional<FileHash> hash_of_file(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe would wait for its writer
+  if (file < 0) return std::nullopt;
+  struct stat status {};
+  std::optional<FileHash> out;
+  if (::fstat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
+    out = FileHash{};
+  } else if (status.st_size == 0) {
+    out = FileHash{0, mix64({})};
+  } else {
+    const auto bytes = static_cast<size_t>(status.st_size);
+    void* const content = ::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0);
+    if (content != MAP_FAILED) {
+      out = FileHash{bytes, mix64({static_cast<const char*>(content), bytes})};
+      ::munmap(content, bytes);
+    }
+  }
+  ::close(file);
+  return out;
 }
 
 }  // namespace wavetracer::gpu

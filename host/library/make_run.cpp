@@ -1,8 +1,41 @@
 // What a simulation says of itself, gathered for the outputs.
 // In this folder because the output folder knows no simulation.
+#include <fmt/format.h>
+#include <algorithm>
+#include "config/input_files.hpp"
+#include "gpu/hash.hpp"
+#include "wavetracer/error.hpp"
 #include "wavetracer/output.hpp"
 
 namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_input(std::vector<InputFile>& inputs, const std::string& name, const std::string& file) {
+  if (std::ranges::find(inputs, file, &InputFile::file) != inputs.end()) return;
+  const auto hash = gpu::hash_of_file(file);
+  if (!hash) throw InputError(fmt::format("{} ({}): can no longer be read; put it back and run again", file, name));
+  inputs.push_back({name, file, hash->bytes, hash->hash});
+}
+
+// The files of a scene but for the first, which its key names.
+void add_named_by(std::vector<InputFile>& inputs, const std::string& key, const Scene& scene) {
+  const fs::path folder = fs::path(scene.file).parent_path();
+  for (const std::string& file : scene.files)
+    add_input(inputs, key + ": " + fs::path(file).lexically_relative(folder).string(), file);
+}
+
+std::vector<InputFile> inputs_of(const Simulation& simulation) {
+  std::vector<InputFile> inputs;
+  Config config = simulation.config();
+  for (const config::NamedFile& file : config::input_files(config)) add_input(inputs, file.key, *file.path);
+  add_named_by(inputs, "scene.file", simulation.scene());
+  for (const Scene& model : simulation.models()) add_named_by(inputs, "vehicle_type.model", model);
+  return inputs;
+}
+
+}  // namespace
 
 Run make_run(const Simulation& simulation, uint64_t frames_asked, const std::string& command_line) {
   RunSummary summary;
@@ -11,6 +44,7 @@ Run make_run(const Simulation& simulation, uint64_t frames_asked, const std::str
   summary.features = simulation.features();
   summary.setup_seconds = simulation.setup_seconds();
   summary.command_line = command_line;
+  summary.inputs = inputs_of(simulation);
   summary.frames_asked = frames_asked;
   summary.warnings = simulation.warnings();
   return {simulation.config(), simulation.scene(), simulation.instances(), simulation.models(), std::move(summary)};

@@ -12,7 +12,7 @@
 namespace wavetracer::hdf5 {
 namespace {
 
-enum class Asked : uint32_t { shape, bytes, words, longs, doubles, strings, root_text, root_number };
+enum class Asked : uint32_t { shape, bytes, words, longs, doubles, strings, root_text, root_number, group };
 
 struct Question {
   Asked asked = Asked::shape;
@@ -71,6 +71,10 @@ class Reader {
       case Asked::root_text: {
         const std::string text = hdf5::root_text(*file_, name);
         return reply.send(text.data(), text.size());
+      }
+      case Asked::group: {
+        const char there = H5Lexists(file_->id(), name.c_str(), H5P_DEFAULT) > 0 ? 'y' : 'n';
+        return reply.send(&there, 1);
       }
       case Asked::root_number: {
         const double number = hdf5::root_number(*file_, name);
@@ -132,6 +136,8 @@ struct ForeignFile::Child {
 ForeignFile::ForeignFile(const std::filesystem::path& path) : child_(std::make_unique<Child>(path)) {}
 ForeignFile::~ForeignFile() = default;
 ForeignFile::ForeignFile(ForeignFile&&) noexcept = default;
+
+bool ForeignFile::has(const std::string& group) const { return child_->ask(question(Asked::group), group) == "y"; }
 
 std::vector<uint64_t> ForeignFile::shape(const std::string& dataset, const std::vector<uint64_t>& inner) const {
   return child_->numbers<uint64_t>(question(Asked::shape, inner), dataset, inner.size() + 1);

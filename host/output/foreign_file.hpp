@@ -18,6 +18,8 @@ class ForeignFile {
   ~ForeignFile();
   ForeignFile(ForeignFile&&) noexcept;
 
+  // Whether a group of the root is there.
+  bool has(const std::string& group) const;
   // The size of each dimension. inner: the sizes of all dimensions but the first; 0 stands for any size.
   std::vector<uint64_t> shape(const std::string& dataset, const std::vector<uint64_t>& inner = {}) const;
   // Whole rows, which must be there, as numbers of the type T.

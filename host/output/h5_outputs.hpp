@@ -1,26 +1,23 @@
-// The HDF5 files of a run: what each is called, whole and in shards, and how it is written at once.
-// A file in memory is all that is held.
+// The HDF5 files of a run: what each is called, whole and in shards, and how it is made of a run and its frames.
 #pragma once
-#include <filesystem>
 #include <span>
+#include "output/frame_tables.hpp"
 #include "output/hdf5.hpp"
 #include "output/output.hpp"
-#include "output/pending_file.hpp"
 
 namespace wavetracer {
 
 struct H5Output {
   const char* name;
   const char* part_suffix;  // of a shard's part of it: frames_FIRST_LAST and this
-  void (*encode)(const Run&, Frames, hdf5::File&);
-  void (*encode_head)(const Run&, hdf5::File&);  // what does not grow with frames
-  std::span<const char* const> growing_groups;   // what does
+  // What does not grow with frames, into an empty file in memory; make_head() (head_h5.hpp) is the way to call it.
+  void (*encode_head)(const Run&, hdf5::File&);
+  // What does: the rows of a frame. Throws RuntimeError where its columns contradict each other.
+  void (*append_frame)(const Run&, const FrameResult&, FrameTables&);
+  std::span<const char* const> growing_groups;  // in the order of the file
 };
 
 // Those that runs of this configuration write: paths.h5, and with output.waypoints waypoints.h5.
 std::span<const H5Output> h5_outputs(const Config& config);
-
-// Synced, but not in place. Throws RuntimeError.
-PendingFile write_whole(const H5Output& output, const Run& run, Frames frames, const std::filesystem::path& path);
 
 }  // namespace wavetracer

@@ -23,10 +23,21 @@ Id simple_space(const std::vector<hsize_t>& shape) {
   return Id(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "make a data space");
 }
 
+// Without the time of its making, which would tell apart files of equal contents.
+Id untimed() {
+  Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "set up a dataset");
+  checked(H5Pset_obj_track_times(creation, false), "set up a dataset");
+  return creation;
+}
+
+Id create_dataset(hid_t file, const std::string& path, hid_t type, hid_t space, hid_t creation) {
+  return Id(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
+            "create dataset " + path);
+}
+
 Id make_dataset(hid_t file, const std::string& path, const Meaning& meaning, hid_t type, hid_t space,
-                hid_t creation = H5P_DEFAULT) {
-  Id dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
-             "create dataset " + path);
+                const Id& creation = untimed()) {
+  Id dataset = create_dataset(file, path, type, space, creation);
   write_attribute(dataset, "units", meaning.units);
   write_attribute(dataset, "description", meaning.description);
   return dataset;
@@ -95,9 +106,10 @@ std::string text_attribute(hid_t object, const std::string& name) {
 }
 
 File::File()
-    : access_(memory_access()),
-      id_(H5Fcreate("wavetracer-in-memory.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access_), H5Fclose,
-          "create a file in memory") {}
+    : access_(memory_access()),  // the library takes two files of one name for the same
+      id_(H5Fcreate(fmt::format("wavetracer-in-memory-{}.h5", fmt::ptr(this)).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT,
+                    access_),
+          H5Fclose, "create a file in memory") {}
 
 File::File(const std::filesystem::path& path, unsigned mode)
     : access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up a file"),
@@ -161,9 +173,13 @@ void Table::append_rows(hid_t memory_type, const void* values, hsize_t rows) {
   next_row_ += rows;
 }
 
+Id make_untimed(const File& file, const std::string& path, hid_t type, hid_t space) {
+  return create_dataset(file.id(), path, type, space, untimed());
+}
+
 uint64_t make_room(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
                    const std::vector<hsize_t>& shape) {
-  const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make room for " + path);
+  const Id creation = untimed();
   checked(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY), "make room for " + path);
   checked(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), "make room for " + path);
   const Id dataset = make_dataset(file.id(), path, meaning, type, simple_space(shape), creation);

@@ -123,6 +123,9 @@ class Table {
   Id dataset_;
 };
 
+// A dataset without attributes, and without the times that HDF5 notes by itself.
+Id make_untimed(const File& file, const std::string& path, hid_t type, hid_t space);
+
 // A dataset that rows of other files will fill (copy_pieces.hpp). Returns where in the file they begin, once that is
 // closed; 0 where there are none.
 uint64_t make_room(const File& file, const std::string& path, const Meaning& meaning, hid_t type,

@@ -34,18 +34,23 @@ std::vector<std::string> labels(const std::vector<RadioEnd>& ends) {
 
 }  // namespace
 
-void write_links_csv(const Run& run, Frames frames, PendingFile& file) {
-  const auto tx = labels(run.config.transmitters), rx = labels(run.config.receivers);
-  file.write(bytes(header));
+LinksCsv::LinksCsv(const Run& run, const std::filesystem::path& path)
+    : file_(path), tx_(labels(run.config.transmitters)), rx_(labels(run.config.receivers)) {
+  file_.write(bytes(header));
+}
+
+void LinksCsv::add(const FrameResult& frame) {
   std::string text;
-  for (const FrameResult& frame : frames) {
-    text.clear();
-    for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:d},{}\n", frame.world.time_s, tx[link.tx],
-                     rx[link.rx], link.paths, link.path_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
-                     link.doppler_spread_hz, link.los, link.missed_power_share);
-    file.write(bytes(text));
-  }
+  for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:d},{}\n", frame.world.time_s, tx_.at(link.tx),
+                   rx_.at(link.rx), link.paths, link.path_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
+                   link.doppler_spread_hz, link.los, link.missed_power_share);
+  file_.write(bytes(text));
+}
+
+PendingFile LinksCsv::finish() {
+  file_.sync();
+  return std::move(file_);
 }
 
 void join_links_csv(std::span<const std::filesystem::path> parts, PendingFile& file) {

@@ -3,6 +3,8 @@
 #pragma once
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 #include "output/output.hpp"
 #include "output/pending_file.hpp"
 
@@ -10,9 +12,19 @@ namespace wavetracer {
 
 // tx and rx are the names of the config, or the row number where a name is empty. A link without a path has a gain of
 // "-inf" and delay, Doppler and missed figures of "nan". los is 1 or 0.
-void write_links_csv(const Run& run, Frames frames, PendingFile& file);
+class LinksCsv {
+ public:
+  LinksCsv(const Run& run, const std::filesystem::path& path);
+  void add(const FrameResult& frame);
+  // The file, synced but not in place. Nothing can be added then.
+  PendingFile finish();
 
-// The rows of all parts, which write_links_csv() wrote, under one header. Throws RuntimeError.
+ private:
+  PendingFile file_;
+  std::vector<std::string> tx_, rx_;  // what they are called
+};
+
+// The rows of all parts, each written by LinksCsv, under one header. Throws RuntimeError.
 void join_links_csv(std::span<const std::filesystem::path> parts, PendingFile& file);
 
 }  // namespace wavetracer

@@ -3,11 +3,10 @@
 #include "output/manifest.hpp"
 #include <fmt/format.h>
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include "output/cache_json.hpp"
 #include "output/json_count.hpp"
+#include "output/read_text.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -15,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr uint64_t most_bytes = uint64_t{1} << 32;
 
 std::vector<uint64_t> whole_numbers(const Json& json) {
   std::vector<uint64_t> out;
@@ -61,7 +62,8 @@ Shard decode(const Json& json) {
                run.at("device_kind"),
                whole<uint32_t>(run.at("first")),
                whole<uint32_t>(run.at("last")),
-               whole<uint32_t>(run.at("repeat"))};
+               whole<uint32_t>(run.at("repeat")),
+               run.at("inputs")};
   Totals& t = shard.totals;
   t.first = whole<uint32_t>(json.at("first"));
   t.last = whole<uint32_t>(json.at("last"));
@@ -135,7 +137,8 @@ std::string encode_manifest_line(const Shard& shard) {
                        {"why_in_grids", t.missing.why_in_grids}};
   json["files"] = files;
   json["run"] = {{"version", run.version}, {"config", run.config}, {"device_kind", run.device_kind},
-                 {"first", run.first},     {"last", run.last},     {"repeat", run.repeat}};
+                 {"first", run.first},     {"last", run.last},     {"repeat", run.repeat},
+                 {"inputs", run.inputs}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -161,11 +164,8 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
 
 std::vector<Shard> read_manifest(const fs::path& file) {
   std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return {};
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (!in) throw RuntimeError(fmt::format("cannot read {}; check its permissions", file.string()));
-  return decode_manifest(text, file.string());
+  if (!fs::exists(file, ignored)) return {};
+  return decode_manifest(read_text(file, most_bytes, "check its permissions, or remove it and run again"), file.string());
 }
 
 std::vector<fs::path> manifests_in(const fs::path& folder) {
@@ -173,7 +173,7 @@ std::vector<fs::path> manifests_in(const fs::path& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("manifest.") && name.ends_with(".jsonl") && entry.is_regular_file(none))
+    if (name.starts_with("manifest.") && name.ends_with(".jsonl"))
       out.push_back(entry.path());
   }
   std::ranges::sort(out);

@@ -13,10 +13,11 @@ namespace wavetracer {
 // What must agree between the runs that fill one folder.
 struct RunIdentity {
   std::string version;
-  std::string config;            // hash of its text, the folder of outputs left out
+  std::string config;            // hash of its text, the folder of outputs and the places of input files left out
   std::string device_kind;       // "cpu" or "gpu"
   uint32_t first = 0, last = 0;  // frames asked for
   uint32_t repeat = 1;           // repeats begin cold, so their number changes what a frame reuses
+  std::string inputs = {};       // hash of the contents of input files, which run.json lists
   bool operator==(const RunIdentity&) const = default;
 };
 

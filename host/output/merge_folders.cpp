@@ -7,6 +7,8 @@
 #include <optional>
 #include "output/earlier_run.hpp"
 #include "output/h5_outputs.hpp"
+#include "output/head_h5.hpp"
+#include "output/inputs.hpp"
 #include "output/merge_h5.hpp"
 #include "output/merge_outputs.hpp"
 #include "output/run_record.hpp"
@@ -20,6 +22,12 @@ namespace fs = std::filesystem;
 
 constexpr size_t most_named = 1000;
 
+std::vector<InputFile> inputs_in(const fs::path& folder) {
+  std::error_code none;
+  const fs::path record = folder / "run.json";
+  return fs::exists(record, none) ? read_run_record(record).summary.inputs : std::vector<InputFile>();
+}
+
 void check_same_run(const RunIdentity& a, const fs::path& folder_a, const RunIdentity& b, const fs::path& folder_b) {
   const auto differs = [&](const std::string& what, const auto& one, const auto& other) {
     if (one != other)
@@ -31,6 +39,13 @@ void check_same_run(const RunIdentity& a, const fs::path& folder_a, const RunIde
   differs("device kinds", a.device_kind, b.device_kind);
   differs("--frames", fmt::format("{}:{}", a.first, a.last), fmt::format("{}:{}", b.first, b.last));
   differs("--repeat", a.repeat, b.repeat);
+  if (a.inputs == b.inputs) return;
+  const std::string which = changed_input(inputs_in(folder_a), inputs_in(folder_b));
+  throw InputError(
+      fmt::format("{} and {} hold parts of different runs: {}; compute one of them again with the input files "
+                  "of the other, or merge each by itself",
+                  folder_a.string(), folder_b.string(),
+                  which.empty() ? "an input file of the second is not that of the first" : which + " in the first"));
 }
 
 void add_missing(FoundParts& found, const Unit& unit) {
@@ -136,7 +151,7 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   std::vector<PendingFile> files =
       merge_outputs(record.config, parts, Parts::foreign, directory, [&](const H5Output& output, hdf5::File& head) {
         const fs::path& first = parts.files.at(static_cast<size_t>(&output - outputs.data())).front();
-        reading_part(first, [&] { copy_head(first, output, head); });
+        reading_part(first, [&] { copy_head(output, first, head); });
       });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = encode_summary_json(record.run(), totals_of(found.shards), seconds, found.shards.size());

@@ -1,11 +1,13 @@
-// One walk over the parts, one of them open beside the first at a time, then the tables. HDF5 copies no row: it has one
-// thread, and would take a second for each gigabyte. Parts may be anybody's: each must have the datasets of the first,
-// in equal shapes but for their rows.
+// One walk over the parts, one of them open beside the first at a time. HDF5 copies no row: it has one thread, and
+// would take a second for each gigabyte. Parts may be anybody's: each must have the datasets of the first, in equal
+// shapes but for their rows.
 #include "output/merge_h5.hpp"
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 #include <vector>
+#include "output/hdf5_read.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -16,45 +18,48 @@ using hdf5::Extent;
 using hdf5::File;
 using Groups = std::span<const char* const>;
 
-// A dataset of the merged file on its way.
-struct Target {
-  Column like;   // of the first part
-  bool offsets;  // has one entry more than rows, and counts on from part to part
-  hsize_t rows = 0;
-  uint64_t base = 0;
-};
+// What blocks of one frame have in common; they bring the rest each.
+constexpr std::array<std::string_view, 2> shared_groups{"/frames", "/poses"};
 
-std::vector<std::string> datasets_in(const File& part, Groups groups) {
-  std::vector<std::string> paths;
-  for (const std::string group : groups)
-    for (const std::string& name : part.members(group)) paths.push_back(group + "/" + name);
-  return paths;
-}
-
-std::vector<Target> targets_in(const File& part, const std::vector<std::string>& datasets) {
-  std::vector<Target> targets;
-  for (const std::string& path : datasets) {
-    targets.push_back({Column(part, path), path.ends_with("_offset")});
-    const Target& target = targets.back();
-    if (target.offsets &&
-        (target.like.shape().size() != 1 || H5Tequal(target.like.type(), hdf5::Type<uint64_t>::file()) <= 0))
-      throw RuntimeError(path + " holds no offsets");
+GrowingGroup empty_group(const std::string& path, const File& part) {
+  const hdf5::Id id(H5Gopen2(part.id(), path.c_str(), H5P_DEFAULT), H5Gclose, "find group " + path);
+  GrowingGroup group{path, hdf5::text_attribute(id, "description"), {}};
+  for (const std::string& name : part.members(path)) {
+    const Column like(part, path + "/" + name);
+    if (like.shape().empty()) throw RuntimeError(like.path() + " has no rows");
+    const GrowingTable& table = group.tables.emplace_back(like.path(), like.meaning(), like.type(),
+                                                          std::vector(like.shape().begin() + 1, like.shape().end()));
+    if (table.offsets() && (!table.row_shape.empty() || H5Tequal(like.type(), hdf5::Type<uint64_t>::file()) <= 0))
+      throw RuntimeError(like.path() + " holds no offsets");
   }
-  return targets;
+  return group;
 }
 
-void make_groups(const File& part, Groups groups, const File& merged) {
-  for (const std::string group : groups) {
-    const hdf5::Id id(H5Gopen2(part.id(), group.c_str(), H5P_DEFAULT), H5Gclose, "find group " + group);
-    merged.make_group(group, hdf5::text_attribute(id, "description"));
+bool has_inputs(const File& part) { return H5Lexists(part.id(), "/inputs", H5P_DEFAULT) > 0; }
+
+// Whatever the manifest says of it: a file may have been put in the place of another. Configurations name the places of
+// input files, so they compare only where these are the same.
+void check_run(const File& part, const File& first) {
+  if (!has_inputs(part) || !has_inputs(first)) return;
+  const auto texts = [](const File& file, const char* name) { return hdf5::read_strings(file, name); };
+  const auto hashes = [](const File& file) {
+    const hdf5::NumberColumn<uint64_t> column(file, "/inputs/hash");
+    return column.read(0, column.rows());
+  };
+  if (texts(part, "/inputs/name") != texts(first, "/inputs/name") || hashes(part) != hashes(first))
+    throw RuntimeError("it is of a run with other input files than the first part");
+  if (texts(part, "/inputs/file") == texts(first, "/inputs/file") &&
+      hdf5::text_attribute(part.id(), "config") != hdf5::text_attribute(first.id(), "config"))
+    throw RuntimeError("it is of a run with another configuration than the first part");
+}
+
+void check_datasets(const File& part, const std::vector<GrowingGroup>& groups) {
+  for (const GrowingGroup& group : groups) {
+    std::vector<std::string> paths;
+    for (const std::string& name : part.members(group.path)) paths.push_back(group.path + "/" + name);
+    if (!std::ranges::equal(paths, group.tables, {}, {}, &GrowingTable::path))
+      throw RuntimeError("it has other datasets than the first part");
   }
-}
-
-// Where the rows of the new table begin in the merged file.
-uint64_t make_table(const Target& target, const File& merged) {
-  std::vector<hsize_t> shape = target.like.shape();
-  shape[0] = target.rows;
-  return hdf5::make_room(merged, target.like.path(), target.like.meaning(), target.like.type(), shape);
 }
 
 uint64_t number_at(std::ifstream& file, uint64_t offset, const std::string& path) {
@@ -64,75 +69,77 @@ uint64_t number_at(std::ifstream& file, uint64_t offset, const std::string& path
   return number;
 }
 
-bool same_rows(const Column& a, const Column& b) {
-  return a.shape().size() == b.shape().size() &&
-         std::equal(a.shape().begin() + 1, a.shape().end(), b.shape().begin() + 1) && H5Tequal(a.type(), b.type()) > 0;
+bool same_rows(const Column& column, const GrowingTable& table) {
+  const auto& shape = column.shape();
+  return !shape.empty() && std::equal(shape.begin() + 1, shape.end(), table.row_shape.begin(), table.row_shape.end()) &&
+         H5Tequal(column.type(), table.type) > 0;
 }
 
-// The rows of this part, and where they go in the table.
-Piece take(Target& target, const File& part, std::ifstream& file) {
-  const Column column(part, target.like.path());
+// The rows of this part.
+void take(GrowingTable& table, size_t index, const File& part, std::ifstream& bytes) {
+  const Column column(part, table.path);
   const Extent extent = column.extent();
-  if (!same_rows(column, target.like))
-    throw RuntimeError(column.path() + " has another shape or type than in the first part");
-  if (target.offsets && extent.rows == 0) throw RuntimeError(column.path() + " is empty");
-  const hsize_t repeated = target.offsets && target.rows > 0 ? 1 : 0;  // what the part before ended with
-  const hsize_t rows = extent.rows - repeated;
-  const Piece piece{extent.offset + repeated * extent.row_bytes, target.rows * extent.row_bytes,
-                    rows * extent.row_bytes, target.base};
-  target.rows += rows;
-  if (target.offsets)
-    target.base += number_at(file, extent.offset + (extent.rows - 1) * extent.row_bytes, column.path());
-  return piece;
+  if (!same_rows(column, table)) throw RuntimeError(table.path + " has another shape or type than in the first part");
+  if (table.offsets() && extent.rows == 0) throw RuntimeError(table.path + " is empty");
+  const uint64_t last =
+      table.offsets() ? number_at(bytes, extent.offset + (extent.rows - 1) * extent.row_bytes, table.path) : 0;
+  table.take(index, extent.offset, extent.rows, last);
 }
 
-// What each part brings to each dataset, in the order of the targets.
-class Walk {
- public:
-  Walk(const std::filesystem::path& first, Groups groups)
-      : groups_(groups),
-        first_(File::open_to_read(first)),
-        datasets_(datasets_in(first_, groups)),
-        targets_(targets_in(first_, datasets_)) {}
+uint64_t rows_of(const std::vector<GrowingGroup>& groups, const std::string& path) {
+  for (const GrowingGroup& group : groups)
+    for (const GrowingTable& table : group.tables)
+      if (table.path == path) return table.rows;
+  return 0;
+}
 
-  std::vector<Piece> take_part(const std::filesystem::path& path) {
-    const File part = File::open_to_read(path);
-    if (datasets_in(part, groups_) != datasets_) throw RuntimeError("it has other datasets than the first part");
-    std::ifstream file(path, std::ios::binary);
-    std::vector<Piece> pieces;
-    for (Target& target : targets_) pieces.push_back(take(target, part, file));
-    return pieces;
-  }
-
-  void make_tables(const File& merged, Pieces& pieces) const {
-    make_groups(first_, groups_, merged);
-    for (size_t i = 0; i < targets_.size(); ++i) {
-      const uint64_t start = make_table(targets_[i], merged);
-      for (std::vector<Piece>& of_part : pieces) of_part[i].to += start;
-    }
-  }
-
- private:
-  Groups groups_;
-  File first_;
-  std::vector<std::string> datasets_;
-  std::vector<Target> targets_;
-};
+// That the one frame, which pointed to the first of these paths, points to all of them.
+void point_to(GrowingTable& path_offset, uint64_t first_paths, uint64_t all_paths) {
+  if (path_offset.rows != 2) throw RuntimeError(path_offset.path + " is not of one frame");
+  const auto [part, whole] = path_offset.pieces.at(0);
+  const uint64_t bytes = path_offset.row_bytes();
+  path_offset.pieces = {{part, {whole.from, whole.to, bytes, 0}},
+                        {part, {whole.from + bytes, whole.to + bytes, bytes, all_paths - first_paths}}};
+}
 
 }  // namespace
 
-Pieces merge_frames_h5(std::span<const std::filesystem::path> parts, Groups groups, const File& merged,
-                       const BeginPart& begin) {
+std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::path> parts, Groups groups,
+                                            const BeginPart& begin) {
   begin(parts.front());
-  Walk walk = reading_part(parts.front(), [&] { return Walk(parts.front(), groups); });
-  Pieces pieces;
-  for (const std::filesystem::path& part : parts) {
-    begin(part);
-    pieces.push_back(reading_part(part, [&] { return walk.take_part(part); }));
+  const File first = reading_part(parts.front(), [&] { return File::open_to_read(parts.front()); });
+  std::vector<GrowingGroup> out;
+  reading_part(parts.front(), [&] {
+    for (const std::string path : groups) out.push_back(empty_group(path, first));
+  });
+  for (size_t i = 0; i < parts.size(); ++i) {
+    begin(parts[i]);
+    reading_part(parts[i], [&] {
+      const File part = File::open_to_read(parts[i]);
+      if (i > 0) check_run(part, first);
+      check_datasets(part, out);
+      std::ifstream bytes(parts[i], std::ios::binary);
+      for (GrowingGroup& group : out)
+        for (GrowingTable& table : group.tables) take(table, i, part, bytes);
+    });
   }
-  begin(parts.front());
-  walk.make_tables(merged, pieces);
-  return pieces;
+  return out;
+}
+
+// The row of the frame is that of the first part.
+std::vector<GrowingGroup> groups_of_blocks(std::span<const std::filesystem::path> parts, Groups groups,
+                                           const BeginPart& begin) {
+  std::vector<GrowingGroup> first = growing_groups_of(parts.first(1), groups, begin),
+                            all = growing_groups_of(parts, groups, begin);
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (std::ranges::find(shared_groups, all[i].path) == shared_groups.end()) continue;
+    std::swap(all[i].tables, first[i].tables);
+    for (GrowingTable& table : all[i].tables)
+      if (table.path == "/frames/path_offset")
+        reading_part(parts.front(),
+                [&] { point_to(table, rows_of(first, "/paths/delay_s"), rows_of(all, "/paths/delay_s")); });
+  }
+  return all;
 }
 
 }  // namespace wavetracer

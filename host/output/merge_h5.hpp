@@ -5,8 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
-#include "output/copy_pieces.hpp"
-#include "output/hdf5.hpp"
+#include "output/table_layout.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -21,12 +20,18 @@ auto reading_part(const std::filesystem::path& part, const Read& read) {
   }
 }
 
-// parts: files of one kind and run, in the order of their frames, at least one. Makes these groups of them in `merged`,
-// as if all frames had been encoded at once, but for the rows: the pieces say where those are and belong, once `merged`
-// is closed. begin is told each part before it is opened. Throws InputError that names the part and the dataset, where
-// a part has other datasets than the first, or of other types or shapes, or not all of their rows.
+// Is told each part before it is opened.
 using BeginPart = std::function<void(const std::filesystem::path&)>;
-Pieces merge_frames_h5(std::span<const std::filesystem::path> parts, std::span<const char* const> groups,
-                       const hdf5::File& merged, const BeginPart& begin);
+
+// parts: files of one kind and run, in the order of their frames, at least one. These groups of all of them, as if all
+// frames had been appended at once; the rows stay where they are. Throws InputError that names the part and the
+// dataset, where a part is of another run than the first, has other datasets, or of other types or shapes, or not all
+// of their rows.
+std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::path> parts,
+                                            std::span<const char* const> groups, const BeginPart& begin);
+
+// parts: of blocks of one frame, whose links are side by side.
+std::vector<GrowingGroup> groups_of_blocks(std::span<const std::filesystem::path> parts,
+                                           std::span<const char* const> groups, const BeginPart& begin);
 
 }  // namespace wavetracer

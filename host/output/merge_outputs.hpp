@@ -21,7 +21,4 @@ enum class Parts { own, foreign };
 std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose,
                                        const std::filesystem::path& directory, const WriteHead& write_head);
 
-// The head of an output that is there: all that is not in its growing groups.
-void copy_head(const std::filesystem::path& file, const H5Output& output, hdf5::File& head);
-
 }  // namespace wavetracer

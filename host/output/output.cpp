@@ -1,11 +1,9 @@
-// Encodes the files one after the other, then lets all of them appear together.
-// Assumes room in memory for one more copy of the paths or waypoints.
+// Writes the files frame by frame, then lets all of them appear together.
 #include "output/output.hpp"
 #include <chrono>
 #include <string>
 #include "output/earlier_run.hpp"
-#include "output/h5_outputs.hpp"
-#include "output/links_csv.hpp"
+#include "output/frame_files.hpp"
 #include "output/pending_file.hpp"
 #include "output/summary_json.hpp"
 
@@ -15,13 +13,14 @@ std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& di
                                                  Frames frames) {
   const auto start = std::chrono::steady_clock::now();
   PendingDirectory folder(directory);
-  std::vector<PendingFile> files;
-  for (const H5Output& output : h5_outputs(run.config))
-    files.push_back(write_whole(output, run, frames, folder.path() / output.name));
-  write_links_csv(run, frames, files.emplace_back(folder.path() / "links.csv"));
-  files.back().sync();
+  std::vector<std::filesystem::path> paths;
+  for (const H5Output& output : h5_outputs(run.config)) paths.push_back(folder.path() / output.name);
+  paths.push_back(folder.path() / "links.csv");
+  FrameFiles on_the_way(run, paths);
+  for (const FrameResult& frame : frames) on_the_way.add(frame);
+  std::vector<PendingFile> files = on_the_way.finish();
   const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string summary = encode_summary_json(run, totals_of(frames), write_seconds, 0);
+  const std::string summary = encode_summary_json(run, on_the_way.totals(), write_seconds, 0);
   files.emplace_back(folder.path() / "summary.json", std::as_bytes(std::span(summary)));
   remove_outputs(folder.path(), files);
   commit_together(files);

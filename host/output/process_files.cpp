@@ -2,11 +2,15 @@
 // Linux only: start times and namespaces of processes come from /proc.
 #include "output/process_files.hpp"
 #include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -74,6 +78,23 @@ double now_in(const fs::path& folder) {
   return now;
 }
 
+// Processes that enter a folder do so one after the other, where its file system lets folders be locked.
+class Turn {
+ public:
+  explicit Turn(const fs::path& folder) : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (folder_ >= 0 && ::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~Turn() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  int folder_;
+};
+
 }  // namespace
 
 ProcessInfo this_process(const std::string& job, uint32_t rank) {
@@ -83,14 +104,16 @@ ProcessInfo this_process(const std::string& job, uint32_t rank) {
                       .machine = machine_name(),
                       .rank = rank,
                       .pid = getpid(),
-                      .start = start_of(getpid()).value_or(0)};
+                      .start = start_of(getpid()).value_or(0),
+                      .since = fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)))};
   process.name = fmt::format("{}_{}_{:08x}", process.host, process.pid, std::random_device{}());
+  if (job.empty()) process.job = process.name;
   return process;
 }
 
 std::string encode_process(const ProcessInfo& p) {
-  const nlohmann::ordered_json json = {{"name", p.name}, {"job", p.job}, {"host", p.host},  {"machine", p.machine},
-                                       {"rank", p.rank}, {"pid", p.pid}, {"start", p.start}};
+  const nlohmann::ordered_json json = {{"name", p.name}, {"job", p.job}, {"host", p.host},   {"machine", p.machine},
+                                       {"rank", p.rank}, {"pid", p.pid}, {"start", p.start}, {"since", p.since}};
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -104,7 +127,8 @@ std::optional<ProcessInfo> decode_process(std::string_view text) {
                        .machine = json.at("machine"),
                        .rank = json.at("rank"),
                        .pid = json.at("pid"),
-                       .start = json.at("start")};
+                       .start = json.at("start"),
+                       .since = json.value("since", "a time that it does not tell")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
@@ -143,13 +167,16 @@ std::vector<ProcessInfo> processes_in(const fs::path& folder) {
   return out;
 }
 
-void check_not_in_use(const fs::path& folder, const std::string& job) {
-  for (const ProcessInfo& process : processes_in(folder))
-    if (process.job != job && alive(process))
-      throw RuntimeError(fmt::format(
-          "{}: process {} on {} writes there; wait until it is done, or choose another folder with -o (a process on "
-          "another host that was killed counts as running until {:.0f} s after its last sign of life)",
-          folder.string(), process.pid, process.host, heartbeat_limit_s));
+void check_not_in_use(const fs::path& folder, const std::optional<ProcessInfo>& me) {
+  for (const ProcessInfo& process : processes_in(folder)) {
+    if (me && (process.name == me->name || (process.job == me->job && process.rank != me->rank))) continue;
+    if (!alive(process)) continue;
+    throw RuntimeError(
+        fmt::format("{}: process {} on {} writes there since {}; wait until it is done, or choose another folder with "
+                    "-o (a process "
+                    "on another host that was killed counts as running until {:.0f} s after its last sign of life)",
+                    folder.string(), process.pid, process.host, process.since, heartbeat_limit_s));
+  }
 }
 
 void remove_dead_processes(const fs::path& folder) {
@@ -159,10 +186,21 @@ void remove_dead_processes(const fs::path& folder) {
 }
 
 Presence::Presence(fs::path folder, ProcessInfo process) : process_(std::move(process)) {
-  check_not_in_use(folder, process_.job);
   file_ = process_file(folder, process_);
   const std::string text = encode_process(process_);
-  PendingFile(file_, std::as_bytes(std::span(text))).commit();
+  PendingFile file(file_, std::as_bytes(std::span(text)));
+  {
+    const Turn turn(folder);
+    file.commit();  // before the look around: where there are no turns, two that come at once may both be refused
+    try {
+      check_not_in_use(folder, process_);
+    } catch (...) {
+      std::error_code none;
+      fs::remove(file_, none);
+      throw;
+    }
+    remove_dead_processes(folder);
+  }
   heart_ = std::thread([this] {
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, std::chrono::duration<double>(heartbeat_s), [this] { return done_; }))

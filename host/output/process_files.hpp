@@ -20,15 +20,16 @@ inline constexpr double heartbeat_s = 10, heartbeat_limit_s = 120;
 
 struct ProcessInfo {
   std::string name;           // of its file, without the prefix: unique among all processes that ever shared the folder
-  std::string job;            // what its ranks have in common
+  std::string job;            // what its ranks have in common; its name where it has none
   std::string host, machine;  // machine: where process ids mean the same
   uint32_t rank = 0;
   int64_t pid = 0;
   uint64_t start = 0;  // clock ticks since the machine started
+  std::string since;   // the same for people: a date and time, UTC
   double age_s = 0;    // since it touched its file
 };
 
-// This process.
+// This process. job: empty for one that shares with nobody.
 ProcessInfo this_process(const std::string& job, uint32_t rank);
 
 // What stands in the file of a process; nothing where it is not what one writes. Safe for any text.
@@ -43,13 +44,15 @@ bool alive(const ProcessInfo& process);
 // The processes that have a file in the folder, dead ones too.
 std::vector<ProcessInfo> processes_in(const std::filesystem::path& folder);
 
-// Throws RuntimeError where a process of another job lives in the folder: who it is, and what to do.
-void check_not_in_use(const std::filesystem::path& folder, const std::string& job);
+// Throws RuntimeError where a process lives in the folder with which `me` cannot share it, one of another job or of the
+// same rank: who it is, since when, and what to do. Without `me`: any process.
+void check_not_in_use(const std::filesystem::path& folder, const std::optional<ProcessInfo>& me = std::nullopt);
 
 // The files of dead processes go.
 void remove_dead_processes(const std::filesystem::path& folder);
 
-// This process's file, from now to the end of this object; it is touched every heartbeat_s.
+// This process's file, from now to the end of this object; it is touched every heartbeat_s. It is the lock of the
+// folder: of two processes that cannot share it one is refused, however close together they come.
 class Presence {
  public:
   // Throws RuntimeError where the folder cannot be written to, or check_not_in_use() does.

@@ -2,10 +2,9 @@
 // Of vehicles only the number is kept: that is all that summary.json tells.
 #include "output/run_record.hpp"
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include "output/json_count.hpp"
+#include "output/read_text.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -44,6 +43,10 @@ std::string encode_run_record(const Run& run) {
   json["scene_file"] = run.scene.file;
   json["scene_warnings"] = run.scene.report.warnings;
   json["vehicles"] = run.instances.size();
+  json["inputs"] = Json::array();
+  for (const InputFile& input : s.inputs)
+    json["inputs"].push_back(
+        {{"name", input.name}, {"file", input.file}, {"bytes", input.bytes}, {"hash", input.hash}});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -75,19 +78,17 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   const auto vehicles = whole<uint64_t>(json.at("vehicles"));
   if (vehicles > most_vehicles) throw RuntimeError(name + ": \"vehicles\" is no number of vehicles");
   out.instances.resize(vehicles);
+  for (const Json& input : json.at("inputs"))
+    s.inputs.push_back(
+        {input.at("name"), input.at("file"), whole<uint64_t>(input.at("bytes")), whole<uint64_t>(input.at("hash"))});
   return out;
 } catch (const Json::exception& error) {
   throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
 }
 
 RunRecord read_run_record(const std::filesystem::path& file) {
-  std::error_code none;
-  if (const uint64_t size = std::filesystem::file_size(file, none); none || size > most_bytes)
-    throw RuntimeError(
-        fmt::format("cannot read {}; it is part of every run that was written in shards", file.string()));
-  std::ifstream in(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  return decode_run_record(text, file.string());
+  return decode_run_record(
+      read_text(file, most_bytes, "it is part of every run that was written in shards; run again"), file.string());
 }
 
 }  // namespace wavetracer

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include "output/earlier_run.hpp"
-#include "output/h5_outputs.hpp"
-#include "output/links_csv.hpp"
+#include "output/head_h5.hpp"
+#include "output/inputs.hpp"
 #include "output/merge_outputs.hpp"
-#include "output/pending_file.hpp"
 #include "output/run_record.hpp"
 #include "output/summary_json.hpp"
 #include "wavetracer/error.hpp"
@@ -26,15 +25,26 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 
 std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-// The files of these frames, synced but not in place. Small enough for memory.
-std::vector<PendingFile> pending_files(const Run& run, Frames frames, const Unit& unit, const fs::path& folder) {
-  const std::string stem = unit_name(unit);
-  std::vector<PendingFile> files;
-  for (const H5Output& output : h5_outputs(run.config))
-    files.push_back(write_whole(output, run, frames, folder / (stem + output.part_suffix)));
-  write_links_csv(run, frames, files.emplace_back(folder / (stem + ".csv")));
-  files.back().sync();
-  return files;
+// Where the files of a unit go.
+std::vector<fs::path> files_of(const Unit& unit, const Config& config, const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (const H5Output& output : h5_outputs(config)) paths.push_back(folder / (unit_name(unit) + output.part_suffix));
+  paths.push_back(folder / (unit_name(unit) + ".csv"));
+  return paths;
+}
+
+// Frames of two worlds must not come together.
+void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
+                       const std::vector<InputFile>& inputs) {
+  if (there.inputs == asked.inputs) return;
+  std::error_code none;
+  const fs::path record = folder / record_name;
+  std::string which;
+  if (fs::exists(record, none)) which = changed_input(read_run_record(record).summary.inputs, inputs);
+  throw InputError(
+      fmt::format("{} since the shards in {} were written; put the input files back as they were, or choose "
+                  "another folder with -o, or remove the shards",
+                  which.empty() ? "an input file is not what it was" : which, folder.string()));
 }
 
 void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder) {
@@ -90,14 +100,18 @@ MergeParts parts_of(const ShardMap& shards, const std::function<fs::path(const S
   return parts;
 }
 
-Shards::Shards(fs::path directory, RunIdentity run)
+Shards::Shards(fs::path directory, RunIdentity run, std::vector<InputFile> inputs)
     : directory_(std::move(directory)),
       folder_(directory_ / "shards"),
       manifest_(folder_ / manifest_name),
-      run_(std::move(run)) {}
+      run_(std::move(run)),
+      inputs_(std::move(inputs)) {}
 
 void Shards::take(std::vector<Shard> lines) {
-  for (const Shard& shard : lines) check_same_run(shard.run, run_, folder_);
+  for (const Shard& shard : lines) {
+    check_same_run(shard.run, run_, folder_);
+    check_same_inputs(shard.run, run_, folder_, inputs_);
+  }
   for (Shard& shard : lines)
     if (!finished(shard.unit) && is_whole(shard, folder_)) shards_.emplace(key(shard.unit), std::move(shard));
 }
@@ -158,28 +172,45 @@ void Shards::note(const Shard& shard) {
   fresh_ = false;
 }
 
-Shard Shards::write_files(const Run& run, Frames frames, uint32_t block, uint32_t blocks) {
+OpenUnit::OpenUnit(const Run& run, const Unit& unit, const fs::path& directory, const fs::path& folder)
+    : run_(run), unit_(unit), directory_(directory), folder_(folder), files_(run, files_of(unit, run.config, folder)) {}
+
+void OpenUnit::add(const FrameResult& frame) {
   const Clock::time_point start = Clock::now();
-  PendingDirectory directory(directory_), folder(folder_);
-  const Unit unit{frames.front().frame, frames.back().frame, block, blocks};
-  std::vector<PendingFile> files = pending_files(run, frames, unit, folder_);
-  Shard shard{run_, unit, totals_of(frames), {}};
+  files_.add(frame);
+  seconds_ += since(start);
+}
+
+std::unique_ptr<OpenUnit> Shards::open(const Run& run, const Unit& unit) const {
+  return std::make_unique<OpenUnit>(run, unit, directory_, folder_);
+}
+
+Shard Shards::close(OpenUnit& unit) {
+  const Clock::time_point start = Clock::now();
+  std::vector<PendingFile> files = unit.files_.finish();
+  Shard shard{run_, unit.unit_, unit.totals(), {}};
   for (const PendingFile& file : files)
     shard.files.push_back({file.path().filename().string(), fs::file_size(file.temporary())});
-  const std::string record = encode_run_record(run);
-  std::error_code none;
-  if (fresh_ || !fs::exists(folder_ / record_name, none)) files.emplace_back(folder_ / record_name, bytes(record));
+  const std::string record = encode_run_record(unit.run_);
+  if (!recorded_) files.emplace_back(folder_ / record_name, bytes(record));
   if (fresh_) {
     remove_shards(directory_, files);
     remove_temporaries(directory_);
   }
   if (fresh_ || shared_) remove_outputs(directory_);
   commit_together(files);
-  directory.keep();
-  folder.keep();
+  recorded_ = true;
+  unit.directory_.keep();
+  unit.folder_.keep();
   note(shard);
-  write_seconds_ += since(start);
+  write_seconds_ += unit.seconds_ + since(start);
   return shard;
+}
+
+void Shards::write(const Run& run, Frames frames, uint32_t block, uint32_t blocks) {
+  const auto unit = open(run, {frames.front().frame, frames.back().frame, block, blocks});
+  for (const FrameResult& frame : frames) unit->add(frame);
+  finish(close(*unit));
 }
 
 void Shards::finish(Shard shard) {
@@ -187,22 +218,21 @@ void Shards::finish(Shard shard) {
   shards_.insert_or_assign(unit, std::move(shard));
 }
 
-std::vector<fs::path> Shards::merge(const Run& run, Frames unfinished) {
+std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> unfinished) {
   const Clock::time_point start = Clock::now();
   PendingDirectory directory(directory_);
   MergeParts parts = parts_of(shards_, [this](const Shard&) { return folder_; });
   std::vector<PendingFile> parts_on_the_way;
-  if (!unfinished.empty()) {
-    const Unit unit{unfinished.front().frame, unfinished.back().frame, 0, 1};
-    parts_on_the_way = pending_files(run, unfinished, unit, directory_);
+  Totals totals = this->totals();
+  if (unfinished && unfinished->totals().frames > 0) {
+    parts_on_the_way = unfinished->files_.finish();
     parts.files.resize(parts_on_the_way.size());
     for (size_t i = 0; i < parts_on_the_way.size(); ++i) parts.files[i].push_back(parts_on_the_way[i].temporary());
+    add(totals, unfinished->totals());
   }
   std::vector<PendingFile> files =
       merge_outputs(run.config, parts, Parts::own, directory_,
-                    [&run](const H5Output& output, hdf5::File& head) { output.encode_head(run, head); });
-  Totals totals = this->totals();
-  add(totals, wavetracer::totals_of(unfinished));
+                    [&run](const H5Output& output, hdf5::File& head) { make_head(output, run, head); });
   const std::string summary = encode_summary_json(run, totals, write_seconds_ + since(start), shards_.size());
   files.emplace_back(directory_ / "summary.json", bytes(summary));
   if (fresh_) remove_shards(directory_);

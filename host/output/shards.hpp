@@ -5,11 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
+#include "output/frame_files.hpp"
 #include "output/manifest.hpp"
 #include "output/merge_parts.hpp"
 #include "output/output.hpp"
+#include "output/pending_file.hpp"
 
 namespace wavetracer {
 
@@ -22,20 +25,40 @@ MergeParts parts_of(const ShardMap& shards, const std::function<std::filesystem:
 // All files of the shard are in the folder, in full length.
 bool is_whole(const Shard& shard, const std::filesystem::path& folder);
 
+// The files of a unit, under temporary names until it is closed.
+class OpenUnit {
+ public:
+  OpenUnit(const Run& run, const Unit& unit, const std::filesystem::path& directory,
+           const std::filesystem::path& folder);
+  // Throws RuntimeError.
+  void add(const FrameResult& frame);
+  const Totals& totals() const { return files_.totals(); }
+
+ private:
+  const Run& run_;
+  Unit unit_;
+  PendingDirectory directory_, folder_;
+  FrameFiles files_;
+  double seconds_ = 0;  // of writing
+
+  friend class Shards;
+};
+
 class Shards {
  public:
-  // Nothing is touched yet.
-  Shards(std::filesystem::path directory, RunIdentity run);
+  // Nothing is touched yet. inputs: those of the run, for messages.
+  Shards(std::filesystem::path directory, RunIdentity run, std::vector<InputFile> inputs = {});
 
   // Takes over the finished shards of the run that was interrupted in this folder; 0 where there is none. A shard whose
-  // files are gone or cut short is not finished. Throws ConfigError where they are of another run. No other process may
+  // files are gone or cut short is not finished. Throws ConfigError where they are of another run, InputError where an
+  // input file has changed since. No other process may
   // be writing there.
   size_t resume();
   // Removes what any run left in the folder. No other process may be writing there.
   void clear();
   // From now on other processes write there, too: what they have finished is looked at, and this one notes what it
   // writes in a manifest of its own, manifest.NAME.jsonl. keep: what an earlier process of this name wrote counts.
-  // Throws ConfigError where something there is of another run.
+  // Throws as resume() does where something there is of another run.
   void share(const std::string& name, bool keep);
   // Writes run.json, which else the first unit does.
   void write_record(const Run& run) const;
@@ -48,27 +71,30 @@ class Shards {
   size_t count() const { return shards_.size(); }
   const std::filesystem::path& folder() const { return folder_; }
 
-  // Writes a unit and notes it in the manifest. The first one of a run that neither resumes nor shares takes the place
-  // of all that an earlier run left in the folder.
-  void write(const Run& run, Frames frames, uint32_t block = 0, uint32_t blocks = 1) {
-    finish(write_files(run, frames, block, blocks));
-  }
-  // The two halves of it. While the first is at work in another thread, finished() alone may be asked here.
-  Shard write_files(const Run& run, Frames frames, uint32_t block, uint32_t blocks);
+  // A unit on its way into the folder, frame by frame. The first one of a run that neither resumes nor shares takes the
+  // place of all that an earlier run left in the folder, once it is closed.
+  std::unique_ptr<OpenUnit> open(const Run& run, const Unit& unit) const;
+  // Puts the files of a whole unit in place and notes them in the manifest. It counts as finished after finish(). While
+  // another thread opens, fills and closes units, finished() alone may be asked here.
+  Shard close(OpenUnit& unit);
   void finish(Shard shard);
+  // All of it for frames in memory.
+  void write(const Run& run, Frames frames, uint32_t block = 0, uint32_t blocks = 1);
 
   // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
-  // the first frames of the one that was interrupted. At least one frame is needed. Of finished shards, memory holds a
-  // block of rows at most.
-  std::vector<std::filesystem::path> merge(const Run& run, Frames unfinished);
+  // the first frames of the one that was interrupted, if any. At least one frame is needed. Of finished shards, memory
+  // holds a block of rows at most.
+  std::vector<std::filesystem::path> merge(const Run& run, std::unique_ptr<OpenUnit> unfinished);
 
  private:
   static ShardMap::key_type key(const Unit& unit) { return {unit.first, unit.block}; }
 
   std::filesystem::path directory_, folder_, manifest_;
   RunIdentity run_;
+  std::vector<InputFile> inputs_;
   bool fresh_ = true;  // nothing in the folder is of this run
   bool shared_ = false;
+  bool recorded_ = false;  // run.json is of this run
   ShardMap shards_;
   std::vector<Shard> own_;  // lines of manifest_, where it is shared
   double write_seconds_ = 0;

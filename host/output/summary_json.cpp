@@ -146,4 +146,13 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string device_in_summary(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return "";
+  std::ifstream in(file, std::ios::binary);
+  const Json json = Json::parse(in, nullptr, false);
+  const auto device = json.is_object() ? json.find("device") : json.end();
+  return device != json.end() && device->is_string() ? device->get<std::string>() : "";
+}
+
 }  // namespace wavetracer

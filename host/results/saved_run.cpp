@@ -8,6 +8,7 @@
 #include <optional>
 #include "files/input_file.hpp"
 #include "output/foreign_file.hpp"
+#include "output/summary_json.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -88,6 +89,7 @@ struct SavedRun::State {
   double frequency_hz = 0;
   std::vector<RadioEnd> transmitters, receivers;
   std::vector<SavedInstance> instances;
+  std::vector<InputFile> inputs;
   uint32_t rx_ports = 1, tx_ports = 1;
   std::vector<uint32_t> numbers;
   std::vector<double> times_s;
@@ -96,6 +98,7 @@ struct SavedRun::State {
   explicit State(const fs::path& where) : path(where), file(where) {
     read_root();
     read_world();
+    read_inputs();
     read_index();
   }
 
@@ -107,7 +110,7 @@ struct SavedRun::State {
           fmt::format("it has version {} of the format, written by wavetracer {}; this program reads "
                       "version 1",
                       format, version));
-    device = file.root_text("device");
+    device = device_in_summary(path.parent_path() / "summary.json");
     config = file.root_text("config");
     frequency_hz = file.root_number("frequency_hz");
     if (!(frequency_hz > 0) || !std::isfinite(frequency_hz)) throw RuntimeError("its frequency is not above zero");
@@ -121,6 +124,15 @@ struct SavedRun::State {
     if (types.size() != ids.size() || models.size() != ids.size())
       throw RuntimeError("/instances has columns of unequal length");
     for (size_t i = 0; i < ids.size(); ++i) instances.push_back({ids[i], types[i], models[i]});
+  }
+
+  void read_inputs() {
+    if (!file.has("/inputs")) return;
+    const auto names = file.strings("/inputs/name"), files = file.strings("/inputs/file");
+    const auto bytes = file.all_rows<uint64_t>("/inputs/bytes"), hashes = file.all_rows<uint64_t>("/inputs/hash");
+    if (files.size() != names.size() || bytes.size() != names.size() || hashes.size() != names.size())
+      throw RuntimeError("/inputs has columns of unequal length");
+    for (size_t i = 0; i < names.size(); ++i) inputs.push_back({names[i], files[i], bytes[i], hashes[i]});
   }
 
   void read_index() {
@@ -275,6 +287,7 @@ double SavedRun::frequency_hz() const { return state_->frequency_hz; }
 const std::vector<RadioEnd>& SavedRun::transmitters() const { return state_->transmitters; }
 const std::vector<RadioEnd>& SavedRun::receivers() const { return state_->receivers; }
 const std::vector<SavedInstance>& SavedRun::instances() const { return state_->instances; }
+const std::vector<InputFile>& SavedRun::inputs() const { return state_->inputs; }
 uint32_t SavedRun::rx_ports() const { return state_->rx_ports; }
 uint32_t SavedRun::tx_ports() const { return state_->tx_ports; }
 size_t SavedRun::frame_count() const { return state_->numbers.size(); }

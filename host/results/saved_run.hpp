@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 #include "wavetracer/config.hpp"
+#include "wavetracer/output.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/world.hpp"
 
@@ -49,13 +50,14 @@ class SavedRun {
 
   const std::filesystem::path& file() const;
   const std::string& version() const;  // of the program that wrote it
-  const std::string& device() const;
+  const std::string& device() const;   // by the summary.json beside it; empty where there is none
   const std::string& config_text() const;  // TOML, with absolute paths
   double frequency_hz() const;
   // name, antenna, polarization and orientation as configured; positions of moving ends are those of frames.
   const std::vector<RadioEnd>& transmitters() const;
   const std::vector<RadioEnd>& receivers() const;
   const std::vector<SavedInstance>& instances() const;
+  const std::vector<InputFile>& inputs() const;  // that the run has read; none where an older version wrote it
   uint32_t rx_ports() const;
   uint32_t tx_ports() const;
 

@@ -4,11 +4,25 @@
 #include <fmt/format.h>
 #include <map>
 #include "config/config_file.hpp"
+#include "gpu/hash.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
+namespace {
+
+// Of files that are gone the readers speak.
+void warn_changed(const SavedRun& run, std::vector<std::string>& warnings) {
+  for (const InputFile& input : run.inputs()) {
+    const auto now = gpu::hash_of_file(input.file);
+    if (now && (now->bytes != input.bytes || now->hash != input.hash))
+      warnings.push_back(fmt::format("{} ({}) has changed since the run; what is made of it is not what the run saw",
+                                     input.file, input.name));
+  }
+}
+
+}  // namespace
 
 SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
   SavedWorld out;
@@ -22,10 +36,10 @@ SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
       return false;
     }
   };
-  if (!attempt("the run's configuration cannot be used", [&] {
-        out.config = parse_config(run.config_text(), run.file().string());
-      }))
+  if (!attempt("the run's configuration cannot be used",
+               [&] { out.config = parse_config(run.config_text(), run.file().string()); }))
     return out;
+  warn_changed(run, out.warnings);
   Config config = out.config;
   config.trace.diffraction = config.trace.diffraction || with_wedges;
   if (!attempt("the scene cannot be shown", [&] { out.scene = load_scene(config); })) return out;

@@ -193,6 +193,7 @@ void compact_vertices(Scene& scene) {
 Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, bool with_wedges) {
   Scene scene;
   scene.file = raw.file;
+  scene.files = raw.files;
   scene.report.warnings = raw.warnings;
   std::move(resolved.warnings.begin(), resolved.warnings.end(), std::back_inserter(scene.report.warnings));
   scene.materials = std::move(resolved.materials);

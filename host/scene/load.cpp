@@ -24,6 +24,7 @@ RawScene read_single_ply(const std::filesystem::path& path) {
   PlyMesh ply = read_ply(path);
   RawScene raw;
   raw.file = path.string();
+  raw.files = {raw.file};
   if (ply.small_faces > 0) {
     raw.warnings.push_back(
         fmt::format("{}: {} faces of fewer than three vertices were left out", raw.file, ply.small_faces));

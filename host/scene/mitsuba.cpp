@@ -27,6 +27,7 @@ class MitsubaReader {
  public:
   explicit MitsubaReader(const std::filesystem::path& path) : path_(path), text_(read_file(path)) {
     raw_.file = path.string();
+    raw_.files = {raw_.file};
   }
 
   RawScene read() {
@@ -214,9 +215,11 @@ class MitsubaReader {
     if (type == "obj") {
       RawScene model = read_model(file, ModelFormat::obj);
       std::move(model.warnings.begin(), model.warnings.end(), std::back_inserter(raw_.warnings));
+      std::move(model.files.begin(), model.files.end(), std::back_inserter(raw_.files));
       return std::move(model.meshes);
     }
     PlyMesh ply = read_ply(file);
+    raw_.files.push_back(file.string());
     if (ply.small_faces > 0) {
       raw_.warnings.push_back(
           fmt::format("{}: {} faces of fewer than three vertices were left out", file.string(), ply.small_faces));

@@ -111,23 +111,27 @@ void keep_readers(Assimp::Importer& importer, const std::string& suffix) {
 
 // Opens plain files only: an OBJ names a file of materials, a glTF names buffers, and a pipe would be waited for.
 // assimp chooses its reader by the suffix, so it is given a name that has one, and this knows the file that it stands
-// for.
+// for. Notes what was opened.
 class PlainFiles : public Assimp::DefaultIOSystem {
  public:
-  PlainFiles(std::string name, std::string file) : name_(std::move(name)), file_(std::move(file)) {}
+  PlainFiles(std::string name, std::string file, std::vector<std::string>& opened)
+      : name_(std::move(name)), file_(std::move(file)), opened_(opened) {}
 
   bool Exists(const char* name) const override {
     std::error_code unnameable;
     return std::filesystem::is_regular_file(file_of(name), unnameable);
   }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    return Exists(name) ? Assimp::DefaultIOSystem::Open(file_of(name), mode) : nullptr;
+    if (!Exists(name)) return nullptr;
+    if (std::find(opened_.begin(), opened_.end(), file_of(name)) == opened_.end()) opened_.push_back(file_of(name));
+    return Assimp::DefaultIOSystem::Open(file_of(name), mode);
   }
 
  private:
   const char* file_of(const char* name) const { return name == name_ ? file_.c_str() : name; }
 
   std::string name_, file_;
+  std::vector<std::string>& opened_;
 };
 
 }  // namespace
@@ -142,14 +146,17 @@ RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
   const bool obj = format == ModelFormat::obj, fits = model_format(path) == format;
   if (!obj) check_gltf(path);
   const std::string name = path.string() + (fits ? "" : obj ? ".obj" : ".glb");
+  std::vector<std::string> files;
   Assimp::Importer importer;
-  importer.SetIOHandler(new PlainFiles(name, path.string()));  // which is the importer's now
+  importer.SetIOHandler(new PlainFiles(name, path.string(), files));  // which is the importer's now
   keep_readers(importer, obj ? "obj" : "gltf");
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene || !scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {
     throw InputError(fmt::format("{}: cannot be read: {}", path.string(), importer.GetErrorString()));
   }
-  return ModelReader(*scene, path.string()).read();
+  RawScene raw = ModelReader(*scene, path.string()).read();
+  raw.files = std::move(files);
+  return raw;
 }
 
 }  // namespace wavetracer

@@ -32,6 +32,7 @@ struct RawMesh {
 
 struct RawScene {
   std::string file;
+  std::vector<std::string> files;  // that were read, in that order: this one, and those that it names
   std::vector<RawMesh> meshes;
   std::vector<RawMaterial> materials;
   std::vector<std::string> warnings;

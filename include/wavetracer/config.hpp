@@ -175,7 +175,7 @@ struct LiveConfig {  // [live]: what `wavetracer serve` accepts
 
 struct Config {
   std::string file;  // the TOML file, empty when built in code
-  std::string text;  // its whole text with --set applied, echoed into the outputs
+  std::string text;  // all of it with --set applied, echoed into the outputs: echoed_config()
   SceneConfig scene;
   RadioConfig radio;
   std::vector<MaterialConfig> materials;

@@ -23,4 +23,8 @@ std::string commented_config();
 // Every key with its value in this Config, as a config file that reads back the same.
 std::string resolved_config(const Config& config);
 
+// The same without what changes nothing in the results: output.directory, and output.shard_frames where frames do not
+// reuse sequences. Config::text is this.
+std::string echoed_config(const Config& config);
+
 }  // namespace wavetracer

@@ -13,6 +13,14 @@
 
 namespace wavetracer {
 
+// A file that a run has read.
+struct InputFile {
+  std::string name;  // the key that names it, and of a file which that one names its path from there: "scene.file: a.ply"
+  std::string file;
+  uint64_t bytes = 0, hash = 0;  // of its content
+  bool operator==(const InputFile&) const = default;
+};
+
 // What is known about a run beyond its world and its frames.
 struct RunSummary {
   std::string version = WAVETRACER_VERSION;
@@ -21,6 +29,7 @@ struct RunSummary {
   Features features;
   StageSeconds setup_seconds;  // stages outside the frames: load, build, compile, ...
   std::string command_line;
+  std::vector<InputFile> inputs;
   uint64_t frames_asked = 1;
   uint32_t repeat_count = 1;          // how often each frame was solved; its seconds are medians
   std::vector<std::string> warnings;  // those of the run; frames bring their own

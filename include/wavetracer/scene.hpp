@@ -70,6 +70,7 @@ struct LoadReport {
 
 struct Scene {
   std::string file;
+  std::vector<std::string> files;  // that were read for it: that one, and those that it names; none if it was generated
   glm::dvec3 origin_m{0};
   std::vector<glm::dvec3> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;

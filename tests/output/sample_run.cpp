@@ -97,6 +97,7 @@ Run SampleRun::run() const {
   run.summary.features = {{"reflection", {true, {}}}, {"diffraction", {false, "no edge of the scene diffracts"}}};
   run.summary.setup_seconds = {{"load", 0.5}, {"trace", 9.0}};
   run.summary.command_line = "wavetracer run -c sample.toml";
+  run.summary.inputs = {{"scene.file", "/data/scene.xml", 100, 42}, {"scene.file: a.ply", "/data/a.ply", 7, 43}};
   run.summary.repeat_count = 3;
   run.summary.warnings = {"a run warning", "a warning"};
   return run;

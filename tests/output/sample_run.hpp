@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 #include "output/output.hpp"
+#include "output/shards.hpp"
 
 namespace wavetracer {
 
@@ -24,5 +25,12 @@ struct SampleRun {
   // frame; some frames have no path at all, some no link. With config.output.waypoints each has number % 4 waypoints.
   std::vector<FrameResult> drive(uint32_t first, uint32_t count) const;
 };
+
+// Merges what the shards have with these frames, the first of a unit that was interrupted in the frame after them.
+inline std::vector<std::filesystem::path> merge_interrupted(Shards& shards, const Run& run, Frames unfinished) {
+  auto unit = shards.open(run, {unfinished.front().frame, unfinished.back().frame + 1});
+  for (const FrameResult& frame : unfinished) unit->add(frame);
+  return shards.merge(run, std::move(unit));
+}
 
 }  // namespace wavetracer

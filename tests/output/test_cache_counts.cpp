@@ -105,7 +105,7 @@ TEST_CASE("shards of an interrupted drive bring the counts of their caches along
   }
   Shards again(folder.path(), identity);
   REQUIRE(again.resume() == 2);
-  const Json summary = summary_of(again.merge(sample.run(), cached_drive(sample, 10, 12)));
+  const Json summary = summary_of(merge_interrupted(again, sample.run(), cached_drive(sample, 10, 12)));
   check_summary(summary["cache"]);
   CHECK(summary["counts"]["receptions"] == 30);
 }

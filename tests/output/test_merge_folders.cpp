@@ -37,7 +37,11 @@ void write_part(const fs::path& folder, const std::string& name, const std::vect
 }
 
 void check_same(const fs::path& found, const fs::path& expected) {
-  for (const char* file : {"paths.h5", "waypoints.h5"}) CHECK(datasets(found / file) == datasets(expected / file));
+  for (const char* file : {"paths.h5", "waypoints.h5"}) {
+    CHECK(datasets(found / file) == datasets(expected / file));
+    const bool same_bytes = slurp(found / file) == slurp(expected / file);
+    CHECK(same_bytes);
+  }
   CHECK(slurp(found / "links.csv") == slurp(expected / "links.csv"));
   const auto a = nlohmann::json::parse(slurp(found / "summary.json")),
              b = nlohmann::json::parse(slurp(expected / "summary.json"));
@@ -155,6 +159,29 @@ TEST_CASE("a hostile part is an error that names it, and nothing is written") {
   for (const char* record : {"", "[]", "{}", "null", "{\"vehicles\":1e300}"})
     CHECK_THROWS_AS(decode_run_record(record, "run.json"), RuntimeError);
   CHECK_FALSE(fs::exists(folder.path() / "out"));
+}
+
+TEST_CASE("a part that took the place of another is known by what it says of its run") {
+  const TemporaryFolder folder;
+  const fs::path a = folder.path() / "a", part = a / "shards/frames_000010_000019.h5";
+  write_part(a, "0_of_1", {0, 1, 2});
+  const auto put = [&](const auto& change) {
+    SampleRun sample = with_waypoints();
+    Run run = sample.run();
+    change(sample.config, run.summary);
+    Shards(folder.path() / "other", identity).write(run, sample.drive(10, 10));
+    fs::copy_file(folder.path() / "other/shards/frames_000010_000019.h5", part, fs::copy_options::overwrite_existing);
+    return find_parts({a});
+  };
+  const fs::path out = folder.path() / "out";
+  const FoundParts config = put([](Config& c, RunSummary&) { c.text.back() = ' '; });
+  CHECK(config.damaged.empty());
+  CHECK_THROWS_WITH_AS(merge_found(config, out, ""), doctest::Contains("another configuration"), InputError);
+  const FoundParts scene = put([](Config&, RunSummary& summary) { summary.inputs[0].hash += 1; });
+  CHECK(scene.damaged.empty());
+  CHECK_THROWS_WITH_AS(merge_found(scene, out, ""), doctest::Contains("other input files"), InputError);
+  const FoundParts same = put([](Config&, RunSummary&) {});
+  CHECK_NOTHROW(merge_found(same, out, ""));
 }
 
 TEST_CASE("every manifest cut short or with a byte changed is read or refused") {

@@ -70,7 +70,6 @@ TEST_CASE("paths.h5 holds every column of every frame, in order") {
 
   CHECK(h5.attribute("/", "config") == sample.config.text);
   CHECK(h5.attribute("/", "version") == WAVETRACER_VERSION);
-  CHECK(h5.attribute("/", "device") == "a processor");
   CHECK(h5.attribute("/paths/delay_s", "units") == "s");
   CHECK(h5.attribute("/vertices/position_m", "units") == "m");
 }

@@ -66,7 +66,7 @@ TEST_CASE("paths by kind add up over frames, whether written at once, in shards 
   Shards again(folder.path() / "drive", identity);
   REQUIRE(again.resume() == 1);
   again.write(sample.run(), mixed_drive(sample, 7, 3));
-  const auto drive = again.merge(sample.run(), mixed_drive(sample, 10, 3));
+  const auto drive = merge_interrupted(again, sample.run(), mixed_drive(sample, 10, 3));
   const auto whole = write_outputs(folder.path() / "whole", sample.run(), all);
   for (const auto& written : {drive, whole}) {
     const Json summary = Json::parse(slurp(written[2]));

@@ -103,15 +103,50 @@ TEST_CASE("a folder in use by another job is refused, and free again when its pr
     const Presence mine(folder.path(), this_process("job", 0));
     CHECK(processes_in(folder.path()).size() == 1);
     const Presence ours(folder.path(), this_process("job", 1));
-    CHECK_THROWS_WITH_AS(check_not_in_use(folder.path(), "other"), doctest::Contains("writes there; wait until"),
-                         RuntimeError);
+    CHECK_NOTHROW(check_not_in_use(folder.path(), this_process("job", 2)));
+    CHECK_THROWS_WITH_AS(check_not_in_use(folder.path()), doctest::Contains("writes there since 20"), RuntimeError);
+    CHECK_THROWS_AS(check_not_in_use(folder.path(), this_process("job", 1)), RuntimeError);  // the same part twice
     CHECK_THROWS_AS(Presence(folder.path(), this_process("other", 0)), RuntimeError);
+    CHECK_THROWS_AS(Presence(folder.path(), this_process("", 2)), RuntimeError);
+    CHECK(processes_in(folder.path()).size() == 2);
   }
   CHECK(fs::is_empty(folder.path()));
   leave_file(folder, dead_process("job"));
-  check_not_in_use(folder.path(), "other");
-  remove_dead_processes(folder.path());
+  check_not_in_use(folder.path(), this_process("other", 0));
+  leave_file(folder, dead_process(""));
+  { const Presence next(folder.path(), this_process("", 0)); }  // which takes away what dead ones have left
   CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("of eight processes that enter a folder at once one has it") {
+  const TemporaryFolder folder;
+  int held = 0;
+  std::vector<pid_t> children;
+  for (int i = 0; i < 8; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const std::string tried = "tried_" + std::to_string(i);
+      try {
+        const Presence mine(folder.path(), this_process("", 0));
+        folder.write(tried, "");
+        while (!fs::exists(folder.path() / "go")) usleep(1000);
+        _exit(0);
+      } catch (const RuntimeError&) {
+        folder.write(tried, "");
+        _exit(1);
+      }
+    }
+    children.push_back(child);
+  }
+  for (int i = 0; i < 8; ++i)
+    while (!fs::exists(folder.path() / ("tried_" + std::to_string(i)))) usleep(1000);
+  folder.write("go", "");
+  for (const pid_t child : children) {
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    held += WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+  CHECK(held == 1);
 }
 
 TEST_CASE("a task is taken by one process; one that died is followed by one other, and no third") {

@@ -1,6 +1,5 @@
 // waypoints.h5 as a reader finds it: every column of every frame in order, frames without waypoints, no frame at all.
 #include <doctest/doctest.h>
-#include <fstream>
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
 #include "output/waypoints_h5.hpp"
@@ -17,11 +16,11 @@ using Values = std::vector<double>;
 using Shape = std::vector<hsize_t>;
 
 fs::path written(const fs::path& path, const Run& run, Frames frames) {
-  hdf5::File file;
-  encode_waypoints_h5(run, frames, file);
-  const auto image = file.image();
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(image.data()), static_cast<std::streamsize>(image.size()));
+  hdf5::File head;
+  encode_waypoints_head_h5(run, head);
+  FrameTables tables(path);
+  for (const FrameResult& frame : frames) append_waypoints_h5(run, frame, tables);
+  tables.finish(head).commit();
   return path;
 }
 
@@ -63,6 +62,7 @@ TEST_CASE("columns of unequal length are not written") {
   std::vector<FrameResult> frames(1);
   frames[0].waypoints = sample_waypoints(0);
   frames[0].waypoints.instance.pop_back();
-  hdf5::File file;
-  CHECK_THROWS_AS(encode_waypoints_h5(sample.run(), frames, file), RuntimeError);
+  const test::TemporaryFolder folder;
+  FrameTables tables(folder.path() / "waypoints.h5");
+  CHECK_THROWS_AS(append_waypoints_h5(sample.run(), frames[0], tables), RuntimeError);
 }

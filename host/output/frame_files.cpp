@@ -1,0 +1,34 @@
+// Each kind of file knows how a frame is appended to it.
+// HDF5 is not thread safe: one thread adds and finishes.
+#include "output/frame_files.hpp"
+#include "output/head_h5.hpp"
+
+namespace wavetracer {
+
+FrameFiles::FrameFiles(const Run& run, const std::vector<std::filesystem::path>& paths)
+    : run_(run), links_(run, paths.back()) {
+  const size_t outputs = h5_outputs(run.config).size();
+  tables_.reserve(outputs);
+  for (size_t i = 0; i < outputs; ++i) tables_.emplace_back(paths.at(i));
+}
+
+void FrameFiles::add(const FrameResult& frame) {
+  const std::span<const H5Output> outputs = h5_outputs(run_.config);
+  for (size_t i = 0; i < outputs.size(); ++i) outputs[i].append_frame(run_, frame, tables_[i]);
+  links_.add(frame);
+  wavetracer::add(totals_, totals_of({&frame, 1}));
+}
+
+std::vector<PendingFile> FrameFiles::finish() {
+  std::vector<PendingFile> files;
+  const std::span<const H5Output> outputs = h5_outputs(run_.config);
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    hdf5::File head;
+    make_head(outputs[i], run_, head);
+    files.push_back(tables_[i].finish(head));
+  }
+  files.push_back(links_.finish());
+  return files;
+}
+
+}  // namespace wavetracer

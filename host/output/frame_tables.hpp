@@ -1,0 +1,57 @@
+// The tables of an HDF5 output that grow with frames, written a frame at a time: rows go to a temporary file as they
+// come, and to their places once their number is known. Memory holds no frame.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+#include "output/hdf5.hpp"
+#include "output/pending_file.hpp"
+#include "output/table_layout.hpp"
+
+namespace wavetracer {
+
+class FrameTables {
+ public:
+  // path: of the file that finish() makes; rows wait beside it.
+  explicit FrameTables(const std::filesystem::path& path);
+
+  // The group of the tables that follow, in the order of the file.
+  void group(const std::string& path, const std::string& description);
+  // Rows of a table of the last group, which begins with its first rows, or with none. Offsets begin with 0 each time.
+  // Rows of different shapes are a RuntimeError; that of no rows need not be known.
+  template <typename T>
+  void append(const std::string& name, const hdf5::Meaning& meaning, std::span<const T> values,
+              const std::vector<hsize_t>& row_shape = {}) {
+    hsize_t row_values = 1;
+    for (const hsize_t n : row_shape) row_values *= n;
+    append_rows(name, meaning, hdf5::Type<T>::file(), std::as_bytes(values), values.size() / row_values, row_shape);
+  }
+  // One row, which may be of no values.
+  template <typename T>
+  void append_row(const std::string& name, const hdf5::Meaning& meaning, std::span<const T> values,
+                  const std::vector<hsize_t>& row_shape) {
+    append_rows(name, meaning, hdf5::Type<T>::file(), std::as_bytes(values), 1, row_shape);
+  }
+
+  // The file, synced but not in place. Nothing can be appended then. Throws RuntimeError.
+  PendingFile finish(hdf5::File& head);
+
+ private:
+  PendingFile out_, rows_;
+  uint64_t written_ = 0;            // bytes of rows_, those in waiting_ too
+  std::vector<std::byte> waiting_;  // at most a block
+  std::vector<GrowingGroup> groups_;
+  std::map<std::string, size_t> group_rows_, table_rows_;  // path: place among the groups, in its group
+  size_t group_ = 0;
+
+  void append_rows(const std::string& name, const hdf5::Meaning& meaning, hid_t type, std::span<const std::byte> bytes,
+                   hsize_t rows, const std::vector<hsize_t>& row_shape);
+  GrowingTable& table(const std::string& path, const hdf5::Meaning& meaning, hid_t type,
+                      const std::vector<hsize_t>& row_shape);
+  void flush();
+};
+
+}  // namespace wavetracer

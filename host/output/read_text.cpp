@@ -1,0 +1,36 @@
+// Plain POSIX calls: a stream on a folder throws words of the C++ library.
+#include "output/read_text.hpp"
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why, const std::string& what_to_do) {
+  throw RuntimeError(fmt::format("cannot read {}: {}; {}", file.string(), why, what_to_do));
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& file, uint64_t most_bytes, const std::string& what_to_do) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(file, std::strerror(errno), what_to_do);
+  std::string text, block(size_t{1} << 16, '\0');
+  ssize_t got = 0;
+  int error = 0;
+  do {
+    got = ::read(descriptor, block.data(), block.size());
+    error = got < 0 ? errno : 0;
+    if (got > 0) text.append(block, 0, static_cast<size_t>(got));
+  } while ((got > 0 && text.size() <= most_bytes) || error == EINTR);
+  ::close(descriptor);
+  if (error != 0) fail(file, std::strerror(error), what_to_do);
+  if (text.size() > most_bytes) fail(file, "it is too large for what it should be", what_to_do);
+  return text;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,72 @@
+// HDF5 makes the tables and says where their rows belong; it copies none, as it has one thread.
+// Room is reserved before HDF5 writes, which may crash where a disk is full.
+#include "output/table_layout.hpp"
+#include <algorithm>
+
+namespace wavetracer {
+namespace {
+
+using hdf5::File;
+
+// More than the file grows by: rows, and what the library notes of groups, tables and attributes, with room to spare.
+uint64_t most_bytes(const std::vector<GrowingGroup>& groups) {
+  constexpr uint64_t notes = 8192;
+  uint64_t bytes = 0;
+  for (const GrowingGroup& group : groups) {
+    bytes += notes + 2 * group.description.size();
+    for (const GrowingTable& table : group.tables)
+      bytes +=
+          notes + 2 * (table.meaning.units.size() + table.meaning.description.size()) + table.rows * table.row_bytes();
+  }
+  return bytes;
+}
+
+// Makes the table, and adds its pieces to those of the parts.
+void make_table(const GrowingTable& table, const File& file, Pieces& pieces) {
+  std::vector<hsize_t> shape{table.rows};
+  shape.insert(shape.end(), table.row_shape.begin(), table.row_shape.end());
+  const uint64_t start = hdf5::make_room(file, table.path, table.meaning, table.type, shape);
+  for (const auto& [part, piece] : table.pieces)
+    if (piece.bytes > 0) pieces.at(part).push_back({piece.from, start + piece.to, piece.bytes, piece.base});
+}
+
+}  // namespace
+
+GrowingTable::GrowingTable(std::string name, hdf5::Meaning what, hid_t stored_as, std::vector<hsize_t> shape)
+    : path(std::move(name)),
+      meaning(std::move(what)),
+      type(H5Tcopy(stored_as), H5Tclose, "copy the type of " + path),
+      row_shape(std::move(shape)) {}
+
+uint64_t GrowingTable::row_bytes() const {
+  uint64_t bytes = H5Tget_size(type);
+  for (const hsize_t n : row_shape) bytes *= n;
+  return bytes;
+}
+
+void GrowingTable::take(size_t part, uint64_t from, hsize_t count, uint64_t last) {
+  const hsize_t repeated = offsets() && rows > 0 ? 1 : 0;  // what the part before ended with
+  const uint64_t bytes = row_bytes();
+  pieces.push_back({part, {from + repeated * bytes, rows * bytes, (count - repeated) * bytes, base_}});
+  rows += count - repeated;
+  if (offsets()) base_ += last;
+}
+
+Pieces make_tables(PendingFile& out, File& head, const std::vector<GrowingGroup>& groups, size_t parts) {
+  const auto image = head.image();
+  out.write(image);
+  out.reserve(image.size() + most_bytes(groups));
+  Pieces pieces(parts);
+  File file = File::open_to_write(out.temporary());
+  for (const GrowingGroup& group : groups) {
+    file.make_group(group.path, group.description);
+    std::vector<const GrowingTable*> tables;
+    for (const GrowingTable& table : group.tables) tables.push_back(&table);
+    std::ranges::sort(tables, {}, &GrowingTable::path);
+    for (const GrowingTable* table : tables) make_table(*table, file, pieces);
+  }
+  file.flush();
+  return pieces;
+}
+
+}  // namespace wavetracer
