@@ -44,7 +44,8 @@ SolvedList made_up(uint32_t count, uint32_t max_depth, double blocked_share) {
   std::vector<uint32_t> surfaces(size_t{count} * max_depth);
   std::vector<double> points(3 * surfaces.size());
   for (uint32_t i = 0; i < count; ++i)
-    headers[i] = {random.below(9), random.below(9), random.below(max_depth + 1), random() < blocked_share, i};
+    headers[i] = {random.below(9), random.below(9), random.below(max_depth + 1), random() < blocked_share, i,
+                  random.below(16)};
   for (uint32_t& surface : surfaces) surface = random.below(1000);
   for (double& x : points) x = random.between(-100, 100);
   if (count > 0) {
