@@ -18,13 +18,12 @@ inline void note_end(const global float* rays, uint capacity, uint i, uint node,
 
 inline uint quarter_bit(uint word) { return 1u << (word >> WT_QUARTER_SHIFT & 3u); }
 
-// Ray i goes on as ray j of a queue, from o along d, with its quarter.
+// Ray i goes on as ray j of a queue, from o along d. word: its node and quarter.
 inline void store_ray(const global float* rays, const global float* hits, uint capacity, uint i, uint surface,
-                      uint node, float3 o, float3 d, global float* queue, uint j) {
+                      uint word, float3 o, float3 d, global float* queue, uint j) {
   wt_store_float3(queue, capacity, WT_RAY_ORIGIN, j, o);
   wt_store_float3(queue, capacity, WT_RAY_DIRECTION, j, d);
-  const uint quarter = wt_load_word(rays, capacity, WT_RAY_NODE, i) & WT_QUARTER_BITS;
-  wt_store_word(queue, capacity, WT_RAY_NODE, j, node | quarter);
+  wt_store_word(queue, capacity, WT_RAY_NODE, j, word);
   wt_store_word(queue, capacity, WT_RAY_SURFACE, j, surface);
 #if defined(WT_SAMPLES) || defined(WT_LABELS)
   wt_store_word(queue, capacity, WT_RAY_SAMPLE, j, wt_load_word(rays, capacity, WT_RAY_SAMPLE, i));
@@ -38,15 +37,15 @@ inline void store_ray(const global float* rays, const global float* hits, uint c
 
 // The reflected ray has lived through the node of its hit; what was transmitted has bent nowhere and keeps the ray's.
 inline void store(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity,
-                  uint i, uint surface, uint node, uint last, global float* next, global float* through, uint j) {
+                  uint i, uint surface, uint word, uint node, uint last, global float* next, global float* through,
+                  uint j) {
   float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
 #ifdef WT_THROUGH
-  store_ray(rays, hits, capacity, i, surface, wt_node_of(wt_load_word(rays, capacity, WT_RAY_NODE, i)),
-            wt_behind(surfaces + surface, hits[i], o, d), d, through, j);
+  store_ray(rays, hits, capacity, i, surface, word, wt_behind(surfaces + surface, hits[i], o, d), d, through, j);
   if (last) return;
 #endif
   wt_mirror(surfaces + surface, hits[i], &o, &d);
-  store_ray(rays, hits, capacity, i, surface, node, o, d, next, j);
+  store_ray(rays, hits, capacity, i, surface, node | (word & WT_QUARTER_BITS), o, d, next, j);
 }
 
 // Is there anything to store of a ray that hit?
@@ -87,7 +86,7 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
     }
     found |= quarter_bit(word);
     note_end(rays, capacity, i, last_node, ends);
-    if (goes_on(last)) store(surfaces, rays, hits, capacity, i, surface, last_node, last, next, through, j);
+    if (goes_on(last)) store(surfaces, rays, hits, capacity, i, surface, word, last_node, last, next, through, j);
     ++j;
   }
   wt_note_quarters(quarters, last_node, found);
@@ -113,6 +112,6 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
   note_end(rays, capacity, i, node, ends);
   if (!goes_on(last)) return;
   const uint j = block_offsets[get_group_id(0)] + wt_block_rank(alive);
-  store(surfaces, rays, hits, capacity, i, surface, node, last, next, through, j);
+  store(surfaces, rays, hits, capacity, i, surface, word, node, last, next, through, j);
 }
 #endif

@@ -98,7 +98,7 @@ void check_same(const fs::path& found, const fs::path& expected, bool work_too) 
   const auto a = nlohmann::json::parse(slurp(found / "summary.json")),
              b = nlohmann::json::parse(slurp(expected / "summary.json"));
   for (const char* key : {"frames", "first_frame", "last_frame", "links", "paths_by_kind", "features", "frames_asked",
-                          "vehicles", "start_s", "end_s", "warnings", "device", "repeat_count"}) {
+                          "vehicles", "start_s", "end_s", "warnings", "device", "repeat_count", "missed"}) {
     CAPTURE(key);
     CHECK(a[key] == b[key]);
   }

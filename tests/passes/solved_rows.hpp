@@ -40,7 +40,7 @@ inline SolvedList upload_rows(const std::vector<PathRow>& rows, uint32_t max_dep
   std::vector<double> vertices(3 * rows.size() * max_depth, NAN);
   std::vector<uint32_t> steps(rows.size() * max_depth, WT_NONE);
   for (uint32_t i = 0; i < rows.size(); ++i) {
-    headers.push_back({i, i, static_cast<uint32_t>(rows[i].steps.size()), 0, WT_ROOT | i});
+    headers.push_back({i, i, static_cast<uint32_t>(rows[i].steps.size()), 0, WT_ROOT | i, WT_ALL_QUARTERS});
     for (size_t k = 0; k < rows[i].steps.size(); ++k) {
       steps[i * max_depth + k] = rows[i].steps[k];
       for (int axis = 0; axis < 3; ++axis)

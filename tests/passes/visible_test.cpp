@@ -13,7 +13,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-using Row = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, std::vector<uint32_t>, std::vector<double>>;
+using Row = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, std::vector<uint32_t>, std::vector<double>>;
 
 // Rows of a list but the obstructed, sorted.
 std::vector<Row> rows_of(const SolvedList& list) {
@@ -27,7 +27,7 @@ std::vector<Row> rows_of(const SolvedList& list) {
     const auto at = static_cast<std::ptrdiff_t>(i * list.max_depth);
     const auto depth = static_cast<std::ptrdiff_t>(headers[i].depth);
     rows.emplace_back(headers[i].transmitter, headers[i].receiver, headers[i].depth, headers[i].node,
-                      std::vector(surfaces.begin() + at, surfaces.begin() + at + depth),
+                      headers[i].quarters, std::vector(surfaces.begin() + at, surfaces.begin() + at + depth),
                       std::vector(points.begin() + 3 * at, points.begin() + 3 * (at + depth)));
   }
   std::sort(rows.begin(), rows.end());
@@ -44,7 +44,8 @@ SolvedList made_up(uint32_t count, uint32_t max_depth, double blocked_share) {
   std::vector<uint32_t> surfaces(size_t{count} * max_depth);
   std::vector<double> points(3 * surfaces.size());
   for (uint32_t i = 0; i < count; ++i)
-    headers[i] = {random.below(9), random.below(9), random.below(max_depth + 1), random() < blocked_share, i};
+    headers[i] = {random.below(9), random.below(9), random.below(max_depth + 1), random() < blocked_share, i,
+                  random.below(16)};
   for (uint32_t& surface : surfaces) surface = random.below(1000);
   for (double& x : points) x = random.between(-100, 100);
   if (count > 0) {
