@@ -45,7 +45,13 @@ std::string limit_text(const Row* best, const Row& whole) {
 void add_limits(const Study& study, const std::string& what, const std::vector<std::string>& axes,
                 std::vector<std::string>& out) {
   const Row* whole = reference(study, axes.front());
-  if (!whole) return;
+  if (!whole) {
+    for (const Row& row : study.rows)
+      if (row.reference && row.setting.axis == axes.front())
+        out.push_back(fmt::format("{}: nothing to recommend, because the reference, {}, {}", what, keys(row),
+                                  row.measured() ? "finds no path" : "is not measured: " + row.refusal));
+    return;
+  }
   std::vector<std::pair<const Row*, std::string>> answers;
   for (const double limit : allowed_losses) {
     const Row* best = cheapest(study, axes, limit);

@@ -58,6 +58,10 @@ TEST_CASE("the fastest setting within a loss is recommended, never the reference
   study.rows[2].error.lost_power = 1e-5;
   CHECK(has(recommendations(study), "Rays, at most 10^-3 and 10^-5 of the power lost: trace.rays=100000 (20 ms"));
   study = made();
+  study.rows[0].paths = 0;
+  CHECK(
+      has(recommendations(study), "Rays: nothing to recommend, because the reference, trace.rays=10000000, finds no"));
+  study = made();
   study.rows[3] = row("rays", "1000000", 0.1, 2e-5);
   CHECK(has(recommendations(study), "10^-5 of the power lost: only the reference, trace.rays=10000000 (1e+03 ms"));
 }
