@@ -90,7 +90,6 @@ void add_reuse(const Study& study, std::vector<std::string>& out) {
 // What is gained by it, on top of the user's other settings.
 std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row& off) {
   std::string text = fmt::format("{} ({}): ", mechanism.words, fmt::join(mechanism.on, ", "));
-  text[0] = static_cast<char>(std::toupper(text[0]));
   const report::PathError& error = off.error;
   if (error.lost == 0 && error.spurious == 0) {
     text += "adds no path";
