@@ -45,7 +45,13 @@ std::string limit_text(const Row* best, const Row& whole) {
 void add_limits(const Study& study, const std::string& what, const std::vector<std::string>& axes,
                 std::vector<std::string>& out) {
   const Row* whole = reference(study, axes.front());
-  if (!whole) return;
+  if (!whole) {
+    for (const Row& row : study.rows)
+      if (row.reference && row.setting.axis == axes.front())
+        out.push_back(fmt::format("{}: nothing to recommend, because the reference, {}, {}", what, keys(row),
+                                  row.measured() ? "finds no path" : "is not measured: " + row.refusal));
+    return;
+  }
   std::vector<std::pair<const Row*, std::string>> answers;
   for (const double limit : allowed_losses) {
     const Row* best = cheapest(study, axes, limit);
@@ -84,7 +90,6 @@ void add_reuse(const Study& study, std::vector<std::string>& out) {
 // What is gained by it, on top of the user's other settings.
 std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row& off) {
   std::string text = fmt::format("{} ({}): ", mechanism.words, fmt::join(mechanism.on, ", "));
-  text[0] = static_cast<char>(std::toupper(text[0]));
   const report::PathError& error = off.error;
   if (error.lost == 0 && error.spurious == 0) {
     text += "adds no path";

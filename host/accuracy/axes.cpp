@@ -52,22 +52,13 @@ Axis depth_axis(const Config& own) {
 
 const std::vector<Mechanism>& mechanisms() {
   static const std::vector<Mechanism> all = {
-      {"diffraction", "trace.diffraction", "diffraction", {"trace.diffraction=true"}, {"trace.diffraction=false"}},
+      {"diffraction", "Diffraction", {"trace.diffraction=true"}, {"trace.diffraction=false"}},
       {"double_diffraction",
-       "trace.max_diffractions",
-       "diffraction at a second edge",
+       "Diffraction at a second edge",
        {"trace.diffraction=true", "trace.max_diffractions=2"},
        {"trace.diffraction=true", "trace.max_diffractions=1"}},
-      {"transmission",
-       "trace.transmission",
-       "transmission through walls",
-       {"trace.transmission=true"},
-       {"trace.transmission=false"}},
-      {"scattering",
-       "trace.scattering",
-       "scattering off rough surfaces",
-       {"trace.scattering=true"},
-       {"trace.scattering=false"}}};
+      {"transmission", "Transmission through walls", {"trace.transmission=true"}, {"trace.transmission=false"}},
+      {"scattering", "Scattering off rough surfaces", {"trace.scattering=true"}, {"trace.scattering=false"}}};
   return all;
 }
 

@@ -28,9 +28,9 @@ constexpr recipes::RayRange default_rays{10000, 1000000};
 // drive: there are frames that may reuse what earlier ones have found. The reference has ten times the most rays.
 std::vector<Axis> axes(const Config& own, bool drive, recipes::RayRange rays);
 
-// The Features that are on or off by a key, with that key and what it is called in a sentence.
+// The Features that are on or off by keys, and what they are called at the start of a sentence.
 struct Mechanism {
-  std::string feature, key, words;
+  std::string feature, words;
   std::vector<std::string> on, off;
 };
 const std::vector<Mechanism>& mechanisms();

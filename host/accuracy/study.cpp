@@ -112,11 +112,10 @@ class Measurement {
     bool own = false;
     const std::optional<Measured> reference = try_measure(axis.reference, own);
     if (!reference) return false;
+    const bool nothing_to_switch_off = !axis.reference.needs.empty() && !reference->refusal.empty();
+    if (nothing_to_switch_off) out_.planned -= axis.settings.size();
     add(axis.reference, *reference, *reference, true, own);
-    if (!axis.reference.needs.empty() && !reference->refusal.empty()) {  // nothing to switch off
-      out_.planned -= axis.settings.size();
-      return true;
-    }
+    if (nothing_to_switch_off) return true;
     for (const Setting& setting : axis.settings) {
       own = false;
       const std::optional<Measured> measured = try_measure(setting, own);

@@ -58,6 +58,10 @@ TEST_CASE("the fastest setting within a loss is recommended, never the reference
   study.rows[2].error.lost_power = 1e-5;
   CHECK(has(recommendations(study), "Rays, at most 10^-3 and 10^-5 of the power lost: trace.rays=100000 (20 ms"));
   study = made();
+  study.rows[0].paths = 0;
+  CHECK(
+      has(recommendations(study), "Rays: nothing to recommend, because the reference, trace.rays=10000000, finds no"));
+  study = made();
   study.rows[3] = row("rays", "1000000", 0.1, 2e-5);
   CHECK(has(recommendations(study), "10^-5 of the power lost: only the reference, trace.rays=10000000 (1e+03 ms"));
 }
@@ -129,5 +133,5 @@ TEST_CASE("a mechanism is described by what is missing without it") {
             "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; path gains change by 1.2 dB "
             "at the median link, 31 dB at the worst; 3 links have no path without it; a frame takes 500 ms with "
             "it, 100 ms without. Yours is off"));
-  CHECK(has(words, "scattering off rough surfaces: not measured, because no material scatters"));
+  CHECK(has(words, "Scattering off rough surfaces: not measured, because no material scatters"));
 }
