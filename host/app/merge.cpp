@@ -96,7 +96,8 @@ void add_merge(CLI::App& program, Invocation& invocation) {
   command->add_option("-o,--output", options->output, "Folder for the results; of one DIR that folder itself");
   command->add_flag("--partial", options->partial, "Write what is there, even if parts are missing");
   command->footer(
-      "Exit code 5: parts are missing. All DIR must be of one run: configuration, --frames, --repeat, version "
+      "Exit code 5: parts are missing. All DIR must be of one run: configuration, input files, --frames, --repeat, "
+      "version "
       "and kind of device.");
   command->callback([options, &invocation] { merge(*options, invocation); });
 }

@@ -18,6 +18,7 @@ DATASETS = {
     "instances": "id type model",
     "poses": "frame instance position_m rotation velocity_m_s",
     "links": "frame tx rx",
+    "inputs": "name file bytes hash",
     "transmitters": "name position_m antenna polarization orientation_deg velocity_m_s",
     "receivers": "name position_m antenna polarization orientation_deg velocity_m_s",
 }
@@ -51,6 +52,8 @@ with h5py.File(sys.argv[1] + "/paths.h5", "r") as file:
     assert np.array_equal(file["frames/transmitter_position_m"][1], [[1, 2, 3], [4, 5, 6]])
     turned = file["poses/rotation"][2] @ [1, 0, 0]
     assert np.array_equal(turned, [0, 1, 0]), turned
+    assert list(file["inputs/name"].asstr()) == ["scene.file", "scene.file: a.ply"]
+    assert list(file["inputs/bytes"]) == [100, 7] and list(file["inputs/hash"]) == [42, 43]
     assert file.attrs["format_version"] == 1 and file.attrs["frequency_hz"] == [5.9e9]
     assert file.attrs["config"] == 'scene.file = "scene.xml"  # \u00e9\n'
 print("paths.h5: all datasets as written")
