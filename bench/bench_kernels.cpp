@@ -182,7 +182,7 @@ class Suite {
   }
 
   // Directions that differ from those of the host, which evaluates the same header.
-  size_t wrong_directions(const RayQueue& rays, const std::vector<uint32_t>& order, const LaunchDirections& d) const {
+  size_t wrong_directions(const RayQueue& rays, const std::vector<uint32_t>& order, const LaunchDirections& d) {
     const std::vector<float> heights = LaunchHeights(context_).values();
     const auto direction = d.map == "wt_direction_horizon"     ? device::wt_direction_horizon
                            : d.map == "wt_direction_hilbert"   ? device::wt_direction_hilbert

@@ -125,6 +125,11 @@ struct ForeignFile::Child {};
 ForeignFile::ForeignFile(const std::filesystem::path&) {}
 ForeignFile::~ForeignFile() = default;
 
+bool ForeignFile::has(const std::string& group) const {
+  const auto within = [&](const auto& entry) { return entry.first.starts_with(group + "/"); };
+  return std::ranges::any_of(patched.numbers, within) || std::ranges::any_of(patched.texts, within);
+}
+
 std::vector<uint64_t> ForeignFile::shape(const std::string& path, const std::vector<uint64_t>& inner) const {
   const Dataset& dataset = patched.numbers.at(path);
   if (dataset.shape.size() != inner.size() + 1) std::abort();

@@ -32,7 +32,7 @@ size_t wrong_samples(const SampleList& list, uint32_t launchers) {
 }  // namespace
 
 TEST_CASE("from any number of launchers to any other, cold and warm, both ways: the cells of a fresh launch") {
-  Refinement refinement(context(), TraceConfig{});
+  Refinement refinement(context(), TraceConfig{}, std::make_shared<LaunchHeights>(context()));
   size_t cold_cells = 0, warm_cells = 0;
   for (uint32_t before = 1; before <= most_launchers; ++before)
     for (uint32_t after = before; after <= most_launchers; ++after)
