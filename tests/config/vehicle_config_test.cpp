@@ -203,7 +203,7 @@ TEST_CASE("a refined launch goes along the hilbert curve and nothing else") {
   CHECK(error_of(automatic + "trace.directions = \"hilbert\"\norder.method = \"none\"\n" + ends) == "no error");
   CHECK(error_of(automatic + "order.method = \"WS\"\n" + ends) == "no error");
   CHECK(error_of(automatic + "trace.directions = \"random\"\n" + ends) ==
-        "a.toml:3:20: trace.rays = \"auto\" needs trace.directions = \"hilbert\", not \"random\": leave "
+        "a.toml:3:20: trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"random\": leave "
         "trace.directions out, or give trace.rays a number");
   for (const std::string method : {"Z", "direction-origin", "auto"})
     check_contains(error_of(automatic + "order.method = \"" + method + "\"\n" + ends),
