@@ -161,9 +161,9 @@ std::string device_options(const cl::Device& device, const DeviceInfo& info) {
   }
   options += info.cpu ? " -DWT_CPU=1" : " -DWT_GPU=1";
   if (info.correctly_rounded_divide) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  // PoCL's compiler counts its warnings on stderr, where they are nothing to a user: "133 warnings generated."
-  if (is_pocl(info)) options += " -w";
-  return options + " -cl-kernel-arg-info";  // launches check the size of each argument
+  // Compilers of PoCL and NVIDIA count their warnings on stderr, where they are nothing to a user: "133 warnings
+  // generated."
+  return options + " -w -cl-kernel-arg-info";  // launches check the size of each argument
 }
 
 }  // namespace wavetracer::gpu

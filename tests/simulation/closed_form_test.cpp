@@ -45,7 +45,9 @@ void check_box(const glm::dvec3& corner, double scale = 1) {
   const SceneFile file(reference::box_walls(corner, corner + size));
   Points receivers = inside;
   for (glm::dvec3& p : receivers) p += corner;
-  const FrameResult frame = run(config_of(file.path(), {tx + corner}, receivers, 1000000, 5));
+  Config config = config_of(file.path(), {tx + corner}, receivers, 1000000, 5);
+  config.trace.directions = "hilbert";
+  const FrameResult frame = run(config);
   CHECK(frame.counts.paths == 231 * inside.size());
   CHECK(frame.counts.rays == 1000000);
   CHECK(frame.segments_per_depth == std::vector<uint64_t>(5, 1000000));  // nothing leaves a closed box

@@ -114,6 +114,7 @@ TEST_CASE("a set that outgrows its table: the same paths and sequences for all b
     }
   const SceneFile file(quads);
   Config config = config_of(file.path(), {{1.1, 0.4, -0.7}}, {{-3.1, 2.2, 0.9}}, 400000, 5);
+  config.trace.directions = "hilbert";
   const FrameResult whole = run(config);
   CHECK(whole.counts.sequences > 1 << 18);
   CHECK(whole.counts.paths > 4);

@@ -205,7 +205,7 @@ TEST_CASE("diffraction_rays: of ends that only receive; few of them find less, a
     return alone(config);
   };
   const Paths expected = found_with(listeners, 10 * rays, 10 * rays);
-  const Paths many = found_with(listeners, rays, rays), few = found_with(listeners, rays, 50);
+  const Paths many = found_with(listeners, rays, rays), few = found_with(listeners, rays, 10);
   REQUIRE(expected.size() > 250);
   CHECK(missing(many, expected) == 0);
   CHECK(missing(few, expected) == 0);

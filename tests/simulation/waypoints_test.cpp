@@ -84,6 +84,7 @@ TEST_CASE("the same rows in any order, in small batches, and all of them where m
 TEST_CASE("over a ground, rays that go up miss, and those that go down hit it once") {
   const SceneFile file({{{-1e4, -1e4, 0}, {2e4, 0, 0}, {0, 2e4, 0}}});
   Config config = config_of(file.path(), {{0, 0, 10}}, {{5, 0, 1}}, 500, 4);
+  config.trace.directions = "hilbert";
   config.output.waypoints = 500;
   const WaypointRows rows = run(config).waypoints;
   size_t up = 0, down = 0, wrong = 0;
