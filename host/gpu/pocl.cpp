@@ -43,8 +43,6 @@ fs::path own_folder() {
 
 }  // namespace
 
-bool is_pocl(const DeviceInfo& info) { return info.platform == "Portable Computing Language"; }
-
 fs::path pocl_cache_folder() {
   if (const std::string chosen = value_of("POCL_CACHE_DIR"); !chosen.empty()) return chosen;
   if (const std::string caches = value_of("XDG_CACHE_HOME"); !caches.empty()) return fs::path(caches) / "pocl/kcache";

@@ -6,8 +6,6 @@
 
 namespace wavetracer::gpu {
 
-bool is_pocl(const DeviceInfo& info);
-
 // Where PoCL keeps its cache, by the environment as it is now.
 std::filesystem::path pocl_cache_folder();
 

@@ -52,7 +52,7 @@ expect 'run ' ru
 expect 'city info ' scene ''
 expect '--resume ' run --res
 expect 'trace.rays= ' run -c file.toml --set trace.ra
-expect 'fibonacci hilbert random ' run --set trace.directions = ''
+expect 'fibonacci hilbert horizon random ' run --set trace.directions = ''
 expect 'hilbert ' run --set trace.directions = hi
 expect 'false true ' run --set trace.reuse =
 expect 'auto y z ' scene info --up ''
