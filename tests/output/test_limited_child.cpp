@@ -69,8 +69,11 @@ TEST_CASE("errors of a child are thrown as what they are, and it goes on") {
   LimitedChild child("run.h5", obey, small);
   CHECK_THROWS_WITH_AS(child.request("runtime"), "a dataset is missing", RuntimeError);
   CHECK_THROWS_WITH_AS(child.request("input"), "part.h5: a dataset is missing", InputError);
+  CHECK(child.request("word") == "word!");
+#ifndef __SANITIZE_ADDRESS__  // which ends a process where memory ends
   CHECK_THROWS_WITH_AS(child.request("memory"), "reading it takes more than 64 MiB of memory", RuntimeError);
   CHECK(child.request("word") == "word!");
+#endif
 }
 
 TEST_CASE("a child that faults, ends or loops is an input error that names its file, from then on") {
