@@ -75,6 +75,10 @@ TEST_CASE("warnings of kernels are not shown to users") {
   kernels.add("test.cl", "#warning some words\n" + std::string(kernel_text));
   const std::filesystem::path shown = kernels.kernels() / "stderr";
   gpu::Context context;
+  if (context.info().platform == "Oclgrind") {
+    MESSAGE("skipped: Oclgrind takes no option that keeps its compiler quiet");
+    return;
+  }
   std::fflush(stderr);
   const int before = ::dup(STDERR_FILENO), file = ::open(shown.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   REQUIRE(before >= 0);
