@@ -35,7 +35,7 @@ struct Options {
 // 1, 1.5, 2, 3, 5, 7 times powers of ten.
 std::vector<uint64_t> launch_sizes(uint64_t most) {
   std::vector<uint64_t> sizes;
-  for (uint64_t decade = 10'000; decade <= most; decade *= 10)
+  for (uint64_t decade = 1000; decade <= most; decade *= 10)
     for (const uint64_t tenths : {10, 15, 20, 30, 50, 70})
       if (const uint64_t rays = decade / 10 * tenths; rays <= most) sizes.push_back(rays);
   return sizes;
@@ -62,15 +62,16 @@ class Bench {
   void run() {
     const uint64_t plain = find_plain();
     for (const double recall : {0.99, 0.999, 0.9999}) run_auto(recall, plain);
-    for (const double recall : {0.99, 0.999}) run_reuse(0, recall, plain);
-    for (const uint64_t rays : {plain, 3 * plain}) run_reuse(rays, 0, plain);
+    for (const double recall : {0.99, 0.999})
+      print_reuse(drive(0, recall), fmt::format("auto, recall {}", recall), plain);
+    find_reuse(plain);
   }
 
  private:
   struct Measured {
     Comparison comparison = {};
     uint64_t rays = 0;
-    double seconds = 0;
+    double seconds = 0, worst = 1;  // worst: path recall of one way
   };
 
   Measured solve_standing(const Config& config) {
@@ -100,8 +101,8 @@ class Bench {
     }
     size_t chosen = launches.size() - 1;
     while (chosen > 0 && suffices(launches[chosen].comparison) && suffices(launches[chosen - 1].comparison)) chosen--;
-    const auto first = std::find_if(launches.begin(), launches.end(),
-                                    [](const Measured& m) { return suffices(m.comparison); });
+    const auto first =
+        std::find_if(launches.begin(), launches.end(), [](const Measured& m) { return suffices(m.comparison); });
     Measured plain = launches[chosen];
     plain.rays = sizes[chosen];
     print_line(plain, "plain", 0,
@@ -118,10 +119,32 @@ class Bench {
     print_line(solve_standing(config), fmt::format("auto, recall {}", recall), plain, "");
   }
 
+  // The fewest rays a frame, a tenth of those of the first frame, that suffice as the next more do.
+  void find_reuse(uint64_t plain) {
+    std::optional<Measured> fewest;
+    for (const uint64_t rays : launch_sizes(options_.most_rays / refresh_share)) {
+      const Measured more = drive(refresh_share * rays, 0);
+      fmt::print(stderr, "{}: {} rays a frame of a drive: {:.4f} of the paths, {:.6f} of the power\n", name_, rays,
+                 more.comparison.recall, more.comparison.power_recall);
+      if (suffices(more.comparison) && fewest) break;
+      fewest.reset();
+      if (suffices(more.comparison)) fewest = more;
+    }
+    if (fewest)
+      print_reuse(*fewest, fmt::format("{} rays at first", refresh_share * fewest->rays), plain);
+    else
+      fmt::print(stderr, "{}: no drive sufficed, and no more rays were tried\n", name_);
+  }
+
+  void print_reuse(const Measured& mean, const std::string& what, uint64_t plain) const {
+    print_line(mean, "reuse, " + what, plain,
+               fmt::format("frame {} of {} ways; {:.4f} at worst", drive_frames - 1, ways_.size(), mean.worst));
+  }
+
   // The transmitter drives and ends where it stands in the list. rays: those of the first frame, of which later ones
   // launch a share, or 0: "auto" for this recall. Recall and rays are means over several ways to that place, and rays
   // over the frames after the first.
-  void run_reuse(uint64_t rays, double recall, uint64_t plain) {
+  Measured drive(uint64_t rays, double recall) {
     const double length_m = (drive_frames - 1) * step_s * speed_m_s;
     const glm::dvec3 end_m = reference_.transmitters_m.front();
     Config config = config_;
@@ -134,12 +157,11 @@ class Bench {
     if (ways_.empty()) ways_ = free_ways_to(load_scene(config), end_m, length_m, options_.ways);
     Measured mean;
     uint64_t launched = 0;
-    double worst = 1;
     for (const glm::dvec3& start_m : ways_) {
-      config.tracks = {{"drive",
-                        "antenna",
-                        {{0, start_m.x, start_m.y, start_m.z},
-                         {(drive_frames - 1) * step_s, end_m.x, end_m.y, end_m.z}}}};
+      config.tracks = {
+          {"drive",
+           "antenna",
+           {{0, start_m.x, start_m.y, start_m.z}, {(drive_frames - 1) * step_s, end_m.x, end_m.y, end_m.z}}}};
       Simulation simulation(config, options_.device);
       FrameResult result;
       for (uint32_t frame = 0; frame < drive_frames; frame++) {
@@ -153,12 +175,11 @@ class Bench {
       mean.comparison.recall += weight * c.recall;
       mean.comparison.power_recall += weight * c.power_recall;
       mean.seconds += weight * result.seconds.at("frame");
-      worst = std::min(worst, c.recall);
+      mean.worst = std::min(mean.worst, c.recall);
     }
     mean.comparison.found /= ways_.size();
     mean.rays = launched / (ways_.size() * (drive_frames - 1));
-    print_line(mean, rays ? fmt::format("reuse, {} rays at first", rays) : fmt::format("reuse, auto, recall {}", recall),
-               plain, fmt::format("frame {} of {} ways; {:.4f} at worst", drive_frames - 1, ways_.size(), worst));
+    return mean;
   }
 
   // plain: 0 where this is the plain launch itself.
@@ -189,7 +210,7 @@ class Bench {
   std::string name_;
   reference::Case reference_;
   std::string command_, device_;
-  Config config_;  // but for the transmitter
+  Config config_;                 // but for the transmitter
   std::vector<glm::dvec3> ways_;  // where drives begin
 };
 

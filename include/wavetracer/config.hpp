@@ -98,7 +98,7 @@ struct TimeConfig {  // [time]: frames of a drive
 };
 
 struct TraceConfig {
-  uint64_t rays = 1000000;  // a transmitter; 0 ("auto"): as many as recall asks for, at most max_rays
+  uint64_t rays = 200000;   // a transmitter; 0 ("auto"): as many as recall asks for, at most max_rays
   double recall = 0.99;     // of rays = "auto": wanted share of the paths
   uint64_t max_rays = 10000000;  // of rays = "auto"
   bool reuse = true;             // sequences of earlier frames of a drive are kept and solved again
