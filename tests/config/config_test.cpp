@@ -45,7 +45,7 @@ TEST_CASE("every kind of value is read, dotted keys at the top and tables alike"
   CHECK(c.scene.scale == 2.0);
   CHECK(c.scene.up == "y");
   CHECK(c.radio.frequency_hz == 28e9);
-  CHECK(c.trace.rays == 200000);
+  CHECK(c.trace.rays == 1000000);
   CHECK(c.trace.seed == 9223372036854775807u);
   CHECK(c.scene.material_alias == std::map<std::string, std::string>{{"my wall", "concrete"}, {"door", "wood"}});
   CHECK(c.order.method == "WS");
