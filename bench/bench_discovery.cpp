@@ -23,7 +23,7 @@ const char* const case_names[] = {"munich_street_0", "munich_street_1", "munich_
 constexpr double enough_paths = 0.99, enough_power = 0.9999;
 constexpr double step_s = 0.1, speed_m_s = 10;
 constexpr uint32_t drive_frames = 10;
-constexpr uint64_t refresh_share = 10;  // of the rays, what a frame of a drive launches
+constexpr uint64_t refresh_share = 20;  // of the rays of the first frame, what each later one launches
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
@@ -119,7 +119,7 @@ class Bench {
     print_line(solve_standing(config), fmt::format("auto, recall {}", recall), plain, "");
   }
 
-  // The fewest rays a frame, a tenth of those of the first frame, that suffice as the next more do.
+  // The fewest rays a frame, a twentieth of those of the first frame, that suffice as the next more do.
   void find_reuse(uint64_t plain) {
     std::optional<Measured> fewest;
     for (const uint64_t rays : launch_sizes(options_.most_rays / refresh_share)) {
