@@ -65,6 +65,12 @@ class Bench {
       fmt::print(stderr, "{}: {} paths are known after {} rays, {}\n", name, known.size(), options_.truth_rays,
                  directions);
     }
+    if (known.size() == 0) {
+      fmt::print(stderr,
+                 "bench_cases: {} has no path at these places and is left out; another --seed has other places\n",
+                 name);
+      return;
+    }
     std::vector<Launch> launches;
     for (const uint64_t rays : options_.rays) {
       const std::string text = fmt::format("{:.0e} rays", static_cast<double>(rays));
