@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include "output/manifest.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
 #include "output/shards.hpp"
 #include "output/totals.hpp"
 #include "temporary_folder.hpp"
+#include "wavetracer/error.hpp"
 
 using namespace wavetracer;
 using test::slurp;
@@ -73,4 +75,22 @@ TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is s
   const TemporaryFolder folder;
   const auto written = write_outputs(folder.path(), sample.run(), sample.drive(3, 2));
   CHECK_FALSE(Json::parse(slurp(written[2])).contains("missed"));
+}
+
+TEST_CASE("a manifest that names other quarters of a launch than four is refused, and says which line") {
+  const TemporaryFolder folder;
+  const SampleRun sample;
+  Shards shards(folder.path(), identity);
+  shards.write(sample.run(), drive(sample, 3, 6));
+  shards.write(sample.run(), drive(sample, 7, 12));
+  const std::string text = slurp(folder.path() / "shards" / "manifest.jsonl");
+  const size_t end = text.find('\n');
+  REQUIRE(decode_manifest(text, "m").size() == 2);
+  for (const char* key : {"paths", "powers"})
+    for (const size_t quarters : {3, 5}) {
+      Json line = Json::parse(text.substr(0, end));
+      line["missed"][key] = std::vector<int>(quarters, 1);
+      CHECK_THROWS_WITH_AS(decode_manifest(line.dump() + text.substr(end), "m"), doctest::Contains("m:1: "),
+                           RuntimeError);
+    }
 }
