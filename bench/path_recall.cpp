@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <vector>
 
 namespace wavetracer::bench {
 namespace {
@@ -33,10 +32,9 @@ bool same_power(double a, double b) { return std::abs(a - b) <= power_tolerance 
 
 }  // namespace
 
-PathRecall path_recall(const Paths& reference, const Paths& mine) {
+std::vector<size_t> matching_rows(const Paths& reference, const Paths& mine) {
   std::vector<bool> taken(mine.size(), false);
-  PathRecall recall{.reference = reference.size(), .mine = mine.size()};
-  double power = 0, found_power = 0;
+  std::vector<size_t> rows(reference.size(), no_row);
   size_t first = 0;  // of mine, not before reference path i less the tolerance
   const auto is_before = [&](size_t j, size_t i) {
     return link_of(mine, j) < link_of(reference, i) ||
@@ -44,21 +42,30 @@ PathRecall path_recall(const Paths& reference, const Paths& mine) {
   };
   for (size_t i = 0; i < reference.size(); i++) {
     const double own_power = power_of(reference, i);
-    power += own_power;
     while (first < mine.size() && is_before(first, i)) first++;
-    size_t match = mine.size();
     for (size_t j = first; j < mine.size() && link_of(mine, j) == link_of(reference, i) &&
                            mine.delay_s[j] <= reference.delay_s[i] + delay_tolerance_s;
          j++) {
       if (taken[j]) continue;
       if (same_sequence(reference, i, mine, j)) {
-        match = j;
+        rows[i] = j;
         break;
       }
-      if (match == mine.size() && same_power(own_power, power_of(mine, j))) match = j;
+      if (rows[i] == no_row && same_power(own_power, power_of(mine, j))) rows[i] = j;
     }
-    if (match == mine.size()) continue;
-    taken[match] = true;
+    if (rows[i] != no_row) taken[rows[i]] = true;
+  }
+  return rows;
+}
+
+PathRecall path_recall(const Paths& reference, const Paths& mine) {
+  const std::vector<size_t> rows = matching_rows(reference, mine);
+  PathRecall recall{.reference = reference.size(), .mine = mine.size()};
+  double power = 0, found_power = 0;
+  for (size_t i = 0; i < reference.size(); i++) {
+    const double own_power = power_of(reference, i);
+    power += own_power;
+    if (rows[i] == no_row) continue;
     recall.found++;
     found_power += own_power;
   }

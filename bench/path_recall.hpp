@@ -2,6 +2,7 @@
 // Two paths are the same where link and delay (to 1e-12 s) agree, and surfaces and instances do, or else the power.
 #pragma once
 #include <cstddef>
+#include <vector>
 
 #include "wavetracer/paths.hpp"
 
@@ -14,7 +15,12 @@ struct PathRecall {
   size_t extra() const { return mine - found; }  // paths that the reference lacks
 };
 
-// Each path is matched once. Both in the order that Paths promises, one frame each; frame numbers are not compared.
+constexpr size_t no_row = static_cast<size_t>(-1);
+
+// Of each row of the reference the row of `mine` that is the same path, or no_row. Each path is matched once. Both in
+// the order that Paths promises, one frame each; frame numbers are not compared.
+std::vector<size_t> matching_rows(const Paths& reference, const Paths& mine);
+
 PathRecall path_recall(const Paths& reference, const Paths& mine);
 
 }  // namespace wavetracer::bench

@@ -37,8 +37,8 @@ void check_files(const Shard& shard) {
 Json encode_missed(const MissedCounts& missed) {
   return {{"frames", missed.frames},
           {"paths", missed.paths},
-          {"rare_power", missed.rare_power},
-          {"found_power", missed.found_power},
+          {"powers", missed.powers},
+          {"amplitude", missed.amplitude},
           {"power", missed.power}};
 }
 
@@ -48,8 +48,10 @@ MissedCounts decode_missed(const Json& json) {
   const std::vector<uint64_t> paths = whole_numbers(json.at("paths"));
   if (paths.size() != out.paths.size()) refuse("not the four numbers of paths that quarters of a launch found");
   std::ranges::copy(paths, out.paths.begin());
-  out.rare_power = json.at("rare_power");
-  out.found_power = json.at("found_power");
+  if (json.at("powers").size() != out.powers.size())
+    refuse("not the four powers of paths that quarters of a launch found");
+  out.powers = json.at("powers");
+  out.amplitude = json.at("amplitude");
   out.power = json.at("power");
   return out;
 }
@@ -165,7 +167,8 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
 std::vector<Shard> read_manifest(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return {};
-  return decode_manifest(read_text(file, most_bytes, "check its permissions, or remove it and run again"), file.string());
+  return decode_manifest(read_text(file, most_bytes, "check its permissions, or remove it and run again"),
+                         file.string());
 }
 
 std::vector<fs::path> manifests_in(const fs::path& folder) {
@@ -173,8 +176,7 @@ std::vector<fs::path> manifests_in(const fs::path& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("manifest.") && name.ends_with(".jsonl"))
-      out.push_back(entry.path());
+    if (name.starts_with("manifest.") && name.ends_with(".jsonl")) out.push_back(entry.path());
   }
   std::ranges::sort(out);
   return out;

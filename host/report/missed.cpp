@@ -1,4 +1,5 @@
-// A. Chao's lower bound (Biometrics 1987, for four occasions) and what was measured against it on 17 scenes.
+// Horvitz and Thompson's estimate (J. Am. Stat. Assoc. 47, 1952): what was found with a chance p stands for 1 / p, of
+// which it is one itself. The chance of a path is told by how many quarters of the launch found it.
 // Frames of a drive see nearly the same, so their counts make a mean frame, and not a larger sample.
 #include "wavetracer/missed.hpp"
 
@@ -12,20 +13,33 @@
 namespace wavetracer {
 namespace {
 
-// With f1 and f2 paths found by one and by two quarters of a random launch, (3/4) f1^2 / (2 f2) are missed at least.
-// Rays of a launch are even, and sequences differ in size: the truth was near the estimate in the mean for directions =
-// "horizon", and twice as much for "hilbert".
-constexpr double chao = 0.375, measured = 0.5, most = 1.5;
-constexpr double unseen = 3;  // as many may be missed where nothing was seen: the rule of three
-constexpr double deviations = 1.96;
-// The missed are as strong as the rare ones in the mean, within this factor in nine cases of ten.
-constexpr double power_factor = 5;
+// Of paths like one that k + 1 of four quarters found, so many are missed: a quarter finds it with p = (k + 1) / 4, all
+// of them miss it with (1 - p)^4.
+constexpr std::array<double, 4> missed_each = {81.0 / 175, 1.0 / 15, 1.0 / 255, 0};
 
-MissedRange missed_paths(double f1, double f2) {
-  const double few = std::max(f1 - deviations * std::sqrt(f1), 0.0), many = f1 + deviations * std::sqrt(f1);
-  return {.estimate = measured * f1 * f1 / (f2 + 1),
+// A. Chao's lower bound (Biometrics 43, 1987): with f1 and f2 found by one and by two of four quarters, 3/8 f1^2 / f2
+// are missed at least, and as many where all are alike. It tells of many; of few, chances that are spread over decades.
+constexpr double chao = 3.0 / 8, many = 5;
+
+// Measured, see docs/method.md: rays are even and sequences differ in size, so the truth lies within a factor of the
+// estimate and of its deviation by chance.
+constexpr double deviations = 1.96, path_factor = 3, power_factor = 5;
+constexpr double unseen = 3;  // as many may be missed where nothing was seen: the rule of three
+
+// What missed_each is to be multiplied with: 1 for few, and so that f1 tells as much as Chao says for many.
+double likeness(double f1, double f2) { return (chao * f1 / missed_each[0] + many) / (f2 + many); }
+
+MissedRange missed_paths(const std::array<double, 4>& found) {
+  const double f1 = found[0], f2 = found[1];
+  double estimate = 0, variance = 0;
+  for (size_t k = 0; k < found.size(); ++k) {
+    estimate += missed_each[k] * found[k];
+    variance += missed_each[k] * missed_each[k] * found[k];
+  }
+  const double few = std::max(f1 - deviations * std::sqrt(f1), 0.0);
+  return {.estimate = likeness(f1, f2) * estimate,
           .low = std::floor(chao * few * few / (f2 + deviations * std::sqrt(f2) + 1)),
-          .high = std::max(unseen, most * many * many / (f2 + 1))};
+          .high = path_factor * likeness(f1, f2) * (estimate + deviations * std::sqrt(variance)) + unseen};
 }
 
 double power_of(const Paths& paths, size_t row) {
@@ -37,9 +51,11 @@ double power_of(const Paths& paths, size_t row) {
 }  // namespace
 
 void add_part(MissedCounts& sum, const MissedCounts& more) {
-  for (size_t k = 0; k < sum.paths.size(); ++k) sum.paths[k] += more.paths[k];
-  sum.rare_power += more.rare_power;
-  sum.found_power += more.found_power;
+  for (size_t k = 0; k < sum.paths.size(); ++k) {
+    sum.paths[k] += more.paths[k];
+    sum.powers[k] += more.powers[k];
+  }
+  sum.amplitude += more.amplitude;
   sum.power += more.power;
   sum.frames = std::max(sum.frames, more.frames);
 }
@@ -56,12 +72,12 @@ MissedCounts missed_counts(const Paths& paths, size_t first, size_t end) {
   out.frames = 1;
   for (size_t row = first; row < end; ++row) {
     const double power = power_of(paths, row);
-    const int quarters = std::popcount(paths.quarters[row]);
     out.power += power;
     if (paths.depth[row] == 0) continue;
-    ++out.paths[static_cast<size_t>(std::max(quarters, 1) - 1)];
-    out.found_power += power;
-    if (quarters <= 2) out.rare_power += power;
+    const auto k = static_cast<size_t>(std::max(std::popcount(paths.quarters[row]), 1) - 1);
+    ++out.paths[k];
+    out.powers[k] += power;
+    out.amplitude += std::sqrt(power);
   }
   return out;
 }
@@ -70,16 +86,22 @@ Missed estimate_missed(const MissedCounts& counts) {
   Missed out;
   if (counts.frames == 0) return out;
   const auto frames = static_cast<double>(counts.frames);
-  const auto met = [&](size_t k) { return static_cast<double>(counts.paths[k]); };
-  out.paths = missed_paths(met(0) / frames, met(1) / frames);
+  std::array<double, 4> mean{};
+  double found = 0, power = 0;
+  for (size_t k = 0; k < mean.size(); ++k) {
+    const auto paths = static_cast<double>(counts.paths[k]);
+    mean[k] = paths / frames;
+    found += paths;
+    power += missed_each[k] * counts.powers[k];
+  }
+  out.paths = missed_paths(mean);
   for (double* const value : {&out.paths.estimate, &out.paths.low, &out.paths.high}) *value *= frames;
-  const double rare = met(0) + met(1), found = rare + met(2) + met(3);
   if (!(counts.power > 0) || found == 0) return out;
-  const double mean = rare > 0 ? counts.rare_power / rare : counts.found_power / found;
-  const double share = mean / counts.power;
-  out.power_share = {.estimate = out.paths.estimate * share,
-                     .low = out.paths.low * share / power_factor,
-                     .high = out.paths.high * share * power_factor};
+  const double amplitude = counts.amplitude / found;
+  MissedRange& share = out.power_share;
+  share.estimate = likeness(mean[0], mean[1]) * power / counts.power;
+  if (out.paths.low > 0) share.low = share.estimate * std::min(out.paths.low / out.paths.estimate, 1.0) / power_factor;
+  share.high = power_factor * share.estimate + unseen * frames * amplitude * amplitude / counts.power;
   return out;
 }
 

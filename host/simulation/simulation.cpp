@@ -73,11 +73,20 @@ void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
   for (size_t k = 0; k < more.segments_per_depth.size(); ++k) sum.segments_per_depth[k] += more.segments_per_depth[k];
 }
 
-// What to say of a refined launch that ended before trace.recall; nothing where that is no loss. cold: the frame knows
-// nothing of earlier ones, so that what its rays met once tells what is missed.
-std::vector<std::string> missed_recall(const DiscoveryCounts& found, const TraceConfig& config, bool cold) {
+// What a frame found is the asked share of the paths, as far as its rays can tell: never that it is all of them.
+bool reached(double recall, const MissedCounts& counts) {
+  const auto found = static_cast<double>(std::accumulate(counts.paths.begin(), counts.paths.end(), uint64_t{0}));
+  return recall < 1 && counts.frames > 0 && found >= recall * (found + estimate_missed(counts).paths.estimate);
+}
+
+// What to say of a refined launch that ended before trace.recall; nothing where that is no loss: most sequences that
+// rays meet once lead to no receiver. cold: the frame knows nothing of earlier ones, so that its own rays tell what is
+// missed.
+std::vector<std::string> missed_recall(const DiscoveryCounts& found, const TraceConfig& config, bool cold,
+                                       const MissedCounts& missed) {
   const bool capped = found.end == LaunchEnd::max_rays;
   if (found.end == LaunchEnd::recall || !(capped || cold)) return {};
+  if (!capped && reached(config.recall, missed)) return {};
   const std::string once = found.share_once < 0.005 ? "less than 1" : fmt::format("{:.0f}", 100 * found.share_once);
   const std::string before = fmt::format(
       "before trace.recall = {}: {}% of the sequences found were met by one ray alone", config.recall, once);
@@ -389,8 +398,6 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   const bool sphere = trails && trails->receives();
   PathGeometry one_way = sphere ? received_paths(ends, out.counts, host_watch)
                                 : (*exact_paths)(device_scene, ends, discovery->sequences(), out.counts, host_watch);
-  out.warnings = missed_recall(found, config.trace, warm_frames == 0);
-  ++warm_frames;
   PathGeometry geometry = with_reversed_twins(std::move(one_way), world->receiver_of_transmitter(),
                                               world->transmitter_of_receiver(), links);
   if (block) {
@@ -402,6 +409,7 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   if (sphere || cache) geometry.quarters.clear();  // what they find, no smaller launch tells of
   out.paths = fields->compute(frame, std::move(geometry), out.world, &left_out);
   if (found.rays > 0) out.missed = missed_counts(out.paths, 0, out.paths.size());
+  out.warnings = missed_recall(found, config.trace, warm_frames++ == 0, out.missed);
   const double fields_seconds = host_watch.lap(), frame_seconds = watch.lap();
 
   out.seconds = context->profile();

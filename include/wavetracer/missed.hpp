@@ -15,11 +15,10 @@ struct MissedCounts {
   // [k]: those that rays had to find and k + 1 quarters found; [0] also those that none found alone, whose parts are
   // of different quarters.
   std::array<uint64_t, 4> paths{};
-  double rare_power = 0;   // of the first two kinds
-  double found_power = 0;  // of all that rays had to find
-  double power = 0;        // of all
+  std::array<double, 4> powers{};  // of these
+  double amplitude = 0;  // of these, sum of |a|: what is typical, where a few are much stronger than all others
+  double power = 0;      // of all paths
 };
-
 // low to high: where the truth is in 95 cases of 100.
 struct MissedRange {
   double estimate = 0, low = 0, high = 0;

@@ -89,13 +89,14 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   app::Results results{totals_of(sample.frames()), 8, {}, {}};
   const auto report = [&] { return app::report(sample.run(), results); };
   CHECK_FALSE(contains(report(), "missed"));
-  results.totals.missed = {.frames = 1, .paths = {6, 3, 2, 9}, .rare_power = 9e-6, .found_power = 0.4, .power = 1};
+  results.totals.missed = {
+      .frames = 1, .paths = {6, 3, 2, 9}, .powers = {8e-6, 1e-6, 0, 0.4}, .amplitude = 0.02, .power = 1};
   CHECK(contains(report(),
-                 "\nmissed     about 4 of 5 paths (0 to 44), 5e-06 of the power (0 to 0.0002): more trace.rays "
+                 "\nmissed     about 4 of 5 paths (0 to 23), 5e-06 of the power (0 to 3e-05): more trace.rays "
                  "find more\n"));
-  results.totals.missed.paths = {0, 0, 0, 9};
+  results.totals.missed = {.frames = 1, .paths = {0, 0, 0, 9}, .powers = {0, 0, 0, 0.4}, .amplitude = 0.9, .power = 1};
   sample.config.trace.rays = 0;
   CHECK(contains(report(),
-                 "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.7): a higher "
+                 "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.03): a higher "
                  "trace.recall finds more\n"));
 }

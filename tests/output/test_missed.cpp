@@ -1,12 +1,16 @@
 // What summary.json says of missed paths: the same whether frames were written at once, in shards or in blocks.
 // Counts of a frame are made up.
 #include <doctest/doctest.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include "output/manifest.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
 #include "output/shards.hpp"
 #include "output/totals.hpp"
 #include "temporary_folder.hpp"
+#include "wavetracer/error.hpp"
 
 using namespace wavetracer;
 using test::slurp;
@@ -22,8 +26,8 @@ std::vector<FrameResult> drive(const SampleRun& sample, uint32_t first, uint32_t
   for (FrameResult& frame : frames)
     frame.missed = {.frames = 1,
                     .paths = {frame.frame % 3, 4, 7, 100},
-                    .rare_power = 1e-9 / frame.frame,
-                    .found_power = 1e-7,
+                    .powers = {1e-9 / frame.frame, 2e-9, 1e-8, 1e-7},
+                    .amplitude = 3e-3,
                     .power = 3e-6 + 1e-8 * frame.frame};
   return frames;
 }
@@ -38,10 +42,14 @@ TEST_CASE("what was missed adds up over frames, at once and in the shards of an 
   const TemporaryFolder folder;
   const SampleRun sample;
   const Json whole = missed_of(write_outputs(folder.path() / "whole", sample.run(), drive(sample, 3, 12)));
-  // f1 is 0, 1, 2, 0, 1, 2, ... in ten frames, and f2 is 4 in each.
-  CHECK(whole["paths"]["estimate"] == doctest::Approx(10 * 0.5 * 0.9 * 0.9 / 5).epsilon(0.005));
+  // f1 is 0, 1, 2, 0, 1, 2, ... in ten frames, f2 is 4 and f3 is 7 in each.
+  const double estimate = 0.9 * 81 / 175 + 4.0 / 15 + 7.0 / 255;
+  const double variance = 0.9 * 81 / 175 * 81 / 175 + 4.0 / 15 / 15 + 7.0 / 255 / 255;
+  const double likeness = (0.375 * 0.9 * 175 / 81 + 5) / (4 + 5);
+  CHECK(whole["paths"]["estimate"] == doctest::Approx(10 * likeness * estimate).epsilon(0.005));
   CHECK(whole["paths"]["low"] == 0);
-  CHECK(whole["paths"]["high"] == 30);
+  CHECK(whole["paths"]["high"] ==
+        doctest::Approx(10 * (3 * likeness * (estimate + 1.96 * std::sqrt(variance)) + 3)).epsilon(0.005));
   {
     Shards killed(folder.path(), identity);
     killed.write(sample.run(), drive(sample, 3, 6));
@@ -60,9 +68,29 @@ TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is s
   for (int block = 0; block < 3; ++block) add_block(sum, totals_of({&frames[0], 1}));
   CHECK(sum.missed.frames == 1);
   CHECK(sum.missed.paths == std::array<uint64_t, 4>{0, 12, 21, 300});
+  CHECK(sum.missed.powers[3] == doctest::Approx(3e-7));
+  CHECK(sum.missed.amplitude == doctest::Approx(9e-3));
   add(sum, totals_of({&frames[1], 1}));
   CHECK(sum.missed.frames == 2);
   const TemporaryFolder folder;
   const auto written = write_outputs(folder.path(), sample.run(), sample.drive(3, 2));
   CHECK_FALSE(Json::parse(slurp(written[2])).contains("missed"));
+}
+
+TEST_CASE("a manifest that names other quarters of a launch than four is refused, and says which line") {
+  const TemporaryFolder folder;
+  const SampleRun sample;
+  Shards shards(folder.path(), identity);
+  shards.write(sample.run(), drive(sample, 3, 6));
+  shards.write(sample.run(), drive(sample, 7, 12));
+  const std::string text = slurp(folder.path() / "shards" / "manifest.jsonl");
+  const size_t end = text.find('\n');
+  REQUIRE(decode_manifest(text, "m").size() == 2);
+  for (const char* key : {"paths", "powers"})
+    for (const size_t quarters : {3, 5}) {
+      Json line = Json::parse(text.substr(0, end));
+      line["missed"][key] = std::vector<int>(quarters, 1);
+      CHECK_THROWS_WITH_AS(decode_manifest(line.dump() + text.substr(end), "m"), doctest::Contains("m:1: "),
+                           RuntimeError);
+    }
 }

@@ -47,5 +47,5 @@ TEST_CASE("from any number of launchers to any other, cold and warm, both ways: 
           (frame == 0 ? cold_cells : warm_cells) = refinement.level().cells();
         }
       }
-  CHECK(cold_cells == 4 * warm_cells);  // so that 4 launchers have as many samples as one
+  CHECK(cold_cells == 16 * warm_cells);  // so that 16 launchers have as many samples as one
 }

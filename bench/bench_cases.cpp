@@ -1,0 +1,209 @@
+// bench_cases: twenty cases that nothing was tuned on one by one. What launches lose in each, what "auto" keeps of its
+// promise, and whether `missed` holds the truth. Truth: all paths that any launch of a case found; "error" is the share
+// of them that is lost.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+
+#include "json_line.hpp"
+#include "known_paths.hpp"
+#include "missed_record.hpp"
+#include "study_cases.hpp"
+#include "temporary_folder.hpp"
+#include "wavetracer/error.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer::bench {
+namespace {
+
+constexpr uint32_t drive_frames = 10;
+
+struct Options {
+  std::string device, shared = WAVETRACER_SHARED, directions = "horizon";
+  std::vector<std::string> cases = study_case_names();
+  std::vector<uint64_t> rays{10'000, 30'000, 100'000, 300'000, 1'000'000};
+  uint64_t truth_rays = 10'000'000, seed = 1;
+  double recall = 0.99;
+  size_t frames = 3;
+};
+
+// A setting of a case, and the frame that it gave.
+struct Launch {
+  std::string setting;
+  FrameResult result;
+  double median_s = 0;
+};
+
+double wall_s(const std::function<void()>& body) {
+  const auto start = std::chrono::steady_clock::now();
+  body();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+class Bench {
+ public:
+  Bench(const Options& options, std::string command) : options_(options), command_(std::move(command)) {}
+
+  void run() {
+    for (const std::string& name : options_.cases) run_case(name);
+    for (const auto& [setting, record] : records_) print_record(setting, record);
+  }
+
+ private:
+  void run_case(const std::string& name) {
+    const StudyCase study = study_case(name, options_.shared, folder_ / "", options_.seed);
+    KnownPaths known;
+    for (const char* directions : {"horizon", "hilbert"}) {
+      Config config = study.config;
+      config.trace.rays = options_.truth_rays;
+      config.trace.directions = directions;
+      Simulation simulation(config, options_.device);
+      device_ = simulation.device().name;
+      known.add(simulation.run_frame(0).paths);
+      fmt::print(stderr, "{}: {} paths are known after {} rays, {}\n", name, known.size(), options_.truth_rays,
+                 directions);
+    }
+    if (known.size() == 0) {
+      fmt::print(stderr,
+                 "bench_cases: {} has no path at these places and is left out; another --seed has other places\n",
+                 name);
+      return;
+    }
+    std::vector<Launch> launches;
+    for (const uint64_t rays : options_.rays) {
+      const std::string text = fmt::format("{:.0e} rays", static_cast<double>(rays));
+      launches.push_back(standing(study, text, rays));
+      launches.push_back(driven(study, text + ", reuse", rays));
+    }
+    launches.push_back(standing(study, "auto", 0));
+    launches.push_back(driven(study, "auto, reuse", 0));
+    for (const Launch& launch : launches) known.add(launch.result.paths);
+    for (const Launch& launch : launches) judge(name, launch, known);
+  }
+
+  Config with_rays(Config config, uint64_t rays) const {
+    config.trace.directions = options_.directions;
+    config.trace.rays = rays;
+    config.trace.recall = options_.recall;
+    return config;
+  }
+
+  Launch standing(const StudyCase& study, const std::string& setting, uint64_t rays) const {
+    Simulation simulation(with_rays(study.config, rays), options_.device);
+    Launch launch{setting, simulation.run_frame(0), 0};
+    std::vector<double> seconds(options_.frames);
+    for (double& one : seconds) one = wall_s([&] { launch.result = simulation.run_frame(0); });
+    std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2), seconds.end());
+    launch.median_s = seconds[seconds.size() / 2];
+    return launch;
+  }
+
+  // The last frame of a drive that ends where the case stands.
+  Launch driven(const StudyCase& study, const std::string& setting, uint64_t rays) const {
+    Simulation simulation(with_rays(driving(study, drive_frames), rays), options_.device);
+    Launch launch{setting, {}, 0};
+    for (uint32_t frame = 0; frame < drive_frames; ++frame)
+      launch.median_s = wall_s([&] { launch.result = simulation.run_frame(frame); });
+    return launch;
+  }
+
+  void judge(const std::string& name, const Launch& launch, const KnownPaths& known) {
+    const KnownPaths::Lost lost = known.lost(launch.result.paths);
+    const Missed missed = estimate_missed(launch.result.missed);
+    // The estimate of the power is a share of what was found.
+    const double found = known.power() - lost.power, share = found > 0 ? lost.power / found : 0;
+    const double lost_share =
+        known.size() > 0 ? static_cast<double>(lost.paths) / static_cast<double>(known.size()) : 0;
+    MissedRecord& record = record_of(launch.setting);
+    record.add(lost_share <= 1 - options_.recall, launch.result.counts.segments, launch.median_s,
+               {static_cast<double>(lost.paths), lost_share, share}, missed);
+    Result line{"cases",
+                fmt::format("{}, {}", name, launch.setting),
+                device_,
+                launch.median_s,
+                "s a frame",
+                Better::lower,
+                "",
+                {},
+                lost_share,
+                fmt::format("{} of {} paths lost, {:.1e} of the power; missed {:.3g} ({:.3g} to {:.3g}), {:.1e} "
+                            "({:.1e} to {:.1e})",
+                            lost.paths, known.size(), share, missed.paths.estimate, missed.paths.low, missed.paths.high,
+                            missed.power_share.estimate, missed.power_share.low, missed.power_share.high)};
+    const auto range = [](const MissedRange& r) { return nlohmann::ordered_json{r.estimate, r.low, r.high}; };
+    line.extra = {{"rays", launch.result.counts.rays},
+                  {"segments", launch.result.counts.segments},
+                  {"paths", known.size()},
+                  {"lost_paths", lost.paths},
+                  {"lost_power", share},
+                  {"missed_paths", range(missed.paths)},
+                  {"missed_power", range(missed.power_share)}};
+    print(line, command_);
+  }
+
+  MissedRecord& record_of(const std::string& setting) {
+    for (auto& [known, record] : records_)
+      if (known == setting) return record;
+    return records_.emplace_back(setting, MissedRecord{}).second;
+  }
+
+  void print_record(const std::string& setting, const MissedRecord& record) const {
+    Result line{
+        "cases",
+        "all, " + setting,
+        device_,
+        record.kept_share(),
+        "of the cases",
+        Better::higher,
+        "",
+        {},
+        record.mean_path_share(),
+        fmt::format("{} of {} cases at recall {} or more; paths in their interval {:.0f}%, power {:.0f}%; where "
+                    "something is lost ({} cases) its power is within a factor of three {:.0f}%; {:.3g} s, "
+                    "{:.3g} segments",
+                    record.kept(), record.cases(), options_.recall, 100 * record.paths_held(),
+                    100 * record.power_held(), record.losing(), 100 * record.power_near(), record.seconds(),
+                    static_cast<double>(record.segments()))};
+    line.extra = {{"cases", record.cases()},           {"kept", record.kept()},
+                  {"losing", record.losing()},         {"paths_held", record.paths_held()},
+                  {"power_held", record.power_held()}, {"power_near", record.power_near()},
+                  {"segments", record.segments()},     {"seconds", record.seconds()}};
+    print(line, command_);
+  }
+
+  const Options& options_;
+  std::string command_, device_;
+  TemporaryFolder folder_;
+  std::vector<std::pair<std::string, MissedRecord>> records_;  // by setting, in order of their first case
+};
+
+}  // namespace
+}  // namespace wavetracer::bench
+
+int main(int argc, char** argv) {
+  using namespace wavetracer;
+  CLI::App app("What launches lose in twenty cases, what \"auto\" promises, and what `missed` says of it");
+  bench::Options options;
+  app.add_option("--device", options.device, "as for wavetracer run");
+  app.add_option("--shared", options.shared, "folder that holds scenes/");
+  app.add_option("--cases", options.cases, "some of the cases")->check(CLI::IsMember(bench::study_case_names()));
+  app.add_option("--rays", options.rays, "fixed numbers of rays a transmitter")
+      ->check(CLI::Range(uint64_t{100}, uint64_t{2'000'000'000}));
+  app.add_option("--truth-rays", options.truth_rays, "of each of two launches, \"horizon\" and \"hilbert\"")
+      ->check(CLI::Range(uint64_t{10'000}, uint64_t{2'000'000'000}));
+  app.add_option("--directions", options.directions, "horizon or hilbert")
+      ->check(CLI::IsMember({"horizon", "hilbert"}));
+  app.add_option("--recall", options.recall, "what \"auto\" is asked for")->check(CLI::Range(0.5, 0.9999));
+  app.add_option("--seed", options.seed, "of the places of all ends");
+  app.add_option("--frames", options.frames, "warm frames of which the median counts")->check(CLI::Range(1, 1000));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    bench::Bench(options, bench::command_line(argc, argv)).run();
+  } catch (const Error& error) {
+    fmt::print(stderr, "bench_cases: {}\n", error.what());
+    return static_cast<int>(error.code());
+  }
+  return 0;
+}
