@@ -1,4 +1,4 @@
-// `wavetracer bench RECIPE`: an experiment by name, written as a table, a plot and a paragraph.
+// `wavetracer bench RECIPE`: an experiment by name, written as tables, a plot and a report.
 // The speed of single parts is measured by the programs of bench/ instead.
 #include <fmt/format.h>
 #include <iostream>
@@ -67,7 +67,7 @@ void bench(const Options& options, Invocation& invocation) {
   }
   if (all && report.points < report.planned && !interrupted()) invocation.code = ExitCode::partial;
   if (report.files.empty()) return;
-  std::cout << report.paragraph << "\n\nwritten    ";
+  std::cout << report.text << "\n\nwritten    ";
   for (size_t i = 0; i < report.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << report.files[i].string();
   std::cout << std::endl;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include "library/handles.hpp"
+#include "radio/links.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/output.hpp"
 
@@ -38,6 +39,13 @@ std::vector<std::complex<double>> packed(const Paths& paths) {
   std::vector<std::complex<double>> out;
   out.reserve(paths.size() * ports);
   for (const auto& a : paths.a) out.insert(out.end(), a.begin(), a.begin() + static_cast<std::ptrdiff_t>(ports));
+  return out;
+}
+
+std::vector<double> missed_power_shares(const FrameResult& frame) {
+  std::vector<double> out;
+  for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
+    out.push_back(link.missed_power_share);
   return out;
 }
 
@@ -132,6 +140,7 @@ wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t fra
     out->a = packed(out->result.paths);
     out->transmitter_position_m = file_positions(out->result.world.transmitters, simulation.scene().origin_m);
     out->receiver_position_m = file_positions(out->result.world.receivers, simulation.scene().origin_m);
+    out->missed_power_share = missed_power_shares(out->result);
     return out.release();
   });
 }
@@ -150,6 +159,14 @@ wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self) {
   if (!self) return {};
   const wavetracer::FrameCounts& n = self->result.counts;
   return {n.rays, n.segments, n.hits, n.sequences, n.candidates, n.solved, n.paths};
+}
+
+wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!self || self->result.missed.frames == 0) return {unknown, unknown, unknown, unknown, unknown, unknown};
+  const wavetracer::Missed missed = estimate_missed(self->result.missed);
+  return {missed.paths.estimate,       missed.paths.low,       missed.paths.high,
+          missed.power_share.estimate, missed.power_share.low, missed.power_share.high};
 }
 
 const char* wavetracer_frame_warnings(const wavetracer_frame* self) { return self ? self->warnings.c_str() : nullptr; }

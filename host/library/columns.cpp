@@ -81,6 +81,7 @@ constexpr Row rows[] = {
     {"vertex_surface", of_paths<&Paths::vertex_surface>},
     {"vertex_instance", of_paths<&Paths::vertex_instance>},
     {"link", [](const wavetracer_frame& frame) { return view(frame.result.world.links); }},
+    {"missed_power_share", [](const wavetracer_frame& frame) { return view(frame.missed_power_share); }},
     {"transmitter_position_m", [](const wavetracer_frame& frame) { return view(frame.transmitter_position_m); }},
     {"receiver_position_m", [](const wavetracer_frame& frame) { return view(frame.receiver_position_m); }},
 };

@@ -26,8 +26,9 @@ struct wavetracer_frame {
   uint64_t owner;  // wavetracer_simulation::number
   wavetracer::FrameResult result;
   std::string warnings;
-  std::vector<std::complex<double>> a;  // packed: ports that are there
+  std::vector<std::complex<double>> a;                                  // packed: ports that are there
   std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;  // file coordinates
+  std::vector<double> missed_power_share;                               // one a link
 };
 
 namespace wavetracer::c_api {

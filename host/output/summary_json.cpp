@@ -34,9 +34,7 @@ Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
 }
 
 // So many in so much, such as things in seconds; null in nothing.
-Json rate(uint64_t count, double whole) {
-  return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr);
-}
+Json rate(uint64_t count, double whole) { return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr); }
 
 Json counts(const Totals& totals) {
   const FrameCounts& sum = totals.counts;
@@ -56,6 +54,19 @@ double three_digits(double value) { return std::strtod(fmt::format("{:.3g}", val
 
 Json range(const MissedRange& of) {
   return {{"estimate", three_digits(of.estimate)}, {"low", three_digits(of.low)}, {"high", three_digits(of.high)}};
+}
+
+// Nothing where it is not as range() writes it.
+std::optional<MissedRange> read_range(const Json& json, const char* name) {
+  const auto found = json.is_object() ? json.find(name) : json.end();
+  if (found == json.end() || !found->is_object()) return {};
+  MissedRange out;
+  for (const auto& [key, value] : {std::pair{"estimate", &out.estimate}, {"low", &out.low}, {"high", &out.high}}) {
+    const auto number = found->find(key);
+    if (number == found->end() || !number->is_number()) return {};
+    *value = number->get<double>();
+  }
+  return out;
 }
 
 // Of each: whether it was on, and if not, why.
@@ -134,25 +145,28 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["rays_per_second"] = rate(traced_segments(totals), sum_seconds(totals, "trace"));
   json["frames_per_second"] = rate(totals.frames, sum_seconds(totals, "frame"));
   json["peak_memory_bytes"] = peak_memory_bytes();
-  json["order"] = {{"asked", run.config.order.method},
-                   {"method", summary.order.method},
-                   {"each_depth", summary.order.each_depth},
-                   {"launch_shape", summary.order.launch_shape},
-                   {"local_size", summary.order.local_size},
-                   {"reason", summary.order.reason}};
+  json["order"] = {{"asked", run.config.order.method},       {"method", summary.order.method},
+                   {"each_depth", summary.order.each_depth}, {"launch_shape", summary.order.launch_shape},
+                   {"local_size", summary.order.local_size}, {"reason", summary.order.reason}};
   json["cache"] = cache(run.config.cache, totals.cache);
   json["warnings"] = warnings(run, totals);
   // Names of files and devices need not be UTF-8; what is not is replaced rather than refused.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string device_in_summary(const std::filesystem::path& file) {
+SummaryFacts read_summary_json(const std::filesystem::path& file) {
+  SummaryFacts out;
   std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) return "";
+  if (!std::filesystem::is_regular_file(file, none)) return out;
   std::ifstream in(file, std::ios::binary);
   const Json json = Json::parse(in, nullptr, false);
-  const auto device = json.is_object() ? json.find("device") : json.end();
-  return device != json.end() && device->is_string() ? device->get<std::string>() : "";
+  if (!json.is_object()) return out;
+  if (const auto device = json.find("device"); device != json.end() && device->is_string()) out.device = *device;
+  if (const auto missed = json.find("missed"); missed != json.end()) {
+    const auto paths = read_range(*missed, "paths"), power_share = read_range(*missed, "power_share");
+    if (paths && power_share) out.missed = Missed{*paths, *power_share};
+  }
+  return out;
 }
 
 }  // namespace wavetracer

@@ -56,8 +56,8 @@ std::string csv_text(const std::string& text) {
 }
 
 std::string palette() {
-  return "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', "
-         "6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725')\n";
+  return "set palette defined (0 '#fde725', 1 '#b5de2b', 2 '#6ece58', 3 '#35b779', 4 '#1f9e89', 5 '#26828e', "
+         "6 '#31688e', 7 '#3e4989', 8 '#482878', 9 '#440154')\n";
 }
 
 std::string colour_range(const std::vector<double>& values_db, double span_db) {

@@ -32,11 +32,12 @@ struct Drawn {
   std::string problem;  // why there is no picture, and what to do; else empty
 };
 
-// The colours of numbers, from dark and small to bright and large: viridis (S. van der Walt, N. Smith, 2015, CC0).
+// The colours of numbers, from bright and small to dark and large, so that the largest are never pale on white: viridis
+// (S. van der Walt, N. Smith, 2015, CC0) from its end, as on the light page of the viewer.
 std::string palette();
 
 // The commands of a colour range that covers these decibels, in steps of 5 dB; weaker values than `span_db` below the
-// largest all get the darkest colour. Values that are not finite do not count; at least one must be.
+// largest all get the brightest colour. Values that are not finite do not count; at least one must be.
 std::string colour_range(const std::vector<double>& values_db, double span_db);
 
 // Writes data and script, all or none, and draws. Throws RuntimeError where a file cannot be written.

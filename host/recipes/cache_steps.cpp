@@ -57,24 +57,27 @@ const CacheRow* best_within(const std::vector<CacheRow>& rows, const std::string
   return best;
 }
 
-std::string trade_words(const std::vector<CacheRow>& rows, const std::string& drive,
+// The setting that saves most of those that lose little enough, for each world, number of rays and loss.
+NumberTable trade_table(const std::vector<CacheRow>& rows, const std::string& head,
                         const std::function<std::string(const CacheRow&)>& value) {
-  std::string text;
-  for (const uint64_t rays : rays_of(rows)) {
-    text += fmt::format("{}at {} rays", text.empty() ? "" : "; ", grouped(rays));
-    for (const double bound : {1e-2, 1e-3, 1e-4}) {
-      const CacheRow* row = best_within(rows, drive, rays, bound);
-      text += fmt::format("{} with at most {} of the power lost ", bound == 1e-2 ? "" : ",", share_words(bound));
-      text += row ? fmt::format("\"{}\" with {} is the fastest ({}, {} of look-ups answered)", row->setting,
-                                value(*row), saved_words(row->saved_percent), share_words(hit_rate(*row)))
-                  : "none";
-    }
-  }
-  return text;
+  NumberTable table{.caption = "The fastest of those that lose little enough:",
+                    .heads = {"world", "rays", "power lost at most", "setting", head, "time", "look-ups answered"},
+                    .rows = {}};
+  for (const std::string& drive : drives_of(rows))
+    for (const uint64_t rays : rays_of(rows))
+      for (const double bound : {1e-2, 1e-3, 1e-4}) {
+        table.rows.push_back({drive_words(drive), grouped(rays), share_words(bound)});
+        if (const CacheRow* row = best_within(rows, drive, rays, bound))
+          for (const std::string& cell :
+               {row->setting, value(*row), saved_words(row->saved_percent), share_words(hit_rate(*row))})
+            table.rows.back().push_back(cell);
+        table.rows.back().resize(table.heads.size(), "none");
+      }
+  return table;
 }
 
 Findings show(const Recipe& recipe, const CacheMeasurement& measured, const Request& request, const std::string& x,
-              const std::string& x_label, const std::string& paragraph) {
+              const std::string& x_label, Words words) {
   std::vector<std::string> shown = settings_of(measured.rows);
   shown.erase(shown.begin());  // what the others are measured by
   LinePlot plot;
@@ -87,42 +90,39 @@ Findings show(const Recipe& recipe, const CacheMeasurement& measured, const Requ
                                           {"look-ups answered", "hit_rate", "share", ""},
                                           {"lost power", "lost_power", "share", "", true, 1e-7},
                                           {"lost paths", "lost_share", "share", "", true, 1e-5}});
-  return cache_findings(recipe, measured, request, paragraph, plot, "Speed against error of the quantisation");
+  return cache_findings(recipe, measured, request, std::move(words), plot, "Speed against error of the quantisation");
 }
 
 Findings show_divisions(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
-  const std::string words = each_drive(measured.rows, [&measured](const std::string& drive) {
-    return trade_words(measured.rows, drive,
-                       [](const CacheRow& row) { return fmt::format("division {}", grouped(row.division)); });
-  });
+  const std::string paragraph = fmt::format(
+      "The thesis chooses 200,000 and 10,000 cells a direction component and gives no reason. Measured on {}, against "
+      "rays along a Hilbert curve without a cache.",
+      measured.device.name);
+  const auto division = [](const CacheRow& row) { return grouped(row.division); };
   return show(recipe, measured, request, "division", "division (cells a direction component)",
-              fmt::format("The thesis chooses 200,000 and 10,000 cells a direction component and gives no reason. "
-                          "Measured on {}, against rays along a Hilbert curve without a cache, {}.",
-                          measured.device.name, words));
+              {paragraph, {}, trade_table(measured.rows, "division", division)});
 }
 
 Findings show_steps(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
-  const std::string words = each_drive(measured.rows, [&measured](const std::string& drive) {
-    return trade_words(measured.rows, drive,
-                       [](const CacheRow& row) { return fmt::format("steps of {:g} m", row.position_step_m); });
-  });
+  const std::string paragraph = fmt::format(
+      "The thesis quantises the transmitter's position and does not say how finely (section 3.2.3). Measured on {}, "
+      "against rays along a Hilbert curve without a cache.",
+      measured.device.name);
+  const auto step = [](const CacheRow& row) { return fmt::format("{:g} m", row.position_step_m); };
   return show(recipe, measured, request, "position_step_m", "step of the transmitter's position key (m)",
-              fmt::format("The thesis quantises the transmitter's position and does not say how finely (section "
-                          "3.2.3). Measured on {}, against rays along a Hilbert curve without a cache, {}.",
-                          measured.device.name, words));
+              {paragraph, {}, trade_table(measured.rows, "step", step)});
 }
 
 }  // namespace
 
 std::vector<Recipe> cache_steps() {
-  const auto by_division = std::make_shared<const CacheStudy>(CacheStudy{
-      .name = "cache-division",
-      .settings = divisions(),
-      .rays = {100000, 1000000, 10000000},
-      .few_rays = {100000},
-      .drives = {"fixed", "spheres"},
-      .at_once = 4,
-      .most_frames = 50});
+  const auto by_division = std::make_shared<const CacheStudy>(CacheStudy{.name = "cache-division",
+                                                                         .settings = divisions(),
+                                                                         .rays = {100000, 1000000, 10000000},
+                                                                         .few_rays = {100000},
+                                                                         .drives = {"fixed", "spheres"},
+                                                                         .at_once = 4,
+                                                                         .most_frames = 50});
   const auto by_step = std::make_shared<const CacheStudy>(CacheStudy{.name = "cache-step",
                                                                      .settings = steps(),
                                                                      .rays = {49000, 1000000},

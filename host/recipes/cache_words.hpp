@@ -21,26 +21,20 @@ std::string verdict(bool holds);
 using AtRays = std::function<bool(uint64_t rays)>;
 std::string where_words(const std::vector<uint64_t>& rays, const AtRays& holds);
 
-// "position mixed 12% less time; ...": all settings but the first, the fastest first.
-std::string savings_words(const std::vector<CacheRow>& rows, uint64_t rays, const std::string& drive);
-
-// "loses 1.2% of the paths with 0.031% (-35.1 dB) of the power, finds 0.5% more, ...".
-std::string error_words(const CacheRow& row);
+// Time saved and errors at the most rays, a row a drive and setting but the first, the fastest first.
+NumberTable summary_table(const std::vector<CacheRow>& rows);
 
 // "fixed transmitter", ..., and a phrase for each: "fixed transmitter: ... . moving transmitter: ...".
 std::string drive_words(const std::string& drive);
 std::string each_drive(const std::vector<CacheRow>& rows, const std::function<std::string(const std::string&)>& words);
 
-// The same of all settings but the first, those without any error together.
-std::string errors_words(const std::vector<CacheRow>& rows, uint64_t rays, const std::string& drive);
-
 // " and" for the last: a sentence's list.
 std::string list_words(const std::vector<std::string>& words);
 
-// `plot` needs neither name nor title. Without columns of its own it draws the table of all columns, which is then the
-// findings'; otherwise the caller sets the table.
-Findings cache_findings(const Recipe& recipe, const CacheMeasurement& measured, const Request& request,
-                        const std::string& paragraph, LinePlot plot, const std::string& caption);
+// Words without numbers get the summary table. `plot` needs neither name nor title. Without columns of its own it draws
+// the table of all columns, which is then the findings'; otherwise the caller sets the table.
+Findings cache_findings(const Recipe& recipe, const CacheMeasurement& measured, const Request& request, Words words,
+                        LinePlot plot, const std::string& caption);
 // A panel for every drive in which its column has a value, with the drive in its title where there are several.
 std::vector<LinePanel> panels_of(const std::vector<CacheRow>& rows, const std::vector<LinePanel>& a_drive);
 // How it was measured.

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double default_speed_m_s = 13.9;  // 50 km/h
 
-const std::vector<std::string> columns = {
-    "against",      "frame",         "time_s", "moved_m", "depth", "pairs", "either", "both",
-    "same_surface", "same_sequence", "r_x",    "r_y",     "r_z",   "total", "pooled", "by_place"};
+const std::vector<std::string> columns = {"against", "frame", "time_s",       "moved_m",       "depth", "pairs",
+                                          "either",  "both",  "same_surface", "same_sequence", "r_x",   "r_y",
+                                          "r_z",     "total", "pooled",       "by_place"};
 
 // Six times the signed volume of a tetrahedron.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
@@ -62,22 +62,20 @@ Findings run(const Recipe& recipe, const Request& request, const Host& host) {
   }
   found.points = 1;
   found.table = encode_frame_pairs(rows, drive);
-  found.script = depth_plot_script({.name = recipe.name,
-                                    .title = recipe.title + ", " + traced.device.name,
-                                    .columns = columns,
-                                    .max_depth = config.trace.max_depth,
-                                    .x_label = "way driven (m)",
-                                    .y_label = "",
-                                    .panels_a_row = 2,
-                                    .panels = {{"correlation with the first frame", "moved_m", "total", "against",
-                                                "first"},
-                                               {"correlation with the frame before", "moved_m", "total", "against",
-                                                "previous"},
-                                               {"rays that hit the surface of the first frame", "moved_m",
-                                                "same_surface", "against", "first"},
-                                               {"rays that hit the surface of the frame before", "moved_m",
-                                                "same_surface", "against", "previous"}}});
-  found.paragraph = frame_pairs_paragraph(rows, drive, traced.device.name);
+  found.script = depth_plot_script(
+      {.name = recipe.name,
+       .title = recipe.title + ", " + traced.device.name,
+       .columns = columns,
+       .max_depth = config.trace.max_depth,
+       .x_label = "way driven (m)",
+       .y_label = "",
+       .panels_a_row = 2,
+       .panels = {
+           {"correlation with the first frame", "moved_m", "total", "against", "first"},
+           {"correlation with the frame before", "moved_m", "total", "against", "previous"},
+           {"rays that hit the surface of the first frame", "moved_m", "same_surface", "against", "first"},
+           {"rays that hit the surface of the frame before", "moved_m", "same_surface", "against", "previous"}}});
+  found.words = frame_pairs_words(rows, drive, traced.device.name);
   found.caption = "Correlation and common surfaces of frames against the way driven";
   found.notes = {
       fmt::format("drive: {} frames {:g} s apart, from ({:g}, {:g}, {:g}) m at ({:g}, {:g}, {:g}) m/s, in a scene that "
@@ -109,9 +107,10 @@ void check_way(const Drive& drive, const Scene& scene, const std::string& end) {
   const glm::dvec3 from = drive.place_m(0) - scene.origin_m, to = drive.place_m(drive.frames - 1) - scene.origin_m;
   for (const auto& [a, b, c] : scene.triangles)
     if (crosses(from, to, scene.vertices[a], scene.vertices[b], scene.vertices[c]))
-      throw ConfigError(fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; give it another "
-                                    "position_m or velocity_m_s (without one it drives along +x)",
-                                    end, drive.moved_m(drive.frames - 1)));
+      throw ConfigError(
+          fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; give it another "
+                      "position_m or velocity_m_s (without one it drives along +x)",
+                      end, drive.moved_m(drive.frames - 1)));
 }
 
 std::vector<FramePair> compare_pair(const report::FrameHits& a, const report::FrameHits& b, const std::string& against,

@@ -38,6 +38,6 @@ std::vector<FramePair> compare_pair(const report::FrameHits& a, const report::Fr
                                     uint32_t frame);
 
 std::string encode_frame_pairs(const std::vector<FramePair>& rows, const Drive& drive);
-std::string frame_pairs_paragraph(const std::vector<FramePair>& rows, const Drive& drive, const std::string& device);
+Words frame_pairs_words(const std::vector<FramePair>& rows, const Drive& drive, const std::string& device);
 
 }  // namespace wavetracer::recipes

@@ -55,7 +55,7 @@ Findings run(const Recipe& recipe, const Request& request, const Host& host) {
   for (const std::string& directions : maps)
     plot.panels.push_back({directions + ": same surface", "lag", "same_surface", "directions", directions});
   found.script = depth_plot_script(plot);
-  found.paragraph = lags_paragraph(rows, traced.device.name);
+  found.words = lags_words(rows, traced.device.name);
   found.caption = "Autocorrelation and common surfaces along the launch order";
   found.notes = {
       fmt::format("rays: {} of the transmitter \"{}\", a frame for each map of directions", grouped(experiment_rays),

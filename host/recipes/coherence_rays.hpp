@@ -16,6 +16,6 @@ struct LagRow {
 
 std::string encode_lags(const std::vector<LagRow>& rows);
 // Assumes ascending lags from 1 on for each map and depth.
-std::string lags_paragraph(const std::vector<LagRow>& rows, const std::string& device);
+Words lags_words(const std::vector<LagRow>& rows, const std::string& device);
 
 }  // namespace wavetracer::recipes

@@ -1,4 +1,4 @@
-// The paragraphs of coherence-frames and coherence-rays: lists of a number a depth, and what they mean for the claims.
+// The words of coherence-frames and coherence-rays: a number a depth, and what they mean for the claims.
 // Correlations and shares have two decimals; whoever compares them with the table rounds likewise.
 #include <fmt/format.h>
 #include <algorithm>
@@ -19,21 +19,25 @@ std::string number(double value) {
   return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0);  // + 0.0: no minus before a zero
 }
 
-// "0.99, 0.97 and 0.95"
+// "1 and 3"
 std::string list(const std::vector<std::string>& words) {
   std::string text;
-  for (size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  for (size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
   return text;
 }
 
-std::string numbers(const std::vector<double>& values) {
-  std::vector<std::string> words;
-  for (const double value : values) words.push_back(number(value));
-  return list(words);
+// A column a depth.
+NumberTable depth_table(const std::string& caption, size_t depths) {
+  NumberTable table{.caption = caption, .heads = {""}, .rows = {}};
+  for (size_t depth = 1; depth <= depths; ++depth) table.heads.push_back(fmt::format("depth {}", depth));
+  return table;
 }
 
-std::string depths_words(size_t depths) { return depths == 1 ? "depth 1" : fmt::format("depths 1 to {}", depths); }
+void add(NumberTable& table, const std::string& what, const std::vector<double>& values) {
+  table.rows.push_back({what});
+  for (const double value : values) table.rows.back().push_back(number(value));
+  table.rows.back().resize(table.heads.size(), "undefined");
+}
 
 // Where values are greater than the bound: "at every depth", "at no depth", "at depths 1 and 3".
 std::string where_greater(const std::vector<double>& values, double bound) {
@@ -86,8 +90,7 @@ std::vector<double> neighbours(const std::vector<LagRow>& rows, const std::strin
 // The first lag at which points correlate by less than half.
 std::string half_lag(const std::vector<LagRow>& rows, const std::string& directions, uint32_t depth) {
   for (const LagRow& row : rows)
-    if (row.directions == directions && row.depth == depth && row.found.points < 0.5)
-      return grouped(row.found.lag);
+    if (row.directions == directions && row.depth == depth && row.found.points < 0.5) return grouped(row.found.lag);
   return "none measured";
 }
 
@@ -101,7 +104,7 @@ std::string greatest_words(const std::vector<LagRow>& rows, const std::string& d
 
 }  // namespace
 
-std::string frame_pairs_paragraph(const std::vector<FramePair>& rows, const Drive& drive, const std::string& device) {
+Words frame_pairs_words(const std::vector<FramePair>& rows, const Drive& drive, const std::string& device) {
   const auto total = [](const FramePair& row) { return row.found.points.total; };
   const auto by_place = [](const FramePair& row) { return row.by_place; };
   const auto both = [](const FramePair& row) { return row.found.both; };
@@ -109,47 +112,55 @@ std::string frame_pairs_paragraph(const std::vector<FramePair>& rows, const Driv
   const auto sequence = [](const FramePair& row) { return row.found.same_sequence; };
   const uint32_t last = rows.back().frame;
   const std::vector<double> paired = previous_means(rows, total), placed = previous_means(rows, by_place);
-  return fmt::format(
+  const std::string paragraph = fmt::format(
       "The thesis finds subsequent frames of traffic to correlate by about 25% on average, from less than 5% to almost "
       "50%, by equation 6.4 (section 6.3.2, figure 6.13), which leaves open which points are paired and, as printed, "
       "is not divided by the root of three. Measured on {}, {} rays of a transmitter that drives {:.1f} m through a "
-      "standing scene in {} frames, points paired by ray and bounce, at {}: subsequent frames, {:.3f} m apart, "
-      "correlate by {} on average; the last frame with the first by {}. Paired by their place among the hits, "
-      "subsequent frames correlate by {}. The claimed 25% is exceeded {} if paired by ray and bounce, and {} if paired "
-      "by place. Of the rays that hit in one of two subsequent frames, a share of {} hit in both; of these, {} hit the "
-      "same surface and {} have met the same surfaces so far. Of the last frame and the first these shares are {}; {}; "
-      "and {}: the last is the share of rays for which a sequence of the first frame, {:g} s old, still stands.",
-      device, grouped(experiment_rays), drive.moved_m(last), last + 1, depths_words(paired.size()), drive.moved_m(1),
-      numbers(paired), numbers(last_values(rows, total)), numbers(placed), where_greater(paired, claimed_average),
-      where_greater(placed, claimed_average), numbers(previous_means(rows, both)),
-      numbers(previous_means(rows, surface)), numbers(previous_means(rows, sequence)),
-      numbers(last_values(rows, both)), numbers(last_values(rows, surface)), numbers(last_values(rows, sequence)),
-      drive.time_s(last));
+      "standing scene in {} frames; subsequent ones are {:.3f} m apart. The last row is the share of rays for which a "
+      "sequence of the first frame, {:g} s old, still stands.",
+      device, grouped(experiment_rays), drive.moved_m(last), last + 1, drive.moved_m(1), drive.time_s(last));
+  NumberTable table = depth_table("Correlations of points, and shares of rays:", paired.size());
+  add(table, "subsequent frames, points paired by ray and bounce", paired);
+  add(table, "subsequent frames, points paired by place", placed);
+  add(table, "last frame with the first, points paired by ray and bounce", last_values(rows, total));
+  using Values = std::vector<double> (*)(const std::vector<FramePair>&, const FrameValue&);
+  for (const auto& [frames, values] :
+       {std::pair<const char*, Values>{"subsequent frames", previous_means}, {"last frame and first", last_values}}) {
+    add(table, fmt::format("{}: rays that hit in both of those that hit in one", frames), values(rows, both));
+    add(table, fmt::format("{}: of these, on the same surface", frames), values(rows, surface));
+    add(table, fmt::format("{}: of these, after the same surfaces", frames), values(rows, sequence));
+  }
+  return {paragraph,
+          {{"subsequent frames correlate by more than 25%",
+            fmt::format("{} if paired by ray and bounce, {} if paired by place", where_greater(paired, claimed_average),
+                        where_greater(placed, claimed_average))}},
+          table};
 }
 
-std::string lags_paragraph(const std::vector<LagRow>& rows, const std::string& device) {
+Words lags_words(const std::vector<LagRow>& rows, const std::string& device) {
   const std::vector<double> hilbert = neighbours(rows, "hilbert", &report::LagCoherence::points);
   const std::vector<double> same = neighbours(rows, "hilbert", &report::LagCoherence::same_surface);
-  std::vector<std::string> half;
-  std::vector<double> wrong;
-  for (uint32_t depth = 1; depth <= hilbert.size(); ++depth) {
-    half.push_back(half_lag(rows, "hilbert", depth));
-    wrong.push_back(1 - same[depth - 1]);
-  }
-  return fmt::format(
+  const std::string paragraph = fmt::format(
       "The thesis takes the autocorrelation of results along the rays of a frame (equation 3.4) for the measure of "
       "coherence inside it, expects that of a group of coherent rays only one need be traced (section 3.2.2), and "
-      "gives no values. Measured on {} with {} rays, at {}: hit points of rays launched one after the other correlate "
-      "by {} in hilbert order, {} in fibonacci order and {} in random order. In hilbert order the correlation falls "
-      "below a half at lags of {}; fibonacci rays have their neighbours elsewhere, first hits correlating most, by {}. "
-      "Successive rays that both hit do so on the same surface in shares of {} (hilbert), {} (fibonacci) and {} "
-      "(random). So at this number of rays, tracing one ray for each two in hilbert order gives the other the wrong "
-      "surface in a share of {}.",
-      device, grouped(experiment_rays), depths_words(hilbert.size()), numbers(hilbert),
-      numbers(neighbours(rows, "fibonacci", &report::LagCoherence::points)),
-      numbers(neighbours(rows, "random", &report::LagCoherence::points)), list(half), greatest_words(rows, "fibonacci"),
-      numbers(same), numbers(neighbours(rows, "fibonacci", &report::LagCoherence::same_surface)),
-      numbers(neighbours(rows, "random", &report::LagCoherence::same_surface)), numbers(wrong));
+      "gives no values. Measured on {} with {} rays. Fibonacci rays have their neighbours elsewhere: first hits "
+      "correlate most, by {}. Tracing one ray for each two in hilbert order gives the other the wrong surface in the "
+      "share of the last row.",
+      device, grouped(experiment_rays), greatest_words(rows, "fibonacci"));
+  NumberTable table = depth_table("Rays launched one after the other:", hilbert.size());
+  for (const char* directions : {"hilbert", "fibonacci", "random"})
+    add(table, fmt::format("hit points correlate, {}", directions),
+        neighbours(rows, directions, &report::LagCoherence::points));
+  table.rows.push_back({"lag at which that falls below a half, hilbert"});
+  for (uint32_t depth = 1; depth <= hilbert.size(); ++depth)
+    table.rows.back().push_back(half_lag(rows, "hilbert", depth));
+  for (const char* directions : {"hilbert", "fibonacci", "random"})
+    add(table, fmt::format("both hit the same surface, {}", directions),
+        neighbours(rows, directions, &report::LagCoherence::same_surface));
+  std::vector<double> wrong;
+  for (const double share : same) wrong.push_back(1 - share);
+  add(table, "the wrong surface, hilbert", wrong);
+  return {paragraph, {}, table};
 }
 
 }  // namespace wavetracer::recipes

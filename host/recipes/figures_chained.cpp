@@ -27,8 +27,11 @@ std::vector<std::string> names(const std::vector<Setting>& settings) {
 std::vector<Setting> thesis_tables() { return {chained(1), chained(2), chained(3)}; }
 
 std::shared_ptr<const CacheStudy> anatomy() {
-  CacheStudy study{.name = "chained-operations", .settings = {no_cache()}, .rays = {anatomy_rays},
-                   .few_rays = {anatomy_rays}, .by_depth = true};
+  CacheStudy study{.name = "chained-operations",
+                   .settings = {no_cache()},
+                   .rays = {anatomy_rays},
+                   .few_rays = {anatomy_rays},
+                   .by_depth = true};
   for (const Setting& setting : thesis_tables()) study.settings.push_back(setting);
   return std::make_shared<const CacheStudy>(study);
 }
@@ -47,12 +50,14 @@ Findings show_operations(const Recipe& recipe, const CacheMeasurement& measured,
   const std::string paragraph = fmt::format(
       "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against 50 ms in its "
       "buckets, 80 against 40 in other nodes), and calls of the buffer next to nothing (section 6.3.1, figure 6.2). "
-      "Measured on {} at {} rays, a segment takes: {}. Writes dearer than reads: {}. What the table adds besides, the "
-      "gathering of missed rays, below a tenth of a write: {}.",
-      measured.device.name, grouped(rows.front().rays), operations_words(rows, tables, false),
-      settings_verdict(rows, tables, [](const CacheRow& row) { return write_ns(row) > read_ns(row); }),
-      settings_verdict(rows, tables, [](const CacheRow& row) { return gather_ns(row) < 0.1 * write_ns(row); }));
-  return operations_findings(recipe, measured, request, tables, paragraph, false);
+      "Measured on {} at {} rays. What the table adds besides is the gathering of missed rays.",
+      measured.device.name, grouped(rows.front().rays));
+  const std::vector<Verdict> verdicts = {
+      {"writes take longer than reads",
+       settings_verdict(rows, tables, [](const CacheRow& row) { return write_ns(row) > read_ns(row); })},
+      {"the rest takes next to nothing: gathering less than a tenth of a write",
+       settings_verdict(rows, tables, [](const CacheRow& row) { return gather_ns(row) < 0.1 * write_ns(row); })}};
+  return operations_findings(recipe, measured, request, tables, {paragraph, verdicts}, false);
 }
 
 Findings show_tracing(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
@@ -60,14 +65,10 @@ Findings show_tracing(const Recipe& recipe, const CacheMeasurement& measured, co
   const auto& rows = measured.rows;
   const std::string paragraph = fmt::format(
       "The thesis finds tracing a segment to take almost 2 s at most, more than ten times what a write takes and far "
-      "more than a read (section 6.3.1, figure 6.3). Measured on {} at {} rays, a segment takes: {}. Tracing dearer "
-      "than a read: {}; than ten reads: {}; than a write: {}. A cache can only save time where a read is cheaper than "
-      "tracing.",
-      measured.device.name, grouped(rows.front().rays), operations_words(rows, tables, true),
-      settings_verdict(rows, tables, [](const CacheRow& row) { return trace_ns(row) > read_ns(row); }),
-      settings_verdict(rows, tables, [](const CacheRow& row) { return trace_ns(row) > 10 * read_ns(row); }),
-      settings_verdict(rows, tables, [](const CacheRow& row) { return trace_ns(row) > write_ns(row); }));
-  return operations_findings(recipe, measured, request, tables, paragraph, true);
+      "more than a read (section 6.3.1, figure 6.3). Measured on {} at {} rays. A cache can "
+      "only save time where a read is cheaper than tracing.",
+      measured.device.name, grouped(rows.front().rays));
+  return operations_findings(recipe, measured, request, tables, {paragraph, trace_verdicts(rows, tables)}, true);
 }
 
 // "0", "1", "2", "3-4", "5-8", ...: the fewest and most hits of a class of CacheSummary::entries_by_hits.
@@ -77,7 +78,10 @@ std::pair<uint64_t, uint64_t> hits_of_class(size_t index) {
 }
 
 Findings show_hits(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
-  std::string table = "drive,setting,hits_from,hits_to,entries\n", text;
+  std::string table = "drive,setting,hits_from,hits_to,entries\n";
+  NumberTable numbers{.caption = "Entries of the table:",
+                      .heads = {"setting", "all", "that hold a segment", "of these, that never answered"},
+                      .rows = {}};
   std::vector<std::string> shown;
   bool some_unused = true, fragmented = true, any = false;
   for (const Setting& setting : thesis_tables()) {
@@ -94,9 +98,7 @@ Findings show_hits(const Recipe& recipe, const CacheMeasurement& measured, const
     const uint64_t used = std::accumulate(entries.begin(), entries.end(), uint64_t{0});
     some_unused = some_unused && entries.front() > 0;
     fragmented = fragmented && used < row->cache.entries;
-    text += fmt::format("{}\"{}\": {} of {} entries hold a segment, {} of these never answered",
-                        text.empty() ? "" : "; ", setting.name, grouped(used), grouped(row->cache.entries),
-                        grouped(entries.front()));
+    numbers.rows.push_back({setting.name, grouped(row->cache.entries), grouped(used), grouped(entries.front())});
   }
   LinePlot plot;
   plot.columns = {"drive", "setting", "hits_from", "hits_to", "entries"};
@@ -107,11 +109,13 @@ Findings show_hits(const Recipe& recipe, const CacheMeasurement& measured, const
   plot.panels = {{"entries by their hits", "entries", "entries", measured.rows.front().drive}};
   Findings found = cache_findings(
       recipe, measured, request,
-      fmt::format("The thesis finds hits spread evenly over the entries, entries of the buffer that are never used, "
-                  "and some that are but never answer (section 6.3.1, figure 6.4). Measured on {} at {} rays, after a "
-                  "cold frame and a warm one: {}. Entries left unused: {}; entries that never answer: {}.",
-                  measured.device.name, grouped(measured.rows.front().rays), any ? text : "no statistics were kept",
-                  any ? verdict(fragmented) : "not measured", any ? verdict(some_unused) : "not measured"),
+      {fmt::format("The thesis finds hits spread evenly over the entries, entries of the buffer that are never used, "
+                   "and some that are but never answer (section 6.3.1, figure 6.4). Measured on {} at {} rays, after a "
+                   "cold frame and a warm one.",
+                   measured.device.name, grouped(measured.rows.front().rays)),
+       {{"some entries are left unused", any ? verdict(fragmented) : "not measured"},
+        {"some entries never answer", any ? verdict(some_unused) : "not measured"}},
+       numbers},
       plot, "Entries of the chained table by the hits they had");
   found.table = table;
   return found;
@@ -125,25 +129,29 @@ Findings show_times(const Recipe& recipe, const CacheMeasurement& measured, cons
   std::vector<uint64_t> window, outside;
   for (const uint64_t count : rays) (count >= 2560000 && count <= 10240000 ? window : outside).push_back(count);
   const auto holds = [&](const std::vector<uint64_t>& counts, bool expected) {
-    return counts.empty() ? "not measured"
-                          : verdict(std::all_of(counts.begin(), counts.end(),
-                                                [&](uint64_t count) { return saves(count) == expected; }));
+    return counts.empty() ? "not measured" : verdict(std::all_of(counts.begin(), counts.end(), [&](uint64_t count) {
+      return saves(count) == expected;
+    }));
   };
   const std::string paragraph = fmt::format(
       "The thesis finds no chained cache of {} entries faster than none, whatever the hash, but between 2,560,000 and "
-      "10,240,000 rays (section 6.3.1, figure 6.5). Measured on {} with a warm table, one of them saves time {}. No "
-      "gain outside of that window: {}; a gain inside: {}. At {} rays: {}.",
-      grouped(thesis_chained_buffer), measured.device.name, where_words(rays, saves), holds(outside, false),
-      holds(window, true), grouped(rays.back()), savings_words(rows, rays.back(), rows.front().drive));
-  return time_findings(recipe, measured, request, paragraph);
+      "10,240,000 rays (section 6.3.1, figure 6.5). Measured on {} with a warm table, one of them saves time {}.",
+      grouped(thesis_chained_buffer), measured.device.name, where_words(rays, saves));
+  return time_findings(recipe, measured, request,
+                       {paragraph,
+                        {{"no gain below 2,560,000 and beyond 10,240,000 rays", holds(outside, false)},
+                         {"a gain from 2,560,000 to 10,240,000 rays", holds(window, true)}}});
 }
 
 }  // namespace
 
 std::vector<Recipe> chained_figures() {
   const std::shared_ptr<const CacheStudy> operations = anatomy();
-  CacheStudy times{.name = "chained-rays", .settings = {no_cache()}, .rays = doubling_rays(),
-                   .few_rays = few_doubling_rays(), .at_once = 4};
+  CacheStudy times{.name = "chained-rays",
+                   .settings = {no_cache()},
+                   .rays = doubling_rays(),
+                   .few_rays = few_doubling_rays(),
+                   .at_once = 4};
   for (const Setting& setting : thesis_tables()) times.settings.push_back(setting);
   for (const uint32_t hash : {1u, 2u, 3u}) times.settings.push_back(chained(hash, large_buffer));
   times.settings.push_back(ours());

@@ -28,26 +28,24 @@ Findings show_operations(const Recipe& recipe, const CacheMeasurement& measured,
   const auto& rows = measured.rows;
   const std::string paragraph = fmt::format(
       "The thesis finds most writes to the open table to take three times as long as most reads (60 ms against 20 ms), "
-      "and both to take less than in the chained table (section 6.3.1, figure 6.6). Measured on {} at {} rays, a "
-      "segment takes: {}. Writes dearer than reads: {}. With the mixed hash, writes cheaper than the chained table's: "
-      "{}; reads cheaper: {}.",
-      measured.device.name, grouped(rows.front().rays), operations_words(rows, with_chained(), false),
-      settings_verdict(rows, mutexes, [](const CacheRow& row) { return write_ns(row) > read_ns(row); }),
-      verdict(open_is_cheaper(rows, write_ns)), verdict(open_is_cheaper(rows, read_ns)));
-  return operations_findings(recipe, measured, request, with_chained(), paragraph, false);
+      "and both to take less than in the chained table (section 6.3.1, figure 6.6). Measured on {} at {} rays.",
+      measured.device.name, grouped(rows.front().rays));
+  const std::vector<Verdict> verdicts = {
+      {"writes take longer than reads",
+       settings_verdict(rows, mutexes, [](const CacheRow& row) { return write_ns(row) > read_ns(row); })},
+      {"writes take less than in the chained table, with the mixed hash", verdict(open_is_cheaper(rows, write_ns))},
+      {"reads take less than in the chained table, with the mixed hash", verdict(open_is_cheaper(rows, read_ns))}};
+  return operations_findings(recipe, measured, request, with_chained(), {paragraph, verdicts}, false);
 }
 
 Findings show_tracing(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
   const auto& rows = measured.rows;
   const std::string paragraph = fmt::format(
       "The thesis finds operations of the open table much faster than tracing, 1 to 2.5 s against some 0.06 s (section "
-      "6.3.1, figure 6.7). Measured on {} at {} rays, a segment takes: {}. Tracing dearer than ten reads: {}; than a "
-      "read: {}; than a write: {}.",
-      measured.device.name, grouped(rows.front().rays), operations_words(rows, with_chained(), true),
-      settings_verdict(rows, mutexes, [](const CacheRow& row) { return trace_ns(row) > 10 * read_ns(row); }),
-      settings_verdict(rows, mutexes, [](const CacheRow& row) { return trace_ns(row) > read_ns(row); }),
-      settings_verdict(rows, mutexes, [](const CacheRow& row) { return trace_ns(row) > write_ns(row); }));
-  return operations_findings(recipe, measured, request, with_chained(), paragraph, true);
+      "6.3.1, figure 6.7). Measured on {} at {} rays.",
+      measured.device.name, grouped(rows.front().rays));
+  return operations_findings(recipe, measured, request, with_chained(), {paragraph, trace_verdicts(rows, mutexes)},
+                             true);
 }
 
 // Where every number of rays of a list has it: "confirmed", "not confirmed", "not measured" for an empty list.
@@ -72,11 +70,12 @@ Findings show_readers(const Recipe& recipe, const CacheMeasurement& measured, co
   const std::string paragraph = fmt::format(
       "The thesis finds the open table with two locks to save time from some 50,000 rays on, most with the mixed hash, "
       "then with the uniform one, then with Morton codes (section 6.3.1, figure 6.8). Measured on {} with a warm "
-      "table, one of them saves time {}. A gain beyond 50,000 rays: {}; the mixed hash the fastest there: {}. At "
-      "{} rays: {}.",
-      measured.device.name, where_words(rays, saves), everywhere(many, saves), everywhere(many, mixed_first),
-      grouped(rays.back()), savings_words(rows, rays.back(), rows.front().drive));
-  return time_findings(recipe, measured, request, paragraph);
+      "table, one of them saves time {}.",
+      measured.device.name, where_words(rays, saves));
+  return time_findings(recipe, measured, request,
+                       {paragraph,
+                        {{"a gain beyond 50,000 rays", everywhere(many, saves)},
+                         {"the mixed hash is the fastest beyond 50,000 rays", everywhere(many, mixed_first)}}});
 }
 
 Findings show_ordered(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
@@ -86,10 +85,10 @@ Findings show_ordered(const Recipe& recipe, const CacheMeasurement& measured, co
   const std::string paragraph = fmt::format(
       "With a mutex and rays in order (H3DH), the thesis finds the open table to save time from some 16,000 rays on, "
       "2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {} with a warm table, one of them saves time "
-      "{}. A gain beyond 16,000 rays: {}. At {} rays: {}.",
-      measured.device.name, where_words(rays, saves), everywhere(many, saves), grouped(rays.back()),
-      savings_words(rows, rays.back(), rows.front().drive));
-  return time_findings(recipe, measured, request, paragraph);
+      "{}.",
+      measured.device.name, where_words(rays, saves));
+  return time_findings(recipe, measured, request,
+                       {paragraph, {{"a gain beyond 16,000 rays", everywhere(many, saves)}}});
 }
 
 CacheStudy rays_study(const std::string& name) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include "recipes/cache_words.hpp"
 #include "recipes/ray_counts.hpp"
 #include "recipes/recipe.hpp"
@@ -28,31 +29,32 @@ Findings show_centroids(const Recipe& recipe, const CacheMeasurement& measured, 
     for (const CentroidError& at : row.centroids)
       table += fmt::format("{},{},{},{:.6g},{:.6g}\n", row.drive, row.setting, at.frame, at.l2_m, at.mean_l2_m);
   const uint64_t rays = measured.rows.front().rays;
-  const std::string words = each_drive(measured.rows, [&](const std::string& drive) {
-    std::string text;
+  NumberTable numbers{
+      .caption = "Distance of centroids:", .heads = {"world", "setting", "on average", "at most"}, .rows = {}};
+  for (const std::string& drive : drives_of(measured.rows))
     for (const std::string& setting : {by_position, by_precision})
       if (const CacheRow* row = find_cached(measured.rows, setting, rays, drive)) {
         double largest_m = 0;
         for (const CentroidError& at : row->centroids) largest_m = std::max(largest_m, at.l2_m);
-        text += fmt::format("{}\"{}\" {:.2g} m on average, {:.2g} m at most", text.empty() ? "" : "; ", setting,
-                            row->error.l2_m, largest_m);
+        numbers.rows.push_back(
+            {drive_words(drive), setting, plain(row->error.l2_m, 2) + " m", plain(largest_m, 2) + " m"});
       }
-    return text;
-  });
   LinePlot plot;
   plot.columns = {"drive", "setting", "frame", "distance_m", "average_m"};
   plot.settings = {by_position, by_precision};
   plot.x = "frame";
   plot.x_label = "frame";
-  plot.panels = panels_of(measured.rows, {{"distance", "l2_m", "m", "", false, 1e-3},
-                                          {"running mean", "l2_m", "m", "", false, 1e-3}});
+  plot.panels = panels_of(measured.rows,
+                          {{"distance", "l2_m", "m", "", false, 1e-3}, {"running mean", "l2_m", "m", "", false, 1e-3}});
   for (size_t i = 0; i < plot.panels.size(); ++i) plot.panels[i].y = i % 2 == 0 ? "distance_m" : "average_m";
   Findings found = cache_findings(
       recipe, measured, request,
-      fmt::format("Figure 6.10 of the thesis shows its program at work: the centroids of two clouds of points, their "
-                  "distance in the frame and its average so far (equations 6.2 and 6.3). Here both are drawn frame by "
-                  "frame, of path vertices with a cache against none. Measured on {} at {} rays, {}.",
-                  measured.device.name, grouped(rays), words),
+      {fmt::format("Figure 6.10 of the thesis shows its program at work: the centroids of two clouds of points, their "
+                   "distance in the frame and its average so far (equations 6.2 and 6.3). Here both are drawn frame by "
+                   "frame, of path vertices with a cache against none. Measured on {} at {} rays.",
+                   measured.device.name, grouped(rays)),
+       {},
+       numbers},
       plot, "Distance of centroids and its running mean");
   found.table = table;
   return found;
@@ -60,12 +62,9 @@ Findings show_centroids(const Recipe& recipe, const CacheMeasurement& measured, 
 
 Findings show_times(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
   const auto& rows = measured.rows;
-  const uint64_t most = rays_of(rows).back();
-  const std::string words = each_drive(rows, [&](const std::string& drive) {
-    return fmt::format("the claimed 10% by position is reached {}, the claimed 17% by precision {}; at {} rays {}",
-                       reached(rows, drive, by_position, 10), reached(rows, drive, by_precision, 17), grouped(most),
-                       savings_words(rows, most, drive));
-  });
+  const auto where = [&](const std::string& setting, double percent) {
+    return each_drive(rows, [&](const std::string& drive) { return reached(rows, drive, setting, percent); });
+  };
   LinePlot plot;
   plot.x = "rays";
   plot.x_label = "rays";
@@ -73,35 +72,38 @@ Findings show_times(const Recipe& recipe, const CacheMeasurement& measured, cons
   plot.panels = panels_of(rows, {{"time", "warm_s", "s a frame", "", true}, {"time saved", "saved_percent", "%", ""}});
   return cache_findings(
       recipe, measured, request,
-      fmt::format("The thesis finds the open table to take 10% less time than no cache for few and medium numbers of "
-                  "rays and 15% for many if purged by position, 30% and 17% by precision {:g} (section 6.3.2, figure "
-                  "6.11). Measured on {}, {}.",
-                  thesis_residual, measured.device.name, words),
+      {fmt::format("The thesis finds the open table to take 10% less time than no cache for few and medium numbers of "
+                   "rays and 15% for many if purged by position, 30% and 17% by precision {:g} (section 6.3.2, figure "
+                   "6.11). Measured on {}.",
+                   thesis_residual, measured.device.name),
+       {{"10% less time if purged by position", where(by_position, 10)},
+        {"17% less time if purged by precision", where(by_precision, 17)}}},
       plot, "Average time of a frame against the number of rays");
 }
 
 Findings show_errors(const Recipe& recipe, const CacheMeasurement& measured, const Request& request) {
   const auto& rows = measured.rows;
-  const uint64_t most = rays_of(rows).back();
   const auto l2_m = [&](const std::string& setting, uint64_t rays, const std::string& drive) {
     const CacheRow* row = find_cached(rows, setting, rays, drive);
     return row ? row->error.l2_m : report::undefined;
   };
-  const std::string words = each_drive(rows, [&](const std::string& drive) {
-    std::vector<uint64_t> rays = rays_of(rows);
-    std::erase_if(rays, [&](uint64_t n) { return std::isnan(l2_m(rows.front().setting, n, drive)); });
-    if (rays.empty())
-      return fmt::format("at {} rays {}; no path has a vertex", grouped(most), errors_words(rows, most, drive));
-    return fmt::format("at {} rays {}; the error by position at most 2 m {}, that by precision {:g} at most 7 m {} and "
-                       "greater than that by position {}",
-                       grouped(most), errors_words(rows, most, drive),
-                       where_words(rays, [&](uint64_t n) { return l2_m(by_position, n, drive) <= 2; }),
-                       thesis_residual_of_errors,
-                       where_words(rays, [&](uint64_t n) { return l2_m(by_errors_precision, n, drive) <= 7; }),
-                       where_words(rays, [&](uint64_t n) {
-                         return l2_m(by_errors_precision, n, drive) > l2_m(by_position, n, drive);
-                       }));
-  });
+  using Holds = std::function<bool(uint64_t rays, const std::string& drive)>;
+  const auto where = [&](const Holds& holds) {
+    return each_drive(rows, [&](const std::string& drive) -> std::string {
+      std::vector<uint64_t> rays = rays_of(rows);
+      std::erase_if(rays, [&](uint64_t n) { return std::isnan(l2_m(rows.front().setting, n, drive)); });
+      if (rays.empty()) return "no path has a vertex";
+      return where_words(rays, [&](uint64_t n) { return holds(n, drive); });
+    });
+  };
+  const std::vector<Verdict> verdicts = {
+      {"off by 2 m at most if purged by position",
+       where([&](uint64_t n, const std::string& drive) { return l2_m(by_position, n, drive) <= 2; })},
+      {fmt::format("off by 7 m at most by precision {:g}", thesis_residual_of_errors),
+       where([&](uint64_t n, const std::string& drive) { return l2_m(by_errors_precision, n, drive) <= 7; })},
+      {"off farther by precision than by position", where([&](uint64_t n, const std::string& drive) {
+         return l2_m(by_errors_precision, n, drive) > l2_m(by_position, n, drive);
+       })}};
   LinePlot plot;
   plot.x = "rays";
   plot.x_label = "rays";
@@ -112,24 +114,26 @@ Findings show_errors(const Recipe& recipe, const CacheMeasurement& measured, con
                                  {"lost power", "lost_power", "share", "", true, 1e-7}});
   return cache_findings(
       recipe, measured, request,
-      fmt::format("The thesis finds the centroid of the points to be off by 2 units at most if purged by position, but "
-                  "for 8 at the first number of rays, and by 7 at most by precision {:g}, three times as far on "
-                  "average, and leaves open what a unit is to a path (section 6.3.2, figure 6.12). Measured on {}, of "
-                  "path vertices in metres: {}.",
-                  thesis_residual_of_errors, measured.device.name, words),
+      {fmt::format(
+           "The thesis finds the centroid of the points to be off by 2 units at most if purged by position, but "
+           "for 8 at the first number of rays, and by 7 at most by precision {:g}, three times as far on "
+           "average, and leaves open what a unit is to a path (section 6.3.2, figure 6.12). Measured on {}, of "
+           "path vertices in metres.",
+           thesis_residual_of_errors, measured.device.name),
+       verdicts},
       plot, "Error against the number of rays");
 }
 
 }  // namespace
 
 std::vector<Recipe> purging_figures() {
-  const auto centroids = std::make_shared<const CacheStudy>(
-      CacheStudy{.name = "centroids",
-                 .settings = {no_cache(), position(), precision(thesis_residual)},
-                 .rays = {claimed_many},
-                 .few_rays = {claimed_many},
-                 .drives = {"fixed", "moving", "spheres"},
-                 .centroids = true});
+  const auto centroids =
+      std::make_shared<const CacheStudy>(CacheStudy{.name = "centroids",
+                                                    .settings = {no_cache(), position(), precision(thesis_residual)},
+                                                    .rays = {claimed_many},
+                                                    .few_rays = {claimed_many},
+                                                    .drives = {"fixed", "moving", "spheres"},
+                                                    .centroids = true});
   const auto purging = std::make_shared<const CacheStudy>(
       CacheStudy{.name = "purging",
                  .settings = {no_cache(), position(), precision(thesis_residual), precision(thesis_residual_of_errors),

@@ -3,6 +3,8 @@
 #include "recipes/figures_tables.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <utility>
+#include "recipes/ray_counts.hpp"
 
 namespace wavetracer::recipes {
 
@@ -15,17 +17,19 @@ std::vector<uint64_t> doubling_rays() {
 
 std::vector<uint64_t> few_doubling_rays() { return {1000, 16000, 64000}; }
 
-std::string operations_words(const std::vector<CacheRow>& rows, const std::vector<std::string>& settings,
+NumberTable operations_table(const std::vector<CacheRow>& rows, const std::vector<std::string>& settings,
                              bool with_trace) {
-  std::string text;
+  NumberTable table{.caption = fmt::format("Nanoseconds a segment, at {} rays:", grouped(rows.front().rays)),
+                    .heads = {"setting", "write", "read", "gather"},
+                    .rows = {}};
+  if (with_trace) table.heads.emplace_back("trace");
   for (const std::string& setting : settings) {
     const CacheRow* row = find_cached(rows, setting, rows.front().rays, rows.front().drive);
     if (!row) continue;
-    text += fmt::format("{}\"{}\" {:.3g} ns to write, {:.3g} ns to read, {:.3g} ns to gather", text.empty() ? "" : "; ",
-                        setting, write_ns(*row), read_ns(*row), gather_ns(*row));
-    if (with_trace) text += fmt::format(", {:.3g} ns to trace", trace_ns(*row));
+    table.rows.push_back({setting, plain(write_ns(*row)), plain(read_ns(*row)), plain(gather_ns(*row))});
+    if (with_trace) table.rows.back().push_back(plain(trace_ns(*row)));
   }
-  return text;
+  return table;
 }
 
 std::string settings_verdict(const std::vector<CacheRow>& rows, const std::vector<std::string>& settings,
@@ -39,8 +43,18 @@ std::string settings_verdict(const std::vector<CacheRow>& rows, const std::vecto
                      : fmt::format("confirmed for {}, not for {}", list_words(yes), list_words(no));
 }
 
+std::vector<Verdict> trace_verdicts(const std::vector<CacheRow>& rows, const std::vector<std::string>& settings) {
+  return {{"tracing takes longer than a read",
+           settings_verdict(rows, settings, [](const CacheRow& row) { return trace_ns(row) > read_ns(row); })},
+          {"tracing takes longer than ten reads",
+           settings_verdict(rows, settings, [](const CacheRow& row) { return trace_ns(row) > 10 * read_ns(row); })},
+          {"tracing takes longer than a write",
+           settings_verdict(rows, settings, [](const CacheRow& row) { return trace_ns(row) > write_ns(row); })}};
+}
+
 Findings operations_findings(const Recipe& recipe, const CacheMeasurement& measured, const Request& request,
-                             const std::vector<std::string>& settings, const std::string& paragraph, bool with_trace) {
+                             const std::vector<std::string>& settings, Words words, bool with_trace) {
+  words.numbers = operations_table(measured.rows, settings, with_trace);
   std::vector<LinePanel> panels = {{"write (cache_store)", "write_ns", "ns a segment", "", with_trace},
                                    {"read (cache_lookup)", "read_ns", "ns a segment", "", with_trace},
                                    {"gather missed rays", "gather_ns", "ns a segment", "", with_trace}};
@@ -52,7 +66,7 @@ Findings operations_findings(const Recipe& recipe, const CacheMeasurement& measu
   plot.depths = true;
   plot.panels_a_row = with_trace ? 2 : 3;
   plot.panels = panels_of(measured.rows, panels);
-  Findings found = cache_findings(recipe, measured, request, paragraph, plot,
+  Findings found = cache_findings(recipe, measured, request, std::move(words), plot,
                                   "Time a segment of the cache's operations against the depth of the segment");
   found.notes.push_back(
       "the thesis draws its times over the entries of the table, by clocks inside the kernel, which are no timers; "
@@ -63,15 +77,15 @@ Findings operations_findings(const Recipe& recipe, const CacheMeasurement& measu
   return found;
 }
 
-Findings time_findings(const Recipe& recipe, const CacheMeasurement& measured, const Request& request,
-                       const std::string& paragraph) {
+Findings time_findings(const Recipe& recipe, const CacheMeasurement& measured, const Request& request, Words words) {
   LinePlot plot;
   plot.x = "rays";
   plot.x_label = "rays";
   plot.log_x = true;
   plot.panels = panels_of(measured.rows, {{"time, table warm", "warm_s", "s a frame", "", true},
                                           {"time, table empty before", "cold_s", "s a frame", "", true}});
-  return cache_findings(recipe, measured, request, paragraph, plot, "Time of a frame against the number of rays");
+  return cache_findings(recipe, measured, request, std::move(words), plot,
+                        "Time of a frame against the number of rays");
 }
 
 std::string fastest(const std::vector<CacheRow>& rows, const std::vector<std::string>& settings, uint64_t rays,

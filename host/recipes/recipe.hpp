@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 #include "recipes/cache_study.hpp"
+#include "recipes/findings.hpp"
 #include "recipes/measure.hpp"
 #include "recipes/series.hpp"
 
@@ -23,7 +24,7 @@ struct Recipe {
   std::vector<Series> series;  // the first is what gains are against
   uint32_t frames = 1;         // places along the way of a moving transmitter; 1: the transmitters of the config
   // Claim beside measurement.
-  std::string (*paragraph)(const std::vector<Row>& rows, const std::string& device) = nullptr;
+  Words (*words)(const std::vector<Row>& rows, const std::string& device) = nullptr;
   Findings (*experiment)(const Recipe& recipe, const Request& request, const Host& host) = nullptr;
   bool drive = false;  // the transmitter of the built-in city is a car in its street, not a mast
   std::shared_ptr<const CacheStudy> study = nullptr;

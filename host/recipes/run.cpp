@@ -19,15 +19,16 @@ namespace fs = std::filesystem;
 std::string point_line(const Recipe& recipe, const std::vector<Row>& rows) {
   std::string text = fmt::format("{}: {} rays, tracing with the sort paid:", recipe.name, grouped(rows.front().rays));
   for (const Row& row : rows)
-    text +=
-        fmt::format("{} {} {:.3g} ms", &row == &rows.front() ? "" : ",", label(row.series), 1e3 * row.times.paid_s());
+    text += fmt::format("{} {} {} ms", &row == &rows.front() ? "" : ",", label(row.series),
+                        plain(1e3 * row.times.paid_s()));
   return text;
 }
 
 std::string report_text(const Recipe& recipe, const Request& request, const Findings& found) {
   const std::string& file = request.config.scene.file;
   std::string text =
-      fmt::format("# {0}\n\n{1}\n\n![{2}]({3}.svg)\n\n", recipe.title, found.paragraph, found.caption, recipe.name) +
+      fmt::format("# {0}\n\n{1}\n\n![{2}]({3}.svg)\n\n", recipe.title, words_text(found.words), found.caption,
+                  recipe.name) +
       fmt::format("- device: {} ({}, driver {})\n", found.device.name, found.device.platform, found.device.driver) +
       fmt::format("- scene: {}\n",
                   file.empty() ? "city " + request.config.scene.generate : fs::path(file).filename().string());
@@ -90,7 +91,7 @@ Findings time_series(const Recipe& recipe, const Request& request, const Host& h
   if (rows.empty()) return found;
   found.table = encode_table(rows);
   found.script = plot_script(recipe.name, recipe.title + ", " + found.device.name, recipe.series);
-  found.paragraph = recipe.paragraph(rows, found.device.name);
+  found.words = recipe.words(rows, found.device.name);
   found.caption = "Time a ray against the number of rays";
   found.notes = {
       fmt::format("times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace, compact, "
@@ -122,7 +123,7 @@ Findings find_out(const Recipe& recipe, const Request& request, const Host& host
 }
 
 Report write_report(const Recipe& recipe, const Request& request, const Findings& found, const Host& host) {
-  Report report{.paragraph = found.paragraph, .files = {}, .points = found.points, .planned = found.planned};
+  Report report{.text = words_text(found.words), .files = {}, .points = found.points, .planned = found.planned};
   if (found.points > 0) report.files = write_files(recipe, request, found, host);
   return report;
 }

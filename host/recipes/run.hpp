@@ -12,12 +12,12 @@
 namespace wavetracer::recipes {
 
 struct Request {
-  Config config;       // see recipe_config; output.directory is where the files go
-  std::string device;  // as Simulation takes it
+  Config config;                 // see recipe_config; output.directory is where the files go
+  std::string device;            // as Simulation takes it
   std::optional<RayRange> rays;  // not given: those of the figure
   uint32_t repeats = 5;
-  uint64_t frames = 0;  // of a drive; 0: what suits the device
-  bool quick = false;   // fewer rays and frames
+  uint64_t frames = 0;       // of a drive; 0: what suits the device
+  bool quick = false;        // fewer rays and frames
   std::string command_line;  // for the report
 };
 
@@ -30,10 +30,11 @@ struct Host {
 // What an experiment leaves to be written.
 struct Findings {
   DeviceSummary device;
-  std::string table, script;        // NAME.csv and NAME.gp
-  std::string paragraph, caption;   // of the report and of its plot
-  std::vector<std::string> notes;   // lines of the report: how it was measured
-  size_t points = 0, planned = 0;   // measured, and asked for; nothing is written where none was
+  std::string table, script;       // NAME.csv and NAME.gp
+  Words words;                     // of the report
+  std::string caption;             // of its plot
+  std::vector<std::string> notes;  // lines of the report: how it was measured
+  size_t points = 0, planned = 0;  // measured, and asked for; nothing is written where none was
 };
 
 // What a recipe with a study shows of it.
@@ -42,7 +43,7 @@ Findings show(const Recipe& recipe, const CacheMeasurement& measured, const Requ
 Findings find_out(const Recipe& recipe, const Request& request, const Host& host);
 
 struct Report {
-  std::string paragraph;
+  std::string text;                          // for the terminal
   std::vector<std::filesystem::path> files;  // empty: stopped before the first point
   size_t points = 0, planned = 0;            // measured, and asked for: ray counts of a figure
 };

@@ -58,7 +58,7 @@ ThesisFigure figure_of(const Recipe& recipe, const Request& request, const Host&
     const Findings found = findings(recipe, request, host, studies);
     write_report(recipe, request, found, host);
     report.points += found.points > 0 && found.points == found.planned;
-    figure.paragraph = found.paragraph;
+    figure.words = found.words;
     figure.notes = found.notes;
     if (found.points < found.planned)
       figure.problem = fmt::format("interrupted after {} of {} points", found.points, found.planned);
@@ -134,7 +134,7 @@ Report run_thesis(const std::function<Request(const Recipe&)>& request_for, cons
   page.command_line = first.command_line;
   page.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
   Studies studies;
-  Report report{.paragraph = "", .files = {}, .points = 0, .planned = figures.size()};
+  Report report{.text = "", .files = {}, .points = 0, .planned = figures.size()};
   for (const Recipe* recipe : figures) page.figures.push_back(unmeasured(*recipe));
   for (size_t i = 0; i < figures.size(); ++i) {
     const Request request = fitting(requests[i], *figures[i], page.device.gpu);
@@ -145,7 +145,7 @@ Report run_thesis(const std::function<Request(const Recipe&)>& request_for, cons
     write_so_far(page, first.config.output.directory);
   }
   write_page(page, first.config.output.directory, host, report);
-  report.paragraph =
+  report.text =
       fmt::format("{} of {} figures are whole: {}", report.points, report.planned, report.files.back().string());
   return report;
 }

@@ -14,17 +14,17 @@ std::vector<const Recipe*> thesis_recipes();
 // One figure of the page.
 struct ThesisFigure {
   std::string name, title;
-  std::string paragraph = "";           // empty: nothing was measured
-  std::string svg = "";                 // empty: gnuplot is absent or failed
+  Words words = {};      // without a paragraph: nothing was measured
+  std::string svg = "";  // empty: gnuplot is absent or failed
   std::vector<std::string> notes = {};
-  std::string problem = "";             // why there is nothing, or not all
+  std::string problem = "";  // why there is nothing, or not all
 };
 
 struct ThesisPage {
   DeviceSummary device;
   std::string scene, command_line, date;
-  std::vector<CacheRow> rows;        // of all studies, the reference first in each
-  std::string svg;                   // speed against error
+  std::vector<CacheRow> rows;  // of all studies, the reference first in each
+  std::string svg;             // speed against error
   std::vector<ThesisFigure> figures;
 };
 

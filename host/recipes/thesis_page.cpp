@@ -42,28 +42,63 @@ std::string table_html(const std::vector<CacheRow>& rows) {
     const report::PathError& e = row.error;
     text += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:g} m</td><td>{:.1f} "
-        "%</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2g} ns</td><td>{}</td><td>{}</td></tr>\n",
+        "%</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} ns</td><td>{}</td><td>{}</td></tr>\n",
         escaped(row.study), escaped(row.drive), escaped(row.setting), grouped(row.rays), grouped(row.division),
-        row.position_step_m, row.saved_percent,
-        share_words(hit_rate(row)), share_words(e.lost_share), share_words(e.spurious_share),
-        e.lost_power > 0 ? fmt::format("{:.1f} dB", report::share_db(e.lost_power)) : "none", e.delay_spread_ns,
-        share_words(e.l1_relative), share_words(e.l2_relative));
+        row.position_step_m, row.saved_percent, share_words(hit_rate(row)), share_words(e.lost_share),
+        share_words(e.spurious_share),
+        e.lost_power > 0 ? fmt::format("{:.1f} dB", report::share_db(e.lost_power)) : "none",
+        plain(e.delay_spread_ns, 2), share_words(e.l1_relative), share_words(e.l2_relative));
   }
   return text + "</tbody>\n</table>\n";
 }
 
+std::string html_table(const NumberTable& table) {
+  std::string text = table.caption.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(table.caption));
+  text += "<table>\n<thead><tr>";
+  for (const std::string& head : table.heads) text += fmt::format("<th>{}</th>", escaped(head));
+  text += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    text += "<tr>";
+    for (const std::string& cell : row) text += fmt::format("<td>{}</td>", escaped(cell));
+    text += "</tr>\n";
+  }
+  return text + "</tbody>\n</table>\n";
+}
+
+// Every claim with what was measured, and where more of it is.
+std::string verdicts_html(const std::vector<ThesisFigure>& figures) {
+  std::string text =
+      "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
+      "<th>claim</th><th>measured</th></tr></thead>\n<tbody>\n";
+  for (const ThesisFigure& figure : figures) {
+    std::vector<Verdict> verdicts = figure.words.verdicts;
+    if (figure.words.paragraph.empty())
+      verdicts = {{figure.title, figure.problem}};
+    else if (verdicts.empty())
+      verdicts = {{figure.title, "no claim to judge; the numbers are in its section"}};
+    for (const auto& [claim, measured] : verdicts)
+      text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td></tr>\n", figure.name,
+                          escaped(claim), escaped(measured));
+  }
+  return text +
+         "</tbody>\n</table>\n<p><a href=\"#speed-error\">Speed against error of all caches</a></p>\n"
+         "</section>\n";
+}
+
 std::string figure_html(const ThesisFigure& figure) {
-  std::string text = fmt::format("<section id=\"{}\">\n<h2>{}: {}</h2>\n", figure.name, figure.name,
-                                 escaped(figure.title));
+  std::string text =
+      fmt::format("<section id=\"{}\">\n<h2>{}: {}</h2>\n", figure.name, figure.name, escaped(figure.title));
   if (!figure.problem.empty()) text += fmt::format("<p class=\"problem\">{}</p>\n", escaped(figure.problem));
-  if (!figure.paragraph.empty()) text += fmt::format("<p>{}</p>\n", escaped(figure.paragraph));
+  if (!figure.words.paragraph.empty()) text += fmt::format("<p>{}</p>\n", escaped(figure.words.paragraph));
+  if (!figure.words.verdicts.empty()) text += html_table(verdict_table(figure.words.verdicts));
   text += figure.svg;
+  if (!figure.words.numbers.rows.empty()) text += html_table(figure.words.numbers);
   if (!figure.notes.empty()) {
     text += "<ul>\n";
     for (const std::string& note : figure.notes) text += fmt::format("<li>{}</li>\n", escaped(note));
     text += "</ul>\n";
   }
-  return text + "</section>\n";
+  return text + "<p><a href=\"#verdicts\">All verdicts</a></p>\n</section>\n";
 }
 
 constexpr const char* style =
@@ -145,6 +180,7 @@ std::string thesis_html(const ThesisPage& page) {
       "{}</li>\n<li>date: {}, wavetracer {}</li>\n<li>command: <code>{}</code></li>\n</ul>\n",
       style, escaped(page.device.name), escaped(page.device.platform), escaped(page.device.driver), escaped(page.scene),
       page.date, WAVETRACER_VERSION, escaped(page.command_line));
+  text += verdicts_html(page.figures);
   text += "<section id=\"speed-error\">\n<h2>Speed against error</h2>\n";
   if (std::none_of(page.rows.begin(), page.rows.end(), shown))
     text += "<p class=\"problem\">No cache was measured.</p>\n";

@@ -6,16 +6,9 @@
 #include <cmath>
 #include <set>
 #include "recipes/ray_counts.hpp"
-#include "recipes/table.hpp"
 
 namespace wavetracer::recipes {
 namespace {
-
-std::string percent_words(double gain) {
-  const double less = reduction_percent(gain);
-  if (std::abs(less) < 0.5) return "the same time";
-  return fmt::format("{:.0f}% {} time", std::abs(less), less > 0 ? "less" : "more");
-}
 
 std::string reached_words(double gain, double claimed) { return gain >= claimed ? "reached" : "not reached"; }
 
@@ -27,27 +20,44 @@ const Row* find_row(const std::vector<Row>& rows, const Series& series, uint64_t
   return nullptr;
 }
 
-std::string gain_words(const std::vector<Row>& rows, const Series& series) {
-  std::string text;
-  for (const uint64_t rays : std::set{claimed_few, claimed_many, rows.back().rays}) {
-    const Row* row = find_row(rows, series, rays);
-    if (!row) continue;
-    text += fmt::format("{}at {} rays {:.2f} times as fast as WS ({})", text.empty() ? "" : "; ", grouped(rays),
-                        row->gain_unpaid, percent_words(row->gain_unpaid));
-    if (series.method != "none")
-      text += fmt::format(" with the sort not paid and {:.2f} times ({}) with it paid", row->gain_paid,
-                          percent_words(row->gain_paid));
+NumberTable gain_table(const std::vector<Row>& rows) {
+  NumberTable table{.caption = "Speed against WS with the sort not paid, and in brackets with it paid:",
+                    .heads = {"order"},
+                    .rows = {}};
+  std::vector<uint64_t> counts;
+  for (const uint64_t rays : std::set{claimed_few, claimed_many, rows.back().rays})
+    if (find_row(rows, unordered(), rays)) counts.push_back(rays);
+  for (const uint64_t rays : counts) table.heads.push_back(fmt::format("{} rays", grouped(rays)));
+  std::vector<Row> ranked;
+  for (const Row& row : rows)
+    if (row.rays == rows.back().rays) ranked.push_back(row);
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Row& a, const Row& b) { return a.gain_unpaid > b.gain_unpaid; });
+  for (const Row& one : ranked) {
+    table.rows.push_back({label(one.series)});
+    for (const uint64_t rays : counts) {
+      const Row* row = find_row(rows, one.series, rays);
+      std::string cell = row ? fmt::format("{:.2f}", row->gain_unpaid) : "not measured";
+      if (row && one.series.method != "none") cell += fmt::format(" ({:.2f})", row->gain_paid);
+      table.rows.back().push_back(cell);
+    }
   }
-  return text;
+  return table;
 }
 
-std::string verdict_words(const std::vector<Row>& rows, const Series& series, uint64_t rays, const std::string& claim,
-                          double claimed_gain) {
-  const std::string start = fmt::format("{} at {} rays: ", claim, grouped(rays));
+std::string verdict_words(const std::vector<Row>& rows, const Series& series, uint64_t rays, double claimed_gain) {
   const Row* row = find_row(rows, series, rays);
-  if (!row) return start + "not measured";
-  return fmt::format("{}{} with the sort not paid, {} with it paid", start,
-                     reached_words(row->gain_unpaid, claimed_gain), reached_words(row->gain_paid, claimed_gain));
+  if (!row) return "not measured";
+  return fmt::format("{} with the sort not paid, {} with it paid", reached_words(row->gain_unpaid, claimed_gain),
+                     reached_words(row->gain_paid, claimed_gain));
+}
+
+std::vector<Verdict> gain_verdicts(const std::vector<Row>& rows) {
+  const Series h3dh = ordered("hilbert3d-histogram");
+  return {{fmt::format("H3DH takes 23% less time than WS at {} rays", grouped(claimed_few)),
+           verdict_words(rows, h3dh, claimed_few, claimed_gain_few)},
+          {fmt::format("H3DH is 2.5 times as fast as WS at {} rays", grouped(claimed_many)),
+           verdict_words(rows, h3dh, claimed_many, claimed_gain_many)}};
 }
 
 std::string reason_words(const std::vector<Row>& rows) {
@@ -61,17 +71,6 @@ std::string reason_words(const std::vector<Row>& rows) {
            "which is what launching and the longest single rays cost this device, however few there are; an order can "
            "change the rest alone, and its own launches come on top.";
   return start + "so most of the time at the larger count is that of its rays, which an order can change.";
-}
-
-std::string ranking_words(const std::vector<Row>& rows, uint64_t rays, double Row::*gain) {
-  std::vector<Row> found;
-  for (const Row& row : rows)
-    if (row.rays == rays) found.push_back(row);
-  std::stable_sort(found.begin(), found.end(), [gain](const Row& a, const Row& b) { return a.*gain > b.*gain; });
-  std::string text;
-  for (const Row& row : found)
-    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", label(row.series), row.*gain);
-  return text;
 }
 
 }  // namespace wavetracer::recipes

@@ -85,7 +85,8 @@ std::vector<RadioEnd> read_ends(const ForeignFile& file, const std::string& grou
 struct SavedRun::State {
   fs::path path;
   ForeignFile file;
-  std::string version, device, config;
+  std::string version, config;
+  SummaryFacts summary;
   double frequency_hz = 0;
   std::vector<RadioEnd> transmitters, receivers;
   std::vector<SavedInstance> instances;
@@ -110,7 +111,7 @@ struct SavedRun::State {
           fmt::format("it has version {} of the format, written by wavetracer {}; this program reads "
                       "version 1",
                       format, version));
-    device = device_in_summary(path.parent_path() / "summary.json");
+    summary = read_summary_json(path.parent_path() / "summary.json");
     config = file.root_text("config");
     frequency_hz = file.root_number("frequency_hz");
     if (!(frequency_hz > 0) || !std::isfinite(frequency_hz)) throw RuntimeError("its frequency is not above zero");
@@ -281,7 +282,8 @@ SavedRun& SavedRun::operator=(SavedRun&&) noexcept = default;
 
 const fs::path& SavedRun::file() const { return state_->path; }
 const std::string& SavedRun::version() const { return state_->version; }
-const std::string& SavedRun::device() const { return state_->device; }
+const std::string& SavedRun::device() const { return state_->summary.device; }
+const std::optional<Missed>& SavedRun::missed() const { return state_->summary.missed; }
 const std::string& SavedRun::config_text() const { return state_->config; }
 double SavedRun::frequency_hz() const { return state_->frequency_hz; }
 const std::vector<RadioEnd>& SavedRun::transmitters() const { return state_->transmitters; }
@@ -295,6 +297,9 @@ uint32_t SavedRun::number(size_t row) const { return state_->numbers.at(row); }
 double SavedRun::time_s(size_t row) const { return state_->times_s.at(row); }
 uint64_t SavedRun::path_count() const { return state_->first_path.back(); }
 uint64_t SavedRun::path_count(size_t row) const { return state_->first_path.at(row + 1) - state_->first_path.at(row); }
+
+uint64_t SavedRun::link_count() const { return state_->first_link.back(); }
+uint64_t SavedRun::first_link(size_t row) const { return state_->first_link.at(row); }
 
 SavedFrame SavedRun::frame(size_t row) const {
   try {

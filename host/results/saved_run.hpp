@@ -1,14 +1,16 @@
-// What a run has written, read back: paths.h5 of a folder, one frame at a time. Viewer, plots and exports read runs here.
-// Everything in the file is checked before it is used; an HDF5 file is input like any other.
+// What a run has written, read back: paths.h5 of a folder, one frame at a time. Viewer, plots and exports read runs
+// here. Everything in the file is checked before it is used; an HDF5 file is input like any other.
 #pragma once
 #include <cstdint>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 #include "wavetracer/config.hpp"
+#include "wavetracer/missed.hpp"
 #include "wavetracer/output.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/world.hpp"
@@ -49,9 +51,10 @@ class SavedRun {
   SavedRun& operator=(SavedRun&&) noexcept;
 
   const std::filesystem::path& file() const;
-  const std::string& version() const;  // of the program that wrote it
-  const std::string& device() const;   // by the summary.json beside it; empty where there is none
-  const std::string& config_text() const;  // TOML, with absolute paths
+  const std::string& version() const;           // of the program that wrote it
+  const std::string& device() const;            // by the summary.json beside it; empty where there is none
+  const std::optional<Missed>& missed() const;  // by the same file; nothing where it is not known
+  const std::string& config_text() const;       // TOML, with absolute paths
   double frequency_hz() const;
   // name, antenna, polarization and orientation as configured; positions of moving ends are those of frames.
   const std::vector<RadioEnd>& transmitters() const;
@@ -67,6 +70,8 @@ class SavedRun {
   double time_s(size_t row) const;
   uint64_t path_count() const;            // of all frames
   uint64_t path_count(size_t row) const;  // of one
+  uint64_t link_count() const;            // of all frames
+  uint64_t first_link(size_t row) const;  // of that frame among those of all
   SavedFrame frame(size_t row) const;     // throws InputError
 
  private:

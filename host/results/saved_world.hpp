@@ -13,7 +13,8 @@ struct SavedWorld {
   Config config;  // of the run's text; defaults where it cannot be parsed by this version
   Scene scene;    // recentred: file coordinate = scene.origin_m + vertex; empty where it could not be loaded
   std::vector<Scene> models;  // likewise, in the coordinates of the model
-  std::vector<uint32_t> instance_model;  // of each SavedRun::instances() the index into models, no_instance where unknown
+  std::vector<uint32_t>
+      instance_model;                 // of each SavedRun::instances() the index into models, no_instance where unknown
   std::vector<std::string> warnings;  // what is missing, and why
 };
 

@@ -6,37 +6,22 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
-#include <map>
+#include <optional>
+#include <span>
 #include "viewer/blocks.hpp"
+#include "viewer/link_rows.hpp"
 #include "viewer/strongest.hpp"
 
 namespace wavetracer {
 namespace {
 
-constexpr uint64_t link_bytes = 16, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
+constexpr uint64_t link_bytes = 29, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
 // Links take at most this share of the room: the gain over time of a link is worth less than the paths to look at.
-constexpr uint64_t links_share = 4;
+// Where there is a map, its colours come first.
+constexpr double links_share = 0.25, map_links_share = 0.75;
 
 uint64_t path_bytes(const Paths& paths, size_t path) {
   return 32 + 8 * uint64_t{paths.rx_ports} * paths.tx_ports + vertex_bytes * paths.depth[path];
-}
-
-struct LinkRow {
-  uint32_t paths = 0;
-  double power = 0;
-  double gain_db() const { return power > 0 ? 10 * std::log10(power) : -std::numeric_limits<double>::infinity(); }
-};
-
-// Of all paths of the frame, those that the page leaves out included.
-std::map<Link, LinkRow> link_rows(const SavedFrame& frame) {
-  std::map<Link, LinkRow> rows;
-  for (const Link& link : frame.links) rows[link];
-  for (size_t i = 0; i < frame.paths.size(); ++i) {
-    LinkRow& row = rows[{frame.paths.tx[i], frame.paths.rx[i]}];
-    ++row.paths;
-    row.power += std::pow(10.0, frame.paths.gain_db[i] / 10);
-  }
-  return rows;
 }
 
 void add_poses(const SavedFrame& frame, const glm::dvec3& centre_m, Packer& wide, Packer& narrow) {
@@ -81,13 +66,15 @@ void add_columns(const Paths& paths, const std::vector<size_t>& kept, Packer& wi
       narrow.add_share(std::remainder((*column)[i], glm::two_pi<double>()), glm::pi<double>());
 }
 
-Packer pack_frame(const SavedFrame& frame, const std::vector<size_t>& kept, const glm::dvec3& centre_m) {
+Packer pack_frame(const SavedFrame& frame, const std::vector<size_t>& kept, const FrameSelection& selection,
+                  const glm::dvec3& centre_m) {
   Packer wide, narrow, bytes;
   uint32_t vertices = 0;
   for (const size_t i : kept) vertices += frame.paths.depth[i];
   for (const size_t count : {kept.size(), size_t{vertices}, frame.poses.size()}) wide.add(static_cast<uint32_t>(count));
-  for (const auto* positions : {&frame.transmitter_position_m, &frame.receiver_position_m})
-    for (const glm::dvec3& position : *positions) wide.add(position - centre_m);
+  for (const glm::dvec3& position : frame.transmitter_position_m) wide.add(position - centre_m);
+  for (size_t rx = 0; rx < frame.receiver_position_m.size(); ++rx)
+    if (selection.own_receivers[rx]) wide.add(frame.receiver_position_m[rx] - centre_m);
   add_poses(frame, centre_m, wide, narrow);
   add_columns(frame.paths, kept, wide, narrow);
   add_vertices(frame.paths, kept, centre_m, wide, bytes);
@@ -96,68 +83,115 @@ Packer pack_frame(const SavedFrame& frame, const std::vector<size_t>& kept, cons
   return wide;
 }
 
+// The columns of all links on the page, as data.js reads them.
+class LinkColumns {
+ public:
+  void add(size_t frame, const LinkRow& row) {
+    frame_.add(static_cast<uint32_t>(frame));
+    tx_.add(row.link.tx);
+    rx_.add(row.link.rx);
+    paths_.add(row.paths);
+    gain_.add(static_cast<float>(row.gain_db()));
+    spread_.add(static_cast<float>(row.rms_delay_spread_s));
+    missed_.add(static_cast<float>(row.missed_power_share));
+    los_.add(uint8_t{row.los});
+  }
+  Packer block() const {
+    Packer out;
+    for (const Packer* column : {&frame_, &tx_, &rx_, &paths_, &gain_, &spread_, &missed_, &los_}) out.append(*column);
+    return out;
+  }
+
+ private:
+  Packer frame_, tx_, rx_, paths_, gain_, spread_, missed_, los_;
+};
+
+void grow(std::optional<Extent>& box, const glm::dvec3& point) {
+  if (!std::isfinite(point.x + point.y + point.z)) return;
+  box = box ? Extent{glm::min(box->lower, point), glm::max(box->upper, point)} : Extent{point, point};
+}
+
+// Of a frame, the missed shares of its links; empty where they are unknown.
+std::span<const double> shares_of(const SavedRun& run, const FrameSelection& selection, size_t row, size_t links) {
+  const uint64_t first = run.first_link(row);
+  if (first + links > selection.missed_power_share.size()) return {};
+  return std::span(selection.missed_power_share).subspan(first, links);
+}
+
+// What a first look at all frames tells: how strong rows are, and what takes room in any case.
+struct Survey {
+  Strongest paths, links;
+  uint64_t fixed_bytes = 0;  // that frames take without paths and links
+
+  Survey(const SavedRun& run, const FrameSelection& selection, FrameBlocks& out) {
+    const auto own = static_cast<uint64_t>(std::ranges::count(selection.own_receivers, true));
+    for (const size_t row : selection.rows) {
+      const SavedFrame frame = run.frame(row);
+      for (size_t i = 0; i < frame.paths.size(); ++i) paths.count(frame.paths.gain_db[i], path_bytes(frame.paths, i));
+      for (const LinkRow& link : link_rows(frame, {})) links.count(link.gain_db(), link_bytes);
+      fixed_bytes += 200 + pose_bytes * frame.poses.size() + end_bytes * (run.transmitters().size() + own);
+      for (const auto* points : {&frame.transmitter_position_m, &frame.receiver_position_m})
+        for (const glm::dvec3& point : *points) grow(out.ends_m, point);
+      for (const SavedPose& pose : frame.poses) grow(out.ends_m, pose.position_m);
+      for (const uint8_t interaction : frame.paths.vertex_interaction) out.interactions |= interaction;
+    }
+    const uint64_t most = selection.bytes / 4 * 3, room = most > fixed_bytes ? most - fixed_bytes : 0;
+    const double share = own < selection.own_receivers.size() ? map_links_share : links_share;
+    const uint64_t link_room =
+        std::min(links.rows() * link_bytes, static_cast<uint64_t>(share * static_cast<double>(room)));
+    links.limit(links.rows(), link_room);
+    if (selection.max_paths > 0)
+      paths.limit(selection.max_paths, std::numeric_limits<uint64_t>::max());
+    else
+      paths.limit(paths.rows(), room - link_room);
+  }
+};
+
+// The rows of the paths that the page holds, the weakest first: it draws them in this order, so that the strongest lie
+// on top.
+std::vector<size_t> kept_paths(const Paths& paths, Strongest& strongest) {
+  std::vector<size_t> kept;
+  for (size_t i = 0; i < paths.size(); ++i)
+    if (strongest.keep(paths.gain_db[i], path_bytes(paths, i))) kept.push_back(i);
+  std::stable_sort(kept.begin(), kept.end(), [&gain_db = paths.gain_db](size_t a, size_t b) {
+    return std::isnan(gain_db[a]) ? !std::isnan(gain_db[b]) : gain_db[a] < gain_db[b];
+  });
+  return kept;
+}
+
 }  // namespace
 
 FrameBlocks add_frame_blocks(const SavedRun& run, const FrameSelection& selection, const glm::dvec3& centre_m,
                              std::string& elements) {
-  Strongest paths, links;
-  uint64_t fixed = 0;  // bytes that frames take without paths and links
-  for (const size_t row : selection.rows) {
-    const SavedFrame frame = run.frame(row);
-    for (size_t i = 0; i < frame.paths.size(); ++i) paths.count(frame.paths.gain_db[i], path_bytes(frame.paths, i));
-    for (const auto& [link, figures] : link_rows(frame)) links.count(figures.gain_db(), link_bytes);
-    fixed += 200 + pose_bytes * frame.poses.size() + end_bytes * (run.transmitters().size() + run.receivers().size());
-  }
-  const uint64_t room = selection.bytes / 4 * 3 > fixed ? selection.bytes / 4 * 3 - fixed : 0;
-  const uint64_t link_room = std::min(links.rows() * link_bytes, room / links_share);
-  links.limit(links.rows(), link_room);
-  if (selection.max_paths > 0)
-    paths.limit(selection.max_paths, std::numeric_limits<uint64_t>::max());
-  else
-    paths.limit(paths.rows(), room - link_room);
-
   FrameBlocks out;
-  out.frames = nlohmann::json::array();
+  Survey survey(run, selection, out);
   double lowest_db = std::numeric_limits<double>::infinity(), highest_db = -lowest_db;
-  Packer link_frames, link_tx, link_rx, link_gains, link_block;
+  LinkColumns links;
   for (size_t f = 0; f < selection.rows.size(); ++f) {
     const SavedFrame frame = run.frame(selection.rows[f]);
-    std::vector<size_t> kept;
-    for (size_t i = 0; i < frame.paths.size(); ++i) {
-      const double gain_db = frame.paths.gain_db[i];
-      if (!paths.keep(gain_db, path_bytes(frame.paths, i))) continue;
-      kept.push_back(i);
+    const std::vector<size_t> kept = kept_paths(frame.paths, survey.paths);
+    for (const size_t i : kept) {
       out.highest_order = std::max(out.highest_order, frame.paths.depth[i]);
-      if (!std::isfinite(gain_db)) continue;
-      lowest_db = std::min(lowest_db, gain_db);
-      highest_db = std::max(highest_db, gain_db);
+      if (!std::isfinite(frame.paths.gain_db[i])) continue;
+      lowest_db = std::min(lowest_db, frame.paths.gain_db[i]);
+      highest_db = std::max(highest_db, frame.paths.gain_db[i]);
     }
-    // The weakest first: the page draws them in this order, so that the strongest lie on top.
-    std::stable_sort(kept.begin(), kept.end(), [&gain_db = frame.paths.gain_db](size_t a, size_t b) {
-      return std::isnan(gain_db[a]) ? !std::isnan(gain_db[b]) : gain_db[a] < gain_db[b];
-    });
-    uint64_t shown_links = 0;
-    for (const auto& [link, figures] : link_rows(frame)) {
-      if (!links.keep(figures.gain_db(), link_bytes)) continue;
-      ++shown_links;
-      link_frames.add(static_cast<uint32_t>(f));
-      link_tx.add(link.tx);
-      link_rx.add(link.rx);
-      link_gains.add(static_cast<float>(figures.gain_db()));
+    for (const LinkRow& row : link_rows(frame, shares_of(run, selection, selection.rows[f], frame.links.size()))) {
+      if (!survey.links.keep(row.gain_db(), link_bytes)) continue;
+      ++out.shown_links;
+      links.add(f, row);
     }
-    elements += block_element("frame_" + std::to_string(f), pack_frame(frame, kept, centre_m));
+    elements += block_element("frame_" + std::to_string(f), pack_frame(frame, kept, selection, centre_m));
     out.frames.push_back({frame.number, frame.time_s, frame.paths.size(), kept.size()});
     out.paths += frame.paths.size();
     out.shown_paths += kept.size();
-    out.shown_links += shown_links;
   }
   if (lowest_db <= highest_db) {
     out.lowest_db = lowest_db;
     out.highest_db = highest_db;
   }
-  out.links = links.rows();
-  for (const Packer* column : {&link_frames, &link_tx, &link_rx, &link_gains}) link_block.append(*column);
-  elements += block_element("links", link_block);
+  out.links = survey.links.rows();
+  elements += block_element("links", links.block());
   return out;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 #include "results/saved_run.hpp"
@@ -11,15 +12,24 @@
 namespace wavetracer {
 
 struct FrameSelection {
-  std::vector<size_t> rows;  // of the run
-  uint64_t max_paths = 0;    // 0: no limit but bytes
-  uint64_t bytes = 0;        // of base64, of all blocks of frames together
+  std::vector<size_t> rows;                     // of the run
+  uint64_t max_paths = 0;                       // 0: no limit but bytes
+  uint64_t bytes = 0;                           // of base64, of all blocks of frames together
+  std::vector<bool> own_receivers = {};         // of the run: those that are no cells of a grid
+  std::vector<double> missed_power_share = {};  // of all links of the run; empty where it is not known
+};
+
+struct Extent {
+  glm::dvec3 lower, upper;
 };
 
 struct FrameBlocks {
-  nlohmann::json frames;                 // a row a frame: number, time_s, paths there were and paths on the page
+  nlohmann::json frames =
+      nlohmann::json::array();           // a row a frame: number, time_s, paths there were and paths on the page
   double lowest_db = 0, highest_db = 0;  // of the finite gains on the page; 0, 0: there is none
   uint32_t highest_order = 0;
+  uint32_t interactions = 0;     // of all paths, bits as in paths.h5
+  std::optional<Extent> ends_m;  // around ends and vehicles in all frames, file coordinates; nothing without any
   uint64_t paths = 0, shown_paths = 0, links = 0, shown_links = 0;
 };
 

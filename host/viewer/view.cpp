@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <initializer_list>
+#include "results/missed_shares.hpp"
 #include "results/saved_world.hpp"
 #include "viewer/blocks.hpp"
 #include "viewer/frame_blocks.hpp"
+#include "viewer/grid_maps.hpp"
 #include "viewer/page_files.hpp"
 #include "viewer/scene_blocks.hpp"
 #include "wavetracer/error.hpp"
@@ -45,10 +47,43 @@ glm::dvec3 centre_of(const SavedRun& run, const Scene& scene, size_t row) {
   return finite(centre) ? centre : glm::dvec3{0};
 }
 
-json end_rows(const std::vector<RadioEnd>& ends) {
+json end_row(const RadioEnd& end) { return {end.name, end.antenna, end.polarization}; }
+
+json transmitter_rows(const SavedRun& run) {
   json rows = json::array();
-  for (const RadioEnd& end : ends) rows.push_back({end.name, end.antenna, end.polarization});
+  for (const RadioEnd& end : run.transmitters()) rows.push_back(end_row(end));
   return rows;
+}
+
+// Without the cells of grids, whose names the page makes itself.
+json receiver_rows(const SavedRun& run, const std::vector<bool>& own) {
+  json rows = json::array();
+  for (size_t i = 0; i < own.size(); ++i)
+    if (own[i]) rows.push_back(end_row(run.receivers()[i]));
+  return rows;
+}
+
+// Indices into Kinds of data.js: those that the run has computed, or holds.
+json kinds(const Config& config, uint32_t interactions) {
+  json out = {0};
+  const auto add = [&](int kind, bool asked, uint32_t bit) {
+    if (asked || (interactions & bit)) out.push_back(kind);
+  };
+  add(1, config.trace.reflection, reflection);
+  add(2, config.trace.transmission, transmission);
+  add(3, config.trace.diffraction, diffraction);
+  add(4, config.trace.scattering, diffuse);
+  return out;
+}
+
+json missed_ranges(const Missed& missed) {
+  const auto range = [](const MissedRange& of) { return json{of.estimate, of.low, of.high}; };
+  return {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
+}
+
+json box(const Extent& of, const glm::dvec3& centre_m) {
+  const glm::dvec3 lower = of.lower - centre_m, upper = of.upper - centre_m;
+  return {{lower.x, lower.y, lower.z}, {upper.x, upper.y, upper.z}};
 }
 
 json instance_rows(const SavedRun& run, const SavedWorld& world) {
@@ -58,6 +93,19 @@ json instance_rows(const SavedRun& run, const SavedWorld& world) {
     rows.push_back({run.instances()[i].id, run.instances()[i].type, model == no_instance ? -1 : int64_t{model}});
   }
   return rows;
+}
+
+json run_facts(const SavedRun& run, const SavedWorld& world, const ViewOptions& options) {
+  const std::string folder = std::filesystem::absolute(run.file()).parent_path().filename().string();
+  return {{"title", options.title.empty() ? folder : options.title},
+          {"version", run.version()},
+          {"device", run.device()},
+          {"frequency_hz", run.frequency_hz()},
+          {"rx_ports", run.rx_ports()},
+          {"tx_ports", run.tx_ports()},
+          {"transmitters", transmitter_rows(run)},
+          {"missed", run.missed() ? missed_ranges(*run.missed()) : json()},
+          {"instances", instance_rows(run, world)}};
 }
 
 void warn_of_losses(const FrameBlocks& blocks, ViewPage& page) {
@@ -106,12 +154,12 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   page.warnings = world.warnings;
   page.frames = rows.size();
   const glm::dvec3 centre = centre_of(run, world.scene, rows.front());
-  const std::string folder = std::filesystem::absolute(run.file()).parent_path().filename().string();
 
   std::string scripts = "<script>/*\n" + std::string(page_file("three_license.txt")) + "*/\n" +
                         std::string(page_file("three.min.js")) + "\n</script>\n";
-  for (const char* name : {"data.js", "palette.js", "camera.js", "world.js", "lines.js", "pick.js", "overlay.js",
-                           "filters.js", "details.js", "charts.js", "player.js", "main.js"})
+  for (const char* name :
+       {"data.js", "palette.js", "camera.js", "roofs.js", "world.js", "lines.js", "pick.js", "coverage.js",
+        "overlay.js", "filters.js", "find.js", "details.js", "charts.js", "chosen.js", "player.js", "main.js"})
     scripts += script(name);
 
   std::string elements;
@@ -121,27 +169,30 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   for (size_t i = 0; i < world.models.size(); ++i)
     models.push_back(add_scene_blocks(world.models[i], fmt::format("model_{}", i), world.models[i].origin_m,
                                       world.config.trace.free_edges, elements));
-  json meta = {{"title", options.title.empty() ? folder : options.title},
-               {"version", run.version()},
-               {"device", run.device()},
-               {"frequency_hz", run.frequency_hz()},
-               {"centre_m", {centre.x, centre.y, centre.z}},
-               {"rx_ports", run.rx_ports()},
-               {"tx_ports", run.tx_ports()},
-               {"transmitters", end_rows(run.transmitters())},
-               {"receivers", end_rows(run.receivers())},
-               {"instances", instance_rows(run, world)},
+  const std::vector<GridMap> grids = find_grids(run.receivers());
+  const std::vector<bool> own = outside_of_grids(grids, run.receivers().size());
+  const json grid_rows =
+      add_grid_blocks(grids, run.receivers(), run.frame(rows.front()).receiver_position_m, centre, elements);
+  MissedShares missed = missed_shares(run);
+  if (!missed.warning.empty()) page.warnings.push_back(missed.warning);
+  json meta = run_facts(run, world, options);
+  meta.update({{"centre_m", {centre.x, centre.y, centre.z}},
+               {"receivers", receiver_rows(run, own)},
+               {"grids", grid_rows},
                {"scene", scene},
                {"models", models},
-               {"warnings", page.warnings}};
+               {"warnings", page.warnings}});
   const uint64_t taken = form_bytes + scripts.size() + elements.size() + meta_text(meta).size();
   const uint64_t room = taken + least_frame_bytes < options.max_bytes ? options.max_bytes - taken : least_frame_bytes;
-  const FrameBlocks blocks = add_frame_blocks(run, {rows, options.max_paths, room}, centre, elements);
+  const FrameBlocks blocks =
+      add_frame_blocks(run, {rows, options.max_paths, room, own, std::move(missed.values)}, centre, elements);
   page.paths = blocks.shown_paths;
   warn_of_losses(blocks, page);
   meta["frames"] = blocks.frames;
   meta["gain_range_db"] = {blocks.lowest_db, blocks.highest_db};
   meta["highest_order"] = blocks.highest_order;
+  meta["kinds"] = kinds(world.config, blocks.interactions);
+  if (blocks.ends_m) meta["ends_m"] = box(*blocks.ends_m, centre);
   meta["links"] = blocks.shown_links;
   meta["paths"] = {blocks.shown_paths, blocks.paths};
   meta["warnings"] = page.warnings;

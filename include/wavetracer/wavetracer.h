@@ -75,11 +75,19 @@ typedef struct wavetracer_counts {
   uint64_t paths;      /* of these, visible and distinct: the rows of the columns */
 } wavetracer_counts;
 
+/* What the rays of a frame may have missed: docs/method.md, "What was missed". low to high: where the truth is in 95
+   cases of 100. All NaN where that is not known, as with a ray cache or reception by spheres. */
+typedef struct wavetracer_missed {
+  double paths, paths_low, paths_high;                   /* their number */
+  double power_share, power_share_low, power_share_high; /* their power against that which was found */
+} wavetracer_missed;
+
 /* 0 of null. */
 uint32_t wavetracer_frame_number(const wavetracer_frame* self);
 uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 where any receiver has two */
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
 wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 of null */
+wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self); /* all NaN of null */
 const char* wavetracer_frame_warnings(const wavetracer_frame* self);     /* as wavetracer_warnings; lives as the frame */
 
 /* Results are columns with the names of the datasets in paths.h5. */
@@ -118,6 +126,8 @@ typedef struct wavetracer_column {
      vertex_instance                                         uint32     the vehicle; 0xFFFFFFFF: the static scene
    One row a pair of ends between which paths were wanted:
      link                                                    uint32 x 2: tx, rx
+     missed_power_share                                      float64    of links.csv: power that was missed, estimated,
+                                                             against that which arrives; NaN where that is not known
    One row an end; NaN while it is absent:
      transmitter_position_m, receiver_position_m             float64 x 3, file coordinates
    Returns 1; 0 with an error of code USAGE where there is no such column. */

@@ -42,6 +42,7 @@ static void check_frame(const wavetracer_frame* frame) {
   CHECK(wavetracer_frame_number(frame) == 0);
   CHECK(wavetracer_frame_counts(frame).rays == 0); /* line of sight needs none */
   CHECK(wavetracer_frame_counts(frame).paths == 2);
+  CHECK(isnan(wavetracer_frame_missed(frame).power_share_high)); /* nothing was left to rays */
   CHECK(wavetracer_frame_rx_ports(frame) == 2);
   CHECK(wavetracer_frame_tx_ports(frame) == 1);
   CHECK(strcmp(wavetracer_frame_warnings(frame), "") == 0);
@@ -114,6 +115,7 @@ static void check_nulls(void) {
   CHECK(wavetracer_config_text(NULL) == NULL);
   CHECK(wavetracer_warnings(NULL) == NULL);
   CHECK(wavetracer_frame_counts(NULL).paths == 0);
+  CHECK(isnan(wavetracer_frame_missed(NULL).paths));
   CHECK(wavetracer_run_frame(NULL, 0, &error) == NULL);
   check_error(error, WAVETRACER_USAGE, "self is null");
   CHECK(wavetracer_write(NULL, "out", NULL, 0, &error) == 0);

@@ -3,7 +3,9 @@
 
 Usage: python_test.py FOLDER_OF_MODULE FOLDER. WAVETRACER_LIBRARY names the library. Exits with 77 without numpy.
 """
+import csv
 import gc
+import json
 import shutil
 import sys
 
@@ -57,7 +59,26 @@ def check_frame(simulation, frame):
         length = np.linalg.norm(np.diff(way, axis=0), axis=1).sum()
         assert abs(length / 299792458.0 - frame["delay_s"][i]) < 1e-15
     assert not frame["delay_s"].flags.writeable
+    # Rays have seen something of every link with a path, and nothing of one without.
+    shares = frame["missed_power_share"]
+    assert shares.shape == (len(frame["link"]),)
+    with_path = [np.any((frame["tx"] == tx) & (frame["rx"] == rx)) for tx, rx in frame["link"]]
+    assert any(with_path) and np.array_equal(np.isfinite(shares), with_path) and np.all(shares[with_path] >= 0)
     assert max(frame["rx"]) < len(simulation.receivers)
+
+
+def check_missed(folder, frames):
+    """What was missed is what the files say; of frames alone, as they do not add up by a plain sum."""
+    with open(folder + "/links.csv") as file:
+        written = [float(row["missed_power_share"]) for row in csv.DictReader(file)]
+    assert np.array_equal(written, np.concatenate([frame["missed_power_share"] for frame in frames]), equal_nan=True)
+    with open(folder + "/summary.json") as file:
+        summary = json.load(file)
+    if len(frames) > 1:
+        return
+    for what, bounds in frames[0].missed.items():
+        for bound, value in bounds.items():
+            assert abs(summary["missed"][what][bound] - value) <= 0.005 * value, (what, bound, value, summary["missed"])
 
 
 def check_files(folder, frames):
@@ -87,8 +108,16 @@ def main():
         raises(2, 'no column "delay"', lambda: frames[0]["delay"])
         simulation.write(folder, frames)
         check_files(folder, frames)
+        check_missed(folder, frames)
+        simulation.write(folder, frames[1:2])
+        check_missed(folder, frames[1:2])
         raises(2, "sorted", simulation.write, folder, frames[::-1])
     raises(2, "self is null", simulation.run_frame, 0)
+    # A sphere catches no exact paths: nothing is known of what it missed.
+    with wavetracer.Simulation(DRIVE, sets=['trace.reception="sphere"']) as simulation:
+        assert (unknown := simulation.run_frame(0)).missed is None
+        assert np.all(np.isnan(unknown["missed_power_share"])) and len(unknown["missed_power_share"]) > 0
+    del unknown
     # A view outlives its frame, and the frame its simulation.
     delay, copy = frames[0]["delay_s"], frames[0]["delay_s"].copy()
     del frames, frame, simulation

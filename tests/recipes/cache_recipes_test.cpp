@@ -13,6 +13,7 @@
 #include "recipes/figures_tables.hpp"
 #include "recipes/recipe.hpp"
 #include "recipes/run.hpp"
+#include "recipes/squeezed.hpp"
 #include "recipes/made_cache_rows.hpp"
 #include "wavetracer/error.hpp"
 
@@ -38,9 +39,9 @@ Config config_of(const std::string& figure, const std::string& setting, uint64_t
   throw std::logic_error(figure + " has no setting " + setting);
 }
 
-std::string paragraph(const std::string& figure, const std::vector<uint64_t>& rays, const CacheCost& cost) {
+std::string words_of(const std::string& figure, const std::vector<uint64_t>& rays, const CacheCost& cost) {
   const Recipe& recipe = find_recipe(figure);
-  return show(recipe, made_measurement(*recipe.study, rays, cost), {}).paragraph;
+  return squeezed(words_text(show(recipe, made_measurement(*recipe.study, rays, cost), {}).words));
 }
 
 }  // namespace
@@ -223,6 +224,7 @@ TEST_CASE("phrases") {
   CHECK(saved_words(0.4) == "the same time");
   CHECK(share_words(0) == "none");
   CHECK(share_words(0.00031) == "0.031%");
+  CHECK(share_words(2.3e-8) == "less than 0.001%");
   CHECK(share_words(0.996) == "100%");
   const std::vector<uint64_t> rays = {1000, 2000, 4000};
   CHECK(where_words(rays, [](uint64_t n) { return n > 1000; }) == "at 2,000 and 4,000 rays");
@@ -235,27 +237,28 @@ TEST_CASE("figure-6.5: no gain outside of the window and one inside is what the 
     const bool inside = rays >= 2560000 && rays <= 10240000;
     return std::pair{setting.starts_with("chained") && !inside ? 1.25 : setting == "chained mixed" ? 0.8 : 1.0, 0.0};
   };
-  const std::string claimed = paragraph("figure-6.5", {1000, 4096000, 20480000}, as_claimed);
+  const std::string claimed = words_of("figure-6.5", {1000, 4096000, 20480000}, as_claimed);
   CAPTURE(claimed);
-  CHECK(contains(claimed, "one of them saves time at 4,096,000 rays. No gain outside of that window: confirmed; a gain "
-                          "inside: confirmed. At 20,480,000 rays: "));
-  const std::string never = paragraph("figure-6.5", {1000, 4096000},
+  CHECK(contains(claimed, "one of them saves time at 4,096,000 rays."));
+  CHECK(contains(claimed, "| no gain below 2,560,000 and beyond 10,240,000 rays | confirmed |\n| a gain from 2,560,000 to 10,240,000 rays | confirmed |"));
+  CHECK(contains(claimed, "At 20,480,000 rays, against the same rays without a cache:"));
+  const std::string never = words_of("figure-6.5", {1000, 4096000},
                                       [](const std::string&, uint64_t) { return std::pair{1.0, 0.0}; });
-  CHECK(contains(never, "outside of that window: confirmed; a gain inside: not confirmed"));
-  const std::string few = paragraph("figure-6.5", {1000, 2000}, [](const std::string& setting, uint64_t) {
+  CHECK(contains(never, "below 2,560,000 and beyond 10,240,000 rays | confirmed |\n| a gain from 2,560,000 to 10,240,000 rays | not confirmed |"));
+  const std::string few = words_of("figure-6.5", {1000, 2000}, [](const std::string& setting, uint64_t) {
     return std::pair{setting == "chained uniform" ? 0.5 : 1.0, 0.0};
   });
-  CHECK(contains(few, "outside of that window: not confirmed; a gain inside: not measured"));
-  CHECK(contains(few, "\"chained uniform\" 50% less time"));
+  CHECK(contains(few, "below 2,560,000 and beyond 10,240,000 rays | not confirmed |\n| a gain from 2,560,000 to 10,240,000 rays | not measured |"));
+  CHECK(contains(few, "| chained uniform | 50% less time |"));
 }
 
 TEST_CASE("figure-6.8: verdicts beyond 50,000 rays only") {
   const auto late = [](const std::string& setting, uint64_t rays) {
     return std::pair{rays > 50000 && setting == "readers mixed" ? 0.9 : 1.0, 0.0};
   };
-  const std::string text = paragraph("figure-6.8", {1000, 64000, 128000}, late);
-  CHECK(contains(text, "A gain beyond 50,000 rays: confirmed; the mixed hash the fastest there: confirmed"));
-  CHECK(contains(paragraph("figure-6.8", {1000}, late), "A gain beyond 50,000 rays: not measured"));
+  const std::string text = words_of("figure-6.8", {1000, 64000, 128000}, late);
+  CHECK(contains(text, "| a gain beyond 50,000 rays | confirmed |\n| the mixed hash is the fastest beyond 50,000 rays | confirmed |"));
+  CHECK(contains(words_of("figure-6.8", {1000}, late), "| a gain beyond 50,000 rays | not measured |"));
 }
 
 TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and of the mean path") {
@@ -264,16 +267,17 @@ TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and
     if (setting == "precision 0.093 mixed") return std::pair{1.0, 5.0};
     return std::pair{1.0, 0.0};
   };
-  const std::string times = paragraph("figure-6.11", {1000, 5000}, cost),
-                    errors = paragraph("figure-6.12", {1000, 5000}, cost);
-  CHECK(contains(times, "fixed transmitter: the claimed 10% by position is reached at 1,000 rays, the claimed 17% by "
-                        "precision at none of the numbers of rays"));
-  CHECK(contains(times, "\"position mixed\" 5.0% less time"));
-  CHECK(contains(errors, "the error by position at most 2 m at 5,000 rays, that by precision 0.093 at most 7 m at "
-                         "every number of rays and greater than that by position at 5,000 rays"));
-  CHECK(contains(errors, "loses 10% of the paths with 0.1% (-30.0 dB) of the power"));
-  CHECK(contains(errors, "5 m (L2, 5% of the mean path"));
-  CHECK(contains(errors, "the very same paths as without a cache: \"precision 0.0125 mixed\", \"concurrent\", "));
+  const std::string times = words_of("figure-6.11", {1000, 5000}, cost),
+                    errors = words_of("figure-6.12", {1000, 5000}, cost);
+  CHECK(contains(times, "| 10% less time if purged by position | fixed transmitter: at 1,000 rays; "));
+  CHECK(contains(times, "| 17% less time if purged by precision | fixed transmitter: at none of the numbers of rays; "));
+  CHECK(contains(times, "| fixed transmitter | position mixed | 5.0% less time |"));
+  CHECK(contains(errors, "| off by 2 m at most if purged by position | fixed transmitter: at 5,000 rays; "));
+  CHECK(contains(errors, "| off by 7 m at most by precision 0.093 | fixed transmitter: at every number of rays; "));
+  CHECK(contains(errors, "| off farther by precision than by position | fixed transmitter: at 5,000 rays; "));
+  CHECK(contains(errors, "| 10% | 0.10% (-30.0 dB) | "));
+  CHECK(contains(errors, "| 5.0 m |"));
+  CHECK(contains(errors, "| none | none | none | undefined | right |\n"));
 }
 
 TEST_CASE("figure-6.4: classes of hits, unused entries, entries that never answer") {
@@ -282,9 +286,10 @@ TEST_CASE("figure-6.4: classes of hits, unused entries, entries that never answe
   const Findings found = show(recipe, made_measurement(*recipe.study, {50000}, same), {});
   CHECK(found.table.starts_with("drive,setting,hits_from,hits_to,entries\nstill,chained uniform counted,0,0,100\n"));
   CHECK(contains(found.table, "chained mixed counted,3,4,400\n"));
-  CHECK(contains(found.paragraph,
-                 "\"chained Morton\": 1,000 of 50,000 entries hold a segment, 100 of these never answered"));
-  CHECK(contains(found.paragraph, "Entries left unused: confirmed; entries that never answer: confirmed"));
+  const std::string text = squeezed(words_text(found.words));
+  CHECK(contains(text, "| setting | all | that hold a segment | of these, that never answered |"));
+  CHECK(contains(text, "| chained Morton | 50,000 | 1,000 | 100 |"));
+  CHECK(contains(text, "| some entries are left unused | confirmed |\n| some entries never answer | confirmed |"));
 }
 
 TEST_CASE("all figures of caching: a script with a line a setting, whose columns are in the table") {
@@ -296,7 +301,9 @@ TEST_CASE("all figures of caching: a script with a line a setting, whose columns
                                       [](const std::string&, uint64_t) { return std::pair{1.0, 0.5}; }),
              {});
     CHECK(contains(found.script, "'" + recipe.name + ".csv' using"));
-    CHECK(contains(found.paragraph, "the device"));
+    CHECK(contains(found.words.paragraph, "the device"));
+    REQUIRE_FALSE(found.words.numbers.rows.empty());
+    for (const auto& row : found.words.numbers.rows) CHECK(row.size() == found.words.numbers.heads.size());
     CHECK(found.table.find(',') != std::string::npos);
     CHECK_FALSE(found.caption.empty());
   }

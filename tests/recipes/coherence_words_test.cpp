@@ -6,6 +6,7 @@
 #include "recipes/coherence_rays.hpp"
 #include "recipes/depth_plot.hpp"
 #include "recipes/run.hpp"
+#include "recipes/squeezed.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -72,17 +73,21 @@ TEST_CASE("coherence-frames: means of subsequent frames, the last frame with the
       frame_pair("first", 2, 1, 0.61, 0.5, 0.4),    frame_pair("first", 2, 2, report::undefined, 0.1, 0.4),
       frame_pair("previous", 2, 1, 0.7, 0.3, 0.72), frame_pair("previous", 2, 2, 0.26, report::undefined, 0.8)};
   const Drive drive{.start_m = {0, 0, 0}, .velocity_m_s = {10, 0, 0}};
-  const std::string text = frame_pairs_paragraph(rows, drive, "the device");
+  const std::string text = squeezed(words_text(frame_pairs_words(rows, drive, "the device")));
   CAPTURE(text);
   CHECK(contains(text, "Measured on the device, 49,000 rays of a transmitter that drives 0.2 m"));
-  CHECK(contains(text, "at depths 1 to 2: subsequent frames, 0.100 m apart, correlate by 0.80 and 0.23 on average"));
-  CHECK(contains(text, "the last frame with the first by 0.61 and undefined"));
-  CHECK(contains(text, "Paired by their place among the hits, subsequent frames correlate by 0.40 and 0.10"));
-  CHECK(contains(text, "exceeded at depth 1 if paired by ray and bounce, and at depth 1 if paired by place"));
-  CHECK(contains(text,
-                 "a share of 0.76 and 0.80 hit in both; of these, 0.38 and 0.40 hit the same surface and 0.19 and "
-                 "0.20 have met"));
-  CHECK(contains(text, "these shares are 0.40 and 0.40; 0.20 and 0.20; and 0.10 and 0.10: "));
+  CHECK(contains(text, "subsequent ones are 0.100 m apart"));
+  CHECK(contains(text, "| depth 1 | depth 2 |\n"));
+  CHECK(contains(text, "| subsequent frames, points paired by ray and bounce | 0.80 | 0.23 |"));
+  CHECK(contains(text, "| last frame with the first, points paired by ray and bounce | 0.61 | undefined |"));
+  CHECK(contains(text, "| subsequent frames, points paired by place | 0.40 | 0.10 |"));
+  CHECK(contains(text, "| at depth 1 if paired by ray and bounce, at depth 1 if paired by place |"));
+  CHECK(contains(text, "| subsequent frames: rays that hit in both of those that hit in one | 0.76 | 0.80 |"));
+  CHECK(contains(text, "| subsequent frames: of these, on the same surface | 0.38 | 0.40 |"));
+  CHECK(contains(text, "| subsequent frames: of these, after the same surfaces | 0.19 | 0.20 |"));
+  CHECK(contains(text, "| last frame and first: rays that hit in both of those that hit in one | 0.40 | 0.40 |"));
+  CHECK(contains(text, "| last frame and first: of these, on the same surface | 0.20 | 0.20 |"));
+  CHECK(contains(text, "| last frame and first: of these, after the same surfaces | 0.10 | 0.10 |"));
   CHECK(contains(text, "0.02 s old"));
   const std::string table = encode_frame_pairs(rows, drive);
   CHECK(table.starts_with("against,frame,time_s,moved_m,depth,"));
@@ -116,14 +121,16 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
                                     lag("fibonacci", 1, 1, -0.4, 0.5), lag("fibonacci", 1, 2, 0.93, 0.8),
                                     lag("fibonacci", 2, 1, -0.3, 0.1), lag("fibonacci", 2, 2, 0.95, 0.1),
                                     lag("random", 1, 1, -0.001, 0.3),   lag("random", 2, 1, 0.02, 0.2)};
-  const std::string text = lags_paragraph(rows, "the device");
+  const std::string text = squeezed(words_text(lags_words(rows, "the device")));
   CAPTURE(text);
-  CHECK(contains(text, "correlate by 0.90 and 0.80 in hilbert order, -0.40 and -0.30 in fibonacci order and 0.00 and "
-                       "0.02 in random order"));
-  CHECK(contains(text, "falls below a half at lags of 2 and none measured"));
-  CHECK(contains(text, "first hits correlating most, by 0.93 at lag 2"));
-  CHECK(contains(text, "0.95 and 0.70 (hilbert), 0.50 and 0.10 (fibonacci) and 0.30 and 0.20 (random)"));
-  CHECK(contains(text, "the wrong surface in a share of 0.05 and 0.30"));
+  CHECK(contains(text, "| hit points correlate, hilbert | 0.90 | 0.80 |\n| hit points correlate, fibonacci | -0.40 | "
+                       "-0.30 |\n| hit points correlate, random | 0.00 | 0.02 |"));
+  CHECK(contains(text, "| lag at which that falls below a half, hilbert | 2 | none measured |"));
+  CHECK(contains(text, "first hits correlate most, by 0.93 at lag 2"));
+  CHECK(contains(text, "surface, hilbert | 0.95 | 0.70 |"));
+  CHECK(contains(text, "surface, fibonacci | 0.50 | 0.10 |"));
+  CHECK(contains(text, "surface, random | 0.30 | 0.20 |"));
+  CHECK(contains(text, "| the wrong surface, hilbert | 0.05 | 0.30 |"));
   CHECK(contains(encode_lags(rows), "\nhilbert,1,2,0,0.4,nan,0.9,nan\n"));
 }
 

@@ -48,7 +48,7 @@ ThesisPage page() {
   out.svg = inline_svg(drawing, "thesis-");
   for (const Recipe* recipe : thesis_recipes()) {
     ThesisFigure figure{.name = recipe->name, .title = recipe->title};
-    figure.paragraph = "a < b & c";
+    figure.words = {"a < b & c", {{"a > b", "not <confirmed>"}}, {"Numbers:", {"x"}, {{"1 & 2"}}}};
     figure.svg = inline_svg(drawing, recipe->name + "-");
     figure.notes = {"a note"};
     out.figures.push_back(figure);
@@ -83,6 +83,31 @@ TEST_CASE("the page is well formed, names every figure, and refers to nothing ou
   std::sort(ids.begin(), ids.end());
   CHECK(std::adjacent_find(ids.begin(), ids.end()) == ids.end());
   CHECK(contains(html, "href='#figure-6.5-gpPt0'"));
+}
+
+TEST_CASE("the page begins with a table of all verdicts, whose links lead to sections") {
+  ThesisPage made = page();
+  made.figures[4].words.verdicts.clear();
+  made.figures[5] = {.name = "figure-6.6", .title = "Operations", .words = {}, .problem = "failed: no memory"};
+  const std::string html = thesis_html(made);
+  const size_t begin = html.find("<section id=\"verdicts\">"), end = html.find("</section>", begin);
+  REQUIRE(begin < html.find("<section id=\"speed-error\">"));
+  const std::string table = html.substr(begin, end - begin);
+  for (const ThesisFigure& figure : made.figures)
+    CHECK(contains(table, "<td><a href=\"#" + figure.name + "\">" + figure.name + "</a></td>"));
+  CHECK(contains(table, "<td>a &gt; b</td><td>not &lt;confirmed&gt;</td>"));
+  CHECK(contains(table, "#figure-6.5\">figure-6.5</a></td><td>" + escaped(made.figures[4].title) +
+                            "</td><td>no claim to judge"));
+  CHECK(contains(table, "<td>Operations</td><td>failed: no memory</td>"));
+  // Every link leads to a section, and numbers are a table in theirs.
+  static const std::regex link(R"re(<a href="#([^"]+)")re");
+  size_t links = 0;
+  for (std::sregex_iterator at(html.begin(), html.end(), link), none; at != none; ++at, ++links)
+    CHECK(contains(html, "<section id=\"" + (*at)[1].str() + "\">"));
+  CHECK(links >= 2 * made.figures.size() + 1);
+  CHECK(contains(html, "<thead><tr><th>x</th></tr></thead>\n<tbody>\n<tr><td>1 &amp; 2</td></tr>"));
+  // No number has an exponent.
+  CHECK_FALSE(std::regex_search(html, std::regex(R"([0-9]e[-+][0-9])")));
 }
 
 TEST_CASE("the table has the most rays of every cache") {

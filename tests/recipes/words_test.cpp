@@ -2,13 +2,17 @@
 // Factors are chosen so that what is reached, and in which order, can be said by hand.
 #include "recipes/words.hpp"
 #include <doctest/doctest.h>
+#include <cmath>
 #include "recipes/rows.hpp"
+#include "recipes/squeezed.hpp"
 
 using namespace wavetracer::recipes;
 
 namespace {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string text_of(const Words& words) { return squeezed(words_text(words)); }
 
 // A million times the seconds: WS 300 whatever its shape, born ordered 60, the others by the factors given; the
 // sort 25.
@@ -26,49 +30,67 @@ Cost costs(double h3dh, double z) {
 TEST_CASE("figure-6.1: claims reached and the expected ranks") {
   const Recipe& recipe = find_recipe("figure-6.1");
   const auto rows = made_rows(recipe, {1000, 49000, 1000000}, costs(3, 2));
-  const std::string text = recipe.paragraph(rows, "the device");
+  const std::string text = text_of(recipe.words(rows, "the device"));
   CAPTURE(text);
   // 300 / 100 = 3; 300 / 125 = 2.4
+  CHECK(contains(text, "| order | 1,000 rays | 49,000 rays | 1,000,000 rays |"));
+  CHECK(contains(text, "| H3DH | 3.00 (2.40) | 3.00 (2.40) | 3.00 (2.40) |"));
   CHECK(contains(text,
-                 "Measured on the device, H3DH is at 1,000 rays 3.00 times as fast as WS (67% less time) with the "
-                 "sort not paid and 2.40 times (58% less time) with it paid; at 49,000 rays 3.00 times"));
-  CHECK(contains(text, "The claimed 23% at 1,000 rays: reached with the sort not paid, reached with it paid"));
-  CHECK(contains(text, "factor of 2.5 at 49,000 rays: reached with the sort not paid, not reached with it paid"));
+                 "| H3DH takes 23% less time than WS at 1,000 rays | reached with the sort not paid, reached with it "
+                 "paid |"));
   CHECK(contains(text,
-                 "Speed against WS at 1,000,000 rays, the fastest first, the sort not paid: born ordered 5.00, "
-                 "H3DH 3.00, HZ 2.97, "));
-  CHECK(contains(text, "H3DH and HZ the fastest of the six there: yes with the sort not paid, yes with it paid"));
-  CHECK(contains(text, "WS the slowest: yes with the sort not paid, yes with it paid"));
-  CHECK(contains(text, "over the same order in one is a factor of 1.25"));  // WS in three dimensions: 300 / 240
+                 "| H3DH is 2.5 times as fast as WS at 49,000 rays | reached with the sort not paid, not reached with "
+                 "it paid |"));
+  // The fastest first, those without a sort without brackets.
+  const size_t born = text.find("| born ordered | 5.00 | 5.00 | 5.00 |\n"), h3dh = text.find("| H3DH | 3.00"),
+               hz = text.find("| HZ | 2.97");
+  CHECK(born < h3dh);
+  CHECK(h3dh < hz);
+  CHECK(hz != std::string::npos);
   CHECK(contains(text,
-                 "Rays born in order, which need no sort, are at 1,000 rays 5.00 times as fast as WS (80% less "
-                 "time); at 49,000 rays 5.00 times"));
+                 "| H3DH and HZ are the fastest of the six orders, at 1,000,000 rays | yes with the sort not paid, yes "
+                 "with it paid |"));
+  CHECK(contains(text, "| WS is the slowest, at 1,000,000 rays | yes with the sort not paid, yes with it paid |"));
+  CHECK(contains(text, "| a factor of 1.25 at most |"));  // WS in three dimensions: 300 / 240
 }
 
 TEST_CASE("figure-6.1: claims not reached, other ranks, counts not measured") {
   const Recipe& recipe = find_recipe("figure-6.1");
   const auto rows = made_rows(recipe, {1000, 2000}, costs(1.01, 1.2));
-  const std::string text = recipe.paragraph(rows, "the device");
+  const std::string text = text_of(recipe.words(rows, "the device"));
   CAPTURE(text);
   // 300 / (300 / 1.01 + 25) = 0.9316
-  CHECK(contains(text,
-                 "at 1,000 rays 1.01 times as fast as WS (1% less time) with the sort not paid and 0.93 times (7% "
-                 "more time) with it paid; at 2,000 rays"));
-  CHECK(contains(text, "23% at 1,000 rays: not reached with the sort not paid, not reached with it paid"));
-  CHECK(contains(text, "factor of 2.5 at 49,000 rays: not measured"));
-  CHECK(contains(text, "H3DH and HZ the fastest of the six there: no with the sort not paid, no with it paid"));
-  CHECK(contains(text, "WS the slowest: no with the sort not paid, no with it paid"));  // H3DH2DH: factor 0.909
+  CHECK(contains(text, "| order | 1,000 rays | 2,000 rays |\n"));
+  CHECK(contains(text, "| H3DH | 1.01 (0.93) | 1.01 (0.93) |"));
+  CHECK(contains(text, "at 1,000 rays | not reached with the sort not paid, not reached with it paid |"));
+  CHECK(contains(text, "| H3DH is 2.5 times as fast as WS at 49,000 rays | not measured |"));
+  CHECK(contains(text, "six orders, at 2,000 rays | no with the sort not paid, no with it paid |"));
+  CHECK(contains(text, "| WS is the slowest, at 2,000 rays | no with the sort not paid, no with it paid |"));
 }
 
 TEST_CASE("figure-6.18: averages over frames") {
   const Recipe& recipe = find_recipe("figure-6.18");
-  const std::string text = recipe.paragraph(made_rows(recipe, {49000}, costs(2.5, 1)), "the device");
+  const std::string text = text_of(recipe.words(made_rows(recipe, {49000}, costs(2.5, 1)), "the device"));
   CAPTURE(text);
-  CHECK(contains(text,
-                 "Measured on the device, averaged over 20 frames of a moving transmitter, H3DH is at 49,000 rays "
-                 "2.50 times as fast as WS (60% less time) with the sort not paid and 2.07 times (52% less time)"));
-  CHECK(contains(text, "factor of 2.5 at 49,000 rays: reached with the sort not paid, not reached with it paid"));
-  CHECK(contains(text, "The claimed 23% at 1,000 rays: not measured"));
+  CHECK(contains(text, "Measured on the device, averaged over 20 frames of a moving transmitter."));
+  CHECK(contains(text, "| H3DH | 2.50 (2.07) |"));
+  CHECK(contains(text, "at 49,000 rays | reached with the sort not paid, not reached with it paid |"));
+  CHECK(contains(text, "| H3DH takes 23% less time than WS at 1,000 rays | not measured |"));
+}
+
+TEST_CASE("numbers have no exponents, tables are aligned") {
+  CHECK(plain(0) == "0");
+  CHECK(plain(2.3e-6) == "less than 0.001");
+  CHECK(plain(-2.3e-6) == "-0.001 to 0");
+  CHECK(plain(0.0123456) == "0.0123");
+  CHECK(plain(1.23456) == "1.23");
+  CHECK(plain(123456.7) == "123457");
+  CHECK(plain(12.3456, 2) == "12");
+  CHECK(plain(std::nan("")) == "undefined");
+  CHECK(plain(INFINITY) == "infinite");
+  CHECK(markdown({"Numbers:", {"a", "b"}, {{"long cell", "1"}, {"x|y", "22"}}}) ==
+        "Numbers:\n\n| a         | b   |\n| --------- | --- |\n| long cell | 1   |\n| x\\|y      | 22  |");
+  CHECK(words_text({"A sentence.", {}, {}}) == "A sentence.");
 }
 
 TEST_CASE("a row that is not there is not found") {
@@ -85,7 +107,7 @@ TEST_CASE("the reason: what the device takes for a few rays already") {
     const auto rows = made_rows(recipe, {1000, 49000}, [&](const Series&, uint64_t rays) {
       return std::pair{rays == 1000 ? few : many, 0.0};
     });
-    return recipe.paragraph(rows, "the device");
+    return text_of(recipe.words(rows, "the device"));
   };
   CHECK(contains(with(220e-6, 245e-6), "WS takes 90% of its time at 49,000 rays at 1,000 already, which is what"));
   CHECK(contains(with(30e-6, 300e-6), "WS takes 10% of its time at 49,000 rays at 1,000 already, so most"));

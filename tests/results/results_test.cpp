@@ -1,6 +1,7 @@
 // What write_outputs() writes, SavedRun reads; what is damaged is refused with words, never trusted.
 // Files are damaged through the HDF5 library, so that they are well formed but for the one thing.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <unistd.h>
 #include <cmath>
 #include <csignal>
@@ -8,6 +9,9 @@
 #include <memory>
 #include "output/hdf5.hpp"
 #include "output/sample_run.hpp"
+#include "radio/links.hpp"
+#include "results/csv_column.hpp"
+#include "results/missed_shares.hpp"
 #include "results/saved_run.hpp"
 #include "results/saved_world.hpp"
 #include "temporary_folder.hpp"
@@ -195,4 +199,74 @@ TEST_CASE("a world that cannot be loaded again leaves a warning and room for eve
   CHECK(world.scene.triangles.empty());
   CHECK(world.warnings.size() == 1);
   CHECK(world.instance_model == std::vector<uint32_t>(2, no_instance));
+}
+
+TEST_CASE("a column of a CSV file by RFC 4180, in pieces of any size") {
+  const std::string text =
+      "name,\"a, \"\"b\"\"\",value\r\n\"x,\ny\",1,2.5\r\nz,,\nshort\n\"q\"\"q\",1,-inf\nlast,7,nan";
+  const auto column = [&](const std::string& name, size_t piece) -> std::optional<std::vector<double>> {
+    CsvColumn out(name);
+    for (size_t at = 0; at < text.size(); at += piece) out.read(std::string_view(text).substr(at, piece));
+    if (!out.finish()) return {};
+    return out.values();
+  };
+  for (const size_t piece : {1, 2, 7, 1000}) {
+    const auto values = column("value", piece);
+    REQUIRE(values);
+    REQUIRE(values->size() == 5);
+    CHECK((*values)[0] == 2.5);
+    CHECK(std::isnan((*values)[1]));
+    CHECK(std::isnan((*values)[2]));
+    CHECK((*values)[3] == -INFINITY);
+    CHECK(std::isnan((*values)[4]));
+    CHECK_FALSE(column("values", piece));
+    CHECK(column("name", piece)->size() == 5);
+  }
+  CsvColumn empty("value");
+  CHECK_FALSE(empty.finish());
+}
+
+TEST_CASE("what was missed is read from summary.json and links.csv, where they are of the run") {
+  const test::TemporaryFolder folder;
+  const SampleRun sample;
+  std::vector<FrameResult> frames = sample.drive(0, 6);
+  for (FrameResult& frame : frames) {
+    for (size_t i = 0; i < frame.paths.size(); ++i) frame.paths.quarters.push_back(i % 2 ? 15 : 1);
+    frame.missed = missed_counts(frame.paths, 0, frame.paths.size());
+  }
+  write_outputs(folder.path(), sample.run(), frames);
+  const SavedRun run(folder.path());
+  MissedCounts sum;
+  for (const FrameResult& frame : frames) add(sum, frame.missed);
+  const Missed expected = estimate_missed(sum);
+  REQUIRE(run.missed());
+  CHECK(run.missed()->paths.estimate == doctest::Approx(expected.paths.estimate).epsilon(0.005));
+  CHECK(run.missed()->power_share.high == doctest::Approx(expected.power_share.high).epsilon(0.005));
+
+  std::vector<double> shares;
+  for (const FrameResult& frame : frames)
+    for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
+      shares.push_back(link.missed_power_share);
+  const MissedShares read = missed_shares(run);
+  CHECK(read.warning == "");
+  REQUIRE(read.values.size() == shares.size());
+  size_t known = 0;
+  for (size_t k = 0; k < shares.size(); ++k) {
+    CHECK((read.values[k] == shares[k] || (std::isnan(read.values[k]) && std::isnan(shares[k]))));
+    known += read.values[k] > 0;
+  }
+  CHECK(known > 3);
+
+  std::ofstream(folder.path() / "links.csv", std::ios::app) << "0,a,b,1,-80,0,0,0,1,0.5\n";
+  CHECK(missed_shares(run).values.empty());
+  CHECK(missed_shares(run).warning.find(
+            fmt::format("has {} links and paths.h5 has {}", shares.size() + 1, shares.size())) != std::string::npos);
+  std::ofstream(folder.path() / "links.csv") << "time_s,tx,rx\n0,a,b\n";  // of an older version
+  CHECK(missed_shares(run).values.empty());
+  CHECK(missed_shares(run).warning == "");
+  fs::remove(folder.path() / "links.csv");
+  fs::create_directory(folder.path() / "links.csv");
+  CHECK(missed_shares(run).warning.find("what was missed on links is not shown") != std::string::npos);
+  std::ofstream(folder.path() / "summary.json") << "{\"device\": 1, \"missed\": {\"paths\": {\"estimate\": \"x\"}}}";
+  CHECK_FALSE(SavedRun(folder.path()).missed());
 }

@@ -50,7 +50,13 @@ class Page:
         self.scheme("dark" if dark else "light")
         self.file = h5py.File(os.path.join(folder, run, "paths.h5"))
         self.driver.get("file://" + os.path.abspath(os.path.join(folder, run, "view.html")))
-        WebDriverWait(self.driver, 60).until(lambda d: d.execute_script("return !!window.wavetracer"))
+        WebDriverWait(self.driver, 60).until(lambda d: d.execute_script("return !!window.wavetracer") or self.failed())
+
+    def failed(self):
+        """False, unless the page has failed before it was ready: then there is nothing to wait for."""
+        log = [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+        assert not log, log
+        return False
 
     def scheme(self, name):
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {

@@ -54,6 +54,19 @@ void add_path(Paths& paths, uint32_t frame, const Link& link, const EndState& fr
   paths.aoa_phi_rad.push_back(std::atan2(in.y, in.x));
   paths.doppler_hz.push_back(10.0 * k - 7.25);
   paths.vertex_offset.push_back(paths.vertex_position_m.size());
+  paths.quarters.push_back(k % 2 ? 1 : 15);
+}
+
+// Of all the paths of a frame.
+void add_counts(FrameResult& frame) {
+  frame.counts.paths = frame.paths.size();
+  frame.missed = missed_counts(frame.paths, 0, frame.paths.size());
+}
+
+RunSummary made_summary() {
+  RunSummary summary;
+  summary.device = {"a platform", "a processor", "1", "OpenCL C 1.2", false};
+  return summary;
 }
 
 }  // namespace
@@ -100,11 +113,36 @@ void write_made_run(const MadeRun& made, const std::filesystem::path& folder) {
     for (const Link& link : world.links)
       for (uint32_t k = 0; k < made.paths_a_link; ++k)
         add_path(frame.paths, f, link, world.transmitters[link.tx], world.receivers[link.rx], k);
-    frame.counts.paths = frame.paths.size();
+    add_counts(frame);
   }
-  RunSummary summary;
-  summary.device = {"a platform", "a processor", "1", "OpenCL C 1.2", false};
-  write_outputs(folder, {config, scene, instances, models, summary}, frames);
+  write_outputs(folder, {config, scene, instances, models, made_summary()}, frames);
+}
+
+void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder) {
+  Config config;
+  config.radio.frequency_hz = frequency_hz;
+  config.text = "[scene]\ngenerate = \"--seed 1 --blocks 6x6\"\n[[transmitter]]\nname = \"east\"\n";
+  config.transmitters = {{.name = "east", .position_m = {0.5 * columns, 8, 6}},
+                         {.name = "west", .position_m = {-0.5 * columns, 8, 6}}};
+  config.receivers = {{.name = "car", .position_m = {20, 8, 1.5}}};
+  for (uint32_t iy = 0; iy < rows; ++iy)
+    for (uint32_t ix = 0; ix < columns; ++ix)
+      config.receivers.push_back({.name = fmt::format("map/{},{}", ix, iy),
+                                  .position_m = {ix - 0.5 * columns + 0.5, iy - 0.5 * rows + 0.5, 1.5}});
+  FrameResult frame;
+  for (auto [ends, states] : {std::pair{&config.transmitters, &frame.world.transmitters},
+                              std::pair{&config.receivers, &frame.world.receivers}})
+    for (const RadioEnd& end : *ends)
+      states->push_back({.position_m = {end.position_m[0], end.position_m[1], end.position_m[2]}});
+  for (uint32_t tx = 0; tx < 2; ++tx)
+    for (uint32_t rx = 0; rx <= columns * rows; ++rx) {
+      frame.world.links.push_back({tx, rx});
+      const uint32_t ix = rx == 0 ? 0 : (rx - 1) % columns;
+      for (uint32_t k = ix % 3; k < 2; ++k)
+        add_path(frame.paths, 0, {tx, rx}, frame.world.transmitters[tx], frame.world.receivers[rx], k);
+    }
+  add_counts(frame);
+  write_outputs(folder, {config, {}, {}, {}, made_summary()}, std::span(&frame, 1));
 }
 
 }  // namespace wavetracer::test

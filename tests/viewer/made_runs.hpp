@@ -15,4 +15,8 @@ struct MadeRun {
 // Writes paths.h5 and the rest into the folder. One road-side unit sends, every vehicle sends and receives.
 void write_made_run(const MadeRun& made, const std::filesystem::path& folder);
 
+// One frame of two transmitters, a receiver "car" and a grid "map" of cells of 1 m around the origin, 1.5 m high. Cells
+// of columns 0, 3, 6 ... have a direct and a reflected path, those of 1, 4, 7 ... a reflected one, the others none.
+void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder);
+
 }  // namespace wavetracer::test

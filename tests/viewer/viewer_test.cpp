@@ -6,8 +6,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include "output/sample_run.hpp"
+#include "plots/figure.hpp"
+#include "radio/links.hpp"
+#include "results/missed_shares.hpp"
 #include "scene/file.hpp"
 #include "viewer/blocks.hpp"
+#include "viewer/grid_maps.hpp"
+#include "viewer/link_rows.hpp"
 #include "viewer/made_runs.hpp"
 #include "viewer/page_files.hpp"
 #include "viewer/strongest.hpp"
@@ -117,6 +122,80 @@ TEST_CASE("a drive in a city") {
     CHECK_THROWS_WITH_AS(make_view(SavedRun(folder / "drive"), {.first_frame = 40, .last_frame = 50}),
                          doctest::Contains("its frames are 0 to 10"), ConfigError);
   }
+}
+
+TEST_CASE("a map of receivers is one, and what it shows is what its paths say") {
+  test::write_made_coverage(300, 300, folder / "coverage");
+  const SavedRun run(folder / "coverage");
+  const std::vector<GridMap> grids = find_grids(run.receivers());
+  REQUIRE(grids.size() == 1);
+  CHECK(grids[0].name == "map");
+  CHECK(grids[0].first == 1);
+  CHECK(grids[0].columns == 300);
+  CHECK(grids[0].rows == 300);
+  const ViewPage page = write_page("coverage");
+  const nlohmann::json meta = meta_of(page);
+  CHECK(meta["receivers"].size() == 1);
+  CHECK(meta["grids"][0]["first_m"][1].get<double>() + meta["centre_m"][1].get<double>() == doctest::Approx(-149.5));
+  CHECK(meta["grids"][0]["step_m"] == nlohmann::json{1, 1});
+  CHECK(meta["links"] == 2 * 90001);
+  CHECK(page.html.size() < 40e6);
+}
+
+TEST_CASE("page and plots have one scale of colours") {
+  const auto colours = [](std::string_view text) {
+    std::vector<std::string> out;
+    for (size_t at = 0; (at = text.find('#', at)) != std::string_view::npos; ++at) out.emplace_back(text.substr(at, 7));
+    return out;
+  };
+  const std::string_view page = page_file("palette.js"), begin = "const viridis = [";
+  const size_t from = page.find(begin);
+  REQUIRE(from != std::string_view::npos);
+  CHECK(colours(page.substr(from, page.find(']', from) - from)) == colours(plots::palette()));
+  CHECK(colours(plots::palette()).size() == 10);
+}
+
+TEST_CASE("what is no whole grid is none") {
+  const auto grids = [](std::initializer_list<const char*> names) {
+    std::vector<RadioEnd> ends;
+    for (const char* name : names) ends.push_back({.name = name});
+    std::string out;
+    for (const GridMap& grid : find_grids(ends))
+      out += fmt::format("{} {} {}x{};", grid.name, grid.first, grid.columns, grid.rows);
+    return out;
+  };
+  CHECK(grids({"g/0,0", "g/1,0", "g/0,1", "g/1,1"}) == "g 0 2x2;");
+  CHECK(grids({"car", "g/0,0", "g/0,1", "g/0,2", "g/0,3", "bus"}) == "g 1 1x4;");
+  CHECK(grids({"a/0,0", "a/1,0", "a/2,0", "a/3,0", "b/0,0", "b/1,0", "b/2,0", "b/3,0"}) == "a 0 4x1;b 4 4x1;");
+  CHECK(grids({"g/0,0", "g/1,0", "g/0,1"}) == "");           // the last row is not whole
+  CHECK(grids({"g/0,0", "g/1,0", "g/1,1", "g/0,1"}) == "");  // not row by row
+  CHECK(grids({"g/1,0", "g/2,0", "/0,0", "g/0,0"}) == "");
+  CHECK(grids({}) == "");
+}
+
+TEST_CASE("figures of links are those of links.csv") {
+  const SavedRun run(folder / "drive");
+  const SavedFrame frame = run.frame(3);
+  const std::vector<double> shares = missed_shares(run).values;
+  REQUIRE(shares.size() == run.link_count());
+  const auto first = std::span(shares).subspan(run.first_link(3));
+  const std::vector<LinkRow> rows = link_rows(frame, first.first(frame.links.size()));
+  const std::vector<LinkFigures> figures = link_figures(frame.paths, frame.number, frame.links);
+  REQUIRE(rows.size() == figures.size());
+  for (size_t k = 0; k < rows.size(); ++k) {
+    CHECK(rows[k].paths == figures[k].paths);
+    CHECK(rows[k].los == figures[k].los);
+    CHECK(rows[k].gain_db() == doctest::Approx(figures[k].path_gain_db));
+    CHECK(rows[k].rms_delay_spread_s == doctest::Approx(figures[k].rms_delay_spread_s));
+    CHECK(rows[k].missed_power_share > 0);
+  }
+  // Rows that are not sorted, and a path of a link that was not asked for.
+  SavedFrame other = run.frame(3);
+  std::reverse(other.links.begin(), other.links.end());
+  other.links.pop_back();
+  const std::vector<LinkRow> again = link_rows(other, {});
+  REQUIRE(again.size() == rows.size());
+  for (size_t k = 0; k < rows.size(); ++k) CHECK(again[k].power == rows[k].power);
 }
 
 TEST_CASE("capped, hostile, without a scene: the pages of the browser") {

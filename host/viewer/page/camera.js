@@ -1,4 +1,4 @@
-// A camera that circles a point above the ground: drag turns, right drag or Shift moves, wheel or pinch zooms.
+// A camera that circles a point above the ground: drag turns, right drag or Shift moves, the wheel zooms to the pointer.
 // z is up. Everything is in metres and radians, relative to the centre of the page's coordinates.
 "use strict";
 
@@ -22,7 +22,7 @@ class OrbitCamera {
     element.addEventListener("contextmenu", (event) => event.preventDefault());
     element.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.zoom(Math.exp(Math.min(Math.max(event.deltaY, -400), 400) * 0.0015));
+      this.zoom(Math.exp(Math.min(Math.max(event.deltaY, -400), 400) * 0.0015), event.offsetX, event.offsetY);
     }, {passive: false});
     this.apply();
   }
@@ -75,18 +75,53 @@ class OrbitCamera {
     this.apply();
   }
 
-  zoom(factor) {
-    this.distance = Math.min(Math.max(this.distance * factor, 1), 1e6);
+  // x, y: a pixel whose place on the level of the target stays where it is; without them the target does.
+  zoom(factor, x, y) {
+    const distance = Math.min(Math.max(this.distance * factor, 1), 1e6);
+    const fixed = x === undefined ? null : this.level_point(x, y);
+    if (fixed) this.target.sub(fixed).multiplyScalar(distance / this.distance).add(fixed);
+    this.distance = distance;
     this.apply();
   }
 
-  // Shows the box (arrays of three) from the south, above.
-  show(lower, upper, elevation = 1.05) {
+  // From the camera through a pixel.
+  raycaster(x, y) {
+    const caster = new THREE.Raycaster();
+    const {clientWidth: width, clientHeight: height} = this.element;
+    caster.setFromCamera(new THREE.Vector2(2 * x / width - 1, 1 - 2 * y / height), this.camera);
+    return caster;
+  }
+
+  // Where a pixel meets the level of the target; null for the sky and for what is far behind the target.
+  level_point(x, y) {
+    const {origin, direction} = this.raycaster(x, y).ray, away = (this.target.z - origin.z) / direction.z;
+    return away > 0 && away < 5 * this.distance ? origin.clone().addScaledVector(direction, away) : null;
+  }
+
+  shift(by) {
+    this.target.add(by);
+    this.apply();
+  }
+
+  // Turns around this point, from nearer by.
+  focus(point) {
+    this.target.copy(point);
+    this.distance = Math.max(this.distance * 0.4, 5);
+    this.apply();
+  }
+
+  // Shows the box from where the camera looks.
+  fit(lower, upper) {
+    this.show(lower, upper, this.elevation, this.azimuth, 1.25);
+  }
+
+  // Shows the box (arrays of three) from the south, above. margin: of its size.
+  show(lower, upper, elevation = 1.05, azimuth = -Math.PI / 2, margin = 1) {
     const size = Math.max(Math.hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]), 20);
     this.target.set((lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2);
     const narrow = Math.min(this.camera.aspect, 1);
-    this.distance = size * 0.57 / Math.tan(this.camera.fov * Math.PI / 360) / narrow;
-    this.azimuth = -Math.PI / 2;
+    this.distance = margin * size * 0.57 / Math.tan(this.camera.fov * Math.PI / 360) / narrow;
+    this.azimuth = azimuth;
     this.elevation = elevation;
     this.apply();
   }

@@ -96,6 +96,7 @@ class Charts {
     if (!link) return;
     const [tx, rx] = link;
     control("link_name").textContent = `${meta.transmitters[tx][0]} \u2192 ${meta.receivers[rx][0]}`;
+    control("link_figures").replaceChildren(rows_table(link_figures(link_row(frame.row, tx, rx))));
     const rows = [];
     for (let i = 0; i < frame.paths; ++i)
       if (frame.tx[i] === tx && frame.rx[i] === rx && Number.isFinite(frame.gain_db[i])) rows.push(i);

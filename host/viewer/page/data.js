@@ -9,6 +9,8 @@ const Kinds = [
   ["line_of_sight", "line of sight"], ["reflected", "reflected"], ["transmitted", "transmitted"],
   ["diffracted", "diffracted"], ["scattered", "scattered"],
 ];
+// Of indices of Kinds: what the run computed, or holds.
+const computed_kinds = meta.kinds;
 const Interactions = {1: "reflection", 2: "scattering", 4: "transmission", 8: "diffraction"};
 
 function block(name) {
@@ -18,6 +20,30 @@ function block(name) {
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
   return bytes.buffer;
 }
+
+// Cells of grids are receivers like others. The page holds their heights alone: names and places follow from the grid.
+const grids = meta.grids.map((grid, number) => ({...grid, z_m: new Float32Array(block("grid_" + number))}));
+const own_receivers = [];  // indices of those that are no cells
+const cell_m = new Float32Array(3 * (meta.receivers.length + grids.reduce((sum, {columns, rows}) => sum + columns * rows, 0)));
+const grid_of = new Int16Array(cell_m.length / 3).fill(-1);  // of each receiver, -1: it is on its own
+meta.receivers = (() => {
+  const all = [];
+  grids.forEach(({name, first, columns, rows, first_m, step_m, z_m, antenna, polarization}, number) => {
+    for (let cell = 0; cell < columns * rows; ++cell) {
+      const ix = cell % columns, iy = Math.floor(cell / columns), rx = first + cell;
+      all[rx] = [`${name}/${ix},${iy}`, antenna, polarization];
+      cell_m.set([first_m[0] + ix * step_m[0], first_m[1] + iy * step_m[1], z_m[cell]], 3 * rx);
+      grid_of[rx] = number;
+    }
+  });
+  let rx = 0;
+  for (const end of meta.receivers) {
+    while (grid_of[rx] >= 0) ++rx;
+    own_receivers.push(rx);
+    all[rx++] = end;
+  }
+  return all;
+})();
 
 // Columns of a buffer, one after the other.
 class Columns {
@@ -40,7 +66,10 @@ function decode_frame(row) {
   const frame = {row, number: meta.frames[row][0], time_s: meta.frames[row][1] || 0, total: meta.frames[row][2], paths, poses};
   const take = (name, Type, count) => { frame[name] = from.take(Type, count); };
   take("transmitter_m", Float32Array, 3 * meta.transmitters.length);
-  take("receiver_m", Float32Array, 3 * meta.receivers.length);
+  take("own_m", Float32Array, 3 * own_receivers.length);
+  frame.receiver_m = own_receivers.length === meta.receivers.length ? frame.own_m : cell_m.slice();
+  if (frame.receiver_m !== frame.own_m)
+    own_receivers.forEach((rx, k) => frame.receiver_m.set(frame.own_m.subarray(3 * k, 3 * k + 3), 3 * rx));
   take("pose_m", Float32Array, 3 * poses);
   take("pose_instance", Uint32Array, poses);
   take("delay_s", Float32Array, paths);
@@ -99,12 +128,14 @@ function decode_scene(description) {
 const city = decode_scene(meta.scene);
 const models = meta.models.map(decode_scene);
 
-// Gains of all links in all frames, sorted by frame. What the page's paths leave out counts here.
+// Links of all frames, sorted by frame, transmitter, receiver. What the page's paths leave out counts here.
 const links = (() => {
   const from = new Columns(block("links"));
   return {
     frame: from.take(Uint32Array, meta.links), tx: from.take(Uint32Array, meta.links),
-    rx: from.take(Uint32Array, meta.links), gain_db: from.take(Float32Array, meta.links),
+    rx: from.take(Uint32Array, meta.links), paths: from.take(Uint32Array, meta.links),
+    gain_db: from.take(Float32Array, meta.links), rms_delay_spread_s: from.take(Float32Array, meta.links),
+    missed_power_share: from.take(Float32Array, meta.links), los: from.take(Uint8Array, meta.links),
   };
 })();
 
@@ -119,6 +150,17 @@ function links_of_frame(row) {
     return low;
   };
   return [first(row), first(row + 1)];
+}
+
+// The row of a link in a frame, -1 where there is none.
+function link_row(row, tx, rx) {
+  let [low, high] = links_of_frame(row);
+  const end = high;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (links.tx[middle] < tx || (links.tx[middle] === tx && links.rx[middle] < rx)) low = middle + 1; else high = middle;
+  }
+  return low < end && links.tx[low] === tx && links.rx[low] === rx ? low : -1;
 }
 
 // What a vertex of a path lies on, in words.

@@ -20,6 +20,36 @@ function rows_table(rows) {
   return table;
 }
 
+// 0.021 is "2.1 %", 3e-7 is "3\u00b710\u207b\u2077".
+function share_text(share) {
+  if (!Number.isFinite(share)) return "unknown";
+  if (share === 0 || share >= 0.001) return `${+(100 * share).toPrecision(2)} %`;
+  const power = Math.floor(Math.log10(share)), digits = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
+  return `${+(share / 10 ** power).toPrecision(1)}\u00b710\u207b${[...String(-power)].map((c) => digits[Number(c)]).join("")}`;
+}
+
+// What rays may have missed in the run, in words; empty where that is not known.
+function missed_text() {
+  if (!meta.missed) return "";
+  const {paths: [paths, low, high], power_share: [share, least, most]} = meta.missed;
+  const about = paths < 0.5 ? "probably missed none" : `missed about ${Math.round(paths)}`;
+  return `Rays have ${about} of ${meta.paths[1]} paths (${Math.round(low)} to ${Math.ceil(high)}), `
+    + `${share_text(share)} of the power (${share_text(least)} to ${share_text(most)}).`;
+}
+
+// Row k of `links` as rows of a table.
+function link_figures(k) {
+  if (k < 0) return [["Path gain", "not on the page"]];
+  if (!links.paths[k]) return [["Path gain", "no path"]];
+  return [
+    ["Path gain", `${fixed(links.gain_db[k], 2)} dB, ${links.paths[k]} ${links.paths[k] === 1 ? "path" : "paths"}`],
+    ["Delay spread", `${fixed(links.rms_delay_spread_s[k] * 1e9, 2)} ns`],
+    ["Line of sight", links.los[k] ? "yes" : "no"],
+    ...(Number.isFinite(links.missed_power_share[k])
+      ? [["Missed", `about ${share_text(links.missed_power_share[k])} of the power`]] : []),
+  ];
+}
+
 // Gain and phase of the coefficient between every pair of ports.
 function port_rows(frame, i) {
   const rows = [], ports = meta.rx_ports * meta.tx_ports;
@@ -59,6 +89,13 @@ function show_path(parent, frame, i) {
 
 const most_rows = 50;
 
+// A cell of a map; k: the row of `links` that the map shows there, -1 without a path.
+function show_cell(parent, frame, rx, k) {
+  const rows = [["Position", `${position_text(frame.receiver_m, rx)} m`]];
+  if (k >= 0) rows.push([meta.transmitters.length > 1 ? "Strongest" : "Transmitter", name_of(meta.transmitters, links.tx[k])]);
+  parent.replaceChildren(element("h2", name_of(meta.receivers, rx)), rows_table([...rows, ...link_figures(k)]));
+}
+
 // radio: of radios_of; choose(tx, rx): shows a link.
 function show_radio(parent, frame, radio, choose) {
   const rows = [["Position", `${position_text(radio.m, 0)} m`]];
@@ -82,13 +119,15 @@ function show_radio(parent, frame, radio, choose) {
     const more = found.length > most_rows ? `, the ${most_rows} strongest` : "";
     parent.append(element("h2", `${heading} ${found.length}${more}`), list);
   };
-  parent.replaceChildren(element("h2", radio.name || "End without a name"), rows_table(rows));
+  parent.replaceChildren(element("h2", radio.name || "Antenna without a name"), rows_table(rows));
   if (radio.tx >= 0) group("Sends to", "tx", "rx", meta.receivers, (end) => [radio.tx, end]);
   if (radio.rx >= 0) group("Receives from", "rx", "tx", meta.transmitters, (end) => [end, radio.rx]);
 }
 
-function show_hint(parent) {
-  const hint = element("p", "Click a path for its data, or an end for its links.");
+const usual_hint = `Click a path for its data, ${meta.grids.length ? "a cell of the map for its link, " : ""}or an antenna for its links.`;
+
+function show_hint(parent, text = usual_hint) {
+  const hint = element("p", text);
   hint.className = "faint";
   parent.replaceChildren(hint);
 }

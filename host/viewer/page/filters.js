@@ -4,31 +4,51 @@
 
 const control = (id) => document.getElementById(id);
 
+// rx2 comes before rx10.
+const by_name = new Intl.Collator("en", {numeric: true});
+const name_of = (ends, i) => ends[i][0] || `number ${i}`;
+
+// More than that, and a list is no help: the others are found by their names.
+const most_options = 400;
+
+function fill_select(select, ends, indices) {
+  const sorted = [...indices].sort((a, b) => by_name.compare(name_of(ends, a), name_of(ends, b)) || a - b);
+  select.append(new Option("all", "-1"));
+  for (const i of sorted.slice(0, most_options)) select.append(new Option(shortened(name_of(ends, i), 60), String(i)));
+  if (sorted.length > most_options) select.append(new Option(`${sorted.length - most_options} more: find them by name`, ""));
+  if (sorted.length > most_options) select.lastChild.disabled = true;
+}
+
+// Chooses an end that may not be in the list, as a cell of a map.
+function set_select(select, ends, i) {
+  if (i >= 0 && ![...select.options].some(({value}) => value === String(i)))
+    select.append(new Option(shortened(name_of(ends, i), 60), String(i)));
+  select.value = String(i);
+}
+
 class Filters {
+  // changed(link_chosen): link_chosen says whether the user has just chosen another transmitter or receiver.
   constructor(changed) {
-    const fill = (select, ends) => {
-      select.append(new Option("all", "-1"));
-      ends.forEach(([name], i) => select.append(new Option(shortened(name, 60) || `number ${i}`, String(i))));
-    };
-    fill(control("transmitter"), meta.transmitters);
-    fill(control("receiver"), meta.receivers);
-    Kinds.forEach(([key, words], kind) => {
-      const label = document.createElement("label"), box = document.createElement("input");
+    fill_select(control("transmitter"), meta.transmitters, meta.transmitters.keys());
+    fill_select(control("receiver"), meta.receivers, own_receivers);
+    for (const kind of computed_kinds) {
+      const [key, words] = Kinds[kind], label = document.createElement("label"), box = document.createElement("input");
       box.type = "checkbox";
       box.id = "kind_" + key;
       box.value = String(kind);
       label.append(box, " " + words);
       control("kinds").append(label);
-    });
+    }
     for (const id of ["least_order", "most_order"]) control(id).max = String(meta.highest_order);
     control("power").min = String(Math.floor(Math.min(meta.gain_range_db[0], lowest_db)) - 1);
     control("power").max = String(highest_db);
-    this.changed = () => {
+    this.changed = (link_chosen = false) => {
       this.read();
-      changed();
+      changed(link_chosen);
     };
-    for (const id of ["transmitter", "receiver"]) control(id).addEventListener("change", this.changed);
-    for (const id of ["least_order", "most_order", "power", "kinds"]) control(id).addEventListener("input", this.changed);
+    for (const id of ["transmitter", "receiver"]) control(id).addEventListener("change", () => this.changed(true));
+    for (const id of ["least_order", "most_order", "power", "kinds"])
+      control(id).addEventListener("input", () => this.changed());
     control("reset").addEventListener("click", () => this.reset());
     this.write_all();
     this.read();
@@ -39,7 +59,7 @@ class Filters {
     control("least_order").value = "0";
     control("most_order").value = String(meta.highest_order);
     control("power").value = control("power").min;
-    for (const [key] of Kinds) control("kind_" + key).checked = true;
+    for (const box of control("kinds").querySelectorAll("input")) box.checked = true;
   }
 
   reset() {
@@ -48,10 +68,10 @@ class Filters {
   }
 
   // Indices of ends, -1 for all.
-  set_link(tx, rx) {
-    control("transmitter").value = String(tx);
-    control("receiver").value = String(rx);
-    this.changed();
+  set_link(tx, rx, link_chosen = true) {
+    set_select(control("transmitter"), meta.transmitters, tx);
+    set_select(control("receiver"), meta.receivers, rx);
+    this.changed(link_chosen);
   }
 
   read() {
@@ -63,12 +83,14 @@ class Filters {
     const power = control("power"), all = power.value === power.min;
     this.power_db = all ? -Infinity : Number(power.value);
     control("power_text").textContent = all ? "any" : `${power.value} dB`.replace("-", "\u2212");
-    this.kinds = Kinds.map(([key]) => control("kind_" + key).checked);
+    this.kinds = new Array(Kinds.length).fill(true);
+    for (const box of control("kinds").querySelectorAll("input")) this.kinds[Number(box.value)] = box.checked;
   }
 
+  // Paths to the cells of a map would hide it: they are shown for the cell that is chosen.
   wanted(frame, i) {
     if (this.tx >= 0 && frame.tx[i] !== this.tx) return false;
-    if (this.rx >= 0 && frame.rx[i] !== this.rx) return false;
+    if (this.rx >= 0 ? frame.rx[i] !== this.rx : grid_of[frame.rx[i]] >= 0) return false;
     const order = order_of(frame, i);
     return order >= this.least_order && order <= this.most_order && this.kinds[frame.kind[i]] &&
       !(frame.gain_db[i] < this.power_db) && (this.power_db === -Infinity || frame.gain_db[i] >= this.power_db);

@@ -6,10 +6,12 @@
 // Opacities of a quarter each of the scale of power, the weakest first. Thousands of paths would be one blot otherwise.
 const opacities_of_few = [0.85, 0.85, 0.85, 0.85], opacities_of_many = [0.1, 0.25, 0.6, 0.9];
 const many_paths = 400;
+// What is so much weaker than the strongest path that is shown is clutter.
+const clutter_db = 60, clutter_opacity = 0.07;
 
 class PathLines {
   constructor() {
-    this.materials = opacities_of_few.map(
+    this.materials = [clutter_opacity, ...opacities_of_few].map(
       () => new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors, transparent: true}));
     this.object = new THREE.LineSegments(new THREE.BufferGeometry(), this.materials);
     this.object.frustumCulled = false;
@@ -17,6 +19,8 @@ class PathLines {
     this.reserve(1024);
     this.visible = new Uint32Array(0);  // rows of the frame that pass the filter
     this.segments = 0;
+    this.fade = true;  // whether clutter is to be faded
+    this.faded = 0;    // paths that were
   }
 
   // Whether paths are to be seen behind houses.
@@ -51,15 +55,19 @@ class PathLines {
     this.reserve(most);
     const [table, key] = path_colours(frame, by);
     const opacities = count > many_paths ? opacities_of_many : opacities_of_few;
-    this.materials.forEach((material, quarter) => { material.opacity = opacities[quarter]; });
-    const starts = [0, 0, 0, 0, 0];  // segments before each quarter
-    let segment = 0;
+    this.materials.forEach((material, part) => { material.opacity = part ? opacities[part - 1] : clutter_opacity; });
+    const starts = new Array(this.materials.length + 1).fill(0);  // segments before each part: clutter, four quarters
+    const clutter = this.fade ? strongest_db(frame, this.visible) - clutter_db : -Infinity;
+    this.faded = 0;
+    let segment = 0, part = 0;  // parts lie one after the other: gains go up, what is not a number comes last
     for (const i of this.visible) {
       if (!drawable(frame, i)) continue;
       const colour = table[key(i)], last = order_of(frame, i) + 1;
       const share = (frame.gain_db[i] - lowest_db) / (highest_db - lowest_db);
-      const quarter = share > 0 ? Math.min(Math.floor(4 * share), 3) : 0;
-      for (let later = quarter + 1; later < 5; ++later) starts[later] = segment + last;
+      const faded = frame.gain_db[i] < clutter;
+      part = Math.max(part, faded ? 0 : share > 0 ? 1 + Math.min(Math.floor(4 * share), 3) : 1);
+      this.faded += faded;
+      for (let later = part + 1; later < starts.length; ++later) starts[later] = segment + last;
       for (let k = 0; k < last; ++k, ++segment) {
         write_point(frame, i, k, this.positions, 6 * segment);
         write_point(frame, i, k + 1, this.positions, 6 * segment + 3);
@@ -71,9 +79,15 @@ class PathLines {
     this.position_attribute.needsUpdate = true;
     this.colour_buffer.needsUpdate = true;
     this.object.geometry.clearGroups();
-    for (let quarter = 0; quarter < 4; ++quarter)
-      this.object.geometry.addGroup(2 * starts[quarter], 2 * (starts[quarter + 1] - starts[quarter]), quarter);
+    this.materials.forEach((_, part) =>
+      this.object.geometry.addGroup(2 * starts[part], 2 * (starts[part + 1] - starts[part]), part));
   }
+}
+
+// Rows go up in gain, and end with those that are no numbers.
+function strongest_db(frame, rows) {
+  for (let k = rows.length - 1; k >= 0; --k) if (Number.isFinite(frame.gain_db[rows[k]])) return frame.gain_db[rows[k]];
+  return -Infinity;
 }
 
 // Point k of path i: the transmitter, its vertices, the receiver.

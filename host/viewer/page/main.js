@@ -2,7 +2,7 @@
 // `window.wavetracer` lets scripts look at it and steer it.
 "use strict";
 
-const state = {frame: null, radios: [], selected: -1, link: [-1, -1], labels: true, target: null};
+const state = {frame: null, radios: [], selected: -1, link: [-1, -1], labels: true, target: null, follow: -1, last_m: null};
 const timing = {rebuild_ms: 0, draw_ms: 0};
 let dirty = true;
 
@@ -10,7 +10,8 @@ const canvas = control("world");
 const orbit = new OrbitCamera(canvas, () => { dirty = true; });
 const overlay = new Overlay(control("overlay"));
 const lines = new PathLines();
-const filters = new Filters(() => refilter());
+const filters = new Filters((link_chosen) => { refilter(); if (link_chosen) bring_link_into_view(); });
+const chosen = new ChosenPath();
 const charts = new Charts((row) => player.go(row));
 const player = new Player((row) => show_frame(row));
 const world = new WorldView();
@@ -27,6 +28,10 @@ const renderer = (() => {
   }
 })();
 
+const coverage = new Coverage(renderer ? renderer.capabilities.maxTextureSize : 0);
+warnings.push(...coverage.problems);
+world.scene.add(coverage.object);
+
 function draw() {
   const start = performance.now();
   dirty = false;
@@ -41,21 +46,33 @@ const projector = () => new Projector(orbit.camera, canvas.clientWidth, canvas.c
 function refilter() {
   const start = performance.now();
   lines.rebuild(state.frame, (frame, i) => filters.wanted(frame, i), control("colour").value);
+  coverage.paint(state.frame.row, filters.tx, control("quantity").value);
   timing.rebuild_ms = performance.now() - start;
   const {paths, total} = state.frame;
   const of = total === paths ? `of ${paths}` : `of ${paths}, the strongest of ${total}`;
-  control("count").textContent = `${lines.visible.length} ${of} in this frame`;
+  const faded = lines.faded ? `; ${lines.faded} of them faded` : "";
+  const maps = grids.length && grid_of[filters.rx] === undefined ? "; click the map for those of a cell" : "";
+  control("count").textContent = `${lines.visible.length} ${of} in this frame${faded}${maps}`;
   if (state.selected >= 0 && !filters.wanted(state.frame, state.selected)) select(-1);
+  draw_legends();
   refresh_link();
 }
 
-// The link of the charts: that of the filters, else that of the selected path.
+function draw_legends() {
+  const parent = control("legend");
+  parent.replaceChildren();
+  if (lines.visible.length || !grids.length) draw_legend(parent, control("colour").value);
+  coverage.draw_legend(parent);
+  parent.hidden = !parent.firstChild;
+}
+
+// The link of the charts: that of the filters, else that of the chosen path, else what the map shows of the cell.
 function refresh_link() {
-  const {frame, selected} = state;
-  state.link = filters.tx < 0 && filters.rx < 0 && selected >= 0 ? [frame.tx[selected], frame.rx[selected]]
-                                                                 : [filters.tx, filters.rx];
-  if (filters.tx >= 0 !== filters.rx >= 0 && selected >= 0) state.link = [frame.tx[selected], frame.rx[selected]];
-  charts.draw(frame, state.link[0] >= 0 && state.link[1] >= 0 ? state.link : null, selected);
+  const {tx, rx} = filters, cell = rx >= 0 && grid_of[rx] >= 0 ? coverage.rows[rx] : no_row;
+  state.link = [tx, rx];
+  if (chosen.link && (tx < 0 || rx < 0)) state.link = chosen.link;
+  else if (tx < 0 && cell !== no_row) state.link = [links.tx[cell], rx];
+  charts.draw(state.frame, state.link[0] >= 0 && state.link[1] >= 0 ? state.link : null, state.selected);
   dirty = true;
 }
 
@@ -63,33 +80,103 @@ function show_frame(row) {
   state.frame = frame_data(row);
   state.radios = radios_of(state.frame);
   world.place(state.frame);
-  if (state.selected >= 0) select(-1);
+  follow();
+  state.selected = chosen.find(state.frame);
   refilter();
+  if (state.selected >= 0) show_path(control("details"), state.frame, state.selected);
+  else if (chosen.link) show_hint(control("details"), "The chosen path is not in this frame.");
+  else if (grid_of[filters.rx] >= 0) show_cell(control("details"), state.frame, filters.rx, coverage.rows[filters.rx]);
+}
+
+// Keeps the vehicle that is followed where it is in the picture.
+function follow() {
+  const {frame} = state;
+  for (let k = 0; k < frame.poses; ++k) {
+    if (frame.pose_instance[k] !== state.follow || !finite(frame.pose_m, k)) continue;
+    const now = new THREE.Vector3().fromArray(frame.pose_m, 3 * k);
+    orbit.shift(state.last_m ? now.clone().sub(state.last_m) : now.clone().sub(orbit.target));
+    state.last_m = now;
+  }
+}
+
+function set_follow(instance) {
+  Object.assign(state, {follow: instance, last_m: null});
+  control("follow").value = String(instance);
+  follow();
 }
 
 function select(i) {
   state.selected = i;
+  chosen.choose(state.frame, i);
   if (i >= 0) show_path(control("details"), state.frame, i);
   else show_hint(control("details"));
   refresh_link();
 }
 
 function select_radio(radio) {
-  state.selected = -1;
-  filters.set_link(radio.tx, radio.tx >= 0 ? -1 : radio.rx);
+  select(-1);
+  filters.set_link(radio.tx, radio.tx >= 0 ? -1 : radio.rx, false);
   show_radio(control("details"), state.frame, radio, (tx, rx) => filters.set_link(tx, rx));
+}
+
+function select_cell(rx) {
+  select(-1);
+  filters.set_link(filters.tx, rx, false);
+  show_cell(control("details"), state.frame, rx, coverage.rows[rx]);
+}
+
+// An end that was found by its name.
+function go_to(role, i) {
+  if (role === "rx" && grid_of[i] >= 0) {
+    select_cell(i);
+    orbit.focus(new THREE.Vector3().fromArray(state.frame.receiver_m, 3 * i));
+    return;
+  }
+  const radio = state.radios.find((one) => one[role] === i);
+  if (!radio) return show_hint(control("details"), "That antenna is not there in this frame.");
+  select_radio(radio);
+  orbit.focus(new THREE.Vector3().fromArray(radio.m));
+}
+
+// Ends and paths of the chosen link, unless all of them are well to be seen already.
+function bring_link_into_view() {
+  const [tx, rx] = state.link, {frame} = state;
+  if (tx < 0 || rx < 0 || !finite(frame.transmitter_m, tx) || !finite(frame.receiver_m, rx)) return;
+  const points = [...frame.transmitter_m.subarray(3 * tx, 3 * tx + 3), ...frame.receiver_m.subarray(3 * rx, 3 * rx + 3)];
+  for (const i of lines.visible) if (drawable(frame, i)) for (const value of points_of(frame, i)) points.push(value);
+  if (well_seen(points, projector())) return;
+  const axis = (k) => points.filter((_, at) => at % 3 === k).sort((a, b) => a - b);
+  const axes = [0, 1, 2].map(axis);
+  orbit.fit(axes.map((values) => values[0]), axes.map((values) => values[values.length - 1]));
 }
 
 // A second click in one place goes on to the next path there.
 function click(x, y) {
   const radio = radio_near(state.radios, projector(), x, y);
   if (radio) return select_radio(radio);
+  const caster = orbit.raycaster(x, y);
   const near = control("show_paths").checked ? paths_near(state.frame, lines.visible, projector(), x, y) : [];
-  select(near.length ? near[(near.indexOf(state.selected) + 1) % near.length] : -1);
+  if (near.length) return select(near[(near.indexOf(state.selected) + 1) % near.length]);
+  const cell = coverage.probe(caster);
+  if (cell >= 0) return select_cell(cell);
+  select(-1);
 }
 
-function show_all(elevation) {
-  const [lower, upper] = box_of(state.frame);
+function double_click(x, y) {
+  const surface = surface_under(world, orbit.raycaster(x, y));
+  const point = surface ? surface.point : orbit.level_point(x, y);
+  if (point) orbit.focus(point);
+}
+
+function show_everything() {
+  set_follow(-1);
+  select(-1);
+  filters.reset();
+}
+
+// The whole run; with_city: and the whole scene.
+function show_all(with_city, elevation) {
+  const [lower, upper] = box_of_run(with_city);
   orbit.show(lower, upper, elevation);
 }
 
@@ -107,7 +194,6 @@ function resize() {
 
 function paint() {
   world.paint();
-  draw_legend(control("legend"), control("colour").value);
   refilter();
 }
 
@@ -118,6 +204,10 @@ function apply_toggles() {
   world.vehicles.visible = control("show_vehicles").checked;
   world.edges.visible = control("show_edges").checked;
   state.labels = control("show_labels").checked;
+  if (lines.fade !== control("fade_clutter").checked) {
+    lines.fade = control("fade_clutter").checked;
+    refilter();
+  }
   dirty = true;
 }
 
@@ -129,40 +219,68 @@ function key(event) {
   if (event.shiftKey && turn) orbit.turn(...turn);
   else if (event.key === "+" || event.key === "=") orbit.zoom(0.8);
   else if (event.key === "-") orbit.zoom(1.25);
-  else if (event.key === "Escape") select(-1);
+  else if (event.key === "Escape") show_everything();
   else if (!player.key(event.key)) return;
   event.preventDefault();
+}
+
+// What sends and receives under one name is one antenna.
+function antenna_count() {
+  const names = new Set();
+  let unnamed = 0;
+  for (const [name] of [...meta.transmitters, ...own_receivers.map((rx) => meta.receivers[rx])])
+    if (name) names.add(name); else ++unnamed;
+  return names.size + unnamed;
+}
+
+function fill_follow() {
+  control("follow").parentElement.hidden = meta.instances.length === 0;
+  control("follow").append(new Option("nothing", "-1"));
+  const sorted = [...meta.instances.keys()].sort((a, b) => by_name.compare(meta.instances[a][0], meta.instances[b][0]));
+  for (const i of sorted) control("follow").append(new Option(shortened(meta.instances[i][0], 40), String(i)));
 }
 
 function write_facts() {
   document.title = `${meta.title} \u2013 wavetracer`;
   control("title").textContent = meta.title;
   const count = (n, one, many) => `${n} ${n === 1 ? one : many}`;
-  const [shown, all] = meta.paths, ends = meta.transmitters.length + meta.receivers.length;
+  const [shown, all] = meta.paths;
   control("summary").textContent = [
     `${+(meta.frequency_hz / 1e9).toPrecision(6)} GHz`,
     shown === all ? count(all, "path", "paths") : `the ${shown} strongest of ${all} paths`,
-    count(meta.frames.length, "frame", "frames"), count(ends, "end", "ends"),
-    count(meta.instances.length, "vehicle", "vehicles"), `wavetracer ${meta.version}`].join(", ");
+    count(meta.frames.length, "frame", "frames"), count(antenna_count(), "antenna", "antennas"),
+    ...grids.map(({name, columns, rows}) => `map ${name} of ${columns} \u00d7 ${rows} receivers`),
+    ...(meta.instances.length ? [count(meta.instances.length, "vehicle", "vehicles")] : []), `wavetracer ${meta.version}`].join(", ");
+  control("missed").textContent = missed_text();
   if (all === 0) warnings.push("This run has no paths.");
   for (const warning of warnings) control("warnings").append(element("li", warning));
   for (const name of [...new Set(world.solids.map(([, name]) => name))])
     control("materials").append(legend_entry(material_colour(name), name));
 }
 
-canvas.addEventListener("click", (event) => { if (!orbit.dragged) click(event.offsetX, event.offsetY); });
+// The second click of a double click chooses nothing.
+canvas.addEventListener("click", (event) => {
+  if (!orbit.dragged && event.detail < 2) click(event.offsetX, event.offsetY);
+});
+canvas.addEventListener("dblclick", (event) => double_click(event.offsetX, event.offsetY));
+control("follow").addEventListener("change", () => set_follow(Number(control("follow").value)));
+control("quantity").addEventListener("change", refilter);
+for (const part of document.querySelectorAll(".of_maps")) part.hidden = !grids.length;
 document.addEventListener("keydown", key);
 control("toggles").addEventListener("input", apply_toggles);
 control("colour").addEventListener("change", paint);
-control("home").addEventListener("click", () => show_all());
-control("top").addEventListener("click", () => show_all(Math.PI / 2));
+control("home").addEventListener("click", () => show_all(true));
+control("top").addEventListener("click", () => show_all(false, Math.PI / 2));
 dark_scheme.addEventListener("change", paint);
 new ResizeObserver(resize).observe(canvas.parentElement);
 
 write_facts();
+fill_follow();
+show_hint(control("details"));
+const search = new NameSearch(go_to);
 player.go(0);
 resize();
-show_all();
+show_all(false);
 paint();
 apply_toggles();
 (function loop() {
@@ -171,7 +289,8 @@ apply_toggles();
 })();
 
 window.wavetracer = {
-  meta, state, timing, charts, orbit, world, overlay, lines, filters, player, draw, select, click, refilter, projector,
+  meta, state, timing, charts, coverage, chosen, search, orbit, world, overlay, lines, filters, player, draw, select, click, refilter, projector,
+  renderer, ready_ms: performance.now(),
   setFrame: (row) => player.go(row),
   visibleCount: () => lines.visible.length,
   frameTime: () => timing.rebuild_ms + timing.draw_ms,

@@ -4,6 +4,32 @@
 
 const most_names = 80;
 
+// Boxes [left, top, right, bottom] in pixels that nothing else may cover, by squares, so that a test is a few boxes long.
+class TakenBoxes {
+  constructor() {
+    this.squares = new Map();
+  }
+
+  keys([left, top, right, bottom]) {
+    const side = 48, keys = [];
+    for (let y = Math.floor(top / side); y <= Math.floor(bottom / side); ++y)
+      for (let x = Math.floor(left / side); x <= Math.floor(right / side); ++x) keys.push(x * 65536 + y);
+    return keys;
+  }
+
+  add(box) {
+    for (const key of this.keys(box)) {
+      if (!this.squares.has(key)) this.squares.set(key, []);
+      this.squares.get(key).push(box);
+    }
+  }
+
+  free(box) {
+    const apart = (t) => t[2] < box[0] || t[0] > box[2] || t[3] < box[1] || t[1] > box[3];
+    return this.keys(box).every((key) => (this.squares.get(key) || []).every(apart));
+  }
+}
+
 // How an end is drawn: what sends is a triangle, what receives a circle, what does both a diamond.
 function draw_mark(pen, radio, x, y, size) {
   const colours = theme();
@@ -56,6 +82,7 @@ class Overlay {
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
     if (state.selected >= 0) this.draw_path(pen, state.frame, state.selected, projector);
+    if (grid_of[state.link[1]] >= 0) this.draw_cell(pen, state.frame, state.link[1], projector);
     const shown = [];
     for (const radio of state.radios) {
       const at = projector.point(radio.m, 0);
@@ -74,23 +101,42 @@ class Overlay {
     pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
     pen.textBaseline = "middle";
     // Marks, but no names on top of one another.
-    const taken = shown.map(({at}) => [at[0] - 5, at[1] - 5, at[0] + 5, at[1] + 5]);
+    const taken = new TakenBoxes();
+    for (const {at} of shown) taken.add([at[0] - 5, at[1] - 5, at[0] + 5, at[1] + 5]);
     for (const {radio, at, chosen} of shown) {
       if (this.names.length === most_names) break;
       if (!radio.name) continue;
       const text = shortened(radio.name, 28), w = pen.measureText(text).width;
       for (const [x, y] of [[10, 0], [-10 - w, 0], [-w / 2, -15], [-w / 2, 15]]) {
         const box = [at[0] + x - 2, at[1] + y - 8, at[0] + x + w + 2, at[1] + y + 8];
-        const free = box[0] >= 0 && box[2] <= this.width && box[1] >= 0 && box[3] <= this.height &&
-          taken.every((t) => t[2] < box[0] || t[0] > box[2] || t[3] < box[1] || t[1] > box[3]);
+        const free = box[0] >= 0 && box[2] <= this.width && box[1] >= 0 && box[3] <= this.height && taken.free(box);
         if (!free) continue;
-        taken.push(box);
+        taken.add(box);
         pen.font = `${chosen ? "bold " : ""}12px system-ui, 'DejaVu Sans', sans-serif`;
         halo_text(pen, text, at[0] + x, at[1] + y);
         pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
         this.names.push(radio.name);
         break;
       }
+    }
+  }
+
+  // The frame of a cell of a map.
+  draw_cell(pen, frame, rx, projector) {
+    const {step_m: [dx, dy]} = grids[grid_of[rx]], [x, y, z] = frame.receiver_m.subarray(3 * rx, 3 * rx + 3);
+    const corners = new Float32Array([[-1, -1], [1, -1], [1, 1], [-1, 1]].flatMap(([u, v]) => [x + u * dx / 2, y + v * dy / 2, z]));
+    const at = [0, 1, 2, 3].map((k) => projector.point(corners, k));
+    if (!at.every(Boolean)) return;
+    // A cell that is small on the screen gets a wider frame.
+    const middle = [0, 1].map((axis) => at.reduce((sum, point) => sum + point[axis], 0) / 4);
+    const scale = Math.max(1, 7 / Math.max(...at.map((point) => Math.hypot(point[0] - middle[0], point[1] - middle[1]))));
+    for (const [width, colour] of [[4.5, theme().halo], [2, theme().selected]]) {
+      pen.beginPath();
+      for (const point of at) pen.lineTo(...[0, 1].map((axis) => middle[axis] + scale * (point[axis] - middle[axis])));
+      pen.closePath();
+      pen.lineWidth = width;
+      pen.strokeStyle = colour;
+      pen.stroke();
     }
   }
 

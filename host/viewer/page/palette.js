@@ -1,25 +1,27 @@
 // Colours of the page, dark and light: materials, and scales for power, order and kind.
-// Colours are [r, g, b] of 0 to 255.
+// Colours are [r, g, b] of 0 to 255. Scales and kinds can be told apart without seeing red or green (palette_page.py).
 "use strict";
 
 const dark_scheme = matchMedia("(prefers-color-scheme: dark)");
 
+// From weak to strong, as in plots: viridis (S. van der Walt, N. Smith, 2015, CC0). The strongest are farthest from the
+// background: dark on light, and the other way round in the dark, where the darkest two would not be seen.
+const viridis = ["#fde725", "#b5de2b", "#6ece58", "#35b779", "#1f9e89", "#26828e", "#31688e", "#3e4989", "#482878", "#440154"];
+
 const Themes = {
   dark: {
     sky: "#161b24", text: "#e8ecf2", faint: "#9aa5b5", halo: "#11151c", grid: "#333d4c", accent: "#5ad1ff",
-    tx: "#ff5d73", rx: "#5ad1ff", both: "#ffd166", outline: "#0b0e13", wedge: "#3ee08f", vehicle: "#d9a441", selected: "#ffffff",
+    tx: "#ff5d73", rx: "#5ad1ff", both: "#ffd166", outline: "#0b0e13", wedge: "#3ee08f", vehicle: "#9fb0c6", selected: "#ffffff",
     city_light: 0.42,
-    stops: ["#7a5cff", "#b44cf0", "#ee5699", "#ff8a5b", "#ffc24b", "#fff59d"],
-    orders: ["#f7f7f7", "#4cc9f0", "#ffd166", "#ef6f8f", "#80ed99", "#b892ff", "#ff9f5a", "#7fb2ff"],
-    kinds: ["#f7f7f7", "#5ad1ff", "#c7a6ff", "#3ee08f", "#ffb35c"],
+    stops: viridis.slice(0, 8).reverse(), los: ["#5ab4ff", "#e69f00"],
+    kinds: ["#ffffff", "#6db0f2", "#f23091", "#00f279", "#a67c00"],
   },
   light: {
     sky: "#eceff2", text: "#22262c", faint: "#5f666f", halo: "#ffffff", grid: "#d8d6d0", accent: "#0b6fa8",
-    tx: "#d4213d", rx: "#0b6fa8", both: "#8a5a00", outline: "#8d877a", wedge: "#00804a", vehicle: "#c98a1b", selected: "#000000",
+    tx: "#d4213d", rx: "#0b6fa8", both: "#8a5a00", outline: "#8d877a", wedge: "#00804a", vehicle: "#46505c", selected: "#000000",
     city_light: 1,
-    stops: ["#fdb42f", "#ed7953", "#cc4778", "#9c179e", "#6a00a8", "#0d0887"],
-    orders: ["#111111", "#0b6fa8", "#b36b00", "#c2255c", "#2b8a3e", "#6741d9", "#d9480f", "#1864ab"],
-    kinds: ["#111111", "#0b6fa8", "#7048c8", "#00804a", "#c05a00"],
+    stops: viridis, los: ["#0072b2", "#e69f00"],
+    kinds: ["#111111", "#002080", "#f230f2", "#21a685", "#804000"],
   },
 };
 
@@ -32,6 +34,9 @@ const Materials = [
   ["wet_ground", "#7a7a62"], ["ground", "#8d8571"],
 ];
 const other_materials = ["#a08fb0", "#8fb09a", "#b0a58f", "#8f9db0", "#b08f9a"];
+
+// Flat roofs are paler than the ground of the same material.
+const roof_share = 0.45, roof_tint = "#ffffff";
 
 function rgb(hex) {
   return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
@@ -61,16 +66,23 @@ const [lowest_db, highest_db] = (() => {
 })();
 
 const ramp_steps = 256;
+const ramp_table = () => Array.from({length: ramp_steps}, (_, step) => ramp(step / (ramp_steps - 1)));
+
+// Orders from 0, the strongest colour, in equal steps; all from most_orders - 1 on share the last.
+const most_orders = 6;
+function order_colours() {
+  const count = Math.min(meta.highest_order + 1, most_orders);
+  return Array.from({length: count}, (_, order) => ramp(1 - order / Math.max(count - 1, 1)));
+}
 
 // The colours of a frame's paths by a key that is cheap to compute: a table, and the key of path i.
 function path_colours(frame, by) {
   if (by === "kind") return [theme().kinds.map(rgb), (i) => frame.kind[i]];
   if (by === "order") {
-    const table = theme().orders.map(rgb);
-    return [table, (i) => order_of(frame, i) % table.length];
+    const table = order_colours();
+    return [table, (i) => Math.min(order_of(frame, i), table.length - 1)];
   }
-  const table = Array.from({length: ramp_steps}, (_, step) => ramp(step / (ramp_steps - 1)));
-  const scale = (ramp_steps - 1) / (highest_db - lowest_db);
+  const table = ramp_table(), scale = (ramp_steps - 1) / (highest_db - lowest_db);
   return [table, (i) => {
     const step = Math.round((frame.gain_db[i] - lowest_db) * scale);
     return step > 0 ? Math.min(step, ramp_steps - 1) : 0;  // also what is not a number
@@ -85,34 +97,38 @@ function legend_entry(colour, text) {
   return entry;
 }
 
+// A bar of the scale with its numbers.
+function legend_bar(low, high) {
+  const bar = document.createElement("canvas"), scale = document.createElement("div");
+  bar.width = 220;
+  bar.height = 1;
+  const pen = bar.getContext("2d");
+  for (let x = 0; x < bar.width; ++x) {
+    pen.fillStyle = css(ramp(x / (bar.width - 1)));
+    pen.fillRect(x, 0, 1, 1);
+  }
+  scale.className = "scale";
+  for (let k = 0; k <= 4; ++k) {
+    const mark = document.createElement("span"), value = low + (high - low) * k / 4;
+    mark.textContent = String(high - low < 20 ? +value.toFixed(1) : Math.round(value)).replace("-", "\u2212");
+    scale.append(mark);
+  }
+  return [bar, scale];
+}
+
+// Of paths.
 function draw_legend(parent, by) {
-  parent.replaceChildren();
-  parent.hidden = meta.paths[0] === 0;
+  if (meta.paths[0] === 0) return;
   const heading = document.createElement("div");
   heading.textContent = by === "power" ? "Path gain, dB" : by === "order" ? "Order: interactions of a path" : "Kind of path";
   parent.append(heading);
   if (by === "power") {
-    const bar = document.createElement("canvas"), scale = document.createElement("div");
-    bar.width = 220;
-    bar.height = 1;
-    const pen = bar.getContext("2d");
-    for (let x = 0; x < bar.width; ++x) {
-      pen.fillStyle = css(ramp(x / (bar.width - 1)));
-      pen.fillRect(x, 0, 1, 1);
-    }
-    scale.className = "scale";
-    for (let k = 0; k <= 4; ++k) {
-      const mark = document.createElement("span");
-      mark.textContent = String(Math.round(lowest_db + (highest_db - lowest_db) * k / 4)).replace("-", "\u2212");
-      scale.append(mark);
-    }
-    parent.append(bar, scale);
+    parent.append(...legend_bar(lowest_db, highest_db));
   } else if (by === "order") {
-    const colours = theme().orders, shown = Math.min(meta.highest_order + 1, colours.length);
-    const again = meta.highest_order >= colours.length;
-    for (let order = 0; order < shown; ++order)
-      parent.append(legend_entry(colours[order], again ? `${order}, ${order + colours.length}, \u2026` : String(order)));
+    const colours = order_colours(), more = meta.highest_order >= colours.length;
+    colours.forEach((colour, order) =>
+      parent.append(legend_entry(css(colour), more && order === colours.length - 1 ? `${order} and more` : String(order))));
   } else {
-    Kinds.forEach(([, words], kind) => parent.append(legend_entry(theme().kinds[kind], words)));
+    for (const kind of computed_kinds) parent.append(legend_entry(theme().kinds[kind], Kinds[kind][1]));
   }
 }

@@ -57,6 +57,22 @@ function distance_to_segment(x, y, [ax, ay, bx, by]) {
   return Math.hypot(x - ax - t * dx, y - ay - t * dy);
 }
 
+// Whether points (three numbers each) all lie well inside of the picture, and not in one small spot of it.
+function well_seen(points, projector) {
+  const margin = 30, spot = 0.15 * Math.min(projector.width, projector.height);
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let i = 0; 3 * i < points.length; ++i) {
+    const at = projector.point(points, i);
+    if (!at) return false;
+    for (const axis of [0, 1]) {
+      box[axis] = Math.min(box[axis], at[axis]);
+      box[axis + 2] = Math.max(box[axis + 2], at[axis]);
+    }
+  }
+  return box[0] >= margin && box[1] >= margin && box[2] <= projector.width - margin &&
+    box[3] <= projector.height - margin && Math.max(box[2] - box[0], box[3] - box[1]) >= spot;
+}
+
 const pick_radius_px = 7;
 
 // Rows of visible paths near the pixel, the nearest first, of equally near ones the strongest first.
@@ -79,18 +95,19 @@ function paths_near(frame, visible, projector, x, y) {
 }
 
 // Ends that stand in one place under one name are one radio: {name, tx, rx, m}, -1 where it does not send or receive.
+// Cells of grids are none: they are drawn as maps.
 function radios_of(frame) {
   const radios = new Map();
-  const add = (role, ends, column) => {
-    ends.forEach(([name], i) => {
-      if (!finite(column, i)) return;
-      const m = column.subarray(3 * i, 3 * i + 3), key = `${m.join(" ")} ${name}`;
+  const add = (role, ends, indices, column) => {
+    for (const i of indices) {
+      if (!finite(column, i)) continue;
+      const [name] = ends[i], m = column.subarray(3 * i, 3 * i + 3), key = `${m.join(" ")} ${name}`;
       if (!radios.has(key)) radios.set(key, {name, tx: -1, rx: -1, m});
       radios.get(key)[role] = i;
-    });
+    }
   };
-  add("tx", meta.transmitters, frame.transmitter_m);
-  add("rx", meta.receivers, frame.receiver_m);
+  add("tx", meta.transmitters, meta.transmitters.keys(), frame.transmitter_m);
+  add("rx", meta.receivers, own_receivers, frame.receiver_m);
   return [...radios.values()];
 }
 

@@ -13,6 +13,8 @@ class Player {
     control("player").hidden = this.last === 0;
     control("time").addEventListener("input", () => this.go(Number(control("time").value)));
     control("play").addEventListener("click", () => this.toggle());
+    // How long the last frame is shown before the first comes again: as long as one in the mean.
+    this.end_s = this.time(this.last) + (this.time(this.last) - this.time(0)) / Math.max(this.last, 1);
   }
 
   time(row) {
@@ -48,7 +50,9 @@ class Player {
       before = now;
       let row = this.row;
       while (row < this.last && this.time(row + 1) <= this.time_s) ++row;
-      if (row === this.last) this.playing = false;
+      const again = control("loop").checked;
+      if (row === this.last && !again) this.playing = false;
+      if (row === this.last && again && this.time_s >= this.end_s) [row, this.time_s] = [0, this.time(0)];
       const time_s = this.time_s;
       if (row !== this.row || !this.playing) this.go(row);
       this.time_s = time_s;

@@ -4,16 +4,17 @@
 
 const finite = (column, i) => Number.isFinite(column[3 * i] + column[3 * i + 1] + column[3 * i + 2]);
 
-// The corners of the triangles of a scene, by the name of their material; a damaged index leaves its triangle out.
+// The corners of the triangles of a scene by the name of their material, and apart from them those of flat roofs; a
+// damaged index leaves its triangle out. Rows are [name, is roof, corners].
 function corners_by_material(scene) {
-  const lists = new Map();
+  const lists = new Map(), roofs = roof_triangles(scene);
   for (let t = 0; t < scene.triangle_surface.length; ++t) {
-    const name = scene.materials[scene.surface_material[scene.triangle_surface[t]]] || "unknown";
-    if (!lists.has(name)) lists.set(name, []);
-    lists.get(name).push(t);
+    const name = scene.materials[scene.surface_material[scene.triangle_surface[t]]] || "unknown", key = roofs[t] + name;
+    if (!lists.has(key)) lists.set(key, []);
+    lists.get(key).push(t);
   }
-  const corners = new Map();
-  for (const [name, triangles] of lists) {
+  const corners = [];
+  for (const [key, triangles] of lists) {
     const positions = new Float32Array(9 * triangles.length);
     triangles.forEach((t, k) => {
       for (let corner = 0; corner < 3; ++corner) {
@@ -21,7 +22,7 @@ function corners_by_material(scene) {
         positions.set(scene.vertices.subarray(3 * vertex, 3 * vertex + 3), 9 * k + 3 * corner);
       }
     });
-    corners.set(name, positions);
+    corners.push([key.slice(1), key[0] === "1", positions]);
   }
   return corners;
 }
@@ -61,10 +62,10 @@ class WorldView {
     this.edges = new THREE.Group();
     this.edges.visible = false;
     this.scene.add(this.city, this.vehicles, this.edges);
-    this.solids = [];  // [mesh, name of its material]
-    for (const [name, positions] of corners_by_material(city)) {
+    this.solids = [];  // [mesh, name of its material, whether it is of flat roofs]
+    for (const [name, roof, positions] of corners_by_material(city)) {
       const mesh = solid(positions, "#ffffff");
-      this.solids.push([mesh, name]);
+      this.solids.push([mesh, name, roof]);
       this.city.add(mesh);
     }
     this.outline_material = new THREE.LineBasicMaterial({transparent: true, opacity: 0.55});
@@ -78,7 +79,7 @@ class WorldView {
     this.scene.add(this.ambient, this.sun);
     this.vehicle_material = new THREE.MeshLambertMaterial({side: THREE.DoubleSide});
     this.bodies = models.map((model) => {
-      const all = [...corners_by_material(model).values()];
+      const all = corners_by_material(model).map(([, , positions]) => positions);
       const positions = new Float32Array(all.reduce((sum, part) => sum + part.length, 0));
       all.reduce((at, part) => (positions.set(part, at), at + part.length), 0);
       const geometry = geometry_of(positions);
@@ -96,8 +97,11 @@ class WorldView {
   // After the scheme of colours has changed.
   paint() {
     this.scene.background = new THREE.Color(theme().sky);
-    for (const [mesh, name] of this.solids)
-      mesh.material.color.set(material_colour(name)).multiplyScalar(theme().city_light);
+    for (const [mesh, name, roof] of this.solids) {
+      mesh.material.color.set(material_colour(name));
+      if (roof) mesh.material.color.lerp(new THREE.Color(roof_tint), roof_share);
+      mesh.material.color.multiplyScalar(theme().city_light);
+    }
     this.outline_material.color.set(theme().outline);
     this.edge_material.color.set(theme().wedge);
     this.vehicle_material.color.set(theme().vehicle);
@@ -126,8 +130,14 @@ class WorldView {
   }
 }
 
-// The box around what the frame is about: ends that are present and vehicles, else the city; arrays of three.
-function box_of(frame) {
+// The surface of city or vehicles that the ray meets first, null without one: {point, distance}.
+function surface_under(world, raycaster) {
+  const meshes = world.solids.map(([mesh]) => mesh).concat([...world.instances.values()].filter(({visible}) => visible));
+  return raycaster.intersectObjects(meshes)[0] || null;
+}
+
+// The box around ends and vehicles in all frames of the page, arrays of three; with_city: and around the city.
+function box_of_run(with_city) {
   const lower = [Infinity, Infinity, Infinity], upper = [-Infinity, -Infinity, -Infinity];
   const grow = (column) => {
     for (let i = 0; 3 * i < column.length; ++i)
@@ -137,8 +147,8 @@ function box_of(frame) {
           upper[axis] = Math.max(upper[axis], column[3 * i + axis]);
         }
   };
-  for (const column of [frame.transmitter_m, frame.receiver_m, frame.pose_m]) grow(column);
-  if (lower[0] > upper[0]) grow(city.vertices);
+  if (meta.ends_m) for (const corner of meta.ends_m) grow(corner);
+  if (with_city || lower[0] > upper[0]) grow(city.vertices);
   if (lower[0] > upper[0]) return [[-10, -10, 0], [10, 10, 5]];
   return [lower, upper];
 }

@@ -1,0 +1,31 @@
+// Receivers that make up a grid, as [[receiver_grid]] does: the page draws them as a map and not one by one.
+// Known by their names, NAME/IX,IY row by row, so that a run needs no configuration to be read.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+#include "results/saved_run.hpp"
+
+namespace wavetracer {
+
+struct GridMap {
+  std::string name;
+  uint32_t first = 0, columns = 0, rows = 0;  // cell (ix, iy) is receiver first + iy * columns + ix
+  uint32_t count() const { return columns * rows; }
+};
+
+// In the order of their receivers; at least 2 x 2 cells, or 4 in a row.
+std::vector<GridMap> find_grids(const std::vector<RadioEnd>& receivers);
+
+// Appends an element block_grid_K of heights for each grid, and returns what else the page must know of them.
+// position_m: of all receivers of the run. Assumes that cells lie in equal steps along x and y, and never move.
+nlohmann::json add_grid_blocks(const std::vector<GridMap>& grids, const std::vector<RadioEnd>& receivers,
+                               const std::vector<glm::dvec3>& position_m, const glm::dvec3& centre_m,
+                               std::string& elements);
+
+// Whether each receiver is on its own, and not a cell of a grid.
+std::vector<bool> outside_of_grids(const std::vector<GridMap>& grids, size_t receivers);
+
+}  // namespace wavetracer
