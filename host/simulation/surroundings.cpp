@@ -143,6 +143,18 @@ std::optional<Surroundings::Depth> Surroundings::below_ground(const dvec3& p) co
   return Depth{above.front().distance_m, object};
 }
 
+bool Surroundings::has_ground() const {
+  constexpr int places = 9;  // in x and in y
+  const dvec3 size = scene_.upper - scene_.lower;
+  int found = 0;
+  for (int k = 0; k < places * places; ++k) {
+    const double x = scene_.lower.x + size.x * (k % places + 0.5) / places,
+                 y = scene_.lower.y + size.y * (k / places + 0.5) / places;
+    found += !crossings({x, y, scene_.upper.z + 1}, {x, y, scene_.lower.z - 1}).empty();
+  }
+  return 2 * found >= places * places;
+}
+
 std::optional<double> Surroundings::height_above(const dvec3& p, double rise_m) const {
   const double bottom_m = scene_.lower.z - 1;
   if (p.z + rise_m <= bottom_m) return {};

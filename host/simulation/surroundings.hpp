@@ -44,6 +44,8 @@ class Surroundings {
     uint32_t object;
   };
   std::optional<Depth> below_ground(const glm::dvec3& p) const;
+  // Whether there is something below at half of the scene's places or more, seen from above.
+  bool has_ground() const;
   // Height of p above the next surface below it, or, for one at most `rise_m` above it, a negative number.
   std::optional<double> height_above(const glm::dvec3& p, double rise_m) const;
 
