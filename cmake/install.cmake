@@ -22,10 +22,9 @@ configure_file(${CMAKE_SOURCE_DIR}/cmake/wavetracer.pc.in ${CMAKE_BINARY_DIR}/wa
 install(FILES ${CMAKE_BINARY_DIR}/wavetracer.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 # Configurations that run as they are, and the examples of the library.
-install(FILES ${CMAKE_SOURCE_DIR}/configs/demo.toml ${CMAKE_SOURCE_DIR}/configs/cache.toml ${CMAKE_SOURCE_DIR}/configs/city.toml
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/configs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/wavetracer/configs
+  PATTERN *.fcd.xml EXCLUDE PATTERN out EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
   PATTERN __pycache__ EXCLUDE)
-install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/docs/library.md
-              ${CMAKE_SOURCE_DIR}/docs/configuration.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR})
+file(GLOB documents CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.md)
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${documents} DESTINATION ${CMAKE_INSTALL_DOCDIR})

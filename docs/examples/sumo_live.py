@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Follows a running SUMO by TraCI, sends its vehicles to `wavetracer serve`, and prints or writes their channels.
 
-    wavetracer serve -c configs/live.toml &
-    python3 docs/examples/sumo_live.py --offset -300 -300 0 --steps 50 -- sumo -n net.net.xml -r routes.rou.xml
+    wavetracer serve -c configs/sumo/live.toml &
+    python3 docs/examples/sumo_live.py --steps 50 -- sumo -c configs/sumo/town.sumocfg
 
 What follows `--` is the command that starts SUMO (sumo or sumo-gui). --offset is what to add to SUMO's coordinates to
 get those of the scene. SUMO's angle is a compass bearing and its position the middle of the front bumper: both are

@@ -11,6 +11,7 @@
 #include "app/interrupt.hpp"
 #include "config/spelling.hpp"
 #include "imports/imports.hpp"
+#include "motion/read.hpp"
 #include "output/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string input, format, output, frames, projection;
+  std::string input, format, output, frames, projection, traffic;
   bool list = false;
   ImportOptions import;
 };
@@ -115,6 +116,19 @@ void export_run(const Options& options) {
   std::cout << "\n";
 }
 
+// Where the vehicles of a file are: the ground has to reach below them.
+Extent extent_of_traffic(const Options& options) {
+  if (options.import.net.empty() && fs::path(options.input).extension() != ".xml")
+    throw ConfigError(
+        fmt::format("--traffic {}: needs --net with the network that the vehicles drive on, since only "
+                    "then map and vehicles have the same coordinates",
+                    options.traffic));
+  Extent out;
+  for (const Track& track : read_trajectories(options.traffic).tracks)
+    for (const Sample& sample : track.samples) out.add({sample.position_m.x, sample.position_m.y});
+  return out;
+}
+
 void import_map(const Options& options) {
   for (const auto& [flag, value] : {std::pair{"--frames", &options.frames}, {"--projection", &options.projection}})
     if (!value->empty()) throw ConfigError(fmt::format("{}: is for runs, and {} is a map", flag, options.input));
@@ -123,6 +137,7 @@ void import_map(const Options& options) {
         fmt::format("--to {}: a map becomes a scene (mitsuba), which the formats of runs are not", options.format));
   ImportOptions import = options.import;
   import.output = options.output;
+  if (!options.traffic.empty()) import.traffic = extent_of_traffic(options);
   const ImportSummary summary = import_city(options.input, import);
   for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
   std::cout << describe(summary);
@@ -147,9 +162,10 @@ void add_convert(CLI::App& program) {
     return command->add_option(name, value, help)->group(maps);
   };
   add("--net", import.net, "OSM: the .net.xml that netconvert made of the map, whose coordinates the scene takes");
+  add("--traffic", options->traffic, "The drive (FCD, CSV) below which the ground has to reach too");
   add("--level-height", import.level_height_m, "Metres a level of a building")->capture_default_str();
   add("--default-height", import.default_height_m, "Metres of buildings without a height")->capture_default_str();
-  add("--margin", import.margin_m, "Metres of ground beyond the outermost buildings")->capture_default_str();
+  add("--margin", import.margin_m, "Metres of ground beyond buildings, network and traffic")->capture_default_str();
   add("--wall-material", import.wall_material, "ITU material where the map does not say")->capture_default_str();
   add("--roof-material", import.roof_material, "ITU material where the map does not say")->capture_default_str();
   add("--ground-material", import.ground_material, "ITU material of the ground")->capture_default_str();

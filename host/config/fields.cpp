@@ -69,7 +69,8 @@ Table trace_table() {
                   "a candidate for every pair of edges that both ends see."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
-           .doc = "Edges of a single face diffract too, as half planes: screens, signs, the rims of open meshes."},
+           .doc = "Edges of a single face diffract too, as half planes: screens, signs, the rims of open "
+                  "meshes. That of the ground never does: the world goes on where the map ends."},
           {.name = "diffraction_rays",
            .slot = t(&TraceConfig::diffraction_rays),
            .unit = "rays a receiver",

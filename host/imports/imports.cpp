@@ -121,6 +121,7 @@ ImportSummary import_city(std::string_view content, const std::string& name, con
   Georeference georeference = map.georeference;
   georeference.offset_m += plan.offset_m;
   summary.offset_m = plan.offset_m;
+  summary.ground = imports::ground_extent(plan, options);
   summary.attribution = georeference.attribution;
   summary.warnings = map.warnings;
   write_reference(options.output, georeference);
@@ -136,6 +137,10 @@ std::string describe(const ImportSummary& s) {
       "{:.1f}) to ({:.1f}, {:.1f})\n",
       s.scene.string(), s.buildings, s.parts, s.courtyards, s.triangles, s.upper_m.x - s.lower_m.x,
       s.upper_m.y - s.lower_m.y, s.lower_m.x, s.lower_m.y, s.upper_m.x, s.upper_m.y);
+  if (!s.ground.empty())
+    out += fmt::format("ground     {:.0f} x {:.0f} m, from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})\n",
+                       s.ground.upper_m.x - s.ground.lower_m.x, s.ground.upper_m.y - s.ground.lower_m.y,
+                       s.ground.lower_m.x, s.ground.lower_m.y, s.ground.upper_m.x, s.ground.upper_m.y);
   if (!s.guessed.empty()) out += "assumed\n" + total(s.guessed);
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);

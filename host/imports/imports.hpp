@@ -3,7 +3,9 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,17 +13,28 @@
 
 namespace wavetracer {
 
+// A rectangle seen from above; one without a point is empty.
+struct Extent {
+  glm::dvec2 lower_m{std::numeric_limits<double>::infinity()}, upper_m{-std::numeric_limits<double>::infinity()};
+  bool empty() const { return !(lower_m.x <= upper_m.x && lower_m.y <= upper_m.y); }
+  void add(const glm::dvec2& p) {
+    lower_m = glm::min(lower_m, p);
+    upper_m = glm::max(upper_m, p);
+  }
+};
+
 struct ImportOptions {
-  std::filesystem::path output;                                        // folder; created
-  double level_height_m = 3;                                           // of building:levels
-  double default_height_m = 10;                                        // of buildings without height and levels
-  bool ground = true;                                                  // a rectangle at z = 0 under all buildings
-  double margin_m = 50;                                                // ground beyond the outermost buildings
+  std::filesystem::path output;  // folder; created
+  double level_height_m = 3;     // of building:levels
+  double default_height_m = 10;  // of buildings without height and levels
+  bool ground = true;    // a rectangle at z = 0 under all buildings, the road network (convBoundary) and the traffic
+  double margin_m = 50;  // ground beyond the outermost of them
   std::string ground_material = "concrete";                            // ITU names
   std::string wall_material = "concrete", roof_material = "concrete";  // where the file does not say
   // OpenStreetMap only: the .net.xml that SUMO's netconvert made of the same map. The scene then has its coordinates,
   // which are those of the vehicles; without it a transverse Mercator projection about the middle of the city.
   std::filesystem::path net;
+  Extent traffic;  // where vehicles will be, in the coordinates of the network
 };
 
 struct ImportSummary {
@@ -33,6 +46,7 @@ struct ImportSummary {
   std::map<std::string, uint64_t> left_out;  // reason -> how many
   std::map<std::string, uint64_t> guessed;   // what was assumed of buildings that stay -> how many
   glm::dvec2 lower_m{0}, upper_m{0};         // of the buildings, in the coordinates of the scene
+  Extent ground;                             // empty without one
   glm::dvec2 offset_m{0};   // scene = projected coordinates (OSM) or those of SUMO (.poly.xml, net) + this
   std::string attribution;  // to be shown with the data; empty where the source asks for none
   std::vector<std::string> warnings;

@@ -27,6 +27,7 @@ struct Footprint {
 struct Map {
   std::vector<Footprint> footprints;
   Georeference georeference;           // of the coordinates of the footprints; without a projection where none is known
+  Extent network;                      // convBoundary of SUMO's <location>
   bool nested_are_courtyards = false;  // a footprint inside another of the same tags is a hole in it
   std::map<std::string, uint64_t> left_out;
   std::vector<std::string> warnings;
@@ -42,8 +43,13 @@ bool is_sumo_polygons(std::string_view first_bytes);
 Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options);
 Map read_sumo_polygons(std::string_view content, const std::string& name);
 
-// The <location> of a .net.xml or .poly.xml; empty where it has none. Throws InputError where it is malformed.
-std::optional<Georeference> sumo_location(std::string_view content, const std::string& name);
+// The <location> of a .net.xml or .poly.xml.
+struct SumoLocation {
+  Georeference georeference;
+  Extent boundary;  // of the network or the polygons, in its coordinates; empty where SUMO says that there is nothing
+};
+// Empty where it has none. Throws InputError where it is malformed.
+std::optional<SumoLocation> sumo_location(std::string_view content, const std::string& name);
 
 // The name of the root element of an XML text, of which the beginning is enough; empty where it is none.
 std::string_view root_element(std::string_view text);

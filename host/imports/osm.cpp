@@ -34,6 +34,14 @@ bool is_yes(const osmium::TagList& tags, const char* key) {
   const char* const value = tags.get_value_by_key(key);
   return value && std::string_view(value) != "no";
 }
+// What stands in the way of waves besides buildings, in words; empty: nothing of this kind. No model of it is built.
+std::string_view greenery(const osmium::TagList& tags) {
+  if (tags.has_tag("natural", "tree")) return "tree (natural=tree)";
+  if (tags.has_tag("natural", "tree_row")) return "row of trees (natural=tree_row)";
+  if (tags.has_tag("natural", "wood") || tags.has_tag("landuse", "forest"))
+    return "forest (landuse=forest, natural=wood)";
+  return {};
+}
 bool is_building(const osmium::TagList& tags) { return is_yes(tags, "building") || is_yes(tags, "building:part"); }
 
 class OsmReader {
@@ -94,6 +102,7 @@ class OsmReader {
     if (++nodes_ > 1000000 + 8 * content_.size()) {
       throw InputError(fmt::format("{}: holds far more nodes than its size allows: it is damaged", name_));
     }
+    count_greenery(node);
     if (node.visible() && node.location().valid()) locations_.set(index_id(node.id()), node.location());
   }
 
@@ -108,8 +117,15 @@ class OsmReader {
     }
   }
 
+  void count_greenery(const osmium::OSMObject& object) {
+    if (!object.visible() || object.tags().empty()) return;
+    check_tags(object);
+    if (const std::string_view kind = greenery(object.tags()); !kind.empty()) ++map_.left_out[std::string(kind)];
+  }
+
   void way(const osmium::Way& way) {
     check_tags(way);
+    count_greenery(way);
     const bool building = is_building(way.tags());
     if (!way.visible() || (!building && !member_ways_.contains(way.id()))) return;
     if (building && (way.nodes().size() < 4 || !way.is_closed()) && !member_ways_.contains(way.id())) {
@@ -124,6 +140,7 @@ class OsmReader {
 
   void relation(const osmium::Relation& relation) {
     check_tags(relation);
+    count_greenery(relation);
     const char* const type = relation.tags().get_value_by_key("type");
     if (!relation.visible() || !type || std::string_view(type) != "multipolygon" || !is_building(relation.tags())) {
       return;
@@ -273,13 +290,14 @@ Map read_osm(std::string_view content, const std::string& name, const ImportOpti
   } else {
     const std::string net = read_file(options.net);
     const auto location = sumo_location(net, options.net.string());
-    if (!location || location->projection.empty()) {
+    if (!location || location->georeference.projection.empty()) {
       throw InputError(
           fmt::format("{}: has no <location> with a projection; give the .net.xml that netconvert made of "
                       "the same map",
                       options.net.string()));
     }
-    map.georeference = *location;
+    map.georeference = location->georeference;
+    map.network = location->boundary;
   }
   map.georeference.attribution = osm_attribution;
   const Projection projection(map.georeference);

@@ -62,6 +62,8 @@ class Planner {
   Planner(const Map& map, const std::string& name, const ImportOptions& options) : map_(map), options_(options) {
     plan_.left_out = map.left_out;
     plan_.offset_m = shift_to_origin(map, name);
+    for (const auto& [extent, what] : {std::pair{map.network, "network"}, {options.traffic, "traffic"}})
+      if (options.ground && !extent.empty()) reach(extent, fmt::format("{}: the {}", name, what));
   }
 
   Plan plan() {
@@ -77,6 +79,20 @@ class Planner {
   }
 
  private:
+  void reach(const Extent& extent, const std::string& what) {
+    constexpr double most_m = 2 * largest_coordinate_m;
+    for (const glm::dvec2& corner : {extent.lower_m, extent.upper_m}) {
+      const glm::dvec2 p = corner + plan_.offset_m;
+      if (!(std::max(std::abs(p.x), std::abs(p.y)) <= most_m)) {
+        throw InputError(
+            fmt::format("{} reaches ({:.0f}, {:.0f}) km in the scene, which has the ground below it; {:.0f} km is the "
+                        "most: do map and network belong together? Cut both, or import without a ground",
+                        what, p.x / 1000, p.y / 1000, most_m / 1000));
+      }
+      plan_.traffic.add(p);
+    }
+  }
+
   void drop(Candidate& candidate, const std::string& reason) {
     candidate.gone = true;
     ++plan_.left_out[reason];

@@ -23,6 +23,7 @@ struct Solid {
 struct Plan {
   std::vector<Solid> solids;
   glm::dvec2 offset_m{0, 0};  // coordinates of the solids = those of the map + this; zero where they are small enough
+  Extent traffic;             // what the ground has to reach besides the solids, in their coordinates
   std::map<std::string, uint64_t> left_out, guessed;
 };
 

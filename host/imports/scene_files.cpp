@@ -68,18 +68,9 @@ std::vector<glm::dvec3> corners(const Solid& solid) {
   return out;
 }
 
-// A rectangle under all buildings and `margin_m` beyond them.
-SceneMesh ground(const Plan& plan, const ImportOptions& options) {
-  Box box = box_of(plan.solids.front().polygon.outer);
-  for (const Solid& solid : plan.solids) {
-    const Box other = box_of(solid.polygon.outer);
-    box.lower = {std::min(box.lower.x, other.lower.x), std::min(box.lower.y, other.lower.y)};
-    box.upper = {std::max(box.upper.x, other.upper.x), std::max(box.upper.y, other.upper.y)};
-  }
-  const double x0 = static_cast<double>(box.lower.x) / grid_per_m - options.margin_m;
-  const double y0 = static_cast<double>(box.lower.y) / grid_per_m - options.margin_m;
-  const double x1 = static_cast<double>(box.upper.x) / grid_per_m + options.margin_m;
-  const double y1 = static_cast<double>(box.upper.y) / grid_per_m + options.margin_m;
+SceneMesh ground(const Extent& extent, const ImportOptions& options) {
+  const auto [x0, y0] = std::pair(extent.lower_m.x, extent.lower_m.y);
+  const auto [x1, y1] = std::pair(extent.upper_m.x, extent.upper_m.y);
   return {"ground",
           "ground",
           options.ground_material,
@@ -120,9 +111,20 @@ std::vector<SceneMesh> extrude(const Solid& solid) {
   return {std::move(walls), std::move(roof)};
 }
 
+Extent ground_extent(const Plan& plan, const ImportOptions& options) {
+  if (!options.ground || plan.solids.empty()) return {};
+  Extent out = plan.traffic;
+  for (const Solid& solid : plan.solids)
+    for (const Point& p : solid.polygon.outer)
+      out.add({static_cast<double>(p.x) / grid_per_m, static_cast<double>(p.y) / grid_per_m});
+  out.lower_m -= options.margin_m;
+  out.upper_m += options.margin_m;
+  return out;
+}
+
 std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& options) {
   std::vector<SceneMesh> out;
-  if (options.ground && !plan.solids.empty()) out.push_back(ground(plan, options));
+  if (const Extent extent = ground_extent(plan, options); !extent.empty()) out.push_back(ground(extent, options));
   for (const Solid& solid : plan.solids) {
     for (SceneMesh& mesh : extrude(solid)) out.push_back(std::move(mesh));
   }

@@ -21,6 +21,9 @@ struct SceneMesh {
 // A closed solid, normals outward: one mesh, or two, walls and roof, where their materials differ.
 std::vector<SceneMesh> extrude(const Solid& solid);
 
+// The rectangle of the ground: all buildings, the network and the traffic, and the margin; empty without a ground.
+Extent ground_extent(const Plan& plan, const ImportOptions& options);
+
 // The ground first, if it is asked for, then all solids. Names of meshes are unique.
 std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& options);
 

@@ -53,7 +53,19 @@ std::string where(std::string_view content, std::ptrdiff_t offset, const std::st
       1 + std::count(content.begin(), content.begin() + std::clamp<std::ptrdiff_t>(offset, 0, size), '\n'));
 }
 
-std::optional<Georeference> read_location(const pugi::xml_node node, const std::string& at) {
+// Four numbers with commas between them. SUMO writes lower > upper where there is nothing, which is empty.
+Extent read_boundary(std::string_view text, const std::string& at) {
+  if (text.empty()) return {};
+  const size_t second = text.find(',') == text.npos ? text.npos : text.find(',', text.find(',') + 1);
+  const auto lower = parse_pair(text.substr(0, second)),
+             upper = second == text.npos ? std::nullopt : parse_pair(text.substr(second + 1));
+  if (!lower || !upper || text.find(',', text.find(',', second + 1) + 1) != text.npos)
+    throw InputError(fmt::format("{}: <location convBoundary=\"{}\"> must be four numbers with commas", at, text));
+  const Extent out{*lower, *upper};
+  return out.empty() ? Extent{} : out;
+}
+
+SumoLocation read_location(const pugi::xml_node node, const std::string& at) {
   const auto offset = parse_pair(node.attribute("netOffset").value());
   if (!offset) {
     throw InputError(fmt::format("{}: <location netOffset=\"{}\"> must be two numbers with a comma", at,
@@ -61,7 +73,7 @@ std::optional<Georeference> read_location(const pugi::xml_node node, const std::
   }
   Georeference out{node.attribute("projParameter").value(), *offset, {}};
   if (!out.projection.starts_with("+proj")) out.projection.clear();  // "!": none; "-": as it was
-  return out;
+  return {out, read_boundary(node.attribute("convBoundary").value(), at)};
 }
 
 Tags tags_of(const pugi::xml_node poly) {
@@ -113,7 +125,7 @@ bool is_sumo_polygons(std::string_view first_bytes) {
   return root == "additional" || root == "polygons" || root == "shapes";
 }
 
-std::optional<Georeference> sumo_location(std::string_view content, const std::string& name) {
+std::optional<SumoLocation> sumo_location(std::string_view content, const std::string& name) {
   content = content.substr(0, header_size);
   const size_t begin = content.find("<location");
   if (begin == std::string_view::npos) return {};
@@ -138,7 +150,9 @@ Map read_sumo_polygons(std::string_view content, const std::string& name) {
   map.nested_are_courtyards = true;
   const pugi::xml_node root = document.document_element();
   if (const pugi::xml_node location = root.child("location")) {
-    map.georeference = *read_location(location, where(content, location.offset_debug(), name));
+    const SumoLocation read = read_location(location, where(content, location.offset_debug(), name));
+    map.georeference = read.georeference;
+    map.network = read.boundary;
   }
   // polyconvert writes its own configuration into a comment.
   if (content.substr(0, header_size).find("<osm-files") != std::string_view::npos) {

@@ -77,7 +77,8 @@ dvec3 recentre(Soup& soup, const std::string& file) {
   if (std::max({size.x, size.y, size.z}) < smallest_extent_m) {
     throw InputError(fmt::format(
         "{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, less than {:g} m, where corners within 1 mm of each "
-        "other are one: is scene.scale right? To trace a small model, scale scene, antennas and wavelength up by one factor",
+        "other are one: is scene.scale right? To trace a small model, scale scene, antennas and wavelength up by one "
+        "factor",
         file, size.x, size.y, size.z, smallest_extent_m));
   }
   const dvec3 origin = glm::round(lower + size * 0.5) + dvec3(0);  // + 0: no negative zeros
@@ -190,7 +191,7 @@ void compact_vertices(Scene& scene) {
 
 }  // namespace
 
-Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, bool with_wedges) {
+Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch edges) {
   Scene scene;
   scene.file = raw.file;
   scene.files = raw.files;
@@ -209,7 +210,7 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, bool with_wed
   const auto triangle_edges = find_edges(scene);
   find_surfaces(scene, triangle_material, triangle_edges);
   find_flat_edges(scene);
-  if (with_wedges) find_wedges(scene);
+  find_wedges(scene, edges);
   scene.lower = scene.upper = scene.vertices[0];
   for (const dvec3& v : scene.vertices) {
     scene.lower = glm::min(scene.lower, v);

@@ -3,6 +3,7 @@
 #pragma once
 #include "scene/materials.hpp"
 #include "scene/raw_scene.hpp"
+#include "scene/wedges.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
@@ -11,8 +12,8 @@ namespace wavetracer {
 // (float32 coordinates, in which rays are traced, have steps of 1 um from 8 m off the origin on).
 constexpr double degenerate_height_m = 1e-6;
 
-// with_wedges: fill Scene::wedges too, which only diffraction needs. Throws InputError for an empty scene, or one of
+// edges: what to fill Scene::wedges with, which only diffraction needs. Throws InputError for an empty scene, or one of
 // impossible size.
-Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, bool with_wedges = true);
+Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch edges = EdgeSearch::of_model);
 
 }  // namespace wavetracer

@@ -74,8 +74,8 @@ std::string describe_scene(const Scene& scene) {
                      scene.wedges.size() - static_cast<size_t>(free), free);
   out += fmt::format(
       "           left out: {} pieces flat with another mesh, {} in corners with no sector wider than 180 degrees "
-      "(feet of walls)\n",
-      report.flat_pieces, report.corner_pieces);
+      "(feet of walls), {} edges at the rim of the ground\n",
+      report.flat_pieces, report.corner_pieces, report.ground_rims);
   out += fmt::format("materials  {}\n", scene.materials.size());
   const std::vector<MaterialUse> use = material_use(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {

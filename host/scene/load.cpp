@@ -87,10 +87,10 @@ void apply_units(RawScene& raw, const SceneConfig& config) {
 }
 
 Scene finish(RawScene raw, const SceneConfig& scene, const std::vector<MaterialConfig>& materials, double frequency_hz,
-             bool with_wedges) {
+             EdgeSearch edges) {
   apply_units(raw, scene);
   ResolvedMaterials resolved = resolve_materials(raw, scene, materials, frequency_hz);
-  return build_scene(raw, std::move(resolved), with_wedges);
+  return build_scene(raw, std::move(resolved), edges);
 }
 
 }  // namespace
@@ -102,16 +102,17 @@ Scene load_scene(const Config& config) {
                           ? "no scene: set scene.file to a file, or scene.generate to options of 'scene city'"
                           : "both scene.file and scene.generate are set: keep one");
   }
+  const EdgeSearch edges = config.trace.diffraction ? EdgeSearch::of_scene : EdgeSearch::none;
   if (!scene.generate.empty()) {
     RawScene raw = generate_city(parse_city_options(scene.generate));
-    return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, config.trace.diffraction);
+    return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, edges);
   }
-  return load_scene_file(scene.file, scene, config.materials, config.radio.frequency_hz, config.trace.diffraction);
+  return load_scene_file(scene.file, scene, config.materials, config.radio.frequency_hz, edges);
 }
 
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
-                      const std::vector<MaterialConfig>& materials, double frequency_hz, bool with_wedges) {
-  return finish(read_raw(path), scene, materials, frequency_hz, with_wedges);
+                      const std::vector<MaterialConfig>& materials, double frequency_hz, EdgeSearch edges) {
+  return finish(read_raw(path), scene, materials, frequency_hz, edges);
 }
 
 }  // namespace wavetracer

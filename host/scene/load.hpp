@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "scene/wedges.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 
@@ -17,6 +18,6 @@ Scene load_scene(const Config& config);
 // The frequency only chooses between laws of one material name (glass has two ranges).
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
                       const std::vector<MaterialConfig>& materials = {},
-                      double frequency_hz = RadioConfig{}.frequency_hz, bool with_wedges = true);
+                      double frequency_hz = RadioConfig{}.frequency_hz, EdgeSearch edges = EdgeSearch::of_scene);
 
 }  // namespace wavetracer

@@ -12,11 +12,11 @@ constexpr double cells_a_box = 8;
 
 }  // namespace
 
-SceneGrid::SceneGrid(std::span<const Box> boxes) {
+SceneGrid::SceneGrid(std::span<const SceneBox> boxes) {
   if (boxes.empty()) return;
   lower_ = boxes[0].lower;
   glm::dvec3 upper = boxes[0].upper;
-  for (const Box& box : boxes) {
+  for (const SceneBox& box : boxes) {
     lower_ = glm::min(lower_, box.lower);
     upper = glm::max(upper, box.upper);
   }
@@ -26,7 +26,7 @@ SceneGrid::SceneGrid(std::span<const Box> boxes) {
     const glm::dvec3 counts = glm::floor(extent_m / cell_m) + 1.0;
     if (counts.x * counts.y * counts.z > limit) return false;
     double sum = 0;
-    for (const Box& box : boxes) {
+    for (const SceneBox& box : boxes) {
       const glm::dvec3 first = glm::floor((box.lower - lower_) / cell_m);
       const glm::dvec3 cells = glm::floor((box.upper - lower_) / cell_m) - first + 1.0;
       sum += cells.x * cells.y * cells.z;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <utility>
@@ -11,22 +12,27 @@
 
 namespace wavetracer {
 
-struct Box {
+// An axis-aligned box in metres.
+struct SceneBox {
   glm::dvec3 lower, upper;
+  void grow(const SceneBox& other) {
+    lower = glm::min(lower, other.lower);
+    upper = glm::max(upper, other.upper);
+  }
 };
 
 class SceneGrid {
  public:
   // Cells are as small as they can be while neither their number nor the sum of cells over all boxes exceeds 8 a box:
   // memory stays linear, whatever the boxes.
-  explicit SceneGrid(std::span<const Box> boxes);
+  explicit SceneGrid(std::span<const SceneBox> boxes);
 
   size_t size() const { return static_cast<size_t>(counts_[0] * counts_[1] * counts_[2]); }
   uint32_t cell_at(const glm::dvec3& p) const { return number(cell(0, p.x), cell(1, p.y), cell(2, p.z)); }
 
   // Calls visit(cell) for the cells that a box overlaps.
   template <class Visit>
-  void visit_box(const Box& box, const Visit& visit) const {
+  void visit_box(const SceneBox& box, const Visit& visit) const {
     for (int64_t z = cell(2, box.lower.z); z <= cell(2, box.upper.z); ++z) {
       for (int64_t y = cell(1, box.lower.y); y <= cell(1, box.upper.y); ++y) {
         for (int64_t x = cell(0, box.lower.x); x <= cell(0, box.upper.x); ++x) visit(number(x, y, z));

@@ -11,7 +11,8 @@
 #include <optional>
 
 #include "scene/edge_pieces.hpp"
-#include "scene/scene_grid.hpp"
+#include "scene/ground_rims.hpp"
+#include "scene/triangle_grid.hpp"
 #include "scene/wedge_rows.hpp"
 
 namespace wavetracer {
@@ -31,34 +32,13 @@ struct HalfPlane {
   uint32_t surface;
 };
 
-std::vector<Box> triangle_boxes(const Scene& scene) {
-  std::vector<Box> boxes;
-  boxes.reserve(scene.triangles.size());
-  for (const auto& [a, b, c] : scene.triangles) {
-    const dvec3 &p = scene.vertices[a], &q = scene.vertices[b], &r = scene.vertices[c];
-    boxes.push_back({glm::min(glm::min(p, q), r) - probe_m, glm::max(glm::max(p, q), r) + probe_m});
-  }
-  return boxes;
-}
-
-CellLists triangles_by_cell(const SceneGrid& grid, std::span<const Box> boxes) {
-  std::vector<CellLists::Entry> entries;
-  for (uint32_t t = 0; t < boxes.size(); ++t) {
-    grid.visit_box(boxes[t], [&](uint32_t cell) { entries.push_back({cell, t}); });
-  }
-  return {grid.size(), entries};
-}
-
 class FaceFinder {
  public:
   explicit FaceFinder(const Scene& scene)
-      : scene_(scene),
-        boxes_(triangle_boxes(scene)),
-        grid_(boxes_),
-        triangles_(triangles_by_cell(grid_, boxes_)),
-        pieces_(split_edges(scene, grid_)) {}
+      : scene_(scene), triangles_(scene, probe_m), pieces_(split_edges(scene, triangles_.grid())) {}
 
   std::span<const EdgePiece> pieces() const { return pieces_.pieces; }
+  const TriangleGrid& triangles() const { return triangles_; }
 
   // The half planes that leave a piece, by angle; those of one direction are one, that of their lowest surface.
   std::vector<HalfPlane> faces(const EdgePiece& piece) const {
@@ -109,9 +89,9 @@ class FaceFinder {
   // Of triangles in whose plane the piece lies, on the sides where they are.
   void add_passing(const EdgePiece& piece, std::vector<HalfPlane>& found) const {
     const dvec3 middle = (piece.start + piece.end) / 2.0;
-    for (const uint32_t t : triangles_[grid_.cell_at(middle)]) {
-      if (glm::any(glm::lessThan(middle, boxes_[t].lower)) || glm::any(glm::greaterThan(middle, boxes_[t].upper)))
-        continue;
+    for (const uint32_t t : triangles_[triangles_.grid().cell_at(middle)]) {
+      const SceneBox& box = triangles_.boxes()[t];
+      if (glm::any(glm::lessThan(middle, box.lower)) || glm::any(glm::greaterThan(middle, box.upper))) continue;
       const uint32_t surface = scene_.triangle_surface[t];
       if (!lies_in(piece.start, surface) || !lies_in(piece.end, surface)) continue;
       const std::optional<dvec3> side = across_piece(piece, surface);
@@ -154,9 +134,7 @@ class FaceFinder {
   }
 
   const Scene& scene_;
-  std::vector<Box> boxes_;
-  SceneGrid grid_;
-  CellLists triangles_;
+  TriangleGrid triangles_;
   EdgePieces pieces_;
 };
 
@@ -187,12 +165,16 @@ Wedge wedge_at(const EdgePiece& piece, const Sector& sector) {
 
 }  // namespace
 
-void find_wedges(Scene& scene) {
+void find_wedges(Scene& scene, EdgeSearch search) {
+  scene.wedges.clear();
+  scene.report.flat_pieces = scene.report.corner_pieces = scene.report.ground_rims = 0;
+  if (search == EdgeSearch::none) return;
   const FaceFinder finder(scene);
-  scene.report.flat_pieces = scene.report.corner_pieces = 0;
+  GroundRims rims(scene);
   std::vector<WedgePiece> found;
   for (const EdgePiece& piece : finder.pieces()) {
     const std::vector<HalfPlane> faces = finder.faces(piece);
+    for (const HalfPlane& face : faces) rims.join(faces[0].surface, face.surface);
     const Sector sector = faces.empty() ? Sector{} : widest_sector(faces);
     if (sector.angle_rad > pi + same_angle_rad)
       found.push_back({piece.joints, wedge_at(piece, sector)});
@@ -200,6 +182,9 @@ void find_wedges(Scene& scene) {
       ++(faces.size() > 2 ? scene.report.corner_pieces : scene.report.flat_pieces);
   }
   scene.wedges = join_rows(found);
+  if (search == EdgeSearch::of_scene)
+    scene.report.ground_rims =
+        std::erase_if(scene.wedges, [&](const Wedge& wedge) { return rims.are_of(wedge, finder.triangles()); });
 }
 
 }  // namespace wavetracer

@@ -5,6 +5,12 @@
 
 namespace wavetracer {
 
+enum class EdgeSearch {
+  none,
+  of_model,  // all edges that diffract
+  of_scene,  // without the rim of the ground (host/scene/ground_rims.hpp)
+};
+
 // Fills Scene::wedges and the counts of LoadReport about them; what was there before is replaced. The rule:
 //
 // 1. Edges that are not flat are cut where they touch or cross one another, within 2 mm. So pieces of meshes that touch
@@ -17,8 +23,9 @@ namespace wavetracer {
 //    faces or more, as the foot of a wall is. So a concave edge diffracts on its back side only, which paths do not
 //    reach if that is inside of a building.
 // 4. Pieces in a row, on one line within 2 mm, between the same surfaces, are one wedge.
+// 5. Of a scene, free edges at the rim of its ground are left out: the world goes on there.
 //
 // Wedges are sorted by the vertices of their mesh edges; the same mesh gives the same wedges.
-void find_wedges(Scene& scene);
+void find_wedges(Scene& scene, EdgeSearch search = EdgeSearch::of_model);
 
 }  // namespace wavetracer

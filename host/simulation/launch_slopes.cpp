@@ -63,44 +63,31 @@ std::vector<float> table_of(const SlopeCounts& counts, double reach_m) {
   return height_table(shares, uniform_share);
 }
 
-// Does the triangle stand over or under this place?
-bool above_or_below(const Scene& scene, uint32_t triangle, const glm::dvec3& place) {
-  double sides[3];
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3& a = scene.vertices[scene.triangles[triangle][i]];
-    const glm::dvec3& b = scene.vertices[scene.triangles[triangle][(i + 1) % 3]];
-    sides[i] = (b.x - a.x) * (place.y - a.y) - (b.y - a.y) * (place.x - a.x);
-  }
-  return (sides[0] >= 0 && sides[1] >= 0 && sides[2] >= 0) || (sides[0] <= 0 && sides[1] <= 0 && sides[2] <= 0);
-}
-
 // The lowest surface straight below; the floor of the scene's box where there is none.
-double lowest_below(const Scene& scene, const glm::dvec3& place) {
+double lowest_below(const Surroundings& around, const glm::dvec3& place) {
+  const Scene& scene = around.scene();
   double lowest = place.z;
-  for (const Surface& surface : scene.surfaces) {
-    if (place.x < surface.lower.x || place.x > surface.upper.x || place.y < surface.lower.y ||
-        place.y > surface.upper.y || surface.normal.z == 0)
-      continue;
+  for (const auto& crossing : around.crossings(place, {place.x, place.y, scene.lower.z - 1})) {
+    const Surface& surface = scene.surfaces[scene.triangle_surface[crossing.triangle]];
     const double z = (surface.offset_m - surface.normal.x * place.x - surface.normal.y * place.y) / surface.normal.z;
-    if (z >= lowest) continue;
-    for (uint32_t i = 0; i < surface.triangle_count; ++i)
-      if (above_or_below(scene, scene.surface_triangles[surface.first_triangle + i], place)) lowest = z;
+    lowest = std::min(lowest, z);
   }
   return lowest < place.z ? lowest : std::min(scene.lower.z, place.z);
 }
 
 }  // namespace
 
-LaunchSlopes::LaunchSlopes(const Scene& scene, double reach_m)
-    : scene_(scene),
-      reach_m_(std::max(reach_m, std::hypot(scene.upper.x - scene.lower.x, scene.upper.y - scene.lower.y))) {}
+LaunchSlopes::LaunchSlopes(const Surroundings& around, double reach_m)
+    : around_(around),
+      reach_m_(std::max(reach_m, std::hypot(around.scene().upper.x - around.scene().lower.x,
+                                            around.scene().upper.y - around.scene().lower.y))) {}
 
 double LaunchSlopes::ground_m(uint32_t origin, const EndState& end, const WorldState& world) {
   if (end.instance != no_instance) return std::min(world.instances[end.instance].position_m.z, end.position_m.z);
   if (origin == no_end) return end.position_m.z;
   if (origin >= ground_.size()) ground_.resize(origin + 1);
   Ground& known = ground_[origin];
-  if (known.position_m != end.position_m) known = {end.position_m, lowest_below(scene_, end.position_m)};
+  if (known.position_m != end.position_m) known = {end.position_m, lowest_below(around_, end.position_m)};
   return known.height_m;
 }
 

@@ -13,7 +13,7 @@
 
 #include "passes/launch_heights.hpp"
 #include "simulation/listeners.hpp"
-#include "wavetracer/scene.hpp"
+#include "simulation/surroundings.hpp"
 #include "wavetracer/world.hpp"
 
 namespace wavetracer {
@@ -32,8 +32,8 @@ struct SlopeTables {
 
 class LaunchSlopes {
  public:
-  // scene outlives this. reach_m: of paths, where that is more than the diagonal of the scene's plan.
-  LaunchSlopes(const Scene& scene, double reach_m);
+  // around outlives this. reach_m: of paths, where that is more than the diagonal of the scene's plan.
+  LaunchSlopes(const Surroundings& around, double reach_m);
   // Tables for the origins of this frame's links.
   SlopeTables operator()(const WorldState& world, const Origins& origins);
 
@@ -45,7 +45,7 @@ class LaunchSlopes {
     glm::dvec3 position_m{std::numeric_limits<double>::quiet_NaN()};
     double height_m = 0;
   };
-  const Scene& scene_;
+  const Surroundings& around_;
   double reach_m_;
   std::vector<Ground> ground_;
   std::map<SlopeCounts, uint32_t> known_;

@@ -121,6 +121,7 @@ struct Simulation::State {
   StageSeconds setup;
   std::optional<gpu::Context> context;
   Scene scene;
+  std::optional<Surroundings> around;  // of places in the scene
   DeviceScene device_scene;
   std::optional<World> world;
   Origins origins;
@@ -238,7 +239,8 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.scene = load_scene(config);
   s.setup["load"] = watch.lap();
   s.world.emplace(config, s.scene);
-  s.place_warnings = wavetracer::place_warnings(config, Surroundings(s.scene), *s.world);
+  s.around.emplace(s.scene);
+  s.place_warnings = wavetracer::place_warnings(config, *s.around, *s.world);
   s.config.transmitters = s.world->transmitters();
   s.config.receivers = s.world->receivers();
   s.features = choose_features(s.config, s.scene, *s.world);
@@ -267,7 +269,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   const bool sphere = config.trace.reception == "sphere";
   // A sphere receives what this frame's rays meet.
   s.reuse = config.trace.reuse && !sphere && (s.world->frame_count() > 1 || s.world->live());
-  if (s.trace.directions == "horizon") s.slopes.emplace(s.scene, s.world->reach_m());
+  if (s.trace.directions == "horizon") s.slopes.emplace(*s.around, s.world->reach_m());
   const uint32_t depth = ray_depth(s.trace, *s.world);
   s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse, depth);
   if (s.trace.diffraction && s.trace.rays > 0) s.discovery->listen(listener_rays(s.trace));
@@ -313,7 +315,7 @@ MissingLinks Simulation::explain_missing(const FrameResult& frame) const {
   for (size_t i = 0; i < paths.size(); ++i)
     found += i == 0 || paths.tx[i] != paths.tx[i - 1] || paths.rx[i] != paths.rx[i - 1];
   if (found == frame.world.links.size()) return {};
-  return wavetracer::explain_missing(s.config, s.features, Surroundings(s.scene), *s.world, frame);
+  return wavetracer::explain_missing(s.config, s.features, *s.around, *s.world, frame);
 }
 
 const DeviceSummary& Simulation::device() const { return state_->device; }

@@ -7,57 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
-
-#include "scene/scene_grid.hpp"
 
 namespace wavetracer {
 namespace {
 
 using glm::dvec3;
 
-constexpr double reach_m = 1e-6;  // of a line, so that rounding at a border of cells loses none
-
 // Up, and to four sides, of which two climb and two fall: a sheet, however wide, is not met by all of them.
 const std::array<dvec3, 5> leaving = {dvec3{0.0137, 0.0291, 1}, dvec3{1, 0.0431, 0.0573}, dvec3{-0.0523, 1, -0.0197},
                                       dvec3{-1, -0.0337, 0.0631}, dvec3{0.0217, -1, -0.0173}};
-
-Box box_of_points(const dvec3& a, const dvec3& b, const dvec3& c) {
-  return {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
-}
-
-void grow(Box& box, const Box& other) {
-  box.lower = glm::min(box.lower, other.lower);
-  box.upper = glm::max(box.upper, other.upper);
-}
-
-std::vector<Box> boxes_of(const Scene& scene) {
-  std::vector<Box> out;
-  out.reserve(scene.triangles.size());
-  for (const auto& [a, b, c] : scene.triangles)
-    out.push_back(box_of_points(scene.vertices[a], scene.vertices[b], scene.vertices[c]));
-  return out;
-}
-
-CellLists lists_of(const SceneGrid& grid, const std::vector<Box>& boxes) {
-  std::vector<CellLists::Entry> entries;
-  for (uint32_t t = 0; t < boxes.size(); ++t)
-    grid.visit_box(boxes[t], [&](uint32_t cell) { entries.push_back({cell, t}); });
-  return CellLists(grid.size(), entries);
-}
-
-// Where the line a + t (b - a) meets a triangle (T. Moeller and B. Trumbore, J. Graphics Tools 2(1), 1997).
-std::optional<double> meets(const dvec3& a, const dvec3& way, const dvec3& v0, const dvec3& v1, const dvec3& v2) {
-  const dvec3 e1 = v1 - v0, e2 = v2 - v0, p = glm::cross(way, e2);
-  const double det = glm::dot(e1, p);
-  if (det == 0) return {};
-  const dvec3 s = a - v0, q = glm::cross(s, e1);
-  const double u = glm::dot(s, p) / det, v = glm::dot(way, q) / det, t = glm::dot(e2, q) / det;
-  if (!(u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t <= 1)) return {};
-  return t;
-}
 
 // The square of the distance between p and a triangle (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
 double square_distance(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
@@ -77,22 +37,7 @@ double square_distance(const dvec3& p, const dvec3& a, const dvec3& b, const dve
   return std::min({to_side(a, b), to_side(b, c), to_side(c, a)});
 }
 
-// The part of the line a + t way, 0 <= t <= 1, that may be in the box; empty (first > second) where none is.
-std::pair<double, double> part_within(const Box& box, const dvec3& a, const dvec3& way) {
-  double first = 0, second = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = box.lower[axis] - reach_m - a[axis], high = box.upper[axis] + reach_m - a[axis];
-    if (way[axis] == 0) {
-      if (low > 0 || high < 0) return {1, 0};
-      continue;
-    }
-    first = std::max(first, std::min(low / way[axis], high / way[axis]));
-    second = std::min(second, std::max(low / way[axis], high / way[axis]));
-  }
-  return {first, second};
-}
-
-double volume(const Box& box) {
+double volume(const SceneBox& box) {
   const dvec3 size = box.upper - box.lower;
   return size.x * size.y * size.z;
 }
@@ -100,24 +45,24 @@ double volume(const Box& box) {
 }  // namespace
 
 struct Surroundings::Index {
-  SceneGrid grid;
-  CellLists triangles_in;
+  TriangleGrid triangles;
   std::vector<uint32_t> body;  // of each triangle
-  std::vector<Box> body_box, object_box;
+  std::vector<SceneBox> body_box, object_box;
 
-  Index(const Scene& scene, const std::vector<Box>& boxes);
-  void join_bodies(const Scene& scene, const std::vector<Box>& boxes);
+  explicit Index(const Scene& scene);
+  void join_bodies(const Scene& scene);
 };
 
-Surroundings::Index::Index(const Scene& scene, const std::vector<Box>& boxes)
-    : grid(boxes), triangles_in(lists_of(grid, boxes)) {
-  join_bodies(scene, boxes);
+Surroundings::Index::Index(const Scene& scene) : triangles(scene) {
+  join_bodies(scene);
+  const std::vector<SceneBox>& boxes = triangles.boxes();
   object_box.resize(scene.objects.size(), {dvec3(1e300), dvec3(-1e300)});
-  for (uint32_t t = 0; t < boxes.size(); ++t) grow(object_box[scene.triangle_object[t]], boxes[t]);
+  for (uint32_t t = 0; t < boxes.size(); ++t) object_box[scene.triangle_object[t]].grow(boxes[t]);
 }
 
 // Triangles that share an edge are of one body: a forest of triangles, each pointing to a lower one.
-void Surroundings::Index::join_bodies(const Scene& scene, const std::vector<Box>& boxes) {
+void Surroundings::Index::join_bodies(const Scene& scene) {
+  const std::vector<SceneBox>& boxes = triangles.boxes();
   std::vector<uint32_t> parent(boxes.size());
   std::iota(parent.begin(), parent.end(), 0u);
   const auto root = [&](uint32_t t) {
@@ -137,32 +82,16 @@ void Surroundings::Index::join_bodies(const Scene& scene, const std::vector<Box>
       body_box.push_back(boxes[t]);
     }
     body[t] = body[first];
-    grow(body_box[body[t]], boxes[t]);
+    body_box[body[t]].grow(boxes[t]);
   }
 }
 
-Surroundings::Surroundings(const Scene& scene)
-    : scene_(scene), index_(std::make_unique<Index>(scene, boxes_of(scene))) {}
+Surroundings::Surroundings(const Scene& scene) : scene_(scene), index_(std::make_unique<Index>(scene)) {}
 Surroundings::~Surroundings() = default;
 Surroundings::Surroundings(Surroundings&&) noexcept = default;
 
 std::vector<Surroundings::Crossing> Surroundings::crossings(const dvec3& a, const dvec3& b) const {
-  std::vector<Crossing> out;
-  const dvec3 way = b - a;
-  const auto [first, second] = part_within({scene_.lower, scene_.upper}, a, way);
-  if (!(first <= second)) return out;
-  const double length_m = glm::length(way);
-  index_->grid.visit_line(a + first * way, a + second * way, reach_m, [&](uint32_t cell) {
-    for (const uint32_t t : index_->triangles_in[cell]) {
-      const auto& [i, j, k] = scene_.triangles[t];
-      if (const auto at = meets(a, way, scene_.vertices[i], scene_.vertices[j], scene_.vertices[k]))
-        out.push_back({*at * length_m, t});
-    }
-  });
-  std::ranges::sort(out, {}, [](const Crossing& c) { return std::pair(c.distance_m, c.triangle); });
-  const auto repeated = std::ranges::unique(out, {}, &Crossing::triangle);  // a triangle may be in several cells
-  out.erase(repeated.begin(), repeated.end());
-  return out;
+  return index_->triangles.crossings(a, b);
 }
 
 std::optional<Surroundings::Body> Surroundings::body_at(const dvec3& p) const {
@@ -214,6 +143,18 @@ std::optional<Surroundings::Depth> Surroundings::below_ground(const dvec3& p) co
   return Depth{above.front().distance_m, object};
 }
 
+bool Surroundings::has_ground() const {
+  constexpr int places = 9;  // in x and in y
+  const dvec3 size = scene_.upper - scene_.lower;
+  int found = 0;
+  for (int k = 0; k < places * places; ++k) {
+    const double x = scene_.lower.x + size.x * (k % places + 0.5) / places,
+                 y = scene_.lower.y + size.y * (k / places + 0.5) / places;
+    found += !crossings({x, y, scene_.upper.z + 1}, {x, y, scene_.lower.z - 1}).empty();
+  }
+  return 2 * found >= places * places;
+}
+
 std::optional<double> Surroundings::height_above(const dvec3& p, double rise_m) const {
   const double bottom_m = scene_.lower.z - 1;
   if (p.z + rise_m <= bottom_m) return {};
@@ -226,8 +167,9 @@ std::optional<uint32_t> Surroundings::object_at(const dvec3& p) const {
   for (int axis = 0; axis < 3; ++axis)
     if (p[axis] < scene_.lower[axis] - on_surface_m || p[axis] > scene_.upper[axis] + on_surface_m) return {};
   std::optional<uint32_t> lowest;
-  index_->grid.visit_box({p - on_surface_m, p + on_surface_m}, [&](uint32_t cell) {
-    for (const uint32_t t : index_->triangles_in[cell]) {
+  const TriangleGrid& triangles = index_->triangles;
+  triangles.grid().visit_box({p - on_surface_m, p + on_surface_m}, [&](uint32_t cell) {
+    for (const uint32_t t : triangles[cell]) {
       const auto& [i, j, k] = scene_.triangles[t];
       if (square_distance(p, scene_.vertices[i], scene_.vertices[j], scene_.vertices[k]) <= on_surface_m * on_surface_m)
         lowest = std::min(lowest.value_or(t), t);

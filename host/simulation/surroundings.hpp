@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/triangle_grid.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
@@ -22,11 +23,8 @@ class Surroundings {
   ~Surroundings();
   Surroundings(Surroundings&&) noexcept;
 
-  struct Crossing {
-    double distance_m;  // from the line's start
-    uint32_t triangle;
-  };
-  // All triangles that the line from a to b meets, the nearest first.
+  using Crossing = TriangleGrid::Crossing;
+  // As TriangleGrid::crossings().
   std::vector<Crossing> crossings(const glm::dvec3& a, const glm::dvec3& b) const;
 
   // A body is what edges join. It holds a place where lines to all sides leave it: each meets it an odd number of
@@ -46,6 +44,8 @@ class Surroundings {
     uint32_t object;
   };
   std::optional<Depth> below_ground(const glm::dvec3& p) const;
+  // Whether there is something below at half of the scene's places or more, seen from above.
+  bool has_ground() const;
   // Height of p above the next surface below it, or, for one at most `rise_m` above it, a negative number.
   std::optional<double> height_above(const glm::dvec3& p, double rise_m) const;
 

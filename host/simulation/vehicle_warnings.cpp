@@ -17,9 +17,14 @@ constexpr uint64_t most_places = 20000;  // in all: below 0.2 s
 constexpr double step_m = 1;             // vehicles may stand so much above the ground,
 constexpr double sunk_m = 0.5;           // or below it: kerbs, ramps and rounding of maps are less
 
-enum Kind { through, below, above, kinds };
+enum Kind { through, below, above, beside, kinds };
 constexpr std::array<const char*, kinds> words = {"drive through closed bodies", "are below the ground",
-                                                  "are above the ground"};
+                                                  "are above the ground", "leave the ground"};
+constexpr const char* belong = "check trajectories.offset_m, and whether map and drive belong together";
+constexpr std::array<const char*, kinds> advice = {
+    belong, belong, belong,
+    "nothing reflects there; check trajectories.offset_m, or import the map anew with `wavetracer convert --net` or "
+    "`--traffic`"};
 
 struct Finding {
   Kind kind;
@@ -27,7 +32,8 @@ struct Finding {
   bool room = false;  // the body is so large that all may be meant to be inside of it
 };
 
-std::optional<Finding> look(const Surroundings& around, const Pose& pose, double height_m) {
+// grounded: most of the scene has a ground, so that it is missed where there is none.
+std::optional<Finding> look(const Surroundings& around, bool grounded, const Pose& pose, double height_m) {
   const glm::dvec3& p = pose.position_m;
   const auto by = [](Kind kind, double metres) { return Finding{kind, fmt::format("by {:.3g} m", metres)}; };
   if (const auto depth = around.below_ground(p); depth && depth->metres > sunk_m) return by(below, depth->metres);
@@ -36,6 +42,10 @@ std::optional<Finding> look(const Surroundings& around, const Pose& pose, double
   const auto over = around.height_above(p, step_m);
   if (over && *over < -sunk_m) return by(below, -*over);
   if (over && *over > step_m) return by(above, *over);
+  if (!over && grounded) {
+    const glm::dvec3 at = p + around.scene().origin_m;
+    return Finding{beside, fmt::format("at ({:.0f}, {:.0f}) m", at.x, at.y)};
+  }
   return {};
 }
 
@@ -65,10 +75,11 @@ class Drive {
   void look_at(const Surroundings& around, const World& world) {
     const Trajectories& all = world.trajectories();
     const uint64_t most = std::max<uint64_t>(most_places / std::max<size_t>(all.tracks.size(), 1), 1);
+    const bool grounded = around.has_ground();
     for (const Track& track : all.tracks) {
       std::array<bool, 2 * kinds> seen{};
       visit_frames(world, track, most, [&](double time_s, const Pose& pose) {
-        const auto found = look(around, pose, all.types[track.type].height_m);
+        const auto found = look(around, grounded, pose, all.types[track.type].height_m);
         free_ |= !found;
         if (!found || std::exchange(seen[found->kind + (found->room ? kinds : 0)], true)) return;
         Count& count = found->room ? in_rooms_ : counts_[found->kind];
@@ -82,10 +93,8 @@ class Drive {
     std::vector<std::string> out;
     const auto say = [&](const Count& c, Kind kind) {
       if (c.vehicles > 0)
-        out.push_back(
-            fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {:g} s on: check "
-                        "trajectories.offset_m, and whether map and drive belong together",
-                        c.vehicles, vehicles, words[kind], c.id, c.text, c.time_s));
+        out.push_back(fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {:g} s on: {}", c.vehicles,
+                                  vehicles, words[kind], c.id, c.text, c.time_s, advice[kind]));
     };
     for (int kind = 0; kind < kinds; ++kind) say(counts_[static_cast<size_t>(kind)], static_cast<Kind>(kind));
     if (free_) say(in_rooms_, through);

@@ -96,7 +96,7 @@ const Scene& VehicleModels::mesh_of(const VehicleTypeConfig& row) {
     scene.default_material = row.material;
     scene.material_alias = config_.scene.material_alias;
     mesh->second = load_scene_file(row.model, scene, config_.materials, config_.radio.frequency_hz,
-                                   config_.trace.diffraction);
+                                   config_.trace.diffraction ? EdgeSearch::of_model : EdgeSearch::none);
   }
   return mesh->second;
 }

@@ -65,6 +65,7 @@ struct LoadReport {
   // Pieces of edges at which nothing diffracts (host/scene/wedges.hpp), edges that are flat not counted:
   uint64_t flat_pieces = 0;    // of two faces in one plane
   uint64_t corner_pieces = 0;  // of three faces or more with no sector wider than 180 degrees, as the foot of a wall
+  uint64_t ground_rims = 0;    // free edges at the rim of the ground, of a scene (host/scene/ground_rims.hpp)
   std::vector<std::string> warnings;
 };
 

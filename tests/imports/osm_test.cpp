@@ -142,6 +142,68 @@ TEST_CASE("the order of objects does not matter: Overpass writes nodes last") {
   CHECK(first.scene.triangles == last.scene.triangles);
 }
 
+TEST_CASE("the ground reaches below the network of --net and the traffic, with a margin") {
+  OsmText map;
+  map.way(rectangle(0, 0, 10, 10), {{"building", "yes"}});
+  const TemporaryFolder folder;
+  const auto net = [&](const std::string& boundary) {
+    return folder.write("town.net.xml", "<net><location netOffset=\"0,0\" convBoundary=\"" + boundary +
+                                            "\" projParameter=\"+proj=tmerc +lat_0=48.137 +lon_0=11.575 +ellps=WGS84 "
+                                            "+units=m +no_defs\"/></net>");
+  };
+  const auto ground_of = [&](const ImportOptions& options) {
+    const Scene scene = import_text(map.text(), folder, options).scene;
+    glm::dvec3 lower(1e300), upper(-1e300);
+    for (size_t t = 0; t < scene.triangles.size(); ++t)
+      for (const uint32_t v : scene.triangles[t])
+        if (scene.objects[scene.triangle_object[t]].starts_with("ground")) {
+          lower = glm::min(lower, scene.vertices[v] + scene.origin_m);
+          upper = glm::max(upper, scene.vertices[v] + scene.origin_m);
+        }
+    return std::array{lower.x, lower.y, upper.x, upper.y};
+  };
+  ImportOptions options;
+  options.net = net("-900.5,-20,300,1200");
+  CHECK(ground_of(options) == std::array{-950.5, -70.0, 350.0, 1250.0});
+  options.margin_m = 10;
+  options.traffic.add({-2000, 0});
+  options.traffic.add({0, 1500});
+  CHECK(ground_of(options) == std::array{-2010.0, -30.0, 310.0, 1510.0});
+  // A network without edges, as SUMO writes it; none; and what cannot be.
+  options = {};
+  for (const char* nothing : {"10000000000.00,10000000000.00,-10000000000.00,-10000000000.00", ""}) {
+    options.net = net(nothing);
+    CHECK(std::abs(ground_of(options)[2] - 60) < 0.02);
+  }
+  for (const char* bad : {"1,2,3", "1,2,3,4,5", "a,b,c,d", "0,0,nan,1"}) {
+    options.net = net(bad);
+    CHECK_THROWS_WITH_AS(ground_of(options), doctest::Contains("convBoundary"), InputError);
+  }
+  options.net = net("0,0,600000,10");
+  CHECK_THROWS_WITH_AS(ground_of(options), doctest::Contains("the network reaches (600, 0) km"), InputError);
+  options.ground = false;
+  CHECK_NOTHROW(import_text(map.text(), folder, options));
+}
+
+TEST_CASE("trees and forests, which no model is built of, are counted") {
+  OsmText map;
+  map.way(rectangle(0, 0, 10, 10), {{"building", "yes"}});
+  map.way(rectangle(20, 0, 90, 90), {{"landuse", "forest"}});
+  map.way(rectangle(20, 100, 90, 190), {{"natural", "wood"}});
+  map.way({{0, 40}, {10, 50}, {20, 60}}, {{"natural", "tree_row"}}, false);
+  map.way(rectangle(100, 0, 190, 90), {{"natural", "water"}});
+  std::string text = map.text();
+  for (int i = 0; i < 7; ++i)
+    text.insert(text.rfind("</osm>"), "<node id=\"" + std::to_string(90000 + i) +
+                                          "\" lat=\"48.137\" lon=\"11.575\"><tag k=\"natural\" v=\"tree\"/></node>");
+  const TemporaryFolder folder;
+  const auto [summary, scene] = import_text(text, folder);
+  CHECK(summary.left_out == std::map<std::string, uint64_t>{{"tree (natural=tree)", 7},
+                                                            {"row of trees (natural=tree_row)", 1},
+                                                            {"forest (landuse=forest, natural=wood)", 2}});
+  CHECK(describe(summary).find("      7  tree (natural=tree)\n") != std::string::npos);
+}
+
 TEST_CASE("options: no ground, other materials; errors name what is wrong") {
   OsmText map;
   map.way(rectangle(0, 0, 10, 10), {{"building", "yes"}});

@@ -22,7 +22,7 @@ fail() {
 }
 inside wavetracer --version | grep -q '^wavetracer [0-9]' || fail "--version"
 inside wavetracer devices | grep -q '^\*.* CPU ' || fail "devices: no CPU device is chosen"
-inside wavetracer run -c /usr/share/doc/wavetracer/examples/city.toml --set trace.rays=20000 -o /root/out
+inside wavetracer run -c /usr/share/wavetracer/configs/city.toml --set trace.rays=20000 -o /root/out
 for file in paths.h5 links.csv summary.json; do [ -s "$root/root/out/$file" ] || fail "run wrote no $file"; done
 awk -F, 'NR > 1 { links += 1 } END { exit links == 0 }' "$root/root/out/links.csv" || fail "links.csv has no links"
 inside wavetracer view /root/out -o /root/view.html

@@ -50,6 +50,19 @@ step(cc -std=c99 -Wall -Wextra -Werror -pedantic ${SOURCE}/docs/examples/pkg_con
 set(ENV{LD_LIBRARY_PATH} ${library_folder})
 step(${WORK}/c_example ${SOURCE}/configs/city.toml trace.rays=20000)
 expect("frame 0: [1-9][0-9]* paths\n.* ns .* dB")
+# Files that a configuration names are looked for beside it, wherever the program was started.
+file(WRITE ${WORK}/beside/room.toml "[scene]\nfile = \"room/room.xml\"\n[trace]\nrays = 1000\n"
+  "[[transmitter]]\nname = \"t\"\nposition_m = [1, 1, 1]\n[[receiver]]\nname = \"r\"\nposition_m = [2, 1, 1]\n")
+file(COPY ${prefix}/share/wavetracer/configs/scenes/room DESTINATION ${WORK}/beside)
+step(${WORK}/c_example ${WORK}/beside/room.toml)
+expect("frame 0: [1-9][0-9]* paths")
+# All configurations are there, with the files that they name.
+step(${prefix}/bin/wavetracer validate -c ${prefix}/share/wavetracer/configs/demo.toml)
+foreach(file sumo/scene/city.xml sumo/town.sumocfg sumo/live.toml scenes/room/room.xml live.toml coverage.toml)
+  if(NOT EXISTS ${prefix}/share/wavetracer/configs/${file})
+    message(FATAL_ERROR "configs/${file} was not installed")
+  endif()
+endforeach()
 
 # What the library shows: functions of wavetracer, of C and C++, and nothing of what it is made of.
 file(GLOB library ${library_folder}/libwavetracer.so)

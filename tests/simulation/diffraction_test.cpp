@@ -19,8 +19,14 @@ std::vector<Mesh> meshes_of(const std::vector<Part>& parts) {
   return out;
 }
 
+// Free edges, since the rim of a ground is none.
+const Part banner{{{{-2.1, -6.3, 6.1}, {3.3, 0.5, 0.2}, {0.1, 0.2, 2.7}}}},
+    sign{{{{-7.1, -1.9, 4.9}, {0.3, 4.3, 0.1}, {0.1, 0, 1.2}}}},
+    board{{{{-13.1, 0.9, 3.1}, {0.4, 2.7, 0.1}, {0.1, 0, 2.9}}}};
+
 std::vector<Mesh> street_with_car() {
   std::vector<Mesh> meshes = meshes_of(street());
+  meshes.push_back(mesh_of(sign));
   meshes.push_back(mesh_of({"car", "passenger", {-3.1, 1.7, 0.03}, {9.7, 1.3, 0}, 0, 1}, 0.2));
   return meshes;
 }
@@ -28,8 +34,8 @@ std::vector<Mesh> street_with_car() {
 std::vector<Place> places() {
   return {
       {"screens", meshes_of({{screens()}}), {{-9.3, 0.7, 1.9}}, {{9.1, -1.2, 2.3}, {1.3, 2.1, 3.7}}},
-      {"boxes", meshes_of({{two_boxes()}}), {{-11.3, -5.7, 1.6}}, {{11.9, 3.3, 1.9}, {0.9, 3.1, 8.3}}},
-      {"L", meshes_of({{l_shaped()}}), {{-10.7, -6.3, 1.9}}, {{3.9, 6.1, 2.2}, {-9.7, 9.9, 6.1}}},
+      {"boxes", meshes_of({{two_boxes()}, banner, board}), {{-11.3, -5.7, 1.6}}, {{11.9, 3.3, 1.9}, {0.9, 3.1, 8.3}}},
+      {"L", meshes_of({{l_shaped()}, board}), {{-10.7, -6.3, 1.9}}, {{3.9, 6.1, 2.2}, {-9.7, 9.9, 6.1}}},
       {"street", street_with_car(), {{-21.3, 2.17, 4.1}}, {{14.3, -1.9, 1.1}, {2.3, 4.7, 0.6}}}};
 }
 

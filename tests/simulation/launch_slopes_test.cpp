@@ -16,7 +16,8 @@ Scene ground(double side_m, double top_m = 30) {
   const double h = side_m / 2;
   out.vertices = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
   out.triangles = {{0, 1, 2}, {0, 2, 3}};
-  out.triangle_surface = {0, 0};
+  out.triangle_surface = out.triangle_object = {0, 0};
+  out.objects = {"ground"};
   out.surface_triangles = {0, 1};
   out.surfaces.push_back({.lower = {-h, -h, 0}, .upper = {h, h, 0}, .triangle_count = 2});
   out.lower = {-h, -h, 0};
@@ -46,7 +47,7 @@ std::vector<float> table_of(const SlopeTables& tables, uint32_t origin) {
 }
 
 std::vector<float> table(const Scene& scene, const WorldState& world, uint32_t origin = 0, bool listen = false) {
-  return table_of(LaunchSlopes(scene, 0)(world, origins_of(world, listen)), origin);
+  return table_of(LaunchSlopes(Surroundings(scene), 0)(world, origins_of(world, listen)), origin);
 }
 
 // Of the directions, the share between these z.
@@ -104,7 +105,8 @@ TEST_CASE("links count by number: their order, and that of receivers, changes no
 
 TEST_CASE("equal worlds of links share a table; what was known from earlier frames changes none") {
   const Scene scene = ground(800);
-  LaunchSlopes slopes(scene, 0);
+  const Surroundings around(scene);
+  LaunchSlopes slopes(around, 0);
   const WorldState street = world_of({{0, 0, 1.5}, {5, 0, 1.5}}, {{50, 3, 1.5}}),
                    mast = world_of({{0, 0, 30}}, {{50, 3, 1.5}});
   const SlopeTables first = slopes(street, origins_of(street));

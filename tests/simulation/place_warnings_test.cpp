@@ -126,6 +126,14 @@ TEST_CASE("vehicles: through a house from when on, below and above the ground; n
         std::string::npos);
   CHECK(warnings_of(town, drive({{0, -50, -3, 0}, {4, 50, -3, 4}}))[0].find(
             "vehicles are above the ground, the first one") != std::string::npos);
+  // The ground ends at 100 m.
+  const Texts off = warnings_of(town, drive({{0, 60, -3, 0}, {4, 100.5, -3, 0}, {8, 140, -3, 0}}));
+  REQUIRE(off.size() == 1);
+  CHECK(off[0].find("1 of 1 vehicles leave the ground, the first one \"ego\" at (100, -3) m from 4 s on: nothing "
+                    "reflects there") == 0);
+  CHECK(warnings_of({{house()}, {reference::box_walls({-90, -90, 0}, {-80, -80, 9})}},
+                    drive({{0, 50, -3, 0}, {4, 90, -3, 0}}))
+            .empty());  // no ground at all
   Config low = drive({{0, -50, -3, 0}, {4, 50, -3, 0}});
   low.mounts = {roof(-0.3)};
   CHECK(warnings_of(town, low) == Texts{"[[mount]] \"roof\": offset_m is 0.3 m below the ground under its vehicle"});

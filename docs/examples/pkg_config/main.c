@@ -2,6 +2,7 @@
    Usage: example CONFIG [KEY=VALUE...]. Exits with the code that the program would exit with. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <wavetracer/wavetracer.h>
 
 /* The whole file as text, or null; the caller frees it. */
@@ -21,6 +22,17 @@ static char* read_text(const char* path) {
   }
   fclose(file);
   return text;
+}
+
+/* Where the relative paths of a configuration start: its own folder, as for `wavetracer run -c`. The caller frees it. */
+static char* folder_of(const char* path) {
+  const char* slash = strrchr(path, '/');
+  const size_t size = slash ? (size_t)(slash - path) + 1 : 1;
+  char* folder = malloc(size + 1);
+  if (!folder) return NULL;
+  memcpy(folder, slash ? path : ".", size);
+  folder[size] = '\0';
+  return folder;
 }
 
 static int failed(wavetracer_error* error) {
@@ -55,10 +67,12 @@ int main(int argc, char** argv) {
     perror(argv[1]);
     return WAVETRACER_USAGE;
   }
+  char* folder = folder_of(argv[1]);
   wavetracer_error* error = NULL;
   wavetracer_simulation* simulation =
-      wavetracer_open(text, NULL, (const char* const*)argv + 2, (size_t)(argc - 2), NULL, &error);
+      wavetracer_open(text, folder, (const char* const*)argv + 2, (size_t)(argc - 2), NULL, &error);
   free(text);
+  free(folder);
   if (!simulation) return failed(error);
   int code = WAVETRACER_OK;
   for (uint32_t i = 0; i < wavetracer_frame_count(simulation) && code == WAVETRACER_OK; ++i) {
