@@ -132,7 +132,7 @@ Extent extent_of_traffic(const Options& options) {
 void check_input(const fs::path& input) {
   std::error_code error;
   if (!fs::exists(input, error))
-    throw InputError(fmt::format("{}: no such file or folder; name the folder of a run, its paths.h5, or a map",
+    throw InputError(fmt::format("{}: there is no such file or folder; name the folder of a run, its paths.h5, or a map",
                                  input.string()));
 }
 

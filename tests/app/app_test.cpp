@@ -81,7 +81,7 @@ TEST_CASE("misspelt commands, options and choices are answered with what was mea
   check(run_program({"init", "x"}), 2, "init: \"x\" is one word too many");
   check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");
   check(run_program({"convert", "x", "-o", "y", "--to", "vkt"}), 2, "did you mean \"vtk\"?");
-  check(run_program({"convert", "nope.osm", "-o", "y"}), 3, "nope.osm: no such file or folder");
+  check(run_program({"convert", "nope.osm", "-o", "y"}), 3, "nope.osm: there is no such file or folder");
   check(run_program({"bench", "figur-6.2"}), 2, "did you mean \"figure-6.2\"?");
   check(run_program({"plot"}), 2, "plot: RUN is required; see `wavetracer help plot`");
 }
