@@ -34,20 +34,23 @@ OptionText option_text(const CLI::Option& option) {
   return out;
 }
 
-CommandText command_text(const CLI::App& command, const std::string& path, const std::string& common_footer) {
+CommandText command_text(const CLI::App& program, const CLI::App& command, const std::string& path) {
+  const std::string common_footer = program.get_footer();
   CommandText out{.path = path, .name = command.get_name(), .doc = command.get_description(), .footer = {},
                   .options = {}, .commands = {}};
   if (const std::string footer = command.get_footer(); footer != common_footer) out.footer = footer;
-  for (const CLI::Option* option : command.get_options()) out.options.push_back(option_text(*option));
+  for (const CLI::Option* option : command.get_options()) {
+    out.options.push_back(option_text(*option));
+    if (out.options.back().choices.empty()) out.options.back().choices = known_values(program, path, *option);
+  }
   for (const CLI::App* sub : command.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
-    out.commands.push_back(command_text(*sub, path.empty() ? sub->get_name() : path + " " + sub->get_name(),
-                                        common_footer));
+    out.commands.push_back(command_text(program, *sub, path.empty() ? sub->get_name() : path + " " + sub->get_name()));
   return out;
 }
 
 }  // namespace
 
-CommandText describe(const CLI::App& program) { return command_text(program, "", program.get_footer()); }
+CommandText describe(const CLI::App& program) { return command_text(program, program, ""); }
 
 std::vector<const CommandText*> all_commands(const CommandText& command) {
   std::vector<const CommandText*> out{&command};

@@ -24,6 +24,9 @@ struct CommandText {
   std::vector<CommandText> commands;
 };
 
+// What completes the value of an option of the command `path` besides the choices that --help lists; empty: anything.
+std::vector<std::string> known_values(const CLI::App& program, const std::string& path, const CLI::Option& option);
+
 CommandText describe(const CLI::App& program);
 
 // This command and all below it, each before its own.

@@ -4,11 +4,13 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/first_configs.hpp"
 #include "app/inputs.hpp"
 #include "config/config_file.hpp"
 #include "scene/load.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/world.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
 
@@ -52,8 +54,22 @@ void add_validate(CLI::App& program) {
 }
 
 void add_init(CLI::App& program) {
+  struct Options {
+    bool minimal = false, sumo = false, coverage = false;
+  };
   CLI::App* command = program.add_subcommand("init", "Print a config file with every key explained; it runs as it is");
-  command->callback([] { std::cout << commented_config(); });
+  const auto options = std::make_shared<Options>();
+  command->add_flag("--minimal", options->minimal, "The fewest keys instead: two antennas in a generated city");
+  command->add_flag("--sumo", options->sumo, "Vehicles of SUMO on a map instead; name your files in it");
+  command->add_flag("--coverage", options->coverage, "A map of what one antenna reaches instead");
+  command->callback([options] {
+    if (options->minimal + options->sumo + options->coverage > 1)
+      throw ConfigError("init: --minimal, --sumo and --coverage are one file each: give one of them");
+    std::cout << (options->minimal    ? minimal_config
+                  : options->sumo     ? sumo_config
+                  : options->coverage ? coverage_config
+                                      : commented_config());
+  });
 }
 
 }  // namespace wavetracer::app

@@ -129,6 +129,13 @@ Extent extent_of_traffic(const Options& options) {
   return out;
 }
 
+void check_input(const fs::path& input) {
+  std::error_code error;
+  if (!fs::exists(input, error))
+    throw InputError(fmt::format("{}: there is no such file or folder; name the folder of a run, its paths.h5, or a map",
+                                 input.string()));
+}
+
 void import_map(const Options& options) {
   for (const auto& [flag, value] : {std::pair{"--frames", &options.frames}, {"--projection", &options.projection}})
     if (!value->empty()) throw ConfigError(fmt::format("{}: is for runs, and {} is a map", flag, options.input));
@@ -173,6 +180,8 @@ void add_convert(CLI::App& program) {
   command->callback([options] {
     if (options->list) return print_list();
     if (options->input.empty()) throw ConfigError("convert: name what to convert: the folder of a run, or a map");
+    if (!options->format.empty() && options->format != "mitsuba") named_exporter(options->format);
+    check_input(options->input);
     if (options->output.empty()) throw ConfigError("convert: say where to write with -o");
     if (is_import(options->input)) return import_map(*options);
     export_run(*options);

@@ -10,6 +10,7 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "config/config_file.hpp"
+#include "config/fields.hpp"
 #include "config/spelling.hpp"
 
 namespace wavetracer::app {
@@ -84,13 +85,25 @@ std::string problem(const CLI::App& command, const CLI::ParseError& error) {
   return what + choice_hint(what);
 }
 
+std::vector<std::string> key_names() {
+  std::vector<std::string> names;
+  for (const config::Table& table : config::tables())
+    for (const config::Field& field : table.fields) names.push_back(table.name + "." + field.name);
+  return names;
+}
+
 const CLI::App& find_command(const CLI::App& program, const std::vector<std::string>& path) {
   const CLI::App* at = &program;
   for (const std::string& word : path) {
     const auto found = at->get_subcommands([&word](const CLI::App* sub) { return sub->get_name() == word; });
     if (found.empty()) {
       std::vector<std::string> known = command_names(*at);
-      if (at == &program) known.push_back(config_topic);
+      if (at == &program) {
+        known.push_back(config_topic);
+        const std::string nearest_key = config::hint(word, key_names());
+        if (word.find('.') != word.npos && !nearest_key.empty())
+          throw ConfigError(fmt::format("help: no key is called \"{}\"{}", word, nearest_key));
+      }
       throw ConfigError(
           fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, config::hint(word, known),
                       known.empty() ? at->get_name() + " as a whole" : fmt::format("{}", fmt::join(known, ", "))));
@@ -100,15 +113,26 @@ const CLI::App& find_command(const CLI::App& program, const std::vector<std::str
   return *at;
 }
 
+bool is_command(const CLI::App& program, const std::string& word) {
+  return std::ranges::count(command_names(program), word) > 0;
+}
+
 void help(const CLI::App& program, const std::vector<std::string>& topic) {
   if (topic.size() == 1 && topic.front() == config_topic) {
-    std::cout << field_help();
+    std::cout << "Keys of the config file (TOML):\n\n" << field_help();
+    return;
+  }
+  const std::string keys = topic.size() == 1 ? field_help(topic.front()) : "";
+  const bool command_too = !topic.empty() && is_command(program, topic.front());
+  if (!keys.empty() && !command_too) {
+    std::cout << keys;
     return;
   }
   const CLI::App& command = find_command(program, topic);
   std::string path = program.get_name();
   for (const std::string& word : topic) path += " " + word;
   std::cout << program.get_formatter()->make_help(&command, path, CLI::AppFormatMode::Normal);
+  if (!keys.empty()) std::cout << "\nIn configuration files:\n\n" << keys;
 }
 
 }  // namespace
@@ -124,7 +148,8 @@ void add_help(CLI::App& program) {
   CLI::App* command = program.add_subcommand("help", "Explain a command, or the keys of configuration files");
   const auto topic = std::make_shared<std::vector<std::string>>();
   command->add_option("topic", *topic,
-                      "A command, or config for the keys of configuration files; all commands if not given");
+                      "A command; config for the keys of configuration files, or one of them, or a table: trace.rays, rays, trace; all "
+                      "commands if not given");
   command->callback([topic, &program] { help(program, *topic); });
 }
 

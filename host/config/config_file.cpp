@@ -59,6 +59,18 @@ std::vector<std::string> known_keys() {
   return keys;
 }
 
+// The nearest key of the same table; where there is none, of all tables.
+std::string key_hint(const std::string& key) {
+  const size_t dot = key.rfind('.');
+  if (const Table* table = dot == key.npos ? nullptr : find_table(key.substr(0, key.find('.')))) {
+    std::vector<std::string> names;
+    for (const Field& field : table->fields) names.push_back(field.name);
+    if (const std::string found = nearest(key.substr(dot + 1), names); !found.empty())
+      return fmt::format("; did you mean \"{}.{}\"?", table->name, found);
+  }
+  return hint(key, known_keys());
+}
+
 bool is_aliases(const Field& field) {
   Config sample = prototype();
   return std::holds_alternative<Aliases*>(field.slot(sample, 0));
@@ -119,7 +131,7 @@ class Parser {
   }
 
   void unknown(const Place& where, const std::string& key) {
-    fail(where, fmt::format("unknown key \"{}\"{}", key, hint(key, known_keys())));
+    fail(where, fmt::format("unknown key \"{}\"{}", key, key_hint(key)));
   }
 
   void read_document() {

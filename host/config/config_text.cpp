@@ -61,13 +61,15 @@ std::string commented_config() {
   return out;
 }
 
-std::string field_help() {
-  std::string out = "Keys of the config file (TOML):\n";
+std::string field_help(std::string_view topic) {
+  std::string out;
   for (const Table& table : tables()) {
-    out += "\n" + header(table) + "  " + table.doc + "\n";
+    std::string keys;
+    const bool whole = topic.empty() || topic == table.name;
     for (const Field& field : table.fields)
-      out +=
-          "  " + table.name + "." + field.name + "\n" + wrapped(field.doc, "      ") + wrapped(facts(field), "      ");
+      if (const std::string key = table.name + "." + field.name; whole || topic == key || topic == field.name)
+        keys += "  " + key + "\n" + wrapped(field.doc, "      ") + wrapped(facts(field), "      ");
+    if (whole || !keys.empty()) out += (out.empty() ? "" : "\n") + header(table) + "  " + table.doc + "\n" + keys;
   }
   return out;
 }

@@ -48,6 +48,14 @@ std::string path_table(const std::vector<PathPoint>& paths) {
   return text;
 }
 
+// The axis of delays: all of them and a little beside, but nothing below zero, where no path is.
+std::string delay_range(const std::vector<PathPoint>& paths) {
+  const auto [first, last] = std::ranges::minmax_element(paths, {}, &PathPoint::delay_s);
+  const double lower_ns = 1e9 * first->delay_s, upper_ns = 1e9 * last->delay_s;
+  const double beside_ns = std::max(0.03 * (upper_ns - lower_ns), 1.0);
+  return fmt::format("set xrange [{:.3f}:{:.3f}]\n", std::max(lower_ns - beside_ns, 0.0), upper_ns + beside_ns);
+}
+
 struct Shown {
   double lower_db, upper_db;
 };
@@ -106,11 +114,11 @@ Figure delay_figure(const SavedRun& run, const LinkSeries& series) {
           {{"pdp.csv", path_table(paths)}},
           fmt::format("floor_db = {}\n"
                       "set yrange [floor_db:{}]\n"
-                      "set offsets graph 0.02, graph 0.02, 0, 0\n"
+                      "{}"
                       "set xlabel 'delay (ns)'\n"
                       "set ylabel 'path gain (dB)'\n"
                       "set key right top Left reverse samplen 1\n",
-                      shown.lower_db, shown.upper_db) +
+                      shown.lower_db, shown.upper_db, delay_range(paths)) +
               plot + "\n"};
 }
 
@@ -156,6 +164,7 @@ Figure delay_time_figure(const SavedRun& run, const LinkSeries& series) {
               "set ylabel 'delay (ns)'\n"
               "set cblabel 'path gain (dB)'\n"
               "set autoscale fix\n"
+              "set yrange [0<*:]\n"
               "set key off\n"
               "plot 'delay-time.csv' using 1:(1e9 * $2):3 with image\n"};
 }
@@ -169,8 +178,9 @@ Figure doppler_figure(const SavedRun& run, const LinkSeries& series) {
               "set xlabel 'delay (ns)'\n"
               "set ylabel 'Doppler shift (Hz)'\n"
               "set cblabel 'path gain (dB)'\n"
-              "set offsets graph 0.03, graph 0.03, graph 0.06, graph 0.06\n"
-              "set key off\n"
+              "set offsets 0, 0, graph 0.06, graph 0.06\n"
+              "set key off\n" +
+              delay_range(paths) +
               "plot 'doppler.csv' using (1e9 * $5):7:6 with points pointtype 7 pointsize 0.9 palette\n"};
 }
 

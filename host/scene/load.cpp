@@ -65,6 +65,10 @@ RawScene read_raw(const std::filesystem::path& path) {
     raw.y_up = format == ModelFormat::gltf;  // glTF 2.0, section 3.4
     return raw;
   }
+  if (head.substr(0, 15).ends_with("\x0a\x09OSMHeader") || path.string().ends_with(".osm.pbf"))
+    throw InputError(fmt::format(
+        "{0}: is a map of OpenStreetMap, of which `wavetracer convert {0} -o FOLDER` makes a scene, FOLDER/city.xml",
+        path.string()));
   throw InputError(
       fmt::format("{}: the format is not known; known: Mitsuba XML, PLY, OBJ, glTF (.gltf, .glb)", path.string()));
 }

@@ -37,6 +37,12 @@ class MitsubaReader {
       throw InputError(fmt::format("{}: not well-formed XML: {}", position(parsed.offset), parsed.description()));
     }
     const pugi::xml_node scene = document.document_element();
+    if (const std::string_view root = scene.name(); root == "osm" || root == "additional" || root == "polygons") {
+      throw InputError(
+          fmt::format("{}: the root element is <{}>: this is a map, of which `wavetracer convert {} -o FOLDER` "
+                      "makes a scene, FOLDER/city.xml",
+                      where(scene), scene.name(), path_.string()));
+    }
     if (std::string_view(scene.name()) != "scene") {
       throw InputError(
           fmt::format("{}: the root element is <{}>, a Mitsuba scene has <scene>", where(scene), scene.name()));

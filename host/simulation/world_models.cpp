@@ -12,8 +12,8 @@
 #include "motion/input_text.hpp"
 #include "motion/vehicle_types.hpp"
 #include "scene/load.hpp"
-#include "scene/wedges.hpp"
 #include "scene/vehicle_model.hpp"
+#include "scene/wedges.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -29,11 +29,11 @@ bool is_mesh(const VehicleTypeConfig& row) {
 // By the first word of the name that is a vehicle class, which is how sumo_type() finds its size.
 std::string kind_of(std::string_view type) {
   static const std::map<std::string_view, std::string> kinds = {
-      {"truck", "truck"},     {"lorry", "truck"},        {"trailer", "truck"},       {"bus", "truck"},
-      {"coach", "truck"},     {"tram", "truck"},         {"rail", "truck"},          {"railtype", "truck"},
-      {"ship", "truck"},      {"containertype", "truck"}, {"container", "truck"},     {"delivery", "van"},
-      {"van", "van"},         {"emergency", "van"},      {"pedestrian", "none"},     {"pedtype", "none"},
-      {"person", "none"},     {"bicycle", "none"},       {"bike", "none"},           {"biketype", "none"},
+      {"truck", "truck"},     {"lorry", "truck"},         {"trailer", "truck"},   {"bus", "truck"},
+      {"coach", "truck"},     {"tram", "truck"},          {"rail", "truck"},      {"railtype", "truck"},
+      {"ship", "truck"},      {"containertype", "truck"}, {"container", "truck"}, {"delivery", "van"},
+      {"van", "van"},         {"emergency", "van"},       {"pedestrian", "none"}, {"pedtype", "none"},
+      {"person", "none"},     {"bicycle", "none"},        {"bike", "none"},       {"biketype", "none"},
       {"motorcycle", "none"}, {"moped", "none"}};
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz";
   const std::string name = lower_case(type);
@@ -77,9 +77,9 @@ VehicleModels::VehicleModels(const Config& config) : config_(config) {
   if (default_type_) return;
   std::vector<std::string> known;
   for (const VehicleType& type : given_types_) known.push_back(type.name);
-  throw ConfigError(fmt::format(
-      "trajectories.default_type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class of SUMO{}", name,
-      config::hint(name, known)));
+  throw ConfigError(
+      fmt::format("trajectories.default_type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class of SUMO{}",
+                  name, config::hint(name, known)));
 }
 
 const VehicleTypeConfig* VehicleModels::row_of(std::string_view name) const {
@@ -110,9 +110,11 @@ VehicleType VehicleModels::sized(const VehicleTypeConfig& row) {
     const glm::dvec3 extent_m = mesh.upper - mesh.lower;
     known = {row.name, extent_m.x, extent_m.y, extent_m.z};
   }
+  // What has no body needs no size: its place is where its file puts it.
+  if (row.model == "none" && !known) known = VehicleType{row.name, 0, 0, 0};
   for (double VehicleType::*size : {&VehicleType::length_m, &VehicleType::width_m, &VehicleType::height_m}) {
     if (out.*size > 0) continue;
-    if (!known || !((*known).*size > 0))
+    if (!known || (!((*known).*size > 0) && row.model != "none"))
       throw ConfigError(fmt::format("vehicle_type \"{}\": {}: give length_m, width_m and height_m", row.name,
                                     is_mesh(row) ? row.model + " is flat" : "SUMO has no vehicle class of this name"));
     out.*size = (*known).*size;
@@ -136,8 +138,8 @@ std::optional<uint32_t> VehicleModels::model_of(const VehicleType& type, std::st
   if (body == "none") return std::nullopt;
   const bool mesh = row && is_mesh(*row);
   const auto next = static_cast<uint32_t>(models_.size());
-  const auto [found, is_new] = index_.try_emplace(
-      Key{body, mesh ? row->material : "", type.length_m, type.width_m, type.height_m}, next);
+  const auto [found, is_new] =
+      index_.try_emplace(Key{body, mesh ? row->material : "", type.length_m, type.width_m, type.height_m}, next);
   if (is_new && mesh) {
     const Scene& scene = mesh_of(*row);
     const glm::dvec3 extent_m = scene.upper - scene.lower;

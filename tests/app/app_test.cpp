@@ -56,6 +56,16 @@ TEST_CASE("help is about what was asked: a command on a page, the keys of config
   CHECK(keys.code == 0);
   CHECK(contains(keys.out, "trace.max_depth"));
   CHECK(contains(keys.out, "cache.residual_value"));
+  const Outcome rays = run_program({"help", "trace.rays"});
+  CHECK(rays.code == 0);
+  CHECK(contains(rays.out, "  trace.rays\n"));
+  CHECK_FALSE(contains(rays.out, "trace.max_depth"));
+  CHECK(run_program({"help", "rays"}).out == rays.out);
+  CHECK(contains(run_program({"help", "receiver_grid"}).out, "receiver_grid.step_m"));
+  const Outcome scene = run_program({"help", "scene"});  // a command and a table
+  CHECK(contains(scene.out, "Usage: wavetracer scene"));
+  CHECK(contains(scene.out, "\n  scene.file\n"));
+  check(run_program({"help", "trace.ray"}), 2, "help: no key is called \"trace.ray\"; did you mean \"trace.rays\"?");
   check(run_program({"help", "confg"}), 2, "help: there is nothing about \"confg\"; did you mean \"config\"?");
 }
 
@@ -71,6 +81,7 @@ TEST_CASE("misspelt commands, options and choices are answered with what was mea
   check(run_program({"init", "x"}), 2, "init: \"x\" is one word too many");
   check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");
   check(run_program({"convert", "x", "-o", "y", "--to", "vkt"}), 2, "did you mean \"vtk\"?");
+  check(run_program({"convert", "nope.osm", "-o", "y"}), 3, "nope.osm: there is no such file or folder");
   check(run_program({"bench", "figur-6.2"}), 2, "did you mean \"figure-6.2\"?");
   check(run_program({"plot"}), 2, "plot: RUN is required; see `wavetracer help plot`");
 }
@@ -171,10 +182,12 @@ TEST_CASE("validate warns of antennas and vehicles in places that cannot be mean
   CHECK(deep.err == "warning: transmitter \"mast\" is 1.5 m below the ground there, \"ground\"\n");
   CHECK(contains(deep.out, ": ok\n"));
   check(validate(mast + "[1e27, 0, 6]\n" + car), 2, "transmitter \"mast\" is at [1e+27, 0, 6] m");
-  const std::string drive = mast + "[0, 0, 6]\n[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n[[track]]\nid = \"ego\"\n";
+  const std::string drive =
+      mast + "[0, 0, 6]\n[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n[[track]]\nid = \"ego\"\n";
   const Outcome floats = validate(drive + "waypoints = [[0, -20, -3, 9], [2, 20, -3, 9]]\n");
   CHECK(floats.code == 0);
-  CHECK(contains(floats.err, "warning: 1 of 1 vehicles are above the ground, the first one \"ego\" by 9 m from 0 s on"));
+  CHECK(
+      contains(floats.err, "warning: 1 of 1 vehicles are above the ground, the first one \"ego\" by 9 m from 0 s on"));
   check(validate(drive + "waypoints = [[0, -20, -3, 0], [2, 20, -3, 0]]\n[time]\nstart_s = 10\n"), 2,
         "[time] begins at 10 s, and the trajectories go from 0 to 2 s");
 }
@@ -218,6 +231,38 @@ TEST_CASE("init, then validate") {
   CHECK(contains(validate.out, file + ": ok\n"));
   for (const char* line : {"\nkind = \"none\"\n", "\nhit_point = \"own\"\n", "\nwaypoints = 0\n"})
     CHECK(contains(init.out, line));
+}
+
+TEST_CASE("first configurations run as they are, that of SUMO with the reader's files") {
+  const Folder folder;
+  for (const std::string kind : {"--minimal", "--coverage"}) {
+    const Outcome init = run_program({"init", kind});
+    CHECK(std::ranges::count(init.out, '\n') < 30);
+    CHECK(run_program({"validate", "-c", folder.file("a.toml", init.out)}).code == 0);
+  }
+  CHECK(
+      run_program({"scene", "city", "-o", folder.path("town"), "--blocks", "2x2", "--vehicles", "3", "--seconds", "1"})
+          .code == 0);
+  const std::string sumo = folder.file("sumo.toml", run_program({"init", "--sumo"}).out);
+  check(run_program({"validate", "-c", sumo}), 3, "trajectories.file is ");
+  CHECK(run_program({"validate", "-c", sumo, "--set", "trajectories.file=" + folder.path("town/drive.fcd.xml")}).code ==
+        0);
+  check(run_program({"init", "--minimal", "--sumo"}), 2, "give one of them");
+}
+
+TEST_CASE("hints at misspelt keys are those of their table, a map as a scene names convert, no body needs no size") {
+  const Folder folder;
+  const Outcome keys = run_program(
+      {"validate", "-c",
+       folder.file("a.toml", "[[mount]]\nnaem = \"a\"\n[[vehicle_type]]\nlenght_m = 3\n[[track]]\nidd = \"a\"\n")});
+  for (const char* meant : {"mount.name", "vehicle_type.length_m", "track.id"})
+    CHECK(contains(keys.err, std::string("did you mean \"") + meant + "\"?"));
+  folder.file("town.osm", "<osm version=\"0.6\"/>");
+  check(run_program({"validate", "-c", folder.file("b.toml", "[scene]\nfile = \"town.osm\"\n" + ends)}), 3,
+        "`wavetracer convert ");
+  CHECK(run_program({"validate", "-c",
+                     folder.file("c.toml", city + ends + "[[vehicle_type]]\nname = \"ghost\"\nmodel = \"none\"\n")})
+            .code == 0);
 }
 
 TEST_CASE("the configs that come with the program are valid") {

@@ -56,6 +56,11 @@ expect 'fibonacci hilbert horizon random ' run --set trace.directions = ''
 expect 'hilbert ' run --set trace.directions = hi
 expect 'false true ' run --set trace.reuse =
 expect 'auto y z ' scene info --up ''
+expect 'thesis ' bench the
+expect 'vtk ' convert --to v
+expect 'coverage ' plot --what cov
+expect 'receiver receiver_grid ' help rec
+expect 'brick ' scene city --ground br
 expect ' ' run --config ''  # files
 expect ' ' run ''
 for shell in zsh fish; do

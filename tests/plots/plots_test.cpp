@@ -186,6 +186,24 @@ TEST_CASE("figures of one frame list its paths with angles in degrees, weakest f
   CHECK(rows[0].at("kind_name") == "transmitted");
 }
 
+TEST_CASE("axes of delays do not go below zero, however near the first path is") {
+  SampleRun sample;
+  std::vector<FrameResult> frames = sample.frames();
+  for (FrameResult& frame : frames)
+    for (double& delay_s : frame.paths.delay_s) delay_s *= 1e-3;  // fractions of a nanosecond
+  const Written written(std::move(sample), frames);
+  const SavedRun run = written.run();
+  const LinkSeries series = link_series(run, {.tx = "rsu", .rx = "car", .frame = 7}, {}, 6);
+  for (const Figure& figure : {delay_figure(run, series), doppler_figure(run, series)}) {
+    CAPTURE(figure.commands);
+    const size_t at = figure.commands.find("set xrange [");
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stod(figure.commands.substr(at + 12)) == 0);
+    CHECK(figure.commands.find("offsets graph 0.0") == std::string::npos);
+  }
+  CHECK(delay_time_figure(run, series).commands.find("set yrange [0<*:]") != std::string::npos);
+}
+
 TEST_CASE("cells of the delay-time image add up to the power of all paths") {
   const Written written(SampleRun().drive(0, 12));
   const SavedRun run = written.run();

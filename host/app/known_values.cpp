@@ -1,0 +1,54 @@
+// Words that options take without CLI11 knowing them: what is listed elsewhere, and would fill the screen in --help.
+#include <algorithm>
+#include "app/command_text.hpp"
+#include "config/config_file.hpp"
+#include "config/fields.hpp"
+#include "convert/convert.hpp"
+#include "plots/plots.hpp"
+#include "recipes/recipe.hpp"
+#include "scene/materials.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+std::vector<std::string> recipe_names() {
+  std::vector<std::string> out{"thesis"};
+  for (const recipes::Recipe& recipe : recipes::recipes()) out.emplace_back(recipe.name);
+  return out;
+}
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> out;
+  for (const Exporter& exporter : exporters()) out.emplace_back(exporter.name);
+  return out;
+}
+
+std::vector<std::string> material_names() {
+  std::vector<std::string> out;
+  for (const Material& material : itu_materials())
+    if (std::ranges::find(out, material.name) == out.end()) out.push_back(material.name);
+  return out;
+}
+
+std::vector<std::string> help_topics(const CLI::App& program) {
+  std::vector<std::string> out{"config"};
+  for (const CLI::App* sub : program.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
+    out.push_back(sub->get_name());
+  for (const config::Table& table : config::tables())
+    if (std::ranges::find(out, table.name) == out.end()) out.push_back(table.name);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> known_values(const CLI::App& program, const std::string& path, const CLI::Option& option) {
+  const std::string name = option.get_lnames().empty() ? option.get_name(true) : option.get_lnames().front();
+  if (path == "bench" && name == "recipe") return recipe_names();
+  if (path == "convert" && name == "to") return format_names();
+  if (path == "plot" && name == "what") return {plots::plot_names.begin(), plots::plot_names.end()};
+  if (path == "help" && name == "topic") return help_topics(program);
+  if (name.ends_with("-material") || (path == "scene city" && name == "ground")) return material_names();
+  return {};
+}
+
+}  // namespace wavetracer::app
