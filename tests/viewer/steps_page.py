@@ -55,9 +55,13 @@ page.js("const o = wavetracer.orbit; o.target.set(3000, 3000, 0); o.distance = 5
 page.choose("transmitter", 0)
 page.choose("receiver", 1)
 assert inside(pixels_of((0, 1))), pixels_of((0, 1))
+page.js("wavetracer.orbit.turn(0.1, 0)")
 before = camera()
-page.choose("transmitter", 1)
-assert inside(pixels_of((1, 1))) and np.allclose(camera(), before), (camera(), before)
+page.choose("receiver", -1)
+page.choose("receiver", 1)
+assert inside(pixels_of((0, 1))) and np.allclose(camera(), before), (camera(), before)
+page.choose("transmitter", 1)  # 12 m apart: a speck, from so far
+assert inside(pixels_of((1, 1))) and camera()[3] < before[3]
 page.js("const o = wavetracer.orbit; o.distance = 20000; o.apply();")
 page.choose("transmitter", 0)
 assert np.linalg.norm(np.diff(pixels_of((0, 1)), axis=0)) > 100, "the link is a speck"
