@@ -11,10 +11,10 @@
 #include "recipes/cache_rows.hpp"
 #include "recipes/cache_words.hpp"
 #include "recipes/figures_tables.hpp"
+#include "recipes/made_cache_rows.hpp"
 #include "recipes/recipe.hpp"
 #include "recipes/run.hpp"
 #include "recipes/squeezed.hpp"
-#include "recipes/made_cache_rows.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -60,8 +60,8 @@ TEST_CASE("every figure of chapter 6 is a recipe, and those of caching know a st
 TEST_CASE("figures 6.2 to 6.5: chained, 50,000 entries, load factor 3, division 200,000") {
   CHECK(find_recipe("figure-6.2").study->rays == std::vector<uint64_t>{50000});
   for (const std::string figure : {"figure-6.2", "figure-6.5"})
-    for (const auto& [name, hash] : std::map<std::string, uint32_t>{
-             {"chained uniform", 1}, {"chained Morton", 2}, {"chained mixed", 3}}) {
+    for (const auto& [name, hash] :
+         std::map<std::string, uint32_t>{{"chained uniform", 1}, {"chained Morton", 2}, {"chained mixed", 3}}) {
       const CacheConfig cache = config_of(figure, name).cache;
       CHECK(cache.kind == "chained");
       CHECK(cache.hash_method == hash);
@@ -187,7 +187,7 @@ TEST_CASE("rows: nanoseconds a segment, hit rate, savings, columns") {
   row.warm.lookup_s = 2e-6;
   row.cold_counts = {100, 100, 40};
   row.counts = {100, 50, 20};
-  CHECK(write_ns(row) == doctest::Approx(50));   // 60 that missed
+  CHECK(write_ns(row) == doctest::Approx(50));  // 60 that missed
   CHECK(trace_ns(row) == doctest::Approx(150));
   CHECK(read_ns(row) == doctest::Approx(40));
   CHECK(hit_rate(row) == doctest::Approx(0.4));
@@ -207,9 +207,16 @@ TEST_CASE("rows: nanoseconds a segment, hit rate, savings, columns") {
 }
 
 TEST_CASE("stages that discover are summed, others are not") {
-  const CacheTimes times = cache_times({{"generate_rays", 1}, {"cache_lookup", 2}, {"cache_store", 4},
-                                        {"cache_gather", 8}, {"trace", 16}, {"trace_moving", 32}, {"interact", 64},
-                                        {"cache_purge", 128}, {"solve", 1000}, {"frame", 5000}});
+  const CacheTimes times = cache_times({{"generate_rays", 1},
+                                        {"cache_lookup", 2},
+                                        {"cache_store", 4},
+                                        {"cache_gather", 8},
+                                        {"trace", 16},
+                                        {"trace_moving", 32},
+                                        {"interact", 64},
+                                        {"cache_purge", 128},
+                                        {"solve", 1000},
+                                        {"frame", 5000}});
   CHECK(times.loop_s == 255);
   CHECK(times.trace_s == 48);
   CHECK(times.lookup_s == 2);
@@ -240,15 +247,22 @@ TEST_CASE("figure-6.5: no gain outside of the window and one inside is what the 
   const std::string claimed = words_of("figure-6.5", {1000, 4096000, 20480000}, as_claimed);
   CAPTURE(claimed);
   CHECK(contains(claimed, "one of them saves time at 4,096,000 rays."));
-  CHECK(contains(claimed, "| no gain below 2,560,000 and beyond 10,240,000 rays | confirmed |\n| a gain from 2,560,000 to 10,240,000 rays | confirmed |"));
+  CHECK(contains(claimed,
+                 "| no gain below 2,560,000 and beyond 10,240,000 rays | confirmed |\n| a gain from 2,560,000 to "
+                 "10,240,000 rays | confirmed |"));
   CHECK(contains(claimed, "At 20,480,000 rays, against the same rays without a cache:"));
-  const std::string never = words_of("figure-6.5", {1000, 4096000},
-                                      [](const std::string&, uint64_t) { return std::pair{1.0, 0.0}; });
-  CHECK(contains(never, "below 2,560,000 and beyond 10,240,000 rays | confirmed |\n| a gain from 2,560,000 to 10,240,000 rays | not confirmed |"));
+  const std::string never = words_of("figure-6.5", {1000, 4096000}, [](const std::string&, uint64_t) {
+    return std::pair{1.0, 0.0};
+  });
+  CHECK(contains(never,
+                 "below 2,560,000 and beyond 10,240,000 rays | confirmed |\n| a gain from 2,560,000 to 10,240,000 rays "
+                 "| not confirmed |"));
   const std::string few = words_of("figure-6.5", {1000, 2000}, [](const std::string& setting, uint64_t) {
     return std::pair{setting == "chained uniform" ? 0.5 : 1.0, 0.0};
   });
-  CHECK(contains(few, "below 2,560,000 and beyond 10,240,000 rays | not confirmed |\n| a gain from 2,560,000 to 10,240,000 rays | not measured |"));
+  CHECK(contains(few,
+                 "below 2,560,000 and beyond 10,240,000 rays | not confirmed |\n| a gain from 2,560,000 to 10,240,000 "
+                 "rays | not measured |"));
   CHECK(contains(few, "| chained uniform | 50% less time |"));
 }
 
@@ -257,7 +271,9 @@ TEST_CASE("figure-6.8: verdicts beyond 50,000 rays only") {
     return std::pair{rays > 50000 && setting == "readers mixed" ? 0.9 : 1.0, 0.0};
   };
   const std::string text = words_of("figure-6.8", {1000, 64000, 128000}, late);
-  CHECK(contains(text, "| a gain beyond 50,000 rays | confirmed |\n| the mixed hash is the fastest beyond 50,000 rays | confirmed |"));
+  CHECK(contains(
+      text,
+      "| a gain beyond 50,000 rays | confirmed |\n| the mixed hash is the fastest beyond 50,000 rays | confirmed |"));
   CHECK(contains(words_of("figure-6.8", {1000}, late), "| a gain beyond 50,000 rays | not measured |"));
 }
 
@@ -270,7 +286,8 @@ TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and
   const std::string times = words_of("figure-6.11", {1000, 5000}, cost),
                     errors = words_of("figure-6.12", {1000, 5000}, cost);
   CHECK(contains(times, "| 10% less time if purged by position | fixed transmitter: at 1,000 rays; "));
-  CHECK(contains(times, "| 17% less time if purged by precision | fixed transmitter: at none of the numbers of rays; "));
+  CHECK(
+      contains(times, "| 17% less time if purged by precision | fixed transmitter: at none of the numbers of rays; "));
   CHECK(contains(times, "| fixed transmitter | position mixed | 5.0% less time |"));
   CHECK(contains(errors, "| off by 2 m at most if purged by position | fixed transmitter: at 5,000 rays; "));
   CHECK(contains(errors, "| off by 7 m at most by precision 0.093 | fixed transmitter: at every number of rays; "));
@@ -296,10 +313,12 @@ TEST_CASE("all figures of caching: a script with a line a setting, whose columns
   for (const Recipe& recipe : recipes::recipes()) {
     if (!recipe.study) continue;
     CAPTURE(recipe.name);
-    const Findings found =
-        show(recipe, made_measurement(*recipe.study, {1000, 2000},
-                                      [](const std::string&, uint64_t) { return std::pair{1.0, 0.5}; }),
-             {});
+    const Findings found = show(recipe,
+                                made_measurement(*recipe.study, {1000, 2000},
+                                                 [](const std::string&, uint64_t) {
+                                                   return std::pair{1.0, 0.5};
+                                                 }),
+                                {});
     CHECK(contains(found.script, "'" + recipe.name + ".csv' using"));
     CHECK(contains(found.words.paragraph, "the device"));
     REQUIRE_FALSE(found.words.numbers.rows.empty());

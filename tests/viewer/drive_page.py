@@ -139,6 +139,7 @@ page.choose("colour", "power")
 assert "dB" in page.text("legend")
 
 # A click on an end offers its links, and one of them is chosen by its button.
+project = page.from_above()  # a link was chosen since, and came into view
 page.click(*project(page.file["frames/transmitter_position_m"][0, 0]))
 assert page.text("details").startswith("rsu"), page.text("details")
 assert page.visible() == count(column["tx"] == 0)

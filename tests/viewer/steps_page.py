@@ -55,9 +55,13 @@ page.js("const o = wavetracer.orbit; o.target.set(3000, 3000, 0); o.distance = 5
 page.choose("transmitter", 0)
 page.choose("receiver", 1)
 assert inside(pixels_of((0, 1))), pixels_of((0, 1))
+page.js("wavetracer.orbit.turn(0.1, 0)")
 before = camera()
-page.choose("transmitter", 1)
-assert inside(pixels_of((1, 1))) and np.allclose(camera(), before), (camera(), before)
+page.choose("receiver", -1)
+page.choose("receiver", 1)
+assert inside(pixels_of((0, 1))) and np.allclose(camera(), before), (camera(), before)
+page.choose("transmitter", 1)  # 12 m apart: a speck, from so far
+assert inside(pixels_of((1, 1))) and camera()[3] < before[3]
 page.js("const o = wavetracer.orbit; o.distance = 20000; o.apply();")
 page.choose("transmitter", 0)
 assert np.linalg.norm(np.diff(pixels_of((0, 1)), axis=0)) > 100, "the link is a speck"
@@ -153,6 +157,34 @@ page.js("const {frame} = wavetracer.state, all = [...frame.gain_db].filter(Numbe
 assert page.js("return wavetracer.lines.faded") == 5 and "5 of them faded" in page.text("count")
 page.check("fade_clutter", False)
 assert page.js("return wavetracer.lines.faded") == 0
+
+# Flat roofs: of a house that shares no vertex with its walls, not the ground, not a pitched roof, not the floor below.
+roofs = page.js("""
+const vertices = [], triangles = [], triangle_surface = [];
+const quad = (corners, surface) => {
+  const first = vertices.length / 3;
+  corners.forEach((corner) => vertices.push(...corner));
+  triangles.push(first, first + 1, first + 2, first, first + 2, first + 3);
+  triangle_surface.push(surface, surface);
+};
+const box = (x, top, surface) => {
+  const at = (k) => [[x, 0], [x + 9, 0], [x + 9, 9], [x, 9]][k % 4];
+  for (let k = 0; k < 4; ++k) quad([[...at(k), 0], [...at(k + 1), 0], [...at(k + 1), top(...at(k + 1))], [...at(k), top(...at(k))]], surface);
+  quad([0, 1, 2, 3].map((k) => [...at(k), 0]), surface + 1);
+  quad([0, 1, 2, 3].map((k) => [...at(k), top(...at(k))]), surface + 2);
+};
+quad([[-50, -50, 0], [50, -50, 0], [50, 50, 0], [-50, 50, 0]], 0);
+box(0, () => 8, 10);
+box(20, (x) => 8 + (x - 20) / 2, 20);
+const scene = {vertices: new Float32Array(vertices), triangles: new Uint32Array(triangles), triangle_surface: new Uint32Array(triangle_surface)};
+const roofs = roof_triangles(scene);
+return [...new Set(triangle_surface.filter((_, t) => roofs[t]))];
+""")
+assert roofs == [12], roofs
+heights = page.js("const roofs = roof_triangles(city), z = [[], []];"
+                  "for (let t = 0; t < roofs.length; ++t) z[roofs[t]].push(city.vertices[3 * city.triangles[3 * t] + 2]);"
+                  "return [z[0].length, z[1].length, Math.min(...z[1]) - Math.min(...z[0])]")
+assert heights[0] > 10 and heights[1] > 10 and heights[2] > 2, heights
 
 # Names in the order of their numbers.
 order = page.js("const select = document.createElement('select');"

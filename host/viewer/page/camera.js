@@ -1,4 +1,4 @@
-// A camera that circles a point above the ground: drag turns, right drag or Shift moves, the wheel zooms to the pointer.
+// A camera that circles a point above the ground: drag turns, right drag or Shift moves, the wheel zooms to where it is.
 // z is up. Everything is in metres and radians, relative to the centre of the page's coordinates.
 "use strict";
 
@@ -110,9 +110,9 @@ class OrbitCamera {
     this.apply();
   }
 
-  // Shows the box from where the camera looks.
+  // Shows the box and what is around it, from where the camera looks.
   fit(lower, upper) {
-    this.show(lower, upper, this.elevation, this.azimuth, 1.25);
+    this.show(lower, upper, this.elevation, this.azimuth, 1.8);
   }
 
   // Shows the box (arrays of three) from the south, above. margin: of its size.

@@ -24,7 +24,8 @@ function block(name) {
 // Cells of grids are receivers like others. The page holds their heights alone: names and places follow from the grid.
 const grids = meta.grids.map((grid, number) => ({...grid, z_m: new Float32Array(block("grid_" + number))}));
 const own_receivers = [];  // indices of those that are no cells
-const cell_m = new Float32Array(3 * (meta.receivers.length + grids.reduce((sum, {columns, rows}) => sum + columns * rows, 0)));
+const cell_count = grids.reduce((sum, {columns, rows}) => sum + columns * rows, 0);
+const cell_m = new Float32Array(3 * (meta.receivers.length + cell_count));
 const grid_of = new Int16Array(cell_m.length / 3).fill(-1);  // of each receiver, -1: it is on its own
 meta.receivers = (() => {
   const all = [];

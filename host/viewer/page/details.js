@@ -39,14 +39,15 @@ function missed_text() {
 
 // Row k of `links` as rows of a table.
 function link_figures(k) {
-  if (k < 0) return [["Path gain", "not on the page"]];
+  if (k < 0) return [["Path gain", "not asked for, or left out of the page"]];
   if (!links.paths[k]) return [["Path gain", "no path"]];
   return [
     ["Path gain", `${fixed(links.gain_db[k], 2)} dB, ${links.paths[k]} ${links.paths[k] === 1 ? "path" : "paths"}`],
     ["Delay spread", `${fixed(links.rms_delay_spread_s[k] * 1e9, 2)} ns`],
     ["Line of sight", links.los[k] ? "yes" : "no"],
     ...(Number.isFinite(links.missed_power_share[k])
-      ? [["Missed", `about ${share_text(links.missed_power_share[k])} of the power`]] : []),
+      ? [["Missed", links.missed_power_share[k] === 0 ? "probably nothing"
+          : `about ${share_text(links.missed_power_share[k])} of the power`]] : []),
   ];
 }
 
@@ -92,7 +93,8 @@ const most_rows = 50;
 // A cell of a map; k: the row of `links` that the map shows there, -1 without a path.
 function show_cell(parent, frame, rx, k) {
   const rows = [["Position", `${position_text(frame.receiver_m, rx)} m`]];
-  if (k >= 0) rows.push([meta.transmitters.length > 1 ? "Strongest" : "Transmitter", name_of(meta.transmitters, links.tx[k])]);
+  if (k >= 0)
+    rows.push([meta.transmitters.length > 1 ? "Strongest" : "Transmitter", name_of(meta.transmitters, links.tx[k])]);
   parent.replaceChildren(element("h2", name_of(meta.receivers, rx)), rows_table([...rows, ...link_figures(k)]));
 }
 
@@ -124,7 +126,8 @@ function show_radio(parent, frame, radio, choose) {
   if (radio.rx >= 0) group("Receives from", "rx", "tx", meta.transmitters, (end) => [end, radio.rx]);
 }
 
-const usual_hint = `Click a path for its data, ${meta.grids.length ? "a cell of the map for its link, " : ""}or an antenna for its links.`;
+const usual_hint =
+  `Click a path for its data, ${meta.grids.length ? "a cell of the map for its link, " : ""}or an antenna for its links.`;
 
 function show_hint(parent, text = usual_hint) {
   const hint = element("p", text);

@@ -15,8 +15,9 @@ function fill_select(select, ends, indices) {
   const sorted = [...indices].sort((a, b) => by_name.compare(name_of(ends, a), name_of(ends, b)) || a - b);
   select.append(new Option("all", "-1"));
   for (const i of sorted.slice(0, most_options)) select.append(new Option(shortened(name_of(ends, i), 60), String(i)));
-  if (sorted.length > most_options) select.append(new Option(`${sorted.length - most_options} more: find them by name`, ""));
-  if (sorted.length > most_options) select.lastChild.disabled = true;
+  if (sorted.length <= most_options) return;
+  select.append(new Option(`${sorted.length - most_options} more: find them by name`, ""));
+  select.lastChild.disabled = true;
 }
 
 // Chooses an end that may not be in the list, as a cell of a map.

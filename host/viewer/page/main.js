@@ -2,7 +2,9 @@
 // `window.wavetracer` lets scripts look at it and steer it.
 "use strict";
 
-const state = {frame: null, radios: [], selected: -1, link: [-1, -1], labels: true, target: null, follow: -1, last_m: null};
+const state = {
+  frame: null, radios: [], selected: -1, link: [-1, -1], labels: true, target: null, follow: -1, last_m: null,
+};
 const timing = {rebuild_ms: 0, draw_ms: 0};
 let dirty = true;
 
@@ -138,16 +140,14 @@ function go_to(role, i) {
   orbit.focus(new THREE.Vector3().fromArray(radio.m));
 }
 
-// Ends and paths of the chosen link, unless all of them are well to be seen already.
+// Both ends of the chosen link and what is around them, unless they are well to be seen already.
 function bring_link_into_view() {
   const [tx, rx] = state.link, {frame} = state;
   if (tx < 0 || rx < 0 || !finite(frame.transmitter_m, tx) || !finite(frame.receiver_m, rx)) return;
-  const points = [...frame.transmitter_m.subarray(3 * tx, 3 * tx + 3), ...frame.receiver_m.subarray(3 * rx, 3 * rx + 3)];
-  for (const i of lines.visible) if (drawable(frame, i)) for (const value of points_of(frame, i)) points.push(value);
-  if (well_seen(points, projector())) return;
-  const axis = (k) => points.filter((_, at) => at % 3 === k).sort((a, b) => a - b);
-  const axes = [0, 1, 2].map(axis);
-  orbit.fit(axes.map((values) => values[0]), axes.map((values) => values[values.length - 1]));
+  const from = frame.transmitter_m.subarray(3 * tx, 3 * tx + 3), to = frame.receiver_m.subarray(3 * rx, 3 * rx + 3);
+  if (well_seen([...from, ...to], projector())) return;
+  const ends = (least) => [0, 1, 2].map((axis) => least(from[axis], to[axis]));
+  orbit.fit(ends(Math.min), ends(Math.max));
 }
 
 // A second click in one place goes on to the next path there.
@@ -236,7 +236,8 @@ function antenna_count() {
 function fill_follow() {
   control("follow").parentElement.hidden = meta.instances.length === 0;
   control("follow").append(new Option("nothing", "-1"));
-  const sorted = [...meta.instances.keys()].sort((a, b) => by_name.compare(meta.instances[a][0], meta.instances[b][0]));
+  const id = (i) => meta.instances[i][0];
+  const sorted = [...meta.instances.keys()].sort((a, b) => by_name.compare(id(a), id(b)));
   for (const i of sorted) control("follow").append(new Option(shortened(meta.instances[i][0], 40), String(i)));
 }
 
@@ -289,7 +290,8 @@ apply_toggles();
 })();
 
 window.wavetracer = {
-  meta, state, timing, charts, coverage, chosen, search, orbit, world, overlay, lines, filters, player, draw, select, click, refilter, projector,
+  meta, state, timing, charts, coverage, chosen, search, orbit, world, overlay, lines, filters, player, draw, select,
+  click, refilter, projector,
   renderer, ready_ms: performance.now(),
   setFrame: (row) => player.go(row),
   visibleCount: () => lines.visible.length,

@@ -124,7 +124,8 @@ class Overlay {
   // The frame of a cell of a map.
   draw_cell(pen, frame, rx, projector) {
     const {step_m: [dx, dy]} = grids[grid_of[rx]], [x, y, z] = frame.receiver_m.subarray(3 * rx, 3 * rx + 3);
-    const corners = new Float32Array([[-1, -1], [1, -1], [1, 1], [-1, 1]].flatMap(([u, v]) => [x + u * dx / 2, y + v * dy / 2, z]));
+    const signs = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
+    const corners = new Float32Array(signs.flatMap(([u, v]) => [x + u * dx / 2, y + v * dy / 2, z]));
     const at = [0, 1, 2, 3].map((k) => projector.point(corners, k));
     if (!at.every(Boolean)) return;
     // A cell that is small on the screen gets a wider frame.

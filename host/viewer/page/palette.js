@@ -6,7 +6,9 @@ const dark_scheme = matchMedia("(prefers-color-scheme: dark)");
 
 // From weak to strong, as in plots: viridis (S. van der Walt, N. Smith, 2015, CC0). The strongest are farthest from the
 // background: dark on light, and the other way round in the dark, where the darkest two would not be seen.
-const viridis = ["#fde725", "#b5de2b", "#6ece58", "#35b779", "#1f9e89", "#26828e", "#31688e", "#3e4989", "#482878", "#440154"];
+const viridis = [
+  "#fde725", "#b5de2b", "#6ece58", "#35b779", "#1f9e89", "#26828e", "#31688e", "#3e4989", "#482878", "#440154",
+];
 
 const Themes = {
   dark: {

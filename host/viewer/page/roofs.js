@@ -40,7 +40,8 @@ function place_numbers(vertices) {
 }
 
 function steepness(scene, t) {
-  const [a, b, c] = [0, 1, 2].map((k) => scene.vertices.subarray(3 * scene.triangles[3 * t + k], 3 * scene.triangles[3 * t + k] + 3));
+  const vertex = (k) => 3 * scene.triangles[3 * t + k];
+  const [a, b, c] = [0, 1, 2].map((k) => scene.vertices.subarray(vertex(k), vertex(k) + 3));
   if (a.length + b.length + c.length !== 9) return NaN;  // a damaged index
   const u = [0, 1, 2].map((k) => b[k] - a[k]), v = [0, 1, 2].map((k) => c[k] - a[k]);
   const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
