@@ -34,9 +34,7 @@ Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
 }
 
 // So many in so much, such as things in seconds; null in nothing.
-Json rate(uint64_t count, double whole) {
-  return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr);
-}
+Json rate(uint64_t count, double whole) { return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr); }
 
 Json counts(const Totals& totals) {
   const FrameCounts& sum = totals.counts;
@@ -128,18 +126,18 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
     const Missed missed = estimate_missed(totals.missed);
     json["missed"] = {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
   }
+  if (totals.left_out.all > 0)
+    json["left_out"] = {{"paths", totals.left_out.paths},
+                        {"power_share", totals.left_out.all > 0 ? totals.left_out.power / totals.left_out.all : 0.0}};
   json["links"] = totals.links;
   json["segments_per_depth"] = totals.segments_per_depth;
   json["seconds"] = stage_seconds(run, totals, write_seconds);
   json["rays_per_second"] = rate(traced_segments(totals), sum_seconds(totals, "trace"));
   json["frames_per_second"] = rate(totals.frames, sum_seconds(totals, "frame"));
   json["peak_memory_bytes"] = peak_memory_bytes();
-  json["order"] = {{"asked", run.config.order.method},
-                   {"method", summary.order.method},
-                   {"each_depth", summary.order.each_depth},
-                   {"launch_shape", summary.order.launch_shape},
-                   {"local_size", summary.order.local_size},
-                   {"reason", summary.order.reason}};
+  json["order"] = {{"asked", run.config.order.method},       {"method", summary.order.method},
+                   {"each_depth", summary.order.each_depth}, {"launch_shape", summary.order.launch_shape},
+                   {"local_size", summary.order.local_size}, {"reason", summary.order.reason}};
   json["cache"] = cache(run.config.cache, totals.cache);
   json["warnings"] = warnings(run, totals);
   // Names of files and devices need not be UTF-8; what is not is replaced rather than refused.

@@ -56,6 +56,18 @@ def check_frame(simulation, frame):
         way = np.vstack([tx[frame["tx"][i]], vertices[offset[i]:offset[i + 1]], rx[frame["rx"][i]]])
         length = np.linalg.norm(np.diff(way, axis=0), axis=1).sum()
         assert abs(length / 299792458.0 - frame["delay_s"][i]) < 1e-15
+    # Both gains of every link, from its paths.
+    f_hz = 5.9e9
+    h = frame["a"][:, 0, 0] * np.exp(-2j * np.pi * (f_hz * frame["delay_s"] % 1))
+    for (t, r), count, powers, coherent in zip(frame["link"], frame["link_paths"], frame["link_path_gain_db"],
+                                               frame["link_narrowband_gain_db"]):
+        rows = (frame["tx"] == t) & (frame["rx"] == r)
+        assert count == rows.sum()
+        if count:
+            assert abs(powers - 10 * np.log10((np.abs(h[rows]) ** 2).sum())) < 1e-9
+            assert abs(coherent - 20 * np.log10(np.abs(h[rows].sum()))) < 1e-6
+        else:
+            assert powers == coherent == -np.inf
     assert not frame["delay_s"].flags.writeable
     assert max(frame["rx"]) < len(simulation.receivers)
 
