@@ -1,11 +1,13 @@
 // Statistics of links from a links.csv that is written by hand.
 #include "app/link_statistics.hpp"
 #include <doctest/doctest.h>
+#include <cmath>
 #include <fstream>
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
+using test::TemporaryFolder;
 using namespace wavetracer::app;
 
 namespace {

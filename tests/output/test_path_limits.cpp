@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include "output/path_limits.hpp"
 #include "reader.hpp"
@@ -11,6 +12,8 @@
 #include "temporary_folder.hpp"
 
 using namespace wavetracer;
+using test::Reader;
+using test::TemporaryFolder;
 
 namespace {
 
@@ -44,6 +47,16 @@ Paths made_paths() {
   return paths;
 }
 
+constexpr std::optional<double> none;
+
+OutputConfig limits(std::optional<double> min_gain_db, std::optional<double> dynamic_range_db, uint32_t most_paths) {
+  OutputConfig out;
+  out.min_gain_db = min_gain_db;
+  out.dynamic_range_db = dynamic_range_db;
+  out.max_paths_per_link = most_paths;
+  return out;
+}
+
 std::vector<uint32_t> kept(const OutputConfig& output) {
   const std::vector<uint8_t> written = written_rows(made_paths(), output);
   std::vector<uint32_t> out;
@@ -57,18 +70,18 @@ std::vector<uint32_t> kept(const OutputConfig& output) {
 TEST_CASE("each limit leaves out what its key says, link by link") {
   using Rows = std::vector<uint32_t>;
   CHECK(kept({}) == Rows{0, 1, 2, 3, 4, 5});
-  CHECK(kept({.min_gain_db = -80}) == Rows{0, 2, 3, 4});  // as strong as the limit is in
-  CHECK(kept({.dynamic_range_db = 10}) == Rows{0, 2, 3, 4});
-  CHECK(kept({.dynamic_range_db = 0}) == Rows{0, 4});
-  CHECK(kept({.max_paths_per_link = 1}) == Rows{0, 4});
-  CHECK(kept({.max_paths_per_link = 2}) == Rows{0, 2, 4, 5});  // of two as strong the first
-  CHECK(kept({.min_gain_db = -75, .max_paths_per_link = 2}) == Rows{0, 2});
-  CHECK(kept({.min_gain_db = 0}).empty());
+  CHECK(kept(limits(-80, none, 0)) == Rows{0, 2, 3, 4});  // as strong as the limit is in
+  CHECK(kept(limits(none, 10, 0)) == Rows{0, 2, 3, 4});
+  CHECK(kept(limits(none, 0, 0)) == Rows{0, 4});
+  CHECK(kept(limits(none, none, 1)) == Rows{0, 4});
+  CHECK(kept(limits(none, none, 2)) == Rows{0, 2, 4, 5});  // of two as strong the first
+  CHECK(kept(limits(-75, none, 2)) == Rows{0, 2});
+  CHECK(kept(limits(0, none, 0)).empty());
 }
 
 TEST_CASE("selected rows keep their vertices, and what is left out is counted with its power") {
   const Paths all = made_paths();
-  const std::vector<uint8_t> written = written_rows(all, {.max_paths_per_link = 2});
+  const std::vector<uint8_t> written = written_rows(all, limits(none, none, 2));
   const Paths some = select_rows(all, written);
   CHECK(some.delay_s == std::vector<double>{0, 2, 4, 5});
   CHECK(some.vertex_offset == std::vector<uint64_t>{0, 0, 2, 3, 5});
