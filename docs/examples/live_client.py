@@ -77,7 +77,8 @@ def print_links(answer, most=5):
     print(f"{answer['time_s']:.2f} s: {len(heard)} of {len(answer['links'])} links have paths, "
           f"solved in {1e3 * answer['seconds']['solve']:.1f} ms")
     for link in heard[:most]:
-        print(f"  {link['tx']} -> {link['rx']}: {link['path_gain_db']:.2f} dB, {link['paths']} paths, "
+        print(f"  {link['tx']} -> {link['rx']}: {link['path_gain_db']:.2f} dB "
+              f"(narrowband {link['narrowband_gain_db']:.2f} dB), {link['paths']} paths, "
               f"delay spread {1e9 * link['rms_delay_spread_s']:.1f} ns, LOS {'yes' if link['los'] else 'no'}")
 
 

@@ -1,5 +1,5 @@
 // The loop over units and their frames.
-// Assumes that catch_interrupts() was called, so that an interrupt waits for the frame in progress.
+// Assumes that catch_interrupts() was called, so that an interrupt ends the frame in progress at its next step.
 #include "app/drive.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -28,11 +28,6 @@ void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std
     progress.line(fmt::format("--resume: {} of {} frames are there", done, all));
 }
 
-void keep_links(Results& results, const FrameResult& last) {
-  results.last_frame = last.frame;
-  results.last_links = link_figures(last.paths, last.frame, last.world.links);
-}
-
 }  // namespace
 
 uint32_t block_count(const Config& config) {
@@ -49,7 +44,7 @@ Units units_of(const DriveTask& task) {
   return {task.identity.first, task.identity.last, task.run.config.output.shard_frames, task.blocks};
 }
 
-bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress, Results* last) {
+bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
   const RunIdentity& asked = task.identity;
   std::optional<TransmitterRange> block;
   if (unit.blocks > 1) {
@@ -63,8 +58,12 @@ bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Pro
   for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
     if (interrupted()) return false;
     if (!block)
-      progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count());
-    FrameResult result = solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat, block).result;
+      progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count(),
+                   "frames");
+    std::optional<SolvedFrame> solved =
+        solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat, progress, block);
+    if (!solved) return false;  // interrupted
+    FrameResult result = std::move(solved->result);
     const bool stop = frame == unit.last || interrupted();
     // Why a drive has no path at all is asked once a unit; where others have found one, nobody will read it.
     const bool ask = block || asked.first == asked.last || result.paths.size() == 0;
@@ -72,7 +71,6 @@ bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Pro
       result.missing = task.simulation.explain_missing(result);
       explained = true;
     }
-    if (last && stop) keep_links(*last, result);
     writer.add(std::move(result));
     if (stop) return frame == unit.last;
   }
@@ -80,7 +78,7 @@ bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Pro
 }
 
 bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
-  const bool whole = solve_unit(task, unit, writer, progress, nullptr);
+  const bool whole = solve_unit(task, unit, writer, progress);
   if (whole)
     writer.end();
   else
@@ -90,7 +88,7 @@ bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, P
 
 Results drive(const DriveTask& task, Progress& progress) {
   const std::string& directory = task.run.config.output.directory;
-  Shards shards(directory, task.identity, task.run.summary.inputs);
+  Shards shards(directory, task.identity, task.run.summary.inputs, task.run.config.text);
   if (task.resume) {
     shards.resume();
     say_what_is_there(shards, task.identity, directory, progress);
@@ -101,7 +99,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   for (uint64_t index = 0; index < units.count() && !interrupted(); ++index) {
     const Unit unit = units.at(index);
     if (shards.finished(unit)) continue;
-    if (!solve_unit(task, unit, writer, progress, &results)) break;
+    if (!solve_unit(task, unit, writer, progress)) break;
     writer.end();
   }
   writer.finish();

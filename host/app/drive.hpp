@@ -33,6 +33,7 @@ Results drive(const DriveTask& task, Progress& progress);
 struct Shared {
   Results results;       // of all of them, where this one has merged; else without frames
   uint64_t missing = 0;  // units that no process could compute, or that were left when this one was interrupted
+  uint64_t units = 0;    // of a part: how many it has
 };
 
 // With the other ranks of its job: takes units that nobody has until all are finished, and merges if it is the first to

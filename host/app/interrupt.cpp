@@ -1,4 +1,4 @@
-// The signal handler sets a flag and nothing else.
+// The signal handler sets a flag and says so by write(), which a handler may call; nothing else.
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
 // RemoveOnInterrupt waits for signals on a thread of its own, which may remove folders as a handler may not.
 #include "app/interrupt.hpp"
@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <csignal>
 #include <iostream>
+#include <string_view>
 #include <vector>
 #include "convert/pending_folder.hpp"
 #include "wavetracer/error.hpp"
@@ -50,9 +51,16 @@ void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, con
 
 }  // namespace
 
-void catch_interrupts() {
+void catch_interrupts(bool acknowledge) {
   struct sigaction action = {};
-  action.sa_handler = [](int) { raised = 1; };
+  if (acknowledge)
+    action.sa_handler = [](int) {
+      raised = 1;
+      constexpr std::string_view text = "\ninterrupted: stopping after the step in progress; once more ends at once\n";
+      if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody is there to read it
+    };
+  else
+    action.sa_handler = [](int) { raised = 1; };
   action.sa_flags = SA_RESTART | SA_RESETHAND;  // a write to a file goes on
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

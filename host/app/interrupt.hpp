@@ -7,8 +7,8 @@
 
 namespace wavetracer::app {
 
-// From now on SIGINT and SIGTERM only raise the request.
-void catch_interrupts();
+// From now on SIGINT and SIGTERM only raise the request. acknowledge: and say so on stderr, at once.
+void catch_interrupts(bool acknowledge = true);
 bool interrupted();
 
 // While it lives, SIGINT and SIGTERM end the process at once, with exit code 130, and leave nothing of what is being

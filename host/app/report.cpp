@@ -1,25 +1,20 @@
 // Words and numbers of the closing report.
-// Counts are sums over the frames; links are those of the last one.
+// Counts are sums over the frames.
 #include "app/report.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include "app/digits.hpp"
 #include "output/advice.hpp"
 
 namespace wavetracer::app {
 namespace {
 
-constexpr size_t shown_links = 10;
-
-// 12.3 G, 45.6 M, 789 k, 12
-std::string scaled(double x) {
-  for (const auto& [limit, letter] : {std::pair{1e9, " G"}, {1e6, " M"}, {1e3, " k"}})
-    if (x >= limit) return fmt::format("{:.3g}{}", x / limit, letter);
-  return fmt::format("{:.3g} ", x);
-}
+constexpr size_t shown_pairs = 3;  // of the strongest, and of the weakest
 
 std::string duration(double seconds) {
   return seconds < 1 ? fmt::format("{:.3g} ms", seconds * 1e3) : fmt::format("{:.3g} s", seconds);
@@ -34,12 +29,11 @@ std::string frame_line(const Run& run, const Totals& totals) {
                        repeats > 1 ? fmt::format("median of {}", repeats)
                                    : "the first, so not warm: --repeat 5 gives the median of five");
   const double span_s = totals.end_s - totals.start_s;
-  std::string line = fmt::format("frames     {} from {:g} to {:g} s in steps of {:.6g} s; median {}", totals.frames,
-                                 totals.start_s, totals.end_s, span_s / static_cast<double>(totals.frames - 1),
-                                 duration(median_s));
+  std::string line =
+      fmt::format("frames     {} from {:g} to {:g} s in steps of {:.6g} s; median {}", totals.frames, totals.start_s,
+                  totals.end_s, span_s / static_cast<double>(totals.frames - 1), duration(median_s));
   if (sum_s > 0) line += fmt::format(", {:.3g} frames/s", static_cast<double>(totals.frames) / sum_s);
-  if (repeats > 1)
-    line += fmt::format("; each {} times{}", repeats, run.config.trace.reuse ? ", reusing nothing" : "");
+  if (repeats > 1) line += fmt::format("; each {} times{}", repeats, run.config.trace.reuse ? ", reusing nothing" : "");
   return line + "\n";
 }
 
@@ -50,15 +44,17 @@ std::string cache_line(const CacheSummary& cache) {
     return whole > 0 ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
   return fmt::format("cache      {:.3g}% of {} look-ups answered, {:.3g}% of {} entries in use\n",
-                     percent(cache.hits, cache.lookups), cache.lookups, percent(cache.used, cache.entries),
-                     cache.entries);
+                     percent(cache.hits, cache.lookups), grouped(cache.lookups), percent(cache.used, cache.entries),
+                     grouped(cache.entries));
 }
 
 // What became of sequences: paths are solved for, or are what the spheres of receivers caught.
 std::string sequence_line(const Run& run, const FrameCounts& n) {
   if (run.config.trace.reception == "sphere")
-    return fmt::format("sequences  {} distinct, {} segments passed receivers\n", n.sequences, n.receptions);
-  return fmt::format("sequences  {} distinct, {} candidates, {} solved\n", n.sequences, n.candidates, n.solved);
+    return fmt::format("sequences  {} distinct, {} segments passed receivers\n", grouped(n.sequences),
+                       grouped(n.receptions));
+  return fmt::format("sequences  {} distinct, {} candidates, {} solved\n", grouped(n.sequences), grouped(n.candidates),
+                     grouped(n.solved));
 }
 
 // line_of_sight -> line of sight
@@ -94,76 +90,118 @@ std::string path_line(const Totals& totals) {
   std::string kinds;
   for (size_t i = 0; i < path_kinds.size(); ++i)
     if (totals.kinds[i] > 0)
-      kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", totals.kinds[i], spaced(path_kinds[i]));
-  return fmt::format("paths      {}{}\n", totals.counts.paths, kinds);
+      kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", grouped(totals.kinds[i]), spaced(path_kinds[i]));
+  return fmt::format("paths      {}{}\n", grouped(totals.counts.paths), kinds);
 }
 
 // What rays may have missed; nothing where that is not known.
 std::string missed_line(const Run& run, const Totals& totals) {
   if (totals.missed.frames == 0) return "";
   const Missed missed = estimate_missed(totals.missed);
-  const std::string about =
-      missed.paths.estimate < 0.5 ? "probably none" : fmt::format("about {:.0f}", missed.paths.estimate);
-  return fmt::format("missed     {} of {} paths ({:.0f} to {:.0f}), {:.1g} of the power ({:.1g} to {:.1g}): {}\n",
-                     about, totals.counts.paths, missed.paths.low, std::ceil(missed.paths.high),
-                     missed.power_share.estimate, missed.power_share.low, missed.power_share.high,
+  const std::string about = missed.paths.estimate < 0.5
+                                ? "probably none"
+                                : "about " + grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.estimate)));
+  return fmt::format("missed     {} of {} paths ({} to {}), {:.1g} of the power ({:.1g} to {:.1g}): {}\n", about,
+                     grouped(totals.counts.paths), grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.low))),
+                     grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
+                     missed.power_share.low, missed.power_share.high,
                      run.config.trace.rays == 0 ? "a higher trace.recall finds more" : "more trace.rays find more");
 }
 
-std::string count_lines(const Run& run, const Totals& totals) {
+// What tracing did, for whoever tunes it.
+std::string tracing_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
   const uint64_t traced = traced_segments(totals);
   std::string rate;
   if (const double trace_s = sum_seconds(totals, "trace"); trace_s > 0)
-    rate = fmt::format(", {}rays/s while tracing", scaled(static_cast<double>(traced) / trace_s));
-  return fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", n.rays, traced, n.hits, rate) +
-         cache_line(totals.cache) + sequence_line(run, n) + path_line(totals) + frame_line(run, totals);
+    rate = fmt::format(", {}rays/s while tracing", short_number(static_cast<double>(traced) / trace_s));
+  const std::string order = run.summary.order.reason.empty() ? "" : "order      " + run.summary.order.reason + "\n";
+  return order +
+         fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", grouped(n.rays), grouped(traced),
+                     grouped(n.hits), rate) +
+         cache_line(totals.cache) + sequence_line(run, n);
 }
 
-std::string link_lines(const Run& run, const Results& results) {
-  const bool many = results.totals.frames > 1;
-  std::vector<LinkFigures> links = results.last_links;
-  if (links.empty()) return fmt::format("links      {}, see links.csv\n", results.totals.links);
-  std::stable_sort(links.begin(), links.end(),
-                   [](const LinkFigures& a, const LinkFigures& b) { return a.path_gain_db > b.path_gain_db; });
-  const size_t shown = std::min(links.size(), shown_links);
-  const auto name = [&](const LinkFigures& l) {
-    return run.config.transmitters[l.tx].name + " -> " + run.config.receivers[l.rx].name;
-  };
+std::string percent(uint64_t part, uint64_t whole) {
+  return whole > 0 ? fmt::format("{:.3g}%", 100 * static_cast<double>(part) / static_cast<double>(whole)) : "none";
+}
+
+std::string quantile_words(const Quantiles& of, double scale, const char* unit) {
+  return fmt::format("median {:.1f} {}, a tenth below {:.1f} and a tenth above {:.1f}", scale * of.median, unit,
+                     scale * of.low, scale * of.high);
+}
+
+std::string pair_lines(const char* title, std::span<const PairSummary> pairs, bool drive) {
   size_t width = 0;
-  for (size_t i = 0; i < shown; ++i) width = std::max(width, name(links[i]).size());
-  std::string out =
-      many ? fmt::format("links      {} in all frames; the strongest of the {} in frame {}:\n", results.totals.links,
-                         links.size(), results.last_frame)
-           : fmt::format("links      {}, the strongest first:\n", links.size());
-  for (size_t i = 0; i < shown; ++i) {
-    const LinkFigures& l = links[i];
-    out += fmt::format("  {:<{}}  {:>5} paths", name(l), width, l.paths);
-    if (l.paths > 0)
-      out += fmt::format("  path gain {:7.2f} dB  delay spread {:7.2f} ns  LOS {}", l.path_gain_db,
-                         l.rms_delay_spread_s * 1e9, l.los ? "yes" : "no");
-    out += "\n";
+  for (const PairSummary& pair : pairs) width = std::max(width, pair.name.size());
+  std::string out;
+  for (const PairSummary& pair : pairs) {
+    const std::string sight = drive               ? percent(pair.los_rows, pair.rows) + " in line of sight"
+                              : pair.los_rows > 0 ? std::string("line of sight")
+                                                  : std::string("no line of sight");
+    out += fmt::format("{:<11}{:<{}}  {:7.2f} dB  delay spread {:7.2f} ns  {}\n", out.empty() ? title : "", pair.name,
+                       width, pair.mean_gain_db, 1e9 * pair.mean_delay_spread_s, sight);
   }
-  if (links.size() > shown) out += fmt::format("  ... and {} more in links.csv\n", links.size() - shown);
   return out;
+}
+
+// Links, their gains and delay spreads, and the ends of the list.
+std::string link_lines(const LinkStatistics& links, bool drive) {
+  std::string out =
+      fmt::format("links      {} asked for{}, {} with a path ({}), {} in line of sight ({})\n", grouped(links.asked),
+                  drive ? " in all frames" : "", grouped(links.with_path), percent(links.with_path, links.asked),
+                  grouped(links.los), percent(links.los, links.asked));
+  if (links.with_path == 0) return out;
+  out += "path gain  " + quantile_words(links.gain_db, 1, "dB") + "\n";
+  out += "delays     spread: " + quantile_words(links.delay_spread_s, 1e9, "ns") + "\n";
+  const std::span<const PairSummary> pairs = links.pairs;
+  const size_t strong = std::min(pairs.size(), shown_pairs), weak = std::min(pairs.size() - strong, shown_pairs);
+  return out + pair_lines("strongest", pairs.first(strong), drive) + pair_lines("weakest", pairs.last(weak), drive);
+}
+
+std::string grid_lines(const LinkStatistics& links) {
+  std::string out;
+  for (const GridSummary& grid : links.grids)
+    out += fmt::format("coverage   {}: {} of {} cells{}\n", grid.name, percent(grid.covered, grid.cells),
+                       grouped(grid.cells),
+                       grid.covered > 0 ? "; path gain " + quantile_words(grid.gain_db, 1, "dB") : "");
+  return out;
+}
+
+// What paths.h5 does not have, by the configuration.
+std::string left_out_line(const Totals& totals) {
+  const LeftOutPaths& gone = totals.left_out;
+  if (gone.paths == 0) return "";
+  return fmt::format(
+      "left out   {} of {} paths, with {:.2g}% of the power, are not in paths.h5, as output.min_gain_db, "
+      "dynamic_range_db and max_paths_per_link ask\n",
+      grouped(gone.paths), grouped(totals.counts.paths), 100 * gone.power / gone.all);
+}
+
+std::string compile_line(const Run& run) {
+  const auto found = run.summary.setup_seconds.find("compile");
+  return found == run.summary.setup_seconds.end() ? "" : fmt::format("compiled   in {}\n", duration(found->second));
 }
 
 }  // namespace
 
-std::string report(const Run& run, const Results& results) {
+std::string report(const Run& run, const Results& results, bool verbose) {
   const Scene& scene = run.scene;
+  const Totals& totals = results.totals;
   const DeviceSummary& device = run.summary.device;
   const glm::dvec3 extent = scene.upper - scene.lower;
   std::string out = fmt::format("device     {} ({}, {})\n", device.name, device.platform, device.gpu ? "GPU" : "CPU");
   out += fmt::format("scene      {}: {:.0f} x {:.0f} x {:.0f} m, {} triangles in {} surfaces\n",
                      run.config.scene.file.empty() ? "city " + run.config.scene.generate : run.config.scene.file,
-                     extent.x, extent.y, extent.z, scene.triangles.size(), scene.surfaces.size());
+                     extent.x, extent.y, extent.z, grouped(scene.triangles.size()), grouped(scene.surfaces.size()));
   if (!run.instances.empty())
-    out += fmt::format("vehicles   {} of {} models\n", run.instances.size(), run.models.size());
-  if (!run.summary.order.reason.empty()) out += "order      " + run.summary.order.reason + "\n";
-  out += feature_line(run) + count_lines(run, results.totals) + link_lines(run, results) +
-         missed_line(run, results.totals);
-  for (const std::string& text : advice(run, results.totals)) out += "advice     " + text + "\n";
+    out += fmt::format("vehicles   {} of {} models\n", grouped(run.instances.size()), run.models.size());
+  out += feature_line(run);
+  if (verbose) out += tracing_lines(run, totals);
+  out += path_line(totals) + left_out_line(totals) + missed_line(run, totals) +
+         link_lines(results.links, totals.frames > 1) + grid_lines(results.links) + compile_line(run) +
+         frame_line(run, totals);
+  for (const std::string& text : advice(run, totals)) out += "advice     " + text + "\n";
   out += "written    ";
   for (size_t i = 0; i < results.files.size(); ++i) out += (i == 0 ? "" : ", ") + results.files[i].string();
   return out + "\n";

@@ -4,20 +4,19 @@
 #include <filesystem>
 #include <string>
 #include <vector>
+#include "app/link_statistics.hpp"
 #include "output/output.hpp"
 #include "output/totals.hpp"
-#include "radio/links.hpp"
 
 namespace wavetracer::app {
 
 struct Results {
   Totals totals;
-  uint32_t last_frame = 0;
-  std::vector<LinkFigures> last_links;  // of last_frame; empty where it was computed by an earlier run
+  LinkStatistics links;
   std::vector<std::filesystem::path> files;
 };
 
-// At least one frame. Links are sorted by gain, the strongest first.
-std::string report(const Run& run, const Results& results);
+// At least one frame. verbose: what tracing did, too: rays, sequences, how they were ordered, what a cache answered.
+std::string report(const Run& run, const Results& results, bool verbose);
 
 }  // namespace wavetracer::app

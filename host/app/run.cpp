@@ -22,6 +22,7 @@
 #include "config/config_file.hpp"
 #include "config/input_files.hpp"
 #include "gpu/hash.hpp"
+#include "output/earlier_run.hpp"
 #include "output/output.hpp"
 #include "wavetracer/simulation.hpp"
 
@@ -34,7 +35,7 @@ struct Options {
   std::string file, directory, frames, device, devices, shard;
   std::vector<std::string> sets;
   uint32_t repeat = 1, processes = 0;
-  bool resume = false;
+  bool resume = false, verbose = false;
   bool launches() const { return !devices.empty() || processes > 0; }
 };
 
@@ -66,6 +67,7 @@ std::string hash_of(const std::vector<InputFile>& inputs) {
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
   Config elsewhere = config;
   elsewhere.output.directory.clear();  // a folder that was moved is still that of its run
+  elsewhere.output.keep_shards = true;  // what becomes of shards changes none
   for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
   return {summary.version,
           gpu::fnv1a_128(resolved_config(elsewhere)),
@@ -79,13 +81,16 @@ RunIdentity identity_of(const Config& config, const RunSummary& summary, const F
 // A world where nothing moves: one frame, written as it is.
 Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   if (interrupted()) return {};
-  SolvedFrame solved = solve_frame(simulation, 0, run.summary.repeat_count);
-  run.summary.repeat_count = solved.repeated;
-  FrameResult& frame = solved.result;
+  std::optional<SolvedFrame> solved = solve_frame(simulation, 0, run.summary.repeat_count, progress);
+  if (!solved) return {};
+  run.summary.repeat_count = solved->repeated;
+  FrameResult& frame = solved->result;
   frame.missing = simulation.explain_missing(frame);
   progress.line("writing to " + run.config.output.directory);
-  return {totals_of({&frame, 1}), 0, link_figures(frame.paths, 0, frame.world.links),
-          write_outputs(run.config.output.directory, run, {&frame, 1})};
+  Results results;
+  results.totals = totals_of({&frame, 1});
+  results.files = write_outputs(run.config.output.directory, run, {&frame, 1});
+  return results;
 }
 
 // What an interrupt left undone, and how to go on.
@@ -122,6 +127,7 @@ void launch_children(const Options& options, const Config& config, Invocation& i
   for (const std::string& set : options.sets) launch.arguments.insert(launch.arguments.end(), {"--set", set});
   if (!options.frames.empty()) launch.arguments.insert(launch.arguments.end(), {"--frames", options.frames});
   if (options.resume) launch.arguments.push_back("--resume");
+  if (options.verbose) launch.arguments.push_back("--verbose");
   launch.arguments.insert(launch.arguments.end(), {"--repeat", std::to_string(options.repeat)});
   const std::vector<size_t> devices = devices_to_launch(options.devices, options.device);
   launch.arguments.insert(launch.arguments.end(), {"--devices", fmt::format("{}", fmt::join(devices, ","))});
@@ -161,9 +167,9 @@ std::optional<Results> run_shared(const DriveTask& task, const Options& options,
                               options.shard));
   } else {
     progress.line(
-        fmt::format("--shard {} is done; when all are, `wavetracer merge {}` writes the results, of several "
+        fmt::format("--shard {} is done{}; when all are, `wavetracer merge {}` writes the results, of several "
                     "folders `wavetracer merge -o OUT DIR...`",
-                    options.shard, directory));
+                    options.shard, shared.units == 0 ? ", and empty: the run has fewer parts" : "", directory));
   }
   return std::nullopt;
 }
@@ -178,12 +184,15 @@ void run(const Options& options, Invocation& invocation) {
   check_inputs(config);
   check_output_folder(config.output.directory);
   if (!part && !together) check_not_in_use(fs::path(config.output.directory) / "shards");
-  catch_interrupts();
+  catch_interrupts(!ranks.launched);
   Progress progress(together ? fmt::format("rank {}: ", ranks.rank) : "");
   if (launching) return launch_children(options, config, invocation, progress);
   take_share_of_cores(ranks);
   std::optional<FolderHold> folder;
   if (!part) folder.emplace(config.output.directory, this_process(ranks.job, ranks.rank));
+  if (ranks.rank == 0 && !options.resume && !part)
+    if (const std::string earlier = earlier_results(config.output.directory); !earlier.empty())
+      progress.line("replaces " + earlier);
   if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
   Simulation simulation(config, device_of(options, ranks));
   const FrameRange range = parse_frames(options.frames, simulation.frame_count());
@@ -213,8 +222,11 @@ void run(const Options& options, Invocation& invocation) {
   std::vector<std::string> warnings = results.totals.warnings;
   add_warnings(warnings, missing_words(results.totals));
   for (const std::string& warning : warnings) progress.line("warning: " + warning);
-  if (results.totals.frames > 0) std::cout << report(run, results) << std::flush;
-  const bool whole = moving && results.totals.frames == run.summary.frames_asked;
+  if (results.totals.frames > 0) {
+    results.links = link_statistics(fs::path(run.config.output.directory) / "links.csv", run.config);
+    std::cout << report(run, results, options.verbose) << std::flush;
+  }
+  const bool whole = results.totals.frames == run.summary.frames_asked && run.summary.repeat_count == options.repeat;
   if (interrupted() && !whole && !together) {
     invocation.code = ExitCode::interrupted;
     progress.line(unfinished(run, results, options, moving));
@@ -243,6 +255,8 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("--shard", options->shard,
                       "K/N: only part K, from 0 to N - 1, of N parts, on any machine; `wavetracer merge` joins them");
   command->add_flag("--resume", options->resume, "Go on with a drive that was interrupted, in the same folder");
+  command->add_flag("--verbose", options->verbose,
+                    "Report what tracing did, too: rays, sequences, how they were ordered, what a cache answered");
   command->callback([options, &invocation] { run(*options, invocation); });
 }
 

@@ -1,7 +1,8 @@
 // One frame of a run, as often as --repeat asks for.
-// An interrupt ends it after the repeat in progress, so there is always a result.
+// An interrupt ends it between two steps; repeats that are done by then count.
 #pragma once
 #include <optional>
+#include "app/progress.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::app {
@@ -11,9 +12,10 @@ struct SolvedFrame {
   uint32_t repeated = 0;  // how many repeats there were
 };
 
-// Where frames reuse sequences and there is more than one repeat, each of them begins cold.
+// Nothing where an interrupt came before the first repeat was done. Where frames reuse sequences and there is more than
+// one repeat, each of them begins cold. A run of one frame tells the progress how far it is.
 // block: the links of these transmitters alone.
-SolvedFrame solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats,
-                        std::optional<TransmitterRange> block = {});
+std::optional<SolvedFrame> solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats, Progress& progress,
+                                       std::optional<TransmitterRange> block = {});
 
 }  // namespace wavetracer::app

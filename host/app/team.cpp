@@ -26,7 +26,7 @@ class Team {
       : task_(task),
         ranks_(ranks),
         progress_(progress),
-        shards_(task.run.config.output.directory, task.identity, task.run.summary.inputs),
+        shards_(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text),
         claims_(shards_.folder(), me),
         writer_(task.run, shards_, progress),
         units_(units_of(task)),
@@ -181,11 +181,13 @@ Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessIn
 }
 
 Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
-  Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs);
+  Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text);
   shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
   UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);
   Shared shared;
+  shared.units = units.count() > part.index ? (units.count() - part.index - 1) / part.count + 1 : 0;
+  if (shared.units == 0) shards.note_empty(task.run);
   for (uint64_t index = part.index; index < units.count(); index += part.count) {
     const Unit unit = units.at(index);
     if (task.resume && shards.finished(unit)) continue;

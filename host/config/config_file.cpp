@@ -90,7 +90,7 @@ class Parser {
     }
     read_document();
     for (size_t i = 0; i < sets_.size(); ++i) read_set(i);
-    config_.output.directory = resolved_path(folder_, config_.output.directory);  // the default is relative, too
+    config_.output.directory = resolved_path("", config_.output.directory);  // the default is relative, too
     for (const auto& [path, assignment] : assignments_) store(assignment);
     finish();
     check_whole();

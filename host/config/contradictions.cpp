@@ -103,6 +103,20 @@ void check_features(const Config& config, Found& out) {
                                config.output.waypoints)});
 }
 
+// A signal-to-noise ratio has a signal and a noise.
+void check_link_budget(const RadioConfig& radio, Found& out) {
+  if (radio.bandwidth_hz && !radio.transmit_power_dbm)
+    out.push_back({{"radio.bandwidth_hz"},
+                   fmt::format("radio.bandwidth_hz = {} gives the noise of a link budget, which has no "
+                               "radio.transmit_power_dbm: give it too, or leave the bandwidth out",
+                               *radio.bandwidth_hz)});
+  if (radio.noise_figure_db > 0 && !radio.bandwidth_hz)
+    out.push_back({{"radio.noise_figure_db"},
+                   fmt::format("radio.noise_figure_db = {} is of a noise whose radio.bandwidth_hz is not given: give "
+                               "it too, or leave the noise figure out",
+                               radio.noise_figure_db)});
+}
+
 void check_waypoints(const Config& config, Found& out) {
   if (config.output.waypoints > 0 && config.trace.rays == 0)
     out.push_back({{"output.waypoints", "trace.rays"},
@@ -195,6 +209,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_rays(config, out);
   check_reception(config, out);
   check_features(config, out);
+  check_link_budget(config.radio, out);
   check_waypoints(config, out);
   check_cache(config, out);
   check_ends(config, out);

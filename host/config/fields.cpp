@@ -181,13 +181,31 @@ const std::vector<Table>& tables() {
       time_table(),
       links_table(),
       {.name = "radio",
-       .doc = "The carrier.",
+       .doc = "The carrier, and the link budget.",
        .fields = {{.name = "frequency_hz",
                    .slot = at(&Config::radio, &RadioConfig::frequency_hz),
                    .unit = "Hz",
                    .range = {1e6, 1e12},
                    .doc = "5.9 GHz is the band of vehicle communication (ITS-G5, C-V2X). ITU-R P.2040 materials hold "
-                          "from 1 to 100 GHz, most of them."}}},
+                          "from 1 to 100 GHz, most of them."},
+                  {.name = "transmit_power_dbm",
+                   .slot = at(&Config::radio, &RadioConfig::transmit_power_dbm),
+                   .unit = "dBm",
+                   .range = {-200, 200},
+                   .doc = "Of each transmitter, for received powers in links.csv, plots and maps. Not given: gains "
+                          "alone. 23 dBm is usual for ITS-G5 and C-V2X."},
+                  {.name = "bandwidth_hz",
+                   .slot = at(&Config::radio, &RadioConfig::bandwidth_hz),
+                   .unit = "Hz",
+                   .range = {1, 1e12},
+                   .doc = "Of the noise, k T B at 290 K, for signal-to-noise ratios beside received powers; paths do "
+                          "not depend on it. 10 MHz is a channel of ITS-G5."},
+                  {.name = "noise_figure_db",
+                   .slot = at(&Config::radio, &RadioConfig::noise_figure_db),
+                   .unit = "dB",
+                   .range = {0, 100},
+                   .doc = "Of each receiver: how much its noise is above k T B. 0 is a receiver without noise of its "
+                          "own, 9 dB one that 3GPP assumes for vehicles."}}},
       trace_table(),
       order_table(),
       launch_table(),
@@ -198,7 +216,9 @@ const std::vector<Table>& tables() {
        .fields = {{.name = "directory",
                    .slot = at(&Config::output, &OutputConfig::directory),
                    .form = Form::output_folder,
-                   .doc = "Folder for paths.h5, links.csv and summary.json; `run -o` overrides it."},
+                   .doc =
+                       "Folder for paths.h5, links.csv and summary.json, from the current folder where it is relative; "
+                       "`run -o` overrides it."},
                   {.name = "shard_frames",
                    .slot = at(&Config::output, &OutputConfig::shard_frames),
                    .unit = "frames a file",
@@ -211,7 +231,30 @@ const std::vector<Table>& tables() {
                    .unit = "samples a transmitter",
                    .range = {0, 1e9},
                    .doc = "Of these rays, spread evenly over each launch, waypoints.h5 gets every point from launch to "
-                          "last hit, for study and pictures. They are many: 0 writes none."}}},
+                          "last hit, for study and pictures. They are many: 0 writes none."},
+                  {.name = "min_gain_db",
+                   .slot = at(&Config::output, &OutputConfig::min_gain_db),
+                   .unit = "dB",
+                   .range = {-1000, 1000},
+                   .doc = "Weaker paths are left out of paths.h5. What this and the next two keys leave out is counted "
+                          "with its power in links.csv and summary.json, whose other figures are those of all paths. "
+                          "Not given: none."},
+                  {.name = "dynamic_range_db",
+                   .slot = at(&Config::output, &OutputConfig::dynamic_range_db),
+                   .unit = "dB",
+                   .range = {0, 1000},
+                   .doc = "Paths that are weaker than the strongest of their link and frame by more than this are left "
+                          "out of paths.h5. Not given: none."},
+                  {.name = "max_paths_per_link",
+                   .slot = at(&Config::output, &OutputConfig::max_paths_per_link),
+                   .unit = "paths a link and frame",
+                   .range = {0, 4294967295.0},
+                   .doc = "Only so many, the strongest, are written to paths.h5. 0: all."},
+                  {.name = "keep_shards",
+                   .slot = at(&Config::output, &OutputConfig::keep_shards),
+                   .doc = "Keep the shards of a drive beside the merged files, so that a later --resume or merge finds "
+                          "them. false: where one process has computed all frames, they go once the merged files "
+                          "were read back, which halves the space on the disk; a later --resume begins anew."}}},
       material_table(),
       transmitter_table(),
       receiver_table(),

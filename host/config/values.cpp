@@ -108,7 +108,8 @@ std::string assign_text(const Field& field, const std::string& key, std::string&
     return fmt::format("{} = {} has a control character, which tables and plots cannot show: leave it out", key,
                        toml_string(given));
   to = given;
-  if (field.form == Form::input_file || field.form == Form::output_folder) to = resolved_path(folder, given);
+  if (field.form == Form::input_file) to = resolved_path(folder, given);
+  if (field.form == Form::output_folder) to = resolved_path("", given);  // as -o: from the current folder
   if (field.choices.empty() || std::find(field.choices.begin(), field.choices.end(), given) != field.choices.end())
     return {};
   // A dot or a slash tells a file from a misspelt name.

@@ -42,10 +42,18 @@ std::vector<std::complex<double>> packed(const Paths& paths) {
   return out;
 }
 
-std::vector<double> missed_power_shares(const FrameResult& frame) {
-  std::vector<double> out;
-  for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
-    out.push_back(link.missed_power_share);
+LinkColumns link_columns(const FrameResult& frame, double frequency_hz) {
+  LinkColumns out;
+  for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links, frequency_hz)) {
+    out.paths.push_back(link.paths);
+    out.los.push_back(link.los);
+    out.path_gain_db.push_back(link.path_gain_db);
+    out.narrowband_gain_db.push_back(link.narrowband_gain_db);
+    out.mean_delay_s.push_back(link.mean_delay_s);
+    out.rms_delay_spread_s.push_back(link.rms_delay_spread_s);
+    out.doppler_spread_hz.push_back(link.doppler_spread_hz);
+    out.missed_power_share.push_back(link.missed_power_share);
+  }
   return out;
 }
 
@@ -138,9 +146,9 @@ wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t fra
     out->result = simulation.run_frame(frame);
     out->warnings = lines(out->result.warnings);
     out->a = packed(out->result.paths);
+    out->links = link_columns(out->result, simulation.config().radio.frequency_hz);
     out->transmitter_position_m = file_positions(out->result.world.transmitters, simulation.scene().origin_m);
     out->receiver_position_m = file_positions(out->result.world.receivers, simulation.scene().origin_m);
-    out->missed_power_share = missed_power_shares(out->result);
     return out.release();
   });
 }

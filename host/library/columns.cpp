@@ -56,6 +56,11 @@ wavetracer_column coefficients(const wavetracer_frame& frame) {
   return checked({frame.a.data(), paths.size(), size_t{paths.rx_ports} * paths.tx_ports, WAVETRACER_COMPLEX128});
 }
 
+template <auto Member>
+wavetracer_column of_links(const wavetracer_frame& frame) {
+  return view(frame.links.*Member);
+}
+
 struct Row {
   const char* name;
   wavetracer_column (*read)(const wavetracer_frame&);
@@ -81,7 +86,14 @@ constexpr Row rows[] = {
     {"vertex_surface", of_paths<&Paths::vertex_surface>},
     {"vertex_instance", of_paths<&Paths::vertex_instance>},
     {"link", [](const wavetracer_frame& frame) { return view(frame.result.world.links); }},
-    {"missed_power_share", [](const wavetracer_frame& frame) { return view(frame.missed_power_share); }},
+    {"link_paths", of_links<&LinkColumns::paths>},
+    {"link_los", of_links<&LinkColumns::los>},
+    {"link_path_gain_db", of_links<&LinkColumns::path_gain_db>},
+    {"link_narrowband_gain_db", of_links<&LinkColumns::narrowband_gain_db>},
+    {"link_mean_delay_s", of_links<&LinkColumns::mean_delay_s>},
+    {"link_rms_delay_spread_s", of_links<&LinkColumns::rms_delay_spread_s>},
+    {"link_doppler_spread_hz", of_links<&LinkColumns::doppler_spread_hz>},
+    {"link_missed_power_share", of_links<&LinkColumns::missed_power_share>},
     {"transmitter_position_m", [](const wavetracer_frame& frame) { return view(frame.transmitter_position_m); }},
     {"receiver_position_m", [](const wavetracer_frame& frame) { return view(frame.receiver_position_m); }},
 };

@@ -22,13 +22,25 @@ struct wavetracer_simulation {
   uint64_t number;  // of this process, so that frames know whose they are
 };
 
+namespace wavetracer::c_api {
+
+// Figures of links (radio/links.hpp), a row a link.
+struct LinkColumns {
+  std::vector<uint32_t> paths;
+  std::vector<uint8_t> los;
+  std::vector<double> path_gain_db, narrowband_gain_db, mean_delay_s, rms_delay_spread_s, doppler_spread_hz,
+      missed_power_share;
+};
+
+}  // namespace wavetracer::c_api
+
 struct wavetracer_frame {
   uint64_t owner;  // wavetracer_simulation::number
   wavetracer::FrameResult result;
   std::string warnings;
   std::vector<std::complex<double>> a;                                  // packed: ports that are there
   std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;  // file coordinates
-  std::vector<double> missed_power_share;                               // one a link
+  wavetracer::c_api::LinkColumns links;
 };
 
 namespace wavetracer::c_api {

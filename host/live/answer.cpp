@@ -1,5 +1,5 @@
-// Lines are written by hand: a frame of a hundred vehicles has some 10^5 numbers, and a tree of them would be built to be
-// thrown away. Assumes paths sorted by transmitter and receiver, as Paths promises, and links likewise.
+// Lines are written by hand: a frame of a hundred vehicles has some 10^5 numbers, and a tree of them would be built to
+// be thrown away. Assumes paths sorted by transmitter and receiver, as Paths promises, and links likewise.
 #include "live/answer.hpp"
 
 #include <fmt/compile.h>
@@ -18,9 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Text from anywhere as a JSON string; what is no UTF-8 becomes U+FFFD.
-std::string text_of(std::string_view text) {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(std::string_view text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 class Line {
  public:
@@ -171,8 +169,8 @@ std::string world_line(const Simulation& simulation) {
   return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Detail detail,
-                          uint64_t skipped, const FrameTimes& times) {
+std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Detail detail, uint64_t skipped,
+                          const FrameTimes& times, double frequency_hz) {
   Stopwatch watch;
   const FrameResult& result = frame.result;
   const Paths& paths = result.paths;
@@ -189,7 +187,7 @@ std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Det
   line.key("tx_ports");
   line.integer(paths.tx_ports);
   line.key("links");
-  const std::vector<LinkFigures> figures = link_figures(paths, result.frame, result.world.links);
+  const std::vector<LinkFigures> figures = link_figures(paths, result.frame, result.world.links, frequency_hz);
   size_t row = 0;  // of the link's first path
   line.list(0, figures.size(), [&](size_t i) {
     const LinkFigures& link = figures[i];
@@ -203,6 +201,8 @@ std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Det
     line.raw(link.los ? "true" : "false");
     line.key("path_gain_db");
     line.number(link.path_gain_db);
+    line.key("narrowband_gain_db");
+    line.number(link.narrowband_gain_db);
     line.key("mean_delay_s");
     line.number(link.mean_delay_s);
     line.key("rms_delay_spread_s");

@@ -17,9 +17,10 @@ std::string world_line(const Simulation& simulation);
 struct FrameTimes {
   double wait_s = 0, solve_s = 0;  // from the end of the message to the solver; there
 };
-// skipped: frames of a free-running client since its last answer that newer ones replaced.
-std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Detail detail,
-                          uint64_t skipped, const FrameTimes& times);
+// skipped: frames of a free-running client since its last answer that newer ones replaced. frequency_hz: of the
+// carrier.
+std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Detail detail, uint64_t skipped,
+                          const FrameTimes& times, double frequency_hz);
 
 // fatal: the connection ends with it.
 std::string error_line(std::string_view code, std::string_view text, std::optional<uint64_t> frame, bool fatal);

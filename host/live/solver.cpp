@@ -16,7 +16,7 @@ Solve solve_with(Simulation& simulation) {
     if (message.cold || afresh) simulation.forget();
     const LiveFrame frame = simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
     const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
-    return channels_line(message, frame, job.detail, job.skipped, times);
+    return channels_line(message, frame, job.detail, job.skipped, times, simulation.config().radio.frequency_hz);
   };
 }
 

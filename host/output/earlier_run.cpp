@@ -2,11 +2,13 @@
 // Assumes that nobody adds files meanwhile.
 #include "output/earlier_run.hpp"
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 #include <vector>
+#include "output/manifest.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -14,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> output_names{"paths.h5", "waypoints.h5", "links.csv", "summary.json"};
+constexpr std::array<std::string_view, 5> output_names{"paths.h5", "waypoints.h5", "links.csv", "summary.json",
+                                                       "view.html"};
 constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_name = "run.json";
 
 // Files of the folder for which `which` holds of their names.
@@ -26,9 +29,10 @@ void remove_files(const fs::path& folder, const Which& which) {
     if (which(entry.path().filename().string())) found.push_back(entry.path());
   for (const fs::path& path : found)
     if (std::error_code error; !fs::remove(path, error) && error)
-      throw RuntimeError(fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
-                                     "with -o",
-                                     path.string(), error.message()));
+      throw RuntimeError(
+          fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
+                      "with -o",
+                      path.string(), error.message()));
 }
 
 bool is_output(const std::string& name) { return std::ranges::find(output_names, name) != output_names.end(); }
@@ -41,11 +45,21 @@ bool is_temporary(const std::string& name) {
 
 }  // namespace
 
+std::string earlier_results(const fs::path& directory) {
+  std::error_code none;
+  std::vector<std::string> names;
+  for (const std::string_view name : output_names)
+    if (fs::exists(directory / name, none)) names.emplace_back(name);
+  if (fs::is_directory(directory / "shards", none) && !manifests_in(directory / "shards").empty())
+    names.emplace_back("the shards");
+  if (names.empty()) return "";
+  return fmt::format("{} of an earlier run in {}", fmt::join(names, ", "), directory.string());
+}
+
 void remove_outputs(const fs::path& directory, std::span<const PendingFile> replaced) {
   remove_files(directory, [replaced](const std::string& name) {
-    return is_output(name) && std::ranges::none_of(replaced, [&](const PendingFile& file) {
-             return file.path().filename() == name;
-           });
+    return is_output(name) &&
+           std::ranges::none_of(replaced, [&](const PendingFile& file) { return file.path().filename() == name; });
   });
 }
 
@@ -56,9 +70,8 @@ void remove_shards(const fs::path& directory, std::span<const PendingFile> excep
   remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_prefix); });
   sync_folder(folder);  // no manifest may list the files that go now
   remove_files(folder, [except](const std::string& name) {
-    return (name.starts_with(shard_prefix) || name == record_name) && std::ranges::none_of(except, [&](const PendingFile& file) {
-             return file.temporary().filename() == name;
-           });
+    return (name.starts_with(shard_prefix) || name == record_name) &&
+           std::ranges::none_of(except, [&](const PendingFile& file) { return file.temporary().filename() == name; });
   });
   fs::remove(folder, ignored);  // not if there is something else in it
 }

@@ -3,13 +3,18 @@
 #pragma once
 #include <filesystem>
 #include <span>
+#include <string>
 #include "output/pending_file.hpp"
 
 namespace wavetracer {
 
 // All throw RuntimeError where something cannot be removed, and do nothing where there is no such folder.
 
-// Outputs of a run, but for those that these files are about to replace.
+// What an earlier run left there, in words for whoever is about to replace it: "paths.h5, links.csv and shards in DIR".
+// Empty where there is nothing.
+std::string earlier_results(const std::filesystem::path& directory);
+
+// Outputs of a run, and the page that `view` made of them, but for those that these files are about to replace.
 void remove_outputs(const std::filesystem::path& directory, std::span<const PendingFile> replaced = {});
 
 // The manifests, then the shards that they list, but for these files on their way; then their folder, if that is all.

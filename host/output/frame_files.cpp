@@ -2,6 +2,7 @@
 // HDF5 is not thread safe: one thread adds and finishes.
 #include "output/frame_files.hpp"
 #include "output/head_h5.hpp"
+#include "output/path_limits.hpp"
 
 namespace wavetracer {
 
@@ -13,10 +14,27 @@ FrameFiles::FrameFiles(const Run& run, const std::vector<std::filesystem::path>&
 }
 
 void FrameFiles::add(const FrameResult& frame) {
+  const std::vector<uint8_t> written = written_rows(frame.paths, run_.config.output);
+  const LeftOutPaths gone = left_out(frame.paths, written, 0, frame.paths.size());
+  if (gone.paths == 0) {
+    append(frame);
+  } else {
+    FrameResult limited;
+    limited.frame = frame.frame;
+    limited.world = frame.world;
+    limited.paths = select_rows(frame.paths, written);
+    limited.waypoints = frame.waypoints;
+    append(limited);
+  }
+  links_.add(frame, written);
+  Totals totals = totals_of({&frame, 1});
+  if (limits_paths(run_.config.output)) totals.left_out = gone;
+  wavetracer::add(totals_, totals);
+}
+
+void FrameFiles::append(const FrameResult& frame) {
   const std::span<const H5Output> outputs = h5_outputs(run_.config);
   for (size_t i = 0; i < outputs.size(); ++i) outputs[i].append_frame(run_, frame, tables_[i]);
-  links_.add(frame);
-  wavetracer::add(totals_, totals_of({&frame, 1}));
 }
 
 std::vector<PendingFile> FrameFiles::finish() {

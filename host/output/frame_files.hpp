@@ -26,6 +26,8 @@ class FrameFiles {
   std::vector<FrameTables> tables_;  // one an output
   LinksCsv links_;
   Totals totals_;
+
+  void append(const FrameResult& frame);  // to the tables
 };
 
 }  // namespace wavetracer

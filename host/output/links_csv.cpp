@@ -7,13 +7,16 @@
 #include <string>
 #include <string_view>
 #include "output/copy_pieces.hpp"
+#include "output/path_limits.hpp"
+#include "radio/link_budget.hpp"
 #include "radio/links.hpp"
 
 namespace wavetracer {
 namespace {
 
 constexpr std::string_view header =
-    "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,missed_power_share\n";
+    "time_s,tx,rx,paths,path_gain_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
+    "missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share\n";
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
@@ -35,16 +38,24 @@ std::vector<std::string> labels(const std::vector<RadioEnd>& ends) {
 }  // namespace
 
 LinksCsv::LinksCsv(const Run& run, const std::filesystem::path& path)
-    : file_(path), tx_(labels(run.config.transmitters)), rx_(labels(run.config.receivers)) {
+    : file_(path), radio_(run.config.radio), tx_(labels(run.config.transmitters)), rx_(labels(run.config.receivers)) {
   file_.write(bytes(header));
 }
 
-void LinksCsv::add(const FrameResult& frame) {
+void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
   std::string text;
-  for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:d},{}\n", frame.world.time_s, tx_.at(link.tx),
-                   rx_.at(link.rx), link.paths, link.path_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
-                   link.doppler_spread_hz, link.los, link.missed_power_share);
+  size_t row = 0;  // of the link's first path
+  for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links, radio_.frequency_hz)) {
+    while (row < frame.paths.size() && Link{frame.paths.tx[row], frame.paths.rx[row]} < Link{link.tx, link.rx}) ++row;
+    const LeftOutPaths gone = left_out(frame.paths, written, row, row + link.paths);
+    row += link.paths;
+    const LinkBudget budget = link_budget(radio_, link.path_gain_db);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{}\n", frame.world.time_s,
+                   tx_.at(link.tx), rx_.at(link.rx), link.paths, link.path_gain_db, link.narrowband_gain_db,
+                   link.mean_delay_s, link.rms_delay_spread_s, link.doppler_spread_hz, link.los,
+                   link.missed_power_share, budget.received_dbm, budget.snr_db, gone.paths,
+                   gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0);
+  }
   file_.write(bytes(text));
 }
 

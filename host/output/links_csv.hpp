@@ -11,16 +11,18 @@
 namespace wavetracer {
 
 // tx and rx are the names of the config, or the row number where a name is empty. A link without a path has a gain of
-// "-inf" and delay, Doppler and missed figures of "nan". los is 1 or 0.
+// "-inf" and delay, Doppler and missed figures of "nan". los is 1 or 0. docs/formats.md defines every column.
 class LinksCsv {
  public:
   LinksCsv(const Run& run, const std::filesystem::path& path);
-  void add(const FrameResult& frame);
+  // written: of each path of the frame, whether paths.h5 has it.
+  void add(const FrameResult& frame, std::span<const uint8_t> written);
   // The file, synced but not in place. Nothing can be added then.
   PendingFile finish();
 
  private:
   PendingFile file_;
+  RadioConfig radio_;
   std::vector<std::string> tx_, rx_;  // what they are called
 };
 

@@ -90,6 +90,10 @@ Shard decode(const Json& json) {
   if (kinds.size() != t.kinds.size()) refuse("other kinds of paths than those of this version");
   std::ranges::copy(kinds, t.kinds.begin());
   t.segments_per_depth = whole_numbers(json.at("segments_per_depth"));
+  if (json.contains("left_out")) {
+    const Json& gone = json.at("left_out");
+    t.left_out = {whole<uint64_t>(gone.at("paths")), gone.at("power"), gone.at("all")};
+  }
   if (json.contains("missed")) t.missed = decode_missed(json.at("missed"));
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
@@ -128,6 +132,8 @@ std::string encode_manifest_line(const Shard& shard) {
                     {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
   json["kinds"] = t.kinds;  // in the order of path_kinds
   json["segments_per_depth"] = t.segments_per_depth;
+  if (t.left_out.all > 0)
+    json["left_out"] = {{"paths", t.left_out.paths}, {"power", t.left_out.power}, {"all", t.left_out.all}};
   if (t.missed.frames > 0) json["missed"] = encode_missed(t.missed);
   if (t.cache.on) json["cache"] = encode_cache(t.cache);
   json["seconds"] = t.seconds;

@@ -37,6 +37,7 @@ std::string encode_run_record(const Run& run) {
   json["repeat_count"] = s.repeat_count;
   json["warnings"] = s.warnings;
   json["config_file"] = run.config.file;
+  json["config"] = run.config.text;
   json["reuse"] = run.config.trace.reuse;
   json["waypoints"] = run.config.output.waypoints;
   json["cache"] = {{"kind", run.config.cache.kind}, {"key", run.config.cache.key}};
@@ -69,6 +70,7 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   s.repeat_count = whole<uint32_t>(json.at("repeat_count"));
   s.warnings = json.at("warnings").get<std::vector<std::string>>();
   out.config.file = json.at("config_file");
+  if (json.contains("config")) out.config.text = json.at("config");
   out.config.trace.reuse = json.at("reuse");
   out.config.output.waypoints = whole<uint64_t>(json.at("waypoints"));
   out.config.cache.kind = json.at("cache").at("kind");
@@ -87,8 +89,8 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
 }
 
 RunRecord read_run_record(const std::filesystem::path& file) {
-  return decode_run_record(
-      read_text(file, most_bytes, "it is part of every run that was written in shards; run again"), file.string());
+  return decode_run_record(read_text(file, most_bytes, "it is part of every run that was written in shards; run again"),
+                           file.string());
 }
 
 }  // namespace wavetracer

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
+#include "output/config_changes.hpp"
 #include "output/earlier_run.hpp"
+#include "output/hdf5_read.hpp"
 #include "output/head_h5.hpp"
 #include "output/inputs.hpp"
 #include "output/merge_outputs.hpp"
@@ -47,7 +49,29 @@ void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const
                   which.empty() ? "an input file is not what it was" : which, folder.string()));
 }
 
-void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder) {
+// The keys that differ, by the record of the run that wrote the shards; empty where that does not tell.
+std::string changed_keys(const fs::path& folder, const std::string& config) {
+  constexpr size_t shown = 5;
+  std::error_code none;
+  const fs::path record = folder / record_name;
+  if (config.empty() || !fs::exists(record, none)) return "";
+  const std::string before = read_run_record(record).config.text;
+  if (before.empty()) return "";
+  const std::vector<std::string> changes = config_changes(before, config);
+  std::string out;
+  for (size_t i = 0; i < std::min(changes.size(), shown); ++i) out += (i ? "; " : "") + changes[i];
+  if (changes.size() > shown) out += fmt::format("; and {} more keys", changes.size() - shown);
+  return out;
+}
+
+void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
+                    const std::string& config) {
+  if (there.version == asked.version && there.config != asked.config)
+    if (const std::string keys = changed_keys(folder, config); !keys.empty())
+      throw ConfigError(
+          fmt::format("the shards in {} were written with another configuration: {}; run it as before, or "
+                      "choose another folder with -o, or remove the shards",
+                      folder.string(), keys));
   const auto differs = [&](const std::string& what, const auto& was, const auto& is) {
     if (was != is)
       throw ConfigError(
@@ -60,6 +84,23 @@ void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs
   differs("a device of kind", there.device_kind, asked.device_kind);
   differs("--frames", fmt::format("{}:{}", there.first, there.last), fmt::format("{}:{}", asked.first, asked.last));
   differs("--repeat", there.repeat, asked.repeat);
+}
+
+// That the merged file holds all that the shards held, as far as its rows tell.
+void check_merged(const fs::path& directory, const Run& run, const Totals& totals) {
+  for (const H5Output& output : h5_outputs(run.config)) {
+    if (std::string_view(output.name) != "paths.h5") continue;
+    const hdf5::File file = hdf5::File::open_to_read(directory / output.name);
+    const auto check = [&](const char* table, uint64_t wanted) {
+      const hdf5::Column column(file, table);
+      if (const uint64_t rows = column.extent().rows; rows != wanted)
+        throw RuntimeError(
+            fmt::format("{}: {} has {} rows, the shards have {}; the shards are kept: run again with --resume",
+                        (directory / output.name).string(), table, rows, wanted));
+    };
+    check("/frames/frame", totals.frames);
+    check("/paths/delay_s", totals.counts.paths - totals.left_out.paths);
+  }
 }
 
 std::vector<Shard> all_lines(const fs::path& folder) {
@@ -100,16 +141,17 @@ MergeParts parts_of(const ShardMap& shards, const std::function<fs::path(const S
   return parts;
 }
 
-Shards::Shards(fs::path directory, RunIdentity run, std::vector<InputFile> inputs)
+Shards::Shards(fs::path directory, RunIdentity run, std::vector<InputFile> inputs, std::string config)
     : directory_(std::move(directory)),
       folder_(directory_ / "shards"),
       manifest_(folder_ / manifest_name),
       run_(std::move(run)),
-      inputs_(std::move(inputs)) {}
+      inputs_(std::move(inputs)),
+      config_(std::move(config)) {}
 
 void Shards::take(std::vector<Shard> lines) {
   for (const Shard& shard : lines) {
-    check_same_run(shard.run, run_, folder_);
+    check_same_run(shard.run, run_, folder_, config_);
     check_same_inputs(shard.run, run_, folder_, inputs_);
   }
   for (Shard& shard : lines)
@@ -151,6 +193,11 @@ void Shards::share(const std::string& name, bool keep) {
 void Shards::write_record(const Run& run) const {
   const std::string record = encode_run_record(run);
   PendingFile(folder_ / record_name, bytes(record)).commit();
+}
+
+void Shards::note_empty(const Run& run) const {
+  write_record(run);
+  save({});
 }
 
 void Shards::look() { take(all_lines(folder_)); }
@@ -239,6 +286,10 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
   remove_outputs(directory_, files);
   commit_together(files);
   directory.keep();
+  if (!run.config.output.keep_shards && !shared_ && totals.frames == run.summary.frames_asked) {
+    check_merged(directory_, run, totals);
+    remove_shards(directory_);
+  }
   std::vector<fs::path> written;
   for (const PendingFile& file : files) written.push_back(file.path());
   return written;

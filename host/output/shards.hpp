@@ -47,7 +47,8 @@ class OpenUnit {
 class Shards {
  public:
   // Nothing is touched yet. inputs: those of the run, for messages.
-  Shards(std::filesystem::path directory, RunIdentity run, std::vector<InputFile> inputs = {});
+  // config: the text of the run's configuration (Config::text), so that a message can name the keys that differ.
+  Shards(std::filesystem::path directory, RunIdentity run, std::vector<InputFile> inputs = {}, std::string config = {});
 
   // Takes over the finished shards of the run that was interrupted in this folder; 0 where there is none. A shard whose
   // files are gone or cut short is not finished. Throws ConfigError where they are of another run, InputError where an
@@ -62,6 +63,8 @@ class Shards {
   void share(const std::string& name, bool keep);
   // Writes run.json, which else the first unit does.
   void write_record(const Run& run) const;
+  // That this process, which shares, has nothing to do: its manifest is there, and empty, so that merge knows of it.
+  void note_empty(const Run& run) const;
   // Reads again what other processes have finished.
   void look();
 
@@ -92,6 +95,7 @@ class Shards {
   std::filesystem::path directory_, folder_, manifest_;
   RunIdentity run_;
   std::vector<InputFile> inputs_;
+  std::string config_;
   bool fresh_ = true;  // nothing in the folder is of this run
   bool shared_ = false;
   bool recorded_ = false;  // run.json is of this run

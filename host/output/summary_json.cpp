@@ -139,6 +139,9 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
     const Missed missed = estimate_missed(totals.missed);
     json["missed"] = {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
   }
+  if (totals.left_out.all > 0)
+    json["left_out"] = {{"paths", totals.left_out.paths},
+                        {"power_share", totals.left_out.all > 0 ? totals.left_out.power / totals.left_out.all : 0.0}};
   json["links"] = totals.links;
   json["segments_per_depth"] = totals.segments_per_depth;
   json["seconds"] = stage_seconds(run, totals, write_seconds);

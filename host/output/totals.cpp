@@ -38,6 +38,12 @@ void add(CacheSummary& sum, const CacheSummary& later) {
   sum = std::move(total);
 }
 
+void add(LeftOutPaths& sum, const LeftOutPaths& more) {
+  sum.paths += more.paths;
+  sum.power += more.power;
+  sum.all += more.all;
+}
+
 // Later links of the same frame.
 void add(MissingLinks& sum, const MissingLinks& more) {
   sum.links += more.links;
@@ -88,6 +94,7 @@ void add(Totals& sum, const Totals& later) {
   add(sum.counts, later.counts);
   add(sum.kinds, later.kinds);
   add(sum.missed, later.missed);
+  add(sum.left_out, later.left_out);
   add(sum.segments_per_depth, later.segments_per_depth);
   add(sum.cache, later.cache);
   for (const auto& [stage, values] : later.seconds)

@@ -7,6 +7,7 @@
 #include <vector>
 #include "output/output.hpp"
 #include "output/path_kinds.hpp"
+#include "output/path_limits.hpp"
 
 namespace wavetracer {
 
@@ -18,6 +19,7 @@ struct Totals {
   FrameCounts counts;
   PathKindCounts kinds{};  // of counts.paths
   MissedCounts missed;
+  LeftOutPaths left_out;  // of counts.paths, which are those that were found; all 0 where nothing may be left out
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
   std::map<std::string, std::vector<double>> seconds;  // stage -> one value a frame
@@ -39,8 +41,8 @@ double median_seconds(const Totals& totals, const std::string& stage);
 // Sum of a stage over the frames.
 double sum_seconds(const Totals& totals, const std::string& stage);
 
-// What to say of links without a path: of one frame by name, of more only where no link has a path in any of them, because
-// vehicles that hide from each other are normal.
+// What to say of links without a path: of one frame by name, of more only where no link has a path in any of them,
+// because vehicles that hide from each other are normal.
 std::vector<std::string> missing_words(const Totals& totals);
 
 // Appends the texts that are not there yet.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include "plots/gnuplot.hpp"
+#include "radio/link_budget.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
@@ -14,12 +15,27 @@ namespace {
 
 constexpr uint32_t no_cell = std::numeric_limits<uint32_t>::max();
 
-std::string cell_table(const SavedRun& run, const std::vector<CoverageCell>& cells) {
-  std::string text = "ix,iy,x_m,y_m,z_m,path_gain_db,tx,paths\n";
-  for (const CoverageCell& c : cells)
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", c.ix, c.iy, c.position_m.x, c.position_m.y, c.position_m.z,
-                        c.path_gain_db, c.tx ? csv_text(run.transmitters()[*c.tx].name) : "", c.paths);
+std::string cell_table(const SavedRun& run, const std::vector<CoverageCell>& cells, const RadioConfig& radio) {
+  std::string text = "ix,iy,x_m,y_m,z_m,path_gain_db,tx,paths,received_dbm,snr_db\n";
+  for (const CoverageCell& c : cells) {
+    const LinkBudget budget = link_budget(radio, c.path_gain_db);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", c.ix, c.iy, c.position_m.x, c.position_m.y, c.position_m.z,
+                        c.path_gain_db, c.tx ? csv_text(run.transmitters()[*c.tx].name) : "", c.paths,
+                        budget.received_dbm, budget.snr_db);
+  }
   return text;
+}
+
+// What is drawn of a cell: its received power where there is a link budget, else its gain.
+struct Drawn {
+  double offset_db;  // above the path gain
+  std::string label, column;
+};
+
+Drawn drawn(const RadioConfig& radio) {
+  if (!radio.transmit_power_dbm) return {0, "path gain (dB)", "6"};
+  const std::string noise = radio.bandwidth_hz ? fmt::format(", noise {:.1f} dBm", noise_dbm(radio)) : "";
+  return {*radio.transmit_power_dbm, "received power (dBm)" + noise, "9"};
 }
 
 std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, std::optional<uint32_t> tx) {
@@ -36,27 +52,28 @@ std::string wall_table(const std::vector<std::array<double, 4>>& walls) {
   return text;
 }
 
-std::string trimmed_range(const std::vector<CoverageCell>& cells) {
+std::string trimmed_range(const std::vector<CoverageCell>& cells, double offset_db) {
   constexpr double span_db = 100, trimmed = 0.01;
   std::vector<double> gains;
   for (const CoverageCell& c : cells)
-    if (!std::isnan(c.path_gain_db)) gains.push_back(c.path_gain_db);
+    if (!std::isnan(c.path_gain_db)) gains.push_back(c.path_gain_db + offset_db);
   std::sort(gains.begin(), gains.end());
   const auto cut = static_cast<std::ptrdiff_t>(trimmed * static_cast<double>(gains.size()));
   return colour_range({gains.begin() + cut, gains.end() - cut}, span_db);
 }
 
 // A grid of one row or column.
-std::string row_commands(const std::string& name, bool northward) {
+std::string row_commands(const std::string& name, bool northward, const Drawn& what) {
   return fmt::format(
       "set xlabel '{} (m)'\n"
-      "set ylabel 'path gain (dB)'\n"
+      "set ylabel '{}'\n"
       "set key off\n"
-      "plot '{}.csv' using {}:6 with lines linecolor '#0072b2' linewidth 1.5\n",
-      northward ? "y" : "x", name, northward ? 4 : 3);
+      "plot '{}.csv' using {}:{} with lines linecolor '#0072b2' linewidth 1.5\n",
+      northward ? "y" : "x", what.label, name, northward ? 4 : 3, what.column);
 }
 
-std::string image_commands(const std::string& name, const CoverageCell& first, const CoverageCell& last) {
+std::string image_commands(const std::string& name, const CoverageCell& first, const CoverageCell& last,
+                           const Drawn& what) {
   const double half_x_m = 0.5 * (last.position_m.x - first.position_m.x) / last.ix,
                half_y_m = 0.5 * (last.position_m.y - first.position_m.y) / last.iy;
   return fmt::format(
@@ -67,16 +84,16 @@ std::string image_commands(const std::string& name, const CoverageCell& first, c
       "set yrange [{3}:{4}]\n"
       "set xlabel 'x (m)'\n"
       "set ylabel 'y (m)'\n"
-      "set cblabel 'path gain (dB)'\n"
+      "set cblabel '{5}'\n"
       "set key off\n"
       "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor '#e8e8e8' fillstyle solid noborder\n"
-      "plot '{0}.csv' using 3:4:6 with image, \\\n"
+      "plot '{0}.csv' using 3:4:{6} with image, \\\n"
       "  '{0}_walls.csv' using 1:2:($3 - $1):($4 - $2) with vectors nohead linecolor '#333333' linewidth 0.6, \\\n"
       "  '{0}_transmitters.csv' using 2:3 with points pointtype 9 pointsize 1.8 linecolor '#ffffff', \\\n"
       "  '' using 2:3 with points pointtype 9 pointsize 1.2 linecolor '#d55e00', \\\n"
       "  '' using 2:3:1 with labels noenhanced left offset 1,0.6 textcolor '#000000'\n",
       name, first.position_m.x - half_x_m, last.position_m.x + half_x_m, first.position_m.y - half_y_m,
-      last.position_m.y + half_y_m);
+      last.position_m.y + half_y_m, what.label, what.column);
 }
 
 }  // namespace
@@ -133,22 +150,25 @@ std::vector<std::array<double, 4>> section(const Scene& scene, double height_m) 
 }
 
 Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::string& name, const std::string& grid,
-                       const std::vector<CoverageCell>& cells, std::optional<uint32_t> tx, const Scene& scene) {
+                       const std::vector<CoverageCell>& cells, std::optional<uint32_t> tx, const Scene& scene,
+                       const RadioConfig& radio) {
   const std::string by = tx                               ? run.transmitters()[*tx].name
                          : run.transmitters().size() == 1 ? run.transmitters()[0].name
                                                           : fmt::format("the best of {}", run.transmitters().size());
   const std::string time = run.frame_count() > 1 ? fmt::format(", {:g} s", frame.time_s) : "";
-  Figure out{
-      name, fmt::format("Coverage of {} by {}{}", grid, by, time), {{name + ".csv", cell_table(run, cells)}}, ""};
+  Figure out{name,
+             fmt::format("Coverage of {} by {}{}", grid, by, time),
+             {{name + ".csv", cell_table(run, cells, radio)}},
+             ""};
   const CoverageCell &first = cells.front(), &last = cells.back();
   if (last.ix == 0 || last.iy == 0) {
-    out.commands = row_commands(name, last.iy > 0);
+    out.commands = row_commands(name, last.iy > 0, drawn(radio));
     return out;
   }
   const double z_m = 0.5 * (first.position_m.z + last.position_m.z);
   out.data.push_back({name + "_walls.csv", wall_table(section(scene, z_m))});
   out.data.push_back({name + "_transmitters.csv", transmitter_table(run, frame, tx)});
-  out.commands = trimmed_range(cells) + image_commands(name, first, last);
+  out.commands = trimmed_range(cells, drawn(radio).offset_db) + image_commands(name, first, last, drawn(radio));
   out.height_px = std::clamp(690.0 * (last.iy + 1) / (last.ix + 1) + 120, 300.0, 1200.0);
   return out;
 }

@@ -27,8 +27,10 @@ std::vector<CoverageCell> coverage_cells(const SavedRun& run, const SavedFrame& 
 // Where the triangles of the scene cross the plane z = height_m: segments x0, y0, x1, y1, file coordinates.
 std::vector<std::array<double, 4>> section(const Scene& scene, double height_m);
 
-// name: of the figure's files. At least one cell must have a path.
+// name: of the figure's files. At least one cell must have a path. radio: received powers are drawn where it gives
+// them.
 Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::string& name, const std::string& grid,
-                       const std::vector<CoverageCell>& cells, std::optional<uint32_t> tx, const Scene& scene);
+                       const std::vector<CoverageCell>& cells, std::optional<uint32_t> tx, const Scene& scene,
+                       const RadioConfig& radio);
 
 }  // namespace wavetracer::plots

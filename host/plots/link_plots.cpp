@@ -7,6 +7,7 @@
 #include <numbers>
 #include "output/path_kinds.hpp"
 #include "plots/gnuplot.hpp"
+#include "radio/link_budget.hpp"
 
 namespace wavetracer::plots {
 namespace {
@@ -66,32 +67,52 @@ Shown shown_gains(const std::vector<double>& values) {
   return {std::max(5 * std::floor(*lowest / 5 - 0.4), upper - shown_span_db), upper};
 }
 
+// Received powers beside gains, where the configuration has a link budget.
+std::string power_axis(const RadioConfig& radio) {
+  if (!radio.transmit_power_dbm) return "";
+  const std::string noise = radio.bandwidth_hz ? fmt::format(", noise {:.1f} dBm", noise_dbm(radio)) : "";
+  return fmt::format(
+      "set ytics nomirror\n"
+      "set link y2 via y + {0} inverse y - ({0})\n"
+      "set y2tics\n"
+      "set y2label 'received power (dBm){1}'\n",
+      *radio.transmit_power_dbm, noise);
+}
+
 }  // namespace
 
-Figure gain_figure(const SavedRun& run, const LinkSeries& series) {
+Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioConfig& radio) {
   std::string table =
-      "link,tx,rx,frame,time_s,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los\n";
+      "link,tx,rx,frame,time_s,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
+      "narrowband_gain_db,received_dbm,snr_db\n";
   std::string plot = "plot ";
   for (size_t k = 0; k < series.links.size(); ++k) {
     const Link& link = series.links[k];
-    for (const auto& [time_s, f] : series.moments[k])
-      table += fmt::format("{},{},{},{},{},{},{},{},{},{},{:d}\n", k + 1, csv_text(run.transmitters()[link.tx].name),
-                           csv_text(run.receivers()[link.rx].name), f.frame, time_s, f.paths,
-                           f.paths > 0 ? f.path_gain_db : NAN, f.mean_delay_s, f.rms_delay_spread_s,
-                           f.doppler_spread_hz, f.los);
+    for (const auto& [time_s, f] : series.moments[k]) {
+      const LinkBudget budget = link_budget(radio, f.paths > 0 ? f.path_gain_db : NAN);
+      table += fmt::format("{},{},{},{},{},{},{},{},{},{},{:d},{},{},{}\n", k + 1,
+                           csv_text(run.transmitters()[link.tx].name), csv_text(run.receivers()[link.rx].name), f.frame,
+                           time_s, f.paths, f.paths > 0 ? f.path_gain_db : NAN, f.mean_delay_s, f.rms_delay_spread_s,
+                           f.doppler_spread_hz, f.los, f.paths > 0 ? f.narrowband_gain_db : NAN, budget.received_dbm,
+                           budget.snr_db);
+    }
     const std::string_view colour = colours[k % colours.size()];
     plot += fmt::format(
         "{}'gain.csv' using ($1 == {} ? $5 : NaN):7 with lines linecolor '{}' linewidth 1.5 title '{}' noenhanced, \\\n"
+        "  '' using ($1 == {} ? $5 : NaN):12 with lines linecolor '{}' linewidth 0.6 dashtype 3 notitle, \\\n"
         "  '' using ($1 == {} && $11 == 1 ? $5 : NaN):7 with points pointtype 7 pointsize 0.5 linecolor '{}' notitle",
-        k == 0 ? "" : ", \\\n  ", k + 1, colour, quoted(link_name(run, link)), k + 1, colour);
+        k == 0 ? "" : ", \\\n  ", k + 1, colour, quoted(link_name(run, link)), k + 1, colour, k + 1, colour);
   }
   return {"gain",
           "Path gain along the drive",
           {{"gain.csv", table}},
-          "set xlabel 'time (s)'\n"
-          "set ylabel 'path gain (dB)'\n"
-          "set key outside right top Left reverse samplen 2\n" +
-              plot + ", \\\n  NaN with points pointtype 7 pointsize 0.5 linecolor '#444444' title 'line of sight'\n"};
+          power_axis(radio) +
+              "set xlabel 'time (s)'\n"
+              "set ylabel 'path gain (dB)'\n"
+              "set key outside right top Left reverse samplen 2\n" +
+              plot +
+              ", \\\n  NaN with points pointtype 7 pointsize 0.5 linecolor '#444444' title 'line of sight', \\\n"
+              "  NaN with lines linecolor '#444444' linewidth 0.6 dashtype 3 title 'narrowband gain'\n"};
 }
 
 Figure delay_figure(const SavedRun& run, const LinkSeries& series) {

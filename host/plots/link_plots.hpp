@@ -7,7 +7,7 @@
 namespace wavetracer::plots {
 
 // Path gain of the links against time; dots where the line of sight is free.
-Figure gain_figure(const SavedRun& run, const LinkSeries& series);
+Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioConfig& radio);
 // Gain against delay of the paths of one frame, coloured by kind.
 Figure delay_figure(const SavedRun& run, const LinkSeries& series);
 // Power by delay and time as an image: paths that fall into one cell add their powers.

@@ -50,8 +50,8 @@ std::vector<Link> strongest_links(const SavedRun& run, const Filter& filter, siz
 }
 
 LinkFigures no_figures(uint32_t frame, const Link& link) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {frame, link.tx, link.rx, 0, -std::numeric_limits<double>::infinity(), nan, nan, nan, false};
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  return {frame, link.tx, link.rx, 0, -infinity, -infinity, nan, nan, nan, false};
 }
 
 void add_paths(const SavedFrame& frame, const Link& link, std::vector<PathPoint>& out) {
@@ -62,10 +62,10 @@ void add_paths(const SavedFrame& frame, const Link& link, std::vector<PathPoint>
                      p.aod_theta_rad[i], p.aod_phi_rad[i], p.aoa_theta_rad[i], p.aoa_phi_rad[i]});
 }
 
-void add_frame(const SavedFrame& frame, LinkSeries& series) {
+void add_frame(const SavedFrame& frame, double frequency_hz, LinkSeries& series) {
   std::vector<Link> sorted = series.links;
   std::sort(sorted.begin(), sorted.end());
-  const std::vector<LinkFigures> figures = link_figures(frame.paths, frame.number, sorted);
+  const std::vector<LinkFigures> figures = link_figures(frame.paths, frame.number, sorted, frequency_hz);
   for (size_t k = 0; k < series.links.size(); ++k) {
     const auto found = std::lower_bound(sorted.begin(), sorted.end(), series.links[k]) - sorted.begin();
     const LinkFigures& f = figures[static_cast<size_t>(found)];
@@ -135,7 +135,7 @@ LinkSeries link_series(const SavedRun& run, const LinkChoice& choice, const std:
     out.links = strongest_links(run, filter, most);
   if (!out.links.empty()) {
     out.moments.resize(out.links.size());
-    for (size_t row = 0; row < run.frame_count(); ++row) add_frame(run.frame(row), out);
+    for (size_t row = 0; row < run.frame_count(); ++row) add_frame(run.frame(row), run.frequency_hz(), out);
   }
   if (out.paths.empty()) {
     if (filter.tx || filter.rx)

@@ -90,7 +90,7 @@ class Plotter {
     }
     const bool drive = run_.frame_count() > 1;
     const std::string still = "the run has one frame only, and nothing changes with time";
-    if (wanted("gain", drive, still)) add(gain_figure(run_, series));
+    if (wanted("gain", drive, still)) add(gain_figure(run_, series, world_.config.radio));
     if (wanted("delay-time", drive, still)) add(delay_time_figure(run_, series));
     const std::vector<PathPoint> paths = series.paths_of_frame();
     const std::string none = fmt::format("{} has no path in frame {}: choose another one with --frame",
@@ -114,7 +114,7 @@ class Plotter {
                                                frame.number, tx ? " from \"" + choice_.link.tx + "\"" : ""));
       else
         add(coverage_figure(run_, frame, k == 0 ? "coverage" : fmt::format("coverage_{}", k + 1), grids_[k], cells, tx,
-                            world_.scene));
+                            world_.scene, world_.config.radio));
     }
   }
 };

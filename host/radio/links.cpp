@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 
 #include "wavetracer/missed.hpp"
 
@@ -33,7 +35,20 @@ Moments moments(const Paths& paths, RowRange rows, const std::vector<double>& va
   return {mean, std::sqrt(square)};
 }
 
-LinkFigures figures(const Paths& paths, RowRange rows) {
+// |h|^2 at the carrier, summed over pairs of ports. Whole turns of the phase are left out before the sine is taken.
+double narrowband_power(const Paths& paths, RowRange rows, double frequency_hz) {
+  std::remove_cvref_t<decltype(paths.a[0])> sum{};
+  for (size_t row = rows.begin; row < rows.end; ++row) {
+    const double turns = frequency_hz * paths.delay_s[row];
+    const std::complex<double> carrier = std::polar(1.0, -2 * std::numbers::pi * (turns - std::floor(turns)));
+    for (size_t k = 0; k < sum.size(); ++k) sum[k] += paths.a[row][k] * carrier;
+  }
+  double power = 0;
+  for (const auto& h : sum) power += std::norm(h);
+  return power;
+}
+
+LinkFigures figures(const Paths& paths, RowRange rows, double frequency_hz) {
   LinkFigures link;
   link.paths = static_cast<uint32_t>(rows.end - rows.begin);
   double power = 0;
@@ -42,6 +57,7 @@ LinkFigures figures(const Paths& paths, RowRange rows) {
     link.los |= paths.depth[row] == 0;
   }
   link.path_gain_db = 10 * std::log10(power);
+  link.narrowband_gain_db = 10 * std::log10(narrowband_power(paths, rows, frequency_hz));
   if (power > 0) {
     const Moments delay = moments(paths, rows, paths.delay_s, power);
     link.mean_delay_s = delay.mean;
@@ -58,7 +74,8 @@ LinkFigures figures(const Paths& paths, RowRange rows) {
 
 }  // namespace
 
-std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, std::span<const Link> links) {
+std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, std::span<const Link> links,
+                                      double frequency_hz) {
   const auto link_of = [&paths](size_t row) { return Link{paths.tx[row], paths.rx[row]}; };
   const auto [first, last] = std::equal_range(paths.frame.begin(), paths.frame.end(), frame);
   size_t row = static_cast<size_t>(first - paths.frame.begin());
@@ -70,7 +87,7 @@ std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, std::s
     RowRange rows{row, row};
     while (rows.end < end && link_of(rows.end) == link) ++rows.end;
     row = rows.end;
-    out.push_back(figures(paths, rows));
+    out.push_back(figures(paths, rows, frequency_hz));
     out.back().frame = frame;
     out.back().tx = link.tx;
     out.back().rx = link.rx;

@@ -1,5 +1,5 @@
 // Figures of a link: what all the paths between one transmitter and one receiver amount to.
-// Powers are |a|^2 summed over ports and added over paths without their phases.
+// Powers are summed over pairs of ports. docs/formats.md has the formula of each figure.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -10,12 +10,13 @@
 
 namespace wavetracer {
 
-// Delay and Doppler figures are weighted by power; they and the missed share are NaN, and the gain is -inf, where no
+// Delay and Doppler figures are weighted by power; they and the missed share are NaN, and gains are -inf, where no
 // power arrives.
 struct LinkFigures {
   uint32_t frame = 0, tx = 0, rx = 0;
   uint32_t paths = 0;
-  double path_gain_db = 0;
+  double path_gain_db = 0;        // |a|^2 of all paths added up, without their phases
+  double narrowband_gain_db = 0;  // |h|^2 at the carrier, h = sum a exp(-j 2 pi f tau): with them
   double mean_delay_s = 0;
   double rms_delay_spread_s = 0;
   double doppler_spread_hz = 0;  // rms about the mean
@@ -26,6 +27,7 @@ struct LinkFigures {
 
 // One entry for each of the frame's links, in their order; a link without a path is there with paths = 0.
 // links: sorted, as in WorldState. paths: sorted as Paths says; rows of other frames and other links are passed over.
-std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, std::span<const Link> links);
+std::vector<LinkFigures> link_figures(const Paths& paths, uint32_t frame, std::span<const Link> links,
+                                      double frequency_hz);
 
 }  // namespace wavetracer

@@ -134,6 +134,7 @@ DiscoveryCounts Discovery::operator()(const DeviceScene& scene, const std::vecto
     }
     if (trails()) trails()->end_batch();
     counts.rays += batch.count;
+    tell(counts.rays, total);
   }
   return counts;
 }
@@ -170,6 +171,7 @@ void Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
     if (label_) (*label_)(rays_);
     trace_batch(scene, *interact_samples_, counts, &level.ends);
     counts.rays += count;
+    tell(done + count, level.count);
   }
 }
 

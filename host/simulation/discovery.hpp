@@ -13,6 +13,7 @@
 #include "passes/scan.hpp"
 #include "passes/sequences.hpp"
 #include "passes/trace.hpp"
+#include "simulation/frame_watch.hpp"
 #include "simulation/ray_cache.hpp"
 #include "simulation/ray_order.hpp"
 #include "simulation/ray_trails.hpp"
@@ -57,6 +58,8 @@ class Discovery {
   void listen(uint64_t rays);
   // Of directions = "horizon": the tables that launchers name from now on, see LaunchHeights.
   void set_heights(const std::vector<float>& tables) { heights_->set(tables); }
+  // Is told of the rays that were launched; outlives this.
+  void watch(const FrameWatch& watch) { watch_ = &watch; }
   // Adds to sequences() what rays from these ends meet, in these directions.
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& ends, DirectionShare share = {},
                              LaunchedBy by = LaunchedBy::transmitters);
@@ -80,6 +83,9 @@ class Discovery {
   uint64_t rays_of(DirectionShare share) const {
     const uint64_t rays = by_ == LaunchedBy::listeners ? listener_rays_ : config_.rays;
     return (rays - share.phase + share.stride - 1) / share.stride;
+  }
+  void tell(uint64_t done, uint64_t total) const {
+    if (watch_) (*watch_)("rays", done, total);
   }
   void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   // Queues get the planes that say where a ray comes from.
@@ -120,6 +126,7 @@ class Discovery {
   std::optional<RayCache> cache_;
   std::optional<LabelRays> label_;  // with a cache or trails
   RayTrails* trails_ = nullptr;
+  const FrameWatch* watch_ = nullptr;
   LaunchedBy by_ = LaunchedBy::transmitters;
   std::optional<RayOrder> order_;  // if the plan has one
   uint64_t room_ = 0;              // rays that fit into what reserve() makes

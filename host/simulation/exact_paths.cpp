@@ -40,6 +40,7 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
 
 PathGeometry ExactPaths::operator()(const DeviceScene& scene, const RadioEnds& ends, Sequences& sequences,
                                     FrameCounts& counts, Stopwatch& host) {
+  tell(0);
   uint32_t node_count = sequences.collect(ends.transmitter_count);
   sequences.commute(scene.surfaces, node_count, max_depth_);
   node_count = sequences.collect(ends.transmitter_count);
@@ -49,10 +50,12 @@ PathGeometry ExactPaths::operator()(const DeviceScene& scene, const RadioEnds& e
   check_legs(scene, ends, mirrored, counts);
   sequences.keep(mirrored);
   append(mirrored, sequences, paths, host);
+  tell(1);
   if (diffraction_) {
     SolvedList& diffracted = (*diffraction_)(scene, ends, sequences, node_count, counts.candidates);
     check_legs(scene, ends, diffracted, counts);
     append(diffracted, sequences, paths, host);
+    tell(2);
   }
   if (scatter_) {
     SolvedList& scattered =

@@ -10,6 +10,7 @@
 #include "passes/transmissions.hpp"
 #include "passes/visible.hpp"
 #include "simulation/diffracted_paths.hpp"
+#include "simulation/frame_watch.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/meeting_prefixes.hpp"
 #include "simulation/stopwatch.hpp"
@@ -25,6 +26,8 @@ class ExactPaths {
   // trace: see with_features.
   ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
              const TraceConfig& trace, const Origins& origins);
+  // Is told of the kinds of paths that are solved; outlives this.
+  void watch(const FrameWatch& watch) { watch_ = &watch; }
   // The paths of the frame, each once; host is left at the time since the device was done.
   PathGeometry operator()(const DeviceScene& scene, const RadioEnds& ends, Sequences& sequences, FrameCounts& counts,
                           Stopwatch& host);
@@ -36,6 +39,11 @@ class ExactPaths {
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, FrameCounts& counts);
   void append(const SolvedList& solved, Sequences& sequences, PathGeometry& paths, Stopwatch& host);
 
+  // Kinds of paths that are done.
+  void tell(uint64_t done) const {
+    if (watch_) (*watch_)("paths", done, 1 + diffraction_.has_value() + scatter_.has_value());
+  }
+
   uint32_t max_depth_;
   Candidates candidates_;
   std::optional<MeetingPrefixes> meeting_;  // with trace.join
@@ -45,6 +53,7 @@ class ExactPaths {
   std::optional<Occlusion> occlusion_;  // one of these two
   std::optional<Transmissions> transmissions_;
   Visible visible_;
+  const FrameWatch* watch_ = nullptr;
 };
 
 }  // namespace wavetracer

@@ -15,6 +15,7 @@
 #include "simulation/distinct_paths.hpp"
 #include "simulation/exact_paths.hpp"
 #include "simulation/features.hpp"
+#include "simulation/frame_watch.hpp"
 #include "simulation/launch_sides.hpp"
 #include "simulation/launch_slopes.hpp"
 #include "simulation/link_block.hpp"
@@ -139,11 +140,14 @@ struct Simulation::State {
   Features features;
   std::vector<std::string> place_warnings;
 
+  FrameWatch frame_watch;
+
   bool compiling = false;  // launches are there to be compiled
 
   LeftOut left_out;  // of the last frame, which is told once the names of its ends are known
 
   FrameResult solve(uint32_t frame, WorldState frame_world, const LinkBlock* block = nullptr);
+  FrameResult watched(uint32_t frame, WorldState frame_world, const LinkBlock* block = nullptr);
   void compile_launches();
   void forget();
   void warn_of_near_ends(FrameResult& result) const;
@@ -287,6 +291,8 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   radio.trace = s.trace;
   s.fields.emplace(s.scene, radio, s.world->models(), s.world->instances());
   s.compile_launches();
+  s.discovery->watch(s.frame_watch);
+  s.exact_paths->watch(s.frame_watch);
   s.setup["compile"] = watch.lap();
 }
 
@@ -294,6 +300,7 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
+void Simulation::observe(FrameObserver observer) { state_->frame_watch.set(std::move(observer)); }
 void Simulation::forget() { state_->forget(); }
 uint64_t Simulation::frame_count() const { return state_->world->frame_count(); }
 double Simulation::time_s(uint32_t frame) const { return state_->world->time_s(frame); }
@@ -327,7 +334,7 @@ FrameResult Simulation::run_frame(uint32_t frame) {
   Stopwatch watch;
   WorldState world = state_->world->state(frame);
   const double poses_seconds = watch.lap();
-  FrameResult out = state_->solve(frame, std::move(world));
+  FrameResult out = state_->watched(frame, std::move(world));
   state_->warn_of_near_ends(out);
   out.seconds["poses"] = poses_seconds;
   out.seconds["frame"] += poses_seconds;
@@ -352,7 +359,7 @@ FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters)
   const LinkBlock block = make_link_block(world.links, transmitters, s.world->receiver_of_transmitter(),
                                           s.world->transmitter_of_receiver(), s.origins);
   const double poses_seconds = watch.lap();
-  FrameResult out = s.solve(frame, std::move(world), &block);
+  FrameResult out = s.watched(frame, std::move(world), &block);
   s.warn_of_near_ends(out);
   forget();
   out.seconds["poses"] = poses_seconds;
@@ -377,6 +384,16 @@ LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<c
 
 const std::vector<LiveType>& Simulation::live_types() const { return state_->world->live_types(); }
 const LiveBounds& Simulation::live_bounds() const { return state_->world->live_bounds(); }
+
+// A frame that is given up leaves half of its sequences, which the next one must not take for all.
+FrameResult Simulation::State::watched(uint32_t frame, WorldState frame_world, const LinkBlock* block) {
+  try {
+    return solve(frame, std::move(frame_world), block);
+  } catch (const FrameStopped&) {
+    forget();
+    throw;
+  }
+}
 
 // One frame of this world, from poses to fields. block: the links of it alone.
 FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, const LinkBlock* block) {

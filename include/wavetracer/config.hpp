@@ -30,6 +30,9 @@ struct SceneConfig {
 
 struct RadioConfig {
   double frequency_hz = 5.9e9;
+  // The link budget; not given: no received power, no signal-to-noise ratio.
+  std::optional<double> transmit_power_dbm, bandwidth_hz;
+  double noise_figure_db = 0;
 };
 
 struct RadioEnd {  // [[transmitter]] or [[receiver]]
@@ -152,6 +155,10 @@ struct OutputConfig {
   std::string directory = "out";
   uint32_t shard_frames = 100;  // frames a file of a drive; the first of each is cold where frames reuse sequences
   uint64_t waypoints = 0;       // samples a transmitter whose waypoints are written, spread evenly; 0: none
+  // Paths that are not written to paths.h5, see output/path_limits.hpp; not given, and 0: all are.
+  std::optional<double> min_gain_db, dynamic_range_db;
+  uint32_t max_paths_per_link = 0;
+  bool keep_shards = true;  // of a drive that is whole and merged
 };
 
 struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer serve`

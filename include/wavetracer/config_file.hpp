@@ -10,8 +10,8 @@
 namespace wavetracer {
 
 // Reads the file; `sets` are `key=value` texts of `--set`, applied after it in their order. A value is TOML, and text
-// that is none is a string. Paths in the file are relative to its folder, paths in `sets` to the current one.
-// All errors are found in one go and thrown as one ConfigError, one `file:line:column: ...` a line.
+// that is none is a string. Paths in the file are relative to its folder, paths in `sets` and output.directory to the
+// current one. All errors are found in one go and thrown as one ConfigError, one `file:line:column: ...` a line.
 Config load_config(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
 // The same for text in memory; file_name stands in the messages, and its folder is where relative paths start.

@@ -1,9 +1,11 @@
 // The public entry of libwavetracer: a scene on a device, solved frame by frame.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 #include "wavetracer/config.hpp"
@@ -96,6 +98,20 @@ struct Feature {
 // By name: reflection, diffraction, double_diffraction, transmission, scattering, instances. What is off runs no kernel.
 using Features = std::map<std::string, Feature>;
 
+// How far a frame is: `done` of `total` of what the stage counts.
+struct FrameProgress {
+  std::string stage;  // "rays" (those that were launched), then "paths" (steps of the exact solution)
+  uint64_t done = 0, total = 0;
+};
+// Is told between batches of rays and between these steps; where it returns false, the frame is given up.
+using FrameObserver = std::function<bool(const FrameProgress&)>;
+
+// What run_frame() throws where the observer wanted no more of it. The simulation can go on with any frame.
+class FrameStopped : public std::runtime_error {
+ public:
+  FrameStopped() : std::runtime_error("the frame was given up") {}
+};
+
 // Transmitters first to end - 1.
 struct TransmitterRange {
   uint32_t first = 0, end = 0;
@@ -133,6 +149,8 @@ class Simulation {
   LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
   const std::vector<LiveType>& live_types() const;
   const LiveBounds& live_bounds() const;
+  // Of all frames that follow; an empty one is told nothing.
+  void observe(FrameObserver observer);
   // Drops all sequences of earlier frames, and what a ray cache holds: the next frame is cold.
   void forget();
   uint64_t frame_count() const;

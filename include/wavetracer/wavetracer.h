@@ -126,7 +126,12 @@ typedef struct wavetracer_column {
      vertex_instance                                         uint32     the vehicle; 0xFFFFFFFF: the static scene
    One row a pair of ends between which paths were wanted:
      link                                                    uint32 x 2: tx, rx
-     missed_power_share                                      float64    of links.csv: power that was missed, estimated,
+     link_paths                                              uint32     how many
+     link_los                                                uint8      1 where one of them has no interaction
+     link_path_gain_db, link_narrowband_gain_db,             float64    as links.csv has them (docs/formats.md): the sum
+     link_mean_delay_s, link_rms_delay_spread_s,                        of powers, the coherent sum at the carrier, ...
+     link_doppler_spread_hz
+     link_missed_power_share                                 float64    of links.csv: power that was missed, estimated,
                                                              against that which arrives; NaN where that is not known
    One row an end; NaN while it is absent:
      transmitter_position_m, receiver_position_m             float64 x 3, file coordinates

@@ -73,13 +73,14 @@ TEST_CASE("a run writes three files and says what it found") {
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3"});
+  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3", "--verbose"});
   CAPTURE(run.err);
   CHECK(run.code == 0);
-  CHECK(contains(run.out, "rays       20000 launched"));
+  CHECK(contains(run.out, "rays       20,000 launched"));
   CHECK(contains(run.out, "median of 3"));
   CHECK(contains(run.out, "mast -> car"));
-  CHECK(contains(run.out, "LOS yes"));
+  CHECK(contains(run.out, "links      1 asked for, 1 with a path (100%), 1 in line of sight (100%)"));
+  CHECK(contains(run.out, "compiled   in "));
   CHECK(contains(run.out, folder.path("out/paths.h5")));
   CHECK_FALSE(contains(run.err, "\x1b"));  // no terminal, no escape sequences
   for (const char* name : {"out/paths.h5", "out/links.csv", "out/summary.json"})
@@ -103,9 +104,10 @@ TEST_CASE("a run warns before it traces, and explains links without a path, on t
     return all;
   };
   const std::string deep = "receiver \"deep\" is 1.5 m below the ground there, \"ground\"";
-  CHECK(warnings({}) == std::vector<std::string>{deep, "mast -> deep has no path: its direct line meets \"ground\" "
-                                                       "(concrete) after 9.372 m; trace.transmission = true lets it "
-                                                       "through 1 wall"});
+  CHECK(warnings({}) == std::vector<std::string>{deep,
+                                                 "mast -> deep has no path: its direct line meets \"ground\" "
+                                                 "(concrete) after 9.372 m; trace.transmission = true lets it "
+                                                 "through 1 wall"});
   const auto none = warnings({"--set", "links.receivers=[\"deep\"]"});
   REQUIRE(none.size() == 3);
   CHECK(none[1] == "no path was found, of 1 links in 1 frame");
@@ -168,12 +170,18 @@ TEST_CASE("a run with output.waypoints writes a fourth file, and one without tak
   CHECK(std::filesystem::exists(folder.path("out/paths.h5")));
 }
 
-TEST_CASE("output.directory is relative to the config file") {
+TEST_CASE("output.directory is relative to the current folder, as -o is") {
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", "output.directory = \"results\"\n" + street);
-  CHECK(run_program({"run", "-c", file, "--set", "trace.rays=100"}).code == 0);
-  CHECK(std::filesystem::exists(folder.path("results/links.csv")));
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::create_directory(folder.path("here"));
+  std::filesystem::current_path(folder.path("here"));
+  const Outcome run = run_program({"run", "-c", file, "--set", "trace.rays=100"});
+  std::filesystem::current_path(before);
+  CHECK(run.code == 0);
+  CHECK(contains(run.out, folder.path("here/results/links.csv")));
+  CHECK(std::filesystem::exists(folder.path("here/results/links.csv")));
 }
 
 TEST_CASE("a device that is not there exits 4 with the list of those that are") {
@@ -202,4 +210,36 @@ TEST_CASE("an interrupt ends the run after the repeat in progress, with whole fi
   CHECK(contains(outcome.err, "interrupted"));
   // It may have come before the first repeat was done, where the kernels had to be compiled first.
   if (!contains(outcome.err, "nothing was written")) CHECK(lines(folder.path("out/links.csv")) == 2);
+}
+
+TEST_CASE("a run of one frame acknowledges Ctrl-C at once and stops between batches of rays") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  Program run({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.rays=1000000000"});  // minutes
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 3000 && !contains(run.messages(), "ready after"); ++i) std::this_thread::sleep_for(20ms);
+  std::this_thread::sleep_for(300ms);
+  run.signal(SIGINT);
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome = run.wait();
+  CHECK(std::chrono::steady_clock::now() - start < 20s);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(contains(outcome.err, "interrupted: stopping after the step in progress"));
+  CHECK(contains(outcome.err, "interrupted before the first frame; nothing was written"));
+  CHECK_FALSE(std::filesystem::exists(folder.path("out/links.csv")));
+}
+
+TEST_CASE("a run says what it replaces, and removes a page of the run before") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const std::vector<std::string> words = {"run", "-c", file, "-o", folder.path("out"), "--set", "trace.rays=1000"};
+  CHECK_FALSE(contains(run_program(words).err, "replaces"));
+  std::ofstream(folder.path("out/view.html")) << "old";
+  const Outcome again = run_program(words);
+  CHECK(contains(again.err,
+                 "replaces paths.h5, links.csv, summary.json, view.html of an earlier run in " + folder.path("out")));
+  CHECK_FALSE(std::filesystem::exists(folder.path("out/view.html")));
 }

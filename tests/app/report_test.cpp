@@ -10,9 +10,9 @@ using namespace wavetracer;
 TEST_CASE("the report says how much a ray cache answered and how full it is; without one, nothing") {
   const SampleRun sample;
   const auto report = [&](const CacheSummary& cache) {
-    app::Results results{totals_of(sample.frames()), 8, {}, {}};
+    app::Results results{totals_of(sample.frames()), {}, {}};
     results.totals.cache = cache;
-    return app::report(sample.run(), results);
+    return app::report(sample.run(), results, true);
   };
   CacheSummary cache;
   CHECK_FALSE(contains(report(cache), "cache"));
@@ -22,15 +22,15 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
   cache.hits = 1430;
   cache.entries = 400;
   cache.used = 50;
-  CHECK(contains(report(cache), "\nrays       2000 launched, 3570 traced over all depths, 3000 hits, 3.57 krays/s"));
-  CHECK(contains(report(cache), "\ncache      71.5% of 2000 look-ups answered, 12.5% of 400 entries in use\n"));
+  CHECK(contains(report(cache), "\nrays       2,000 launched, 3,570 traced over all depths, 3,000 hits, 3.57 krays/s"));
+  CHECK(contains(report(cache), "\ncache      71.5% of 2,000 look-ups answered, 12.5% of 400 entries in use\n"));
 }
 
 TEST_CASE("the report names what was computed, and why not what was asked for beyond it") {
   SampleRun sample;
-  const app::Results results{totals_of(sample.frames()), 8, {}, {}};
+  const app::Results results{totals_of(sample.frames()), {}, {}};
   Run run = sample.run();  // diffraction is off, and by default nobody asks for it
-  const auto report = [&] { return app::report(run, results); };
+  const auto report = [&] { return app::report(run, results, true); };
   CHECK(contains(report(), "\nfeatures   reflection\n"));
   sample.config.trace.diffraction = true;
   CHECK(contains(report(), "\nfeatures   reflection; no diffraction: no edge of the scene diffracts\n"));
@@ -44,10 +44,10 @@ TEST_CASE("the report names what was computed, and why not what was asked for be
 
 TEST_CASE("without line of sight on most links, diffraction that is off is advised") {
   const SampleRun sample;
-  app::Results results{totals_of(sample.frames()), 8, {}, {}};  // line of sight on 1 of 8 links
+  app::Results results{totals_of(sample.frames()), {}, {}};  // line of sight on 1 of 8 links
   Run run = sample.run();
   const auto advised = [&] {
-    const std::string text = app::report(run, results);
+    const std::string text = app::report(run, results, true);
     CHECK(contains(text, "\nadvice     ") == !advice(run, results.totals).empty());
     return contains(text, "\nadvice     line of sight on 1 of 8 links, and trace.diffraction = false leaves out all");
   };
@@ -69,25 +69,26 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
 
 TEST_CASE("the report counts paths by kind, those that there are") {
   const SampleRun sample;
-  app::Results results{totals_of(sample.frames()), 8, {}, {}};
-  CHECK(contains(app::report(sample.run(), results), "\npaths      5: 1 line of sight, 1 reflected, 3 transmitted\n"));
+  app::Results results{totals_of(sample.frames()), {}, {}};
+  CHECK(contains(app::report(sample.run(), results, true),
+                 "\npaths      5: 1 line of sight, 1 reflected, 3 transmitted\n"));
   results.totals = totals_of(sample.empty());
-  CHECK(contains(app::report(sample.run(), results), "\npaths      0\n"));
+  CHECK(contains(app::report(sample.run(), results, true), "\npaths      0\n"));
 }
 
 TEST_CASE("the report counts what was solved, or with spheres what was caught, and lists the files") {
   SampleRun sample;
-  const app::Results results{totals_of(sample.frames()), 8, {}, {"out/paths.h5", "out/waypoints.h5"}};
-  CHECK(contains(app::report(sample.run(), results), "\nsequences  80 distinct, 24 candidates, 16 solved\n"));
+  const app::Results results{totals_of(sample.frames()), {}, {"out/paths.h5", "out/waypoints.h5"}};
+  CHECK(contains(app::report(sample.run(), results, true), "\nsequences  80 distinct, 24 candidates, 16 solved\n"));
   sample.config.trace.reception = "sphere";
-  CHECK(contains(app::report(sample.run(), results), "\nsequences  80 distinct, 6 segments passed receivers\n"));
-  CHECK(contains(app::report(sample.run(), results), "\nwritten    out/paths.h5, out/waypoints.h5\n"));
+  CHECK(contains(app::report(sample.run(), results, true), "\nsequences  80 distinct, 6 segments passed receivers\n"));
+  CHECK(contains(app::report(sample.run(), results, true), "\nwritten    out/paths.h5, out/waypoints.h5\n"));
 }
 
 TEST_CASE("the report ends with what may have been missed, where that is known") {
   SampleRun sample;
-  app::Results results{totals_of(sample.frames()), 8, {}, {}};
-  const auto report = [&] { return app::report(sample.run(), results); };
+  app::Results results{totals_of(sample.frames()), {}, {}};
+  const auto report = [&] { return app::report(sample.run(), results, true); };
   CHECK_FALSE(contains(report(), "missed"));
   results.totals.missed = {
       .frames = 1, .paths = {6, 3, 2, 9}, .powers = {8e-6, 1e-6, 0, 0.4}, .amplitude = 0.02, .power = 1};

@@ -58,9 +58,21 @@ def check_frame(simulation, frame):
         way = np.vstack([tx[frame["tx"][i]], vertices[offset[i]:offset[i + 1]], rx[frame["rx"][i]]])
         length = np.linalg.norm(np.diff(way, axis=0), axis=1).sum()
         assert abs(length / 299792458.0 - frame["delay_s"][i]) < 1e-15
+    # Both gains of every link, from its paths.
+    f_hz = 5.9e9
+    h = frame["a"][:, 0, 0] * np.exp(-2j * np.pi * (f_hz * frame["delay_s"] % 1))
+    for (t, r), count, powers, coherent in zip(frame["link"], frame["link_paths"], frame["link_path_gain_db"],
+                                               frame["link_narrowband_gain_db"]):
+        rows = (frame["tx"] == t) & (frame["rx"] == r)
+        assert count == rows.sum()
+        if count:
+            assert abs(powers - 10 * np.log10((np.abs(h[rows]) ** 2).sum())) < 1e-9
+            assert abs(coherent - 20 * np.log10(np.abs(h[rows].sum()))) < 1e-6
+        else:
+            assert powers == coherent == -np.inf
     assert not frame["delay_s"].flags.writeable
     # Rays have seen something of every link with a path, and nothing of one without.
-    shares = frame["missed_power_share"]
+    shares = frame["link_missed_power_share"]
     assert shares.shape == (len(frame["link"]),)
     with_path = [np.any((frame["tx"] == tx) & (frame["rx"] == rx)) for tx, rx in frame["link"]]
     assert any(with_path) and np.array_equal(np.isfinite(shares), with_path) and np.all(shares[with_path] >= 0)
@@ -71,7 +83,7 @@ def check_missed(folder, frames):
     """What was missed is what the files say; of frames alone, as they do not add up by a plain sum."""
     with open(folder + "/links.csv") as file:
         written = [float(row["missed_power_share"]) for row in csv.DictReader(file)]
-    assert np.array_equal(written, np.concatenate([frame["missed_power_share"] for frame in frames]), equal_nan=True)
+    assert np.array_equal(written, np.concatenate([frame["link_missed_power_share"] for frame in frames]), equal_nan=True)
     with open(folder + "/summary.json") as file:
         summary = json.load(file)
     if len(frames) > 1:
@@ -116,7 +128,7 @@ def main():
     # A sphere catches no exact paths: nothing is known of what it missed.
     with wavetracer.Simulation(DRIVE, sets=['trace.reception="sphere"']) as simulation:
         assert (unknown := simulation.run_frame(0)).missed is None
-        assert np.all(np.isnan(unknown["missed_power_share"])) and len(unknown["missed_power_share"]) > 0
+        assert np.all(np.isnan(unknown["link_missed_power_share"])) and len(unknown["link_missed_power_share"]) > 0
     del unknown
     # A view outlives its frame, and the frame its simulation.
     delay, copy = frames[0]["delay_s"], frames[0]["delay_s"].copy()

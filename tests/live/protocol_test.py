@@ -1,6 +1,7 @@
 """The protocol over real sockets: the channels of `wavetracer run` at the same poses, both kinds of sockets, two clients
 at once, step by step and free-running, a server that starts again.
 Assumes an OpenCL device; results are compared between two runs of the program on that device."""
+import cmath
 import json
 import math
 import os
@@ -96,6 +97,9 @@ def steps_and_detail(listen):
                     if detail != "links" and link["paths"]:
                         power = sum(r[0] ** 2 + i[0] ** 2 for r, i in zip(link["a_re"], link["a_im"]))
                         expect(math.isclose(10 * math.log10(power), link["path_gain_db"], abs_tol=1e-9), link)
+                        h = sum(complex(r[0], i[0]) * cmath.exp(-2j * math.pi * ((world["frequency_hz"] * tau) % 1))
+                                for r, i, tau in zip(link["a_re"], link["a_im"], link["delay_s"]))
+                        expect(math.isclose(20 * math.log10(abs(h)), link["narrowband_gain_db"], abs_tol=1e-6), link)
                     if detail == "vertices":
                         for depth, vertices in zip(map(len, link["interactions"]), link["vertices_m"]):
                             expect(depth == len(vertices), link)

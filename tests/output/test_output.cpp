@@ -125,12 +125,13 @@ TEST_CASE("links.csv has a row a link, quoted names, and -inf where no path is")
   for (std::string line; std::getline(csv, line);) lines.push_back(line);
   REQUIRE(lines.size() == 1 + 2 * 4);
   CHECK(lines[0] ==
-        "time_s,tx,rx,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,missed_power_share");
+        "time_s,tx,rx,paths,path_gain_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
+        "missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share");
   CHECK(lines[1].starts_with("0,\"rsu, north\",car,1,"));
-  CHECK(lines[1].ends_with(",1,nan"));
+  CHECK(lines[1].ends_with(",1,nan,nan,nan,0,0"));
   CHECK(lines[2].starts_with("0,\"rsu, north\",1,1,"));
-  CHECK(lines[2].ends_with(",0,nan"));
-  CHECK(lines[4].starts_with("0,rsu,1,0,-inf,"));
+  CHECK(lines[2].ends_with(",0,nan,nan,nan,0,0"));
+  CHECK(lines[4].starts_with("0,rsu,1,0,-inf,-inf,"));
   CHECK(lines[5].starts_with("0.1,\"rsu, north\",car,1,"));
 }
 
@@ -151,14 +152,12 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
                                          {"paths", 5},
                                          {"receptions", 6}});
   // Of five paths of depth 0 to 4, every second vertex is a transmission.
-  CHECK(json["paths_by_kind"] == nlohmann::json{{"line_of_sight", 1},
-                                                {"reflected", 1},
-                                                {"transmitted", 3},
-                                                {"diffracted", 0},
-                                                {"scattered", 0}});
-  CHECK(json["features"] == nlohmann::json{{"reflection", {{"on", true}}},
-                                           {"diffraction", {{"on", false},
-                                                            {"reason", "no edge of the scene diffracts"}}}});
+  CHECK(
+      json["paths_by_kind"] ==
+      nlohmann::json{{"line_of_sight", 1}, {"reflected", 1}, {"transmitted", 3}, {"diffracted", 0}, {"scattered", 0}});
+  CHECK(json["features"] ==
+        nlohmann::json{{"reflection", {{"on", true}}},
+                       {"diffraction", {{"on", false}, {"reason", "no edge of the scene diffracts"}}}});
   CHECK(json["segments_per_depth"] == std::vector<int>{2000, 1800, 1200});
   CHECK(json["seconds"]["frame"] == 1.0);
   CHECK(json["seconds"]["solve"] == 0.25);

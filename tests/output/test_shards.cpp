@@ -224,6 +224,13 @@ TEST_CASE("resuming another run is an error that says what differs, and touches 
   check([](auto& run) { run.device_kind = "gpu"; }, "a device of kind cpu, this run has gpu");
   check([](auto& run) { run.last = 25; }, "--frames 3:24, this run has 3:25");
   check([](auto& run) { run.repeat = 2; }, "--repeat 1, this run has 2");
+  RunIdentity rays = identity;
+  rays.config = "4567";
+  const auto named = [&](const std::string& config, const char* message) {
+    CHECK_THROWS_WITH_AS(Shards(folder.path(), rays, {}, config).resume(), doctest::Contains(message), ConfigError);
+  };
+  named("[trace]\nrays = 7\n", "trace.rays was not given and is 7");
+  named(sample.config.text, "a configuration whose hash is 0123");  // no key differs
   RunIdentity changed = identity;
   changed.inputs = "89ab";
   std::vector<InputFile> inputs = sample.run().summary.inputs;
@@ -260,9 +267,9 @@ TEST_CASE("another run replaces all of an earlier one with its first shard, and 
   CHECK(names(folder.path() / "shards").size() == 12);
   shards.write(sample.run(), sample.drive(20, 5));
   CHECK(names(folder.path()) == std::vector<std::string>{"shards"});
-  CHECK(names(folder.path() / "shards") ==
-        std::vector<std::string>{"frames_000020_000024.csv", "frames_000020_000024.h5", "manifest.jsonl", "notes.txt",
-                                 "run.json"});
+  CHECK(names(folder.path() / "shards") == std::vector<std::string>{"frames_000020_000024.csv",
+                                                                    "frames_000020_000024.h5", "manifest.jsonl",
+                                                                    "notes.txt", "run.json"});
   fs::remove(folder.path() / "shards" / "notes.txt");
   write_outputs(folder.path(), sample.run(), sample.frames());  // a run of one frame leaves no shards beside it
   CHECK(names(folder.path()) == std::vector<std::string>{"links.csv", "paths.h5", "summary.json"});
@@ -315,8 +322,7 @@ TEST_CASE("a disk that fills up while shards are written or merged leaves whole 
     ++(merging ? failed_merges : failed_writes);
     CHECK(message.find("cannot write " + drive.string()) != std::string::npos);
     CHECK(message.find("File too large") != std::string::npos);
-    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
-      CHECK(entry.path().extension() != ".tmp");
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path())) CHECK(entry.path().extension() != ".tmp");
     Shards again(drive, identity);
     again.resume();
     for (const auto& cut : cuts)

@@ -156,7 +156,7 @@ TEST_CASE("the table of the gain figure is the run's, with nothing where there i
   const SavedRun run = written.run();
   const LinkSeries series = link_series(run, {}, {}, 6);
   REQUIRE(series.links.size() == 2);
-  const std::vector<Row> rows = table(gain_figure(run, series).data[0].text);
+  const std::vector<Row> rows = table(gain_figure(run, series, {}).data[0].text);
   REQUIRE(rows.size() == 24);
   for (const Row& row : rows) {
     const auto frame = static_cast<size_t>(number(row, "frame"));

@@ -6,11 +6,14 @@
 
 #include <cmath>
 
+#include "radio/link_budget.hpp"
 #include "radio/world.hpp"
 
 using namespace wavetracer;
 
 namespace {
+
+constexpr double carrier_hz = 5.9e9;
 
 void add(Paths& paths, uint32_t tx, uint32_t rx, uint32_t depth, double delay_s, double amplitude, double doppler_hz) {
   paths.frame.push_back(0);
@@ -37,7 +40,7 @@ TEST_CASE("gain, mean delay and spreads are weighted by power") {
   add(paths, 0, 1, 0, 1e-6, 2e-5, 100);  // powers 4 : 1
   add(paths, 0, 1, 2, 2e-6, 1e-5, -100);
   add(paths, 1, 0, 3, 3e-6, 1e-5, 7);
-  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(2, 2));
+  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(2, 2), carrier_hz);
   REQUIRE(links.size() == 4);
   for (size_t i = 0; i < 4; ++i) {
     CHECK(links[i].tx == i / 2);
@@ -63,13 +66,14 @@ TEST_CASE("all ports count") {
   Paths paths;
   add(paths, 0, 0, 1, 1e-6, 3e-5, 0);
   paths.a[0][3] = {0, 4e-5};
-  CHECK(link_figures(paths, 0, all_links(1, 1))[0].path_gain_db == test::near(20 * std::log10(5e-5), 1e-13));
+  CHECK(link_figures(paths, 0, all_links(1, 1), carrier_hz)[0].path_gain_db ==
+        test::near(20 * std::log10(5e-5), 1e-13));
 }
 
 TEST_CASE("a link without a path, and one without power, are there and say so") {
   Paths paths;
   add(paths, 0, 1, 0, 1e-6, 0, 0);
-  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 2));
+  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 2), carrier_hz);
   REQUIRE(links.size() == 2);
   for (const LinkFigures& link : links) {
     CHECK(std::isinf(link.path_gain_db));
@@ -89,17 +93,17 @@ TEST_CASE("rows of other frames are passed over") {
   add(paths, 0, 0, 0, 1e-6, 1e-5, 0);
   add(paths, 0, 0, 1, 2e-6, 1e-5, 0);
   paths.frame[1] = 3;
-  CHECK(link_figures(paths, 0, all_links(1, 1))[0].mean_delay_s == 1e-6);
-  CHECK(link_figures(paths, 3, all_links(1, 1))[0].mean_delay_s == 2e-6);
-  CHECK(link_figures(paths, 3, all_links(1, 1))[0].frame == 3);
-  CHECK(link_figures(paths, 1, all_links(1, 1))[0].paths == 0);
+  CHECK(link_figures(paths, 0, all_links(1, 1), carrier_hz)[0].mean_delay_s == 1e-6);
+  CHECK(link_figures(paths, 3, all_links(1, 1), carrier_hz)[0].mean_delay_s == 2e-6);
+  CHECK(link_figures(paths, 3, all_links(1, 1), carrier_hz)[0].frame == 3);
+  CHECK(link_figures(paths, 1, all_links(1, 1), carrier_hz)[0].paths == 0);
 }
 
 TEST_CASE("spreads keep their digits beside a long delay") {
   Paths paths;
   add(paths, 0, 0, 0, 1e-3, 1e-5, 0);
   add(paths, 0, 0, 1, 1e-3 + 1e-12, 1e-5, 0);
-  CHECK(link_figures(paths, 0, all_links(1, 1))[0].rms_delay_spread_s == test::near(0.5e-12, 1e-6));
+  CHECK(link_figures(paths, 0, all_links(1, 1), carrier_hz)[0].rms_delay_spread_s == test::near(0.5e-12, 1e-6));
 }
 
 TEST_CASE("only the links that are asked for, each with its own rows") {
@@ -107,7 +111,8 @@ TEST_CASE("only the links that are asked for, each with its own rows") {
   for (uint32_t tx = 0; tx < 3; ++tx)
     for (uint32_t rx = 0; rx < 3; ++rx)
       for (uint32_t i = 0; i <= tx; ++i) add(paths, tx, rx, i, 1e-6 * (10 * tx + rx + 1), 1e-5, 0);
-  const std::vector<LinkFigures> links = link_figures(paths, 0, std::vector<Link>{{0, 2}, {2, 0}, {2, 1}, {3, 0}});
+  const std::vector<LinkFigures> links =
+      link_figures(paths, 0, std::vector<Link>{{0, 2}, {2, 0}, {2, 1}, {3, 0}}, carrier_hz);
   REQUIRE(links.size() == 4);
   CHECK(links[0].tx == 0);
   CHECK(links[0].rx == 2);
@@ -129,13 +134,13 @@ TEST_CASE("figures of many links are those of each link alone") {
       for (uint32_t i = 0; i < (tx + rx) % 4; ++i)
         add(paths, tx, rx, i, 1e-9 * (tx + 2 * rx + 3 * i), 1e-5 / (1 + i), i);
     }
-  const std::vector<LinkFigures> all = link_figures(paths, 0, links);
+  const std::vector<LinkFigures> all = link_figures(paths, 0, links, carrier_hz);
   REQUIRE(all.size() == links.size());
   for (size_t i = 0; i < links.size(); i += 97) {
     Paths alone;
     for (uint32_t k = 0; k < (links[i].tx + links[i].rx) % 4; ++k)
       add(alone, links[i].tx, links[i].rx, k, 1e-9 * (links[i].tx + 2 * links[i].rx + 3 * k), 1e-5 / (1 + k), k);
-    const LinkFigures one = link_figures(alone, 0, std::vector{links[i]})[0];
+    const LinkFigures one = link_figures(alone, 0, std::vector{links[i]}, carrier_hz)[0];
     CHECK(all[i].paths == one.paths);
     if (one.paths > 0) CHECK(all[i].rms_delay_spread_s == one.rms_delay_spread_s);
   }
@@ -145,11 +150,61 @@ TEST_CASE("what a link misses is estimated from its own paths; nothing where it 
   Paths paths;
   for (uint32_t i = 0; i < 3; ++i) add(paths, 0, 0, i, 1e-6 * (1 + i), 1e-5, 0);
   add(paths, 0, 1, 1, 1e-6, 1e-5, 0);
-  CHECK(std::isnan(link_figures(paths, 0, all_links(1, 2))[0].missed_power_share));
+  CHECK(std::isnan(link_figures(paths, 0, all_links(1, 2), carrier_hz)[0].missed_power_share));
   for (uint32_t i = 0; i < 4; ++i) paths.depth[i] = 1;
   paths.quarters = {0b1111, 0b0001, 0b0010, 0b1110};
-  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 3));
+  const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 3), carrier_hz);
   CHECK(links[0].missed_power_share == test::near(0.5 * 4 / 3, 1e-12));  // two paths missed, as strong as a third
   CHECK(links[1].missed_power_share == 0);
   CHECK(std::isnan(links[2].missed_power_share));
+}
+
+// Of a two-ray ground: E = exp(-j k d1) / d1 + R exp(-j k d2) / d2, from the geometry alone.
+TEST_CASE("two rays: path gain adds powers, narrowband gain adds fields, as in closed form") {
+  const double c = 299792458.0, lambda = c / carrier_hz, pi = std::acos(-1.0);
+  for (const double distance_m : {10.0, 33.3, 100.0, 517.0}) {
+    CAPTURE(distance_m);
+    const double direct_m = distance_m, reflected_m = std::hypot(distance_m, 2 * 1.6);
+    const double direct = lambda / (4 * pi * direct_m), reflected = lambda / (4 * pi * reflected_m), factor = -0.93;
+    Paths paths;
+    add(paths, 0, 0, 0, direct_m / c, direct, 0);
+    add(paths, 0, 0, 1, reflected_m / c, factor * reflected, 0);
+    const LinkFigures link = link_figures(paths, 0, all_links(1, 1), carrier_hz)[0];
+    const double squares = direct * direct + factor * factor * reflected * reflected;
+    // Fields of two phasors: a^2 + b^2 + 2 a b cos(phase difference).
+    const double coherent =
+        squares + 2 * factor * direct * reflected * std::cos(2 * pi * (reflected_m - direct_m) / lambda);
+    CHECK(link.path_gain_db == test::near(10 * std::log10(squares), 1e-12));
+    CHECK(link.narrowband_gain_db == test::near(10 * std::log10(coherent), 1e-8));
+  }
+}
+
+TEST_CASE("narrowband gains of pairs of ports are summed; of one path both gains are the same") {
+  Paths paths;
+  add(paths, 0, 0, 1, 1.234e-6, 3e-5, 0);
+  paths.a[0][3] = {0, 4e-5};
+  const LinkFigures one = link_figures(paths, 0, all_links(1, 1), carrier_hz)[0];
+  CHECK(one.narrowband_gain_db == test::near(one.path_gain_db, 1e-13));
+  add(paths, 0, 0, 1, 1.234e-6 + 0.5 / carrier_hz, 3e-5, 0);  // half a turn later: cancels the first port alone
+  const LinkFigures two = link_figures(paths, 0, all_links(1, 1), carrier_hz)[0];
+  CHECK(two.narrowband_gain_db == test::near(20 * std::log10(4e-5), 1e-9));
+  CHECK(two.path_gain_db == test::near(10 * std::log10(34e-10), 1e-13));
+  CHECK(std::isinf(link_figures(Paths{}, 0, all_links(1, 1), carrier_hz)[0].narrowband_gain_db));
+}
+
+// kTB at 290 K: -173.975 dBm/Hz (e.g. ITU-R P.372).
+TEST_CASE("a link budget: received power, and signal to k T B and noise figure") {
+  RadioConfig radio;
+  CHECK(std::isnan(link_budget(radio, -80).received_dbm));
+  CHECK(std::isnan(link_budget(radio, -80).snr_db));
+  radio.transmit_power_dbm = 23;
+  CHECK(link_budget(radio, -80).received_dbm == -57);
+  CHECK(std::isnan(link_budget(radio, -80).snr_db));
+  radio.bandwidth_hz = 1;
+  CHECK(noise_dbm(radio) == doctest::Approx(-173.975).epsilon(1e-5));
+  radio.bandwidth_hz = 10e6;
+  radio.noise_figure_db = 9;
+  CHECK(noise_dbm(radio) == doctest::Approx(-94.975).epsilon(1e-5));
+  CHECK(link_budget(radio, -80).snr_db == doctest::Approx(37.975).epsilon(1e-4));
+  CHECK(std::isinf(link_budget(radio, -INFINITY).snr_db));
 }

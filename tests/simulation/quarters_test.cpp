@@ -197,11 +197,11 @@ TEST_CASE("spheres and ray caches say nothing of what was missed; without rays n
   const FrameResult cached = run(config);
   CHECK(cached.missed.frames == 0);
   REQUIRE(cached.paths.size() > 0);
-  for (const LinkFigures& link : link_figures(cached.paths, 0, cached.world.links))
+  for (const LinkFigures& link : link_figures(cached.paths, 0, cached.world.links, 5.9e9))
     CHECK(std::isnan(link.missed_power_share));
   const FrameResult direct = run(town(20000, 0));
   CHECK(direct.missed.frames == 0);
-  for (const LinkFigures& link : link_figures(direct.paths, 0, direct.world.links))
+  for (const LinkFigures& link : link_figures(direct.paths, 0, direct.world.links, 5.9e9))
     if (link.paths > 0) CHECK(link.missed_power_share == 0);
 }
 

@@ -1,0 +1,31 @@
+// Which paths of a frame are written, by output.min_gain_db, dynamic_range_db and max_paths_per_link.
+// What is left out is counted with its power; figures of links are made of all paths, before anything is left out.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+#include "wavetracer/config.hpp"
+#include "wavetracer/paths.hpp"
+
+namespace wavetracer {
+
+// Powers are |a|^2 summed over pairs of ports.
+struct LeftOutPaths {
+  uint64_t paths = 0;
+  double power = 0;  // of these
+  double all = 0;    // of all paths, for comparison
+};
+
+// Whether the configuration may leave out paths at all.
+bool limits_paths(const OutputConfig& output);
+
+// Of each row whether it is written. paths: sorted as Paths says.
+std::vector<uint8_t> written_rows(const Paths& paths, const OutputConfig& output);
+
+// These rows, in their order, with their vertices.
+Paths select_rows(const Paths& paths, std::span<const uint8_t> written);
+
+// Rows first to end - 1 that are not written.
+LeftOutPaths left_out(const Paths& paths, std::span<const uint8_t> written, size_t first, size_t end);
+
+}  // namespace wavetracer
