@@ -11,7 +11,6 @@
 #include "passes/visible.hpp"
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/listeners.hpp"
-#include "simulation/meeting_prefixes.hpp"
 #include "simulation/stopwatch.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
@@ -38,7 +37,6 @@ class ExactPaths {
 
   uint32_t max_depth_;
   Candidates candidates_;
-  std::optional<MeetingPrefixes> meeting_;  // with trace.join
   Solve solve_;
   std::optional<DiffractedPaths> diffraction_;
   std::optional<Scatter> scatter_;
