@@ -43,7 +43,7 @@ struct Options {
   std::vector<uint32_t> depth{3, 5};
   uint64_t reference_rays = 0, link_rays = sionna_rays;
   double max_distance_m = 300;
-  bool no_reference = false, join = false, gpu = false;
+  bool no_reference = false, gpu = false;
 };
 
 // An antenna on every vehicle, above the roof of its type.
@@ -79,10 +79,7 @@ void run_drive(const Options& options, const std::string& command) {
   for (const uint32_t depth : options.depth) {
     drive.name = fmt::format("munich, {} vehicles, depth {}", options.vehicles, depth);
     drive.config.trace.max_depth = depth;
-    drive.config.trace.join = false;
     const References references = solve_references(drive, options.reference_rays, options.device);
-    drive.config.trace.join = options.join;
-    if (options.join) drive.name += ", joined";
     const auto run = [&](const Setting& setting) {
       return measure(drive, setting, references, options.device, command);
     };
@@ -237,7 +234,6 @@ int main(int argc, char** argv) {
   app.add_option("--refresh", options.refresh, "rays a transmitter that frames launch anew where they reuse");
   app.add_option("--depth", options.depth, "depths of the case drive");
   app.add_option("--max-distance", options.max_distance_m, "metres of a link of the case drive");
-  app.add_flag("--join", options.join, "trace.join in the case drive; what errors refer to is not joined");
   app.add_option("--reference-rays", options.reference_rays, "rays a transmitter of frames that errors refer to");
   app.add_flag("--no-reference", options.no_reference, "do not measure errors");
   app.add_option("--link-rays", options.link_rays, "rays a transmitter of the case links");

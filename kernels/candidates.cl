@@ -60,7 +60,6 @@ kernel void candidates(const global ulong* table, const global uint* nodes, uint
     for (; keep; keep &= keep - 1, ++slot) {
       if (slot >= capacity) continue;
       out[slot].node = nodes[i];
-      out[slot].back = WT_NONE;
       out[slot].receiver = 16 * group + popcount((keep & (~keep + 1)) - 1u);
     }
   }

@@ -87,24 +87,11 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
 }
 
 // The sequences of visible paths are as young as the frame, and so are their prefixes.
-// Joined ones are entered.
-kernel void keep(global ulong* table, uint mask, const global wt_solved* solved, uint solved_count,
-                 const global uint* sequences, uint max_depth, global uint* quarters, global wt_counters* counters,
-                 global uint* ages, uint now) {
+kernel void keep(const global ulong* table, const global wt_solved* solved, uint solved_count, global uint* ages,
+                 uint now) {
   const uint i = get_global_id(0);
   if (i >= solved_count || solved[i].blocked) return;
-  if (solved[i].node != WT_NONE) {
-    for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(wt_load_relaxed_u64(table + n)))
-      atomic_max(ages + n, now - 1);
-    return;
-  }
-  uint node = WT_ROOT | solved[i].transmitter;
-  for (uint k = 0; k < solved[i].depth; ++k) {
-    const uint step = sequences[(size_t)i * max_depth + k];
-    if ((step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) continue;  // the trie holds reflections only
-    node = enter(table, mask, node, step, quarters, solved[i].quarters, ages, now);
-  }
-  if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
+  for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(table[n])) atomic_max(ages + n, now - 1);
 }
 
 // After regrow: listed nodes by their new ids.

@@ -12,11 +12,7 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
   const uint i = get_global_id(0);
   if (i >= candidate_count) return;
   uint chain[WT_MAX_DEPTH], transmitter;
-  const uint back = candidates[i].back;
-  uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
-  if (back != WT_NONE)  // from the last surface but one on, as the receiver's rays met them last to first
-    for (uint n = wt_trie_parent(table[back]); !(n & WT_ROOT) && depth < WT_MAX_DEPTH; n = wt_trie_parent(table[n]))
-      chain[depth++] = wt_trie_surface(table[n]);
+  const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
   // The vehicle that carries an antenna is no mirror to it, as it hides nothing from it.
   if (depth > 0) {
     const uint first = surfaces[chain[0]].instance, last = surfaces[chain[depth - 1]].instance;
@@ -35,9 +31,8 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
   solved[slot].receiver = candidates[i].receiver;
   solved[slot].depth = depth;
   solved[slot].blocked = 0;
-  solved[slot].node = back == WT_NONE ? candidates[i].node : WT_NONE;
-  solved[slot].quarters =
-      wt_found_by(quarters, candidates[i].node) & (back == WT_NONE ? WT_ALL_QUARTERS : wt_found_by(quarters, back));
+  solved[slot].node = candidates[i].node;
+  solved[slot].quarters = wt_found_by(quarters, candidates[i].node);
   for (uint k = 0; k < depth; ++k) {
     const size_t at = (size_t)slot * max_depth + k;
     vstore3(points[k], at, vertices);

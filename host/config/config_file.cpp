@@ -10,6 +10,7 @@
 #include <tuple>
 #include "config/contradictions.hpp"
 #include "config/fields.hpp"
+#include "config/retired_keys.hpp"
 #include "config/spelling.hpp"
 #include "config/values.hpp"
 #include "files/input_file.hpp"
@@ -92,6 +93,8 @@ class Parser {
     for (size_t i = 0; i < sets_.size(); ++i) read_set(i);
     config_.output.directory = resolved_path("", config_.output.directory);  // the default is relative, too
     for (const auto& [path, assignment] : assignments_) store(assignment);
+    for (const auto& [key, said] : retired_)
+      if (!said.first->is_boolean() || said.first->as_boolean()->get()) fail(said.second, find_retired(key)->advice);
     finish();
     check_whole();
     finish();
@@ -108,6 +111,7 @@ class Parser {
   std::deque<toml::table> set_documents_;
   Config config_;
   std::map<std::string, Assignment> assignments_;                       // by unique path: transmitter.0.name
+  std::map<std::string_view, std::pair<const toml::node*, Place>> retired_;  // by key
   std::map<std::string, std::vector<toml::source_position>> elements_;  // places of [[transmitter]] and the like
   std::vector<std::pair<Place, std::string>> problems_;
 
@@ -132,6 +136,14 @@ class Parser {
 
   void unknown(const Place& where, const std::string& key) {
     fail(where, fmt::format("unknown key \"{}\"{}", key, key_hint(key)));
+  }
+
+  // What a retired key says last counts: false asks for nothing.
+  void retired_or_unknown(const Place& where, const std::string& key, const toml::node& value) {
+    if (const RetiredKey* const retired = find_retired(key))
+      retired_.insert_or_assign(retired->key, std::pair(&value, where));
+    else
+      unknown(where, key);
   }
 
   void read_document() {
@@ -165,7 +177,7 @@ class Parser {
       const std::string key = table.name + "." + std::string(name.str());
       const Field* field = find_field(table, name.str());
       if (!field) {
-        unknown(place(name.source()), key);
+        retired_or_unknown(place(name.source()), key, node);
       } else if (!is_aliases(*field)) {
         assign_later(path + "." + field->name, {field, key, element, &node, place(node.source())});
       } else if (const toml::table* entries = node.as_table()) {
@@ -212,8 +224,11 @@ class Parser {
     } else if (is_aliases(*field)) {
       return fail(where, fmt::format("write {}.NAME=MATERIAL", key));
     }
-    if (!field) return unknown(where, table->name + "." + name);
-    if (const toml::node* value = parse_value(text.substr(equals + 1), where))
+    const toml::node* const value = parse_value(text.substr(equals + 1), where);
+    if (!value) return;
+    if (!field)
+      retired_or_unknown(where, table->name + "." + name, *value);
+    else
       assign_later(key, {field, table->name + "." + name, element, value, where});
   }
 

@@ -71,10 +71,6 @@ void check_reception(const Config& config, Found& out) {
     out.push_back({{"trace.reception", "trace.rays"},
                    "trace.reception = \"sphere\" needs rays that are spread evenly, trace.rays = \"auto\" refines "
                    "where sequences are rare: give trace.rays a number, or use trace.reception = \"exact\""});
-  if (trace.join)
-    out.push_back({{"trace.reception", "trace.join"},
-                   "trace.reception = \"sphere\" takes paths from whole rays, trace.join = true from two halves: leave "
-                   "trace.join out, or use trace.reception = \"exact\""});
 }
 
 // What needs more of rays than that they tell which surfaces they met.
@@ -90,11 +86,6 @@ void check_features(const Config& config, Found& out) {
                      fmt::format("trace.reception = \"sphere\" receives reflected rays alone, {} = true asks for "
                                  "more: set it to false, or use trace.reception = \"exact\"",
                                  key)});
-    if (trace.join && key != std::string("trace.scattering"))
-      out.push_back({{key, "trace.join"},
-                     fmt::format("trace.join = true sends rays half the way, {} = true needs them whole: leave "
-                                 "trace.join out, or set {} to false",
-                                 key, key)});
   }
   if (trace.transmission && config.output.waypoints > 0)
     out.push_back({{"output.waypoints", "trace.transmission"},

@@ -47,10 +47,6 @@ Table trace_table() {
            .range = {1, 4294967295.0},
            .doc = "A sequence of surfaces that neither a ray nor a path has followed for so long is dropped. 50 frames "
                   "are 5 s at 10 Hz."},
-          {.name = "join",
-           .slot = t(&TraceConfig::join),
-           .doc = "Ends that send and receive meet halfway: what rays of both have found is joined in the middle. "
-                  "Finds deep paths with few rays, and solves many more candidates."},
           {.name = "max_depth",
            .slot = t(&TraceConfig::max_depth),
            .unit = "interactions",

@@ -71,9 +71,7 @@ void Sequences::forget(uint32_t frames, uint32_t max_depth) {
 
 void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
-  // What does not fit is found again.
-  keep_({solved.count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), solved.headers, solved.count,
-        solved.sequences, solved.max_depth, quarters_, counters_, ages_, now());
+  keep_({solved.count, 64}, "sequences", table_, solved.headers, solved.count, ages_, now());
 }
 
 void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {

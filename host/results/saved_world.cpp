@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include "config/config_file.hpp"
+#include "config/retired_keys.hpp"
 #include "gpu/hash.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
@@ -36,8 +37,9 @@ SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
       return false;
     }
   };
-  if (!attempt("the run's configuration cannot be used",
-               [&] { out.config = parse_config(run.config_text(), run.file().string()); }))
+  if (!attempt("the run's configuration cannot be used", [&] {
+        out.config = parse_config(run.config_text(), run.file().string(), config::without_retired_keys());
+      }))
     return out;
   warn_changed(run, out.warnings);
   Config config = out.config;

@@ -19,9 +19,9 @@ uint32_t sequence_depth(const TraceConfig& config) {
 }
 
 // Interactions of a ray. What is transmitted sees further surfaces, whether they reflect or not.
-uint32_t ray_depth(const TraceConfig& config, uint32_t most) {
+uint32_t ray_depth(const TraceConfig& config) {
   const uint32_t depth = sequence_depth(config);
-  return std::min(depth > 0 && config.transmission ? config.max_depth : depth, most);
+  return depth > 0 && config.transmission ? config.max_depth : depth;
 }
 
 // Transmissions of a ray that may have so many interactions, the last of which ends it.
@@ -60,12 +60,12 @@ std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitters) {
 }
 
 Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order,
-                     bool keep_ages, uint32_t depth)
+                     bool keep_ages)
     : context_(context),
       config_(with_rays(config)),
       plan_(order),
       max_depth_(sequence_depth(config)),
-      depth_(ray_depth(config, depth)),
+      depth_(ray_depth(config)),
       transmissions_(ray_transmissions(config, depth_)),
       batch_rays_(choose_batch(context.info(), config, transmissions_ > 0 ? depth_ - 1 : 0)),
       keep_ages_(keep_ages),

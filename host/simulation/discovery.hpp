@@ -46,9 +46,9 @@ enum class LaunchedBy { transmitters, listeners };
 
 class Discovery {
  public:
-  // keep_ages: see passes/sequences.hpp. depth: interactions of a ray, where that is less than trace.max_depth.
+  // keep_ages: see passes/sequences.hpp.
   Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& config, const OrderPlan& order = {},
-            bool keep_ages = false, uint32_t depth = WT_MAX_DEPTH);
+            bool keep_ages = false);
   // Segments are asked of a cache from now on, before they are traced.
   void use_cache(const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world);
   RayCache* cache() { return cache_ ? &*cache_ : nullptr; }

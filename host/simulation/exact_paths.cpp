@@ -25,7 +25,6 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
       candidates_(context, trace.reflection ? trace.max_depth : 0),
       solve_(context, trace.max_depth),
       visible_(context, trace.max_depth) {
-  if (trace.join) meeting_.emplace(context, world.receiver_of_transmitter(), trace.max_depth);
   if (trace.diffraction)
     diffraction_.emplace(context, Wedges(context, scene, world.models(), world.instances(), trace.free_edges),
                          origins.receiver_of_origin, trace);
@@ -69,8 +68,8 @@ PathGeometry ExactPaths::operator()(const DeviceScene& scene, const RadioEnds& e
 
 SolvedList& ExactPaths::specular(const DeviceScene& scene, const RadioEnds& ends, Sequences& sequences,
                                  uint32_t node_count, FrameCounts& counts) {
-  uint32_t count = candidates_(scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
-  if (meeting_) count = (*meeting_)(scene, ends, sequences, node_count, candidates_.list(), count);
+  const uint32_t count =
+      candidates_(scene, ends, sequences.table(), sequences.nodes(), node_count, sequences.counters());
   counts.candidates = count;
   return solve_(scene, ends, sequences.table(), sequences.quarters(), candidates_.list(), count, sequences.counters());
 }

@@ -12,7 +12,6 @@
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/frame_watch.hpp"
 #include "simulation/listeners.hpp"
-#include "simulation/meeting_prefixes.hpp"
 #include "simulation/stopwatch.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
@@ -46,7 +45,6 @@ class ExactPaths {
 
   uint32_t max_depth_;
   Candidates candidates_;
-  std::optional<MeetingPrefixes> meeting_;  // with trace.join
   Solve solve_;
   std::optional<DiffractedPaths> diffraction_;
   std::optional<Scatter> scatter_;

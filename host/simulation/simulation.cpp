@@ -44,12 +44,6 @@ std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
   return out;
 }
 
-// Rays go half the way where both ends of every link launch and what they meet is joined.
-uint32_t ray_depth(const TraceConfig& config, const World& world) {
-  return config.join && world.links_both_ways() ? std::min(config.max_depth, joined_depth(config.max_depth))
-                                                : config.max_depth;
-}
-
 // All directions in a cold frame; after it every stride-th, another set each time: `stride` frames together launch all.
 // Steps of the golden ratio, so that a few frames spread evenly.
 DirectionShare share_of(uint64_t rays, uint64_t refresh_rays, uint64_t warm_frames) {
@@ -274,11 +268,10 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   // A sphere receives what this frame's rays meet.
   s.reuse = config.trace.reuse && !sphere && (s.world->frame_count() > 1 || s.world->live());
   if (s.trace.directions == "horizon") s.slopes.emplace(*s.around, s.world->reach_m());
-  const uint32_t depth = ray_depth(s.trace, *s.world);
-  s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse, depth);
+  s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse);
   if (s.trace.diffraction && s.trace.rays > 0) s.discovery->listen(listener_rays(s.trace));
   if (sphere || config.output.waypoints > 0) {
-    s.trails.emplace(*s.context, s.trace, config.output.waypoints, s.trace.reflection ? depth : 0,
+    s.trails.emplace(*s.context, s.trace, config.output.waypoints, s.trace.reflection ? s.trace.max_depth : 0,
                      SurfaceTable(s.scene, s.world->models(), s.world->instances()));
     s.discovery->follow(*s.trails);
   }

@@ -296,9 +296,6 @@ double World::time_s(uint64_t frame) const { return state_->clock->time_s(frame)
 double World::reach_m() const { return state_->reach_m; }
 const std::vector<uint32_t>& World::receiver_of_transmitter() const { return state_->receiver_of_transmitter; }
 const std::vector<uint32_t>& World::transmitter_of_receiver() const { return state_->transmitter_of_receiver; }
-bool World::links_both_ways() const {
-  return state_->links.both_ways(state_->receiver_of_transmitter, state_->transmitter_of_receiver);
-}
 const std::vector<std::string>& World::warnings() const { return state_->warnings; }
 
 WorldState World::State::state(double time_s, const std::vector<VehicleState>& vehicles) const {

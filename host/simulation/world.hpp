@@ -34,8 +34,6 @@ class World {
   // same vehicle), no_end where there is none; and the other way round.
   const std::vector<uint32_t>& receiver_of_transmitter() const;
   const std::vector<uint32_t>& transmitter_of_receiver() const;
-  // Is there a link the other way to every link, in every frame?
-  bool links_both_ways() const;
 
   // Recentred; of a live world a track a place.
   const Trajectories& trajectories() const;

@@ -52,16 +52,6 @@ bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
   return tx_vehicle == rx_vehicle ? config_.same_vehicle : config_.v2v;
 }
 
-bool LinkRules::both_ways(std::span<const uint32_t> receiver_of_transmitter,
-                          std::span<const uint32_t> transmitter_of_receiver) const {
-  const auto all_in = [](const std::vector<uint32_t>& ends, std::span<const uint32_t> other_of,
-                         const std::vector<uint32_t>& others) {
-    return std::ranges::all_of(ends, [&](uint32_t end) { return std::ranges::binary_search(others, other_of[end]); });
-  };
-  return all_in(wanted_transmitters_, receiver_of_transmitter, wanted_receivers_) &&
-         all_in(wanted_receivers_, transmitter_of_receiver, wanted_transmitters_);
-}
-
 bool LinkRules::any_allowed() const {
   return std::ranges::any_of(wanted_transmitters_, [&](uint32_t tx) {
     return std::ranges::any_of(wanted_receivers_, [&](uint32_t rx) {

@@ -3,7 +3,6 @@
 #pragma once
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -26,10 +25,6 @@ class LinkRules {
   // Throws ConfigError for a pattern of names that no end has, RuntimeError for more pairs than a drive can have.
   LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers);
 
-  // Has every link one the other way, whoever is present? Only names can want the one without the other.
-  //   receiver_of_transmitter, transmitter_of_receiver: the other index of the same end, or no_end.
-  bool both_ways(std::span<const uint32_t> receiver_of_transmitter,
-                 std::span<const uint32_t> transmitter_of_receiver) const;
   // The links of ends that are present, sorted. Ends of one and the same place have no path that a ray could tell.
   // Throws RuntimeError where more pairs are present than a frame can have.
   std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;

@@ -107,7 +107,6 @@ struct TraceConfig {
   bool reuse = true;             // sequences of earlier frames of a drive are kept and solved again
   uint64_t refresh_rays = 0;     // rays a transmitter of a frame that reuses; 0: a tenth of rays
   uint32_t forget_frames = 50;   // a sequence that no ray has met for so many frames is dropped
-  bool join = false;             // ends that send and receive: prefixes of both are joined in the middle
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
   uint32_t max_diffractions = 1;  // a path, 1 or 2

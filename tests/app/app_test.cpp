@@ -318,11 +318,11 @@ TEST_CASE("scene info --edges of a room: its edges diffract nowhere but outside,
   check(run_program({"scene", "info", box, "--edge"}), 2, "--edge");
 }
 
-TEST_CASE("what diffraction and transmission exclude is said before anything is traced") {
+TEST_CASE("what diffraction excludes, and a key that was taken away, is said before anything is traced") {
   const Folder folder;
   const std::string file = folder.file("a.toml", city + "trace.diffraction = true\ntrace.join = true\n" + ends);
   check(run_program({"run", "-c", file, "-o", folder.path("out")}), 2,
-        file + ":3:14: trace.join = true sends rays half the way, trace.diffraction = true needs them whole");
+        file + ":3:7: trace.join was taken away: rays towards the horizon find more paths in the same time");
   check(run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.join=false", "--set",
                      "trace.reception=sphere"}),
         2, "--set trace.reception=sphere: trace.reception = \"sphere\" receives reflected rays alone");

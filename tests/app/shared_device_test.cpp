@@ -190,8 +190,7 @@ TEST_CASE("blocks of transmitters of one frame: every link as in the whole frame
   const std::vector<std::vector<std::string>> cases = {
       {},
       {"trace.diffraction=true", "trace.max_diffractions=2"},
-      {"trace.diffraction=true", "trace.transmission=true", "trace.scattering=true"},
-      {"trace.join=true"}};
+      {"trace.diffraction=true", "trace.transmission=true", "trace.scattering=true"}};
   for (size_t i = 0; i < cases.size(); ++i) {
     CAPTURE(i);
     std::vector<std::string> sets;

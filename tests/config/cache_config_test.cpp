@@ -154,13 +154,10 @@ TEST_CASE("reception spheres take whole rays that are spread evenly") {
   CHECK(c.trace.reception == "sphere");
   CHECK(c.trace.sphere_radius_m == 0.5);
   CHECK(of(sphere + "trace.reuse = true") == "no error");
-  CHECK(of("trace.join = true\ntrace.rays = \"auto\"\ntrace.reception = \"exact\"") == "no error");
+  CHECK(of("trace.rays = \"auto\"\ntrace.reception = \"exact\"") == "no error");
   CHECK(of(sphere + "trace.rays = \"auto\"") ==
         "a.toml:3:14: trace.reception = \"sphere\" needs rays that are spread evenly, trace.rays = \"auto\" refines "
         "where sequences are rare: give trace.rays a number, or use trace.reception = \"exact\"");
-  CHECK(of(sphere + "trace.join = true") ==
-        "a.toml:3:14: trace.reception = \"sphere\" takes paths from whole rays, trace.join = true from two halves: "
-        "leave trace.join out, or use trace.reception = \"exact\"");
   check_contains(of("trace.sphere_radius_m = 0"), "it must be a number above 0 up to 10000 (m)");
 }
 

@@ -71,7 +71,6 @@ TEST_CASE("every key of the contract is in the table, once") {
                           "trace.reuse",
                           "trace.refresh_rays",
                           "trace.forget_frames",
-                          "trace.join",
                           "output.shard_frames",
                           "trace.rays",
                           "trace.max_depth",

@@ -45,7 +45,6 @@ max_rays = 2e6
 reuse = false
 refresh_rays = 1000
 forget_frames = 7
-join = true
 [output]
 shard_frames = 10
 [[mount]]
@@ -99,7 +98,6 @@ TEST_CASE("every key of a moving world is read") {
   CHECK_FALSE(c.trace.reuse);
   CHECK(c.trace.refresh_rays == 1000);
   CHECK(c.trace.forget_frames == 7);
-  CHECK(c.trace.join);
   CHECK(c.output.shard_frames == 10);
   REQUIRE(c.mounts.size() == 2);
   CHECK(c.mounts[0].on == "veh?");

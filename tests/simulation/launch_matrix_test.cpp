@@ -133,7 +133,6 @@ struct Option {
 
 void reuse(Config& config) { config.trace.reuse = true; }
 void automatic(Config& config) { config.trace.rays = 0; }
-void join(Config& config) { config.trace.join = true; }
 void exact_cache(Config& config) { config.cache = {.kind = "concurrent", .key = "exact"}; }
 
 const Option options[] = {
@@ -154,11 +153,6 @@ const Option options[] = {
     {"live, cold, auto", [](Config& c) { reuse(c), automatic(c); }, live_cold},
     {"exact cache", exact_cache, drive},
     {"first_depth", [](Config& c) { exact_cache(c), c.cache.first_depth = 2; }, drive},
-    {"join", join},
-    {"join, auto", [](Config& c) { join(c), automatic(c); }},
-    {"join, reuse", [](Config& c) { join(c), reuse(c); }, drive},
-    {"join, blocks", join, blocks},
-    {"join, live", [](Config& c) { join(c), reuse(c); }, live_warm},
 };
 
 // Documented to find less: never what is none.

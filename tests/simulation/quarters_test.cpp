@@ -42,7 +42,7 @@ PathGeometry found(const Config& config, DirectionShare share) {
   DeviceScene device = choose_tree(context, scene, trace, from, world.reach_m());
   if (trace.transmission)
     mark_opaque(device, opaque_surfaces(scene, world.models(), world.instances(), config.radio.frequency_hz));
-  Discovery discovery(context, device, trace, {}, false, trace.join ? joined_depth(trace.max_depth) : trace.max_depth);
+  Discovery discovery(context, device, trace);
   ExactPaths exact(context, device, scene, world, trace, origins);
   const RadioEnds ends = make_radio_ends(context, state.transmitters, state.receivers, state.links, origins.listeners);
   discovery(device, sending(state), share);
@@ -89,13 +89,6 @@ void check_quarters(const Config& config) {
 TEST_CASE("a path has the quarters whose rays find it alone: reflections and their exchanges") {
   Config config = town(6000, 3);
   config.trace.directions = "hilbert";
-  check_quarters(config);
-}
-
-TEST_CASE("a path has the quarters whose rays find it alone: joined of two ends") {
-  const SceneFile file(street());
-  Config config = radios(file, 300, 4);
-  config.trace.join = true;
   check_quarters(config);
 }
 

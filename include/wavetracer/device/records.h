@@ -111,12 +111,10 @@ typedef struct {
   wt_uint padding;
 } wt_wedge;
 
-// A candidate: a sequence (trie node or root) with a receiver. back: WT_NONE, or the node of the receiver's own end
-// whose sequence, back to front and without its last surface, which both share, follows that of node.
+// A candidate: a sequence (trie node or root) with a receiver.
 typedef struct {
   wt_uint node;
   wt_uint receiver;
-  wt_uint back;
 } wt_candidate;
 
 // A prefix of an end that sees a wedge. Ends are transmitters, then the receivers that launch for themselves.
@@ -152,7 +150,7 @@ typedef struct {
   wt_uint receiver;
   wt_uint depth;
   wt_uint blocked;  // 0 until a leg is found obstructed
-  wt_uint node;     // of its sequence; WT_NONE if it was joined of two
+  wt_uint node;     // of its sequence; WT_NONE if it is diffracted
   wt_uint quarters;  // of the launch that found it
 } wt_solved;
 

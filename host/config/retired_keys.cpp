@@ -1,0 +1,30 @@
+// A row a key; it stays, as the configurations of old runs do.
+#include "config/retired_keys.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace wavetracer::config {
+
+namespace {
+
+const std::array retired_keys{
+    RetiredKey{"trace.join",
+               "trace.join was taken away: rays towards the horizon find more paths in the same time; remove the key, "
+               "and leave trace.directions at \"horizon\""},
+};
+
+}  // namespace
+
+const RetiredKey* find_retired(std::string_view key) {
+  const auto found = std::ranges::find(retired_keys, key, &RetiredKey::key);
+  return found == retired_keys.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> without_retired_keys() {
+  std::vector<std::string> out;
+  for (const RetiredKey& retired : retired_keys) out.push_back(std::string(retired.key) + "=false");
+  return out;
+}
+
+}  // namespace wavetracer::config
