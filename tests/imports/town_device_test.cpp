@@ -87,7 +87,7 @@ TEST_CASE("SUMO to channels in two commands") {
   }
   CHECK(types == std::set<std::string>{"bus", "passenger", "truck"});
 
-  const Outcome run = run_program({"run", "-c", (town / "town.toml").string()});
+  const Outcome run = run_program({"run", "-c", (town / "town.toml").string(), "-o", folder.path("out/town")});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   const auto summary = nlohmann::json::parse(read_file(fs::path(folder.path("out")) / "town/summary.json"));

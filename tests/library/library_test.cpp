@@ -22,7 +22,7 @@ wavetracer::Config street(double distance_m) {
 }  // namespace
 
 TEST_CASE("configurations are read and written back through the library") {
-  CHECK(wavetracer::parse_config(wavetracer::commented_config(), "init.toml").trace.rays == 1000000);
+  CHECK(wavetracer::parse_config(wavetracer::commented_config(), "init.toml").trace.rays == 200000);
   const wavetracer::Config config = wavetracer::parse_config(wavetracer::resolved_config(street(30)), "street.toml");
   CHECK(config.receivers.at(0).position_m[0] == 30);
   CHECK_THROWS_AS(wavetracer::load_config("/nowhere.toml"), wavetracer::Error);

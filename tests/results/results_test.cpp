@@ -245,7 +245,7 @@ TEST_CASE("what was missed is read from summary.json and links.csv, where they a
 
   std::vector<double> shares;
   for (const FrameResult& frame : frames)
-    for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links))
+    for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links, 5.9e9))
       shares.push_back(link.missed_power_share);
   const MissedShares read = missed_shares(run);
   CHECK(read.warning == "");

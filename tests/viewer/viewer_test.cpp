@@ -180,7 +180,7 @@ TEST_CASE("figures of links are those of links.csv") {
   REQUIRE(shares.size() == run.link_count());
   const auto first = std::span(shares).subspan(run.first_link(3));
   const std::vector<LinkRow> rows = link_rows(frame, first.first(frame.links.size()));
-  const std::vector<LinkFigures> figures = link_figures(frame.paths, frame.number, frame.links);
+  const std::vector<LinkFigures> figures = link_figures(frame.paths, frame.number, frame.links, 5.9e9);
   REQUIRE(rows.size() == figures.size());
   for (size_t k = 0; k < rows.size(); ++k) {
     CHECK(rows[k].paths == figures[k].paths);
