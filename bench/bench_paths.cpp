@@ -44,6 +44,7 @@ const Case cases[] = {
     {1, 1, million, million},
     {1, 10, 100'000, million},
     {1, 100, 30'000, million},
+    {1, 100, 50'000, million},
     {1, 100, 100'000, million},
     {1, 100, million, million},
     {1, 100, 100'000, 10 * million},
