@@ -98,14 +98,16 @@ std::string path_line(const Totals& totals) {
 std::string missed_line(const Run& run, const Totals& totals) {
   if (totals.missed.frames == 0) return "";
   const Missed missed = estimate_missed(totals.missed);
-  const std::string about = missed.paths.estimate < 0.5
-                                ? "probably none"
-                                : "about " + grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.estimate)));
-  return fmt::format("missed     {} of {} paths ({} to {}), {:.1g} of the power ({:.1g} to {:.1g}): {}\n", about,
+  const bool none = missed.paths.estimate < 0.5;
+  const std::string about =
+      none ? "probably none" : "about " + grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.estimate)));
+  return fmt::format("missed     {} of {} paths ({} to {}), {:.1g} of the power ({:.1g} to {:.1g}){}\n", about,
                      grouped(totals.counts.paths), grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.low))),
                      grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
                      missed.power_share.low, missed.power_share.high,
-                     run.config.trace.rays == 0 ? "a higher trace.recall finds more" : "more trace.rays find more");
+                     none                         ? ""
+                     : run.config.trace.rays == 0 ? ": a higher trace.recall finds more"
+                                                  : ": more trace.rays find more");
 }
 
 // What tracing did, for whoever tunes it.
