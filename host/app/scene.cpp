@@ -81,7 +81,7 @@ void write_drive(const CityOptions& city, const TrafficOptions& options, const s
   const Trajectories drive = generate_traffic(options);
   write_city(city, folder);
   write_file(folder / "drive.fcd.xml", format_fcd(drive));
-  const auto& rsu = example_positions(city).front().position_m;
+  const auto rsu = example_positions(city).front().position_m;  // a copy: the list lives for this line
   write_file(folder / "drive.toml", fmt::format(drive_config, rsu[0], rsu[1], rsu[2]));
   std::cout << fmt::format("{0}/drive.fcd.xml: written, {1} vehicles for {2:g} s\n", folder.string(),
                            drive.tracks.size(), drive.last_time_s)
