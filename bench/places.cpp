@@ -57,7 +57,7 @@ Place city_place(size_t transmitters, size_t receivers) {
   Place place;
   place.name = "city";
   place.scene.generate = "--seed 1";
-  const auto& first = example_positions(parse_city_options(place.scene.generate)).front().position_m;
+  const auto first = example_positions(parse_city_options(place.scene.generate)).front().position_m;
   place_ends(place, {first[0], first[1], first[2]}, transmitters, receivers);
   return place;
 }
