@@ -1,19 +1,13 @@
 // A merge of lists that are sorted by link and delay, as Paths promises.
 #include "known_paths.hpp"
 
-#include <complex>
 #include <tuple>
 
 #include "path_recall.hpp"
+#include "report/path_power.hpp"
 
 namespace wavetracer::bench {
 namespace {
-
-double power_of(const Paths& paths, size_t row) {
-  double power = 0;
-  for (const auto& a : paths.a[row]) power += std::norm(a);
-  return power;
-}
 
 void append(Paths& to, const Paths& from, size_t row) {
   to.tx.push_back(from.tx[row]);

@@ -6,16 +6,12 @@
 #include <cmath>
 #include <tuple>
 
+#include "report/path_power.hpp"
+
 namespace wavetracer::bench {
 namespace {
 
 constexpr double delay_tolerance_s = 1e-12, power_tolerance = 1e-6;
-
-double power_of(const Paths& paths, size_t i) {
-  double power = 0;
-  for (const auto& a : paths.a[i]) power += std::norm(a);
-  return power;
-}
 
 auto link_of(const Paths& paths, size_t i) { return std::tuple(paths.tx[i], paths.rx[i]); }
 

@@ -1,18 +1,12 @@
 // One link of one frame after the other; of equally strong paths the earlier one is written.
 #include "output/path_limits.hpp"
 #include <algorithm>
-#include <complex>
 #include <numeric>
 #include <tuple>
+#include "report/path_power.hpp"
 
 namespace wavetracer {
 namespace {
-
-double power_of(const Paths& paths, size_t row) {
-  double power = 0;
-  for (const auto& a : paths.a[row]) power += std::norm(a);
-  return power;
-}
 
 // Marks what is written of rows first to end - 1, which are those of one link and frame.
 void mark_link(const Paths& paths, const OutputConfig& output, size_t first, size_t end,

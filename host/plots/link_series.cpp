@@ -8,17 +8,12 @@
 #include <map>
 #include "config/spelling.hpp"
 #include "output/path_kinds.hpp"
+#include "report/path_power.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::plots {
 namespace {
-
-double power_of(const Paths& paths, size_t row) {
-  double power = 0;
-  for (const auto& a : paths.a[row]) power += std::norm(a);
-  return power;
-}
 
 struct Filter {
   std::optional<uint32_t> tx, rx;

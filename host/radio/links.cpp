@@ -8,16 +8,11 @@
 #include <limits>
 #include <numbers>
 
+#include "report/path_power.hpp"
 #include "wavetracer/missed.hpp"
 
 namespace wavetracer {
 namespace {
-
-double power_of(const Paths& paths, size_t row) {
-  double power = 0;
-  for (const auto& a : paths.a[row]) power += std::norm(a);
-  return power;
-}
 
 struct Moments {
   double mean, rms;  // rms about the mean

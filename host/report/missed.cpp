@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <complex>
 
-#include "wavetracer/paths.hpp"
+#include "report/path_power.hpp"
 
 namespace wavetracer {
 namespace {
@@ -40,12 +39,6 @@ MissedRange missed_paths(const std::array<double, 4>& found) {
   return {.estimate = likeness(f1, f2) * estimate,
           .low = std::floor(chao * few * few / (f2 + deviations * std::sqrt(f2) + 1)),
           .high = path_factor * likeness(f1, f2) * (estimate + deviations * std::sqrt(variance)) + unseen};
-}
-
-double power_of(const Paths& paths, size_t row) {
-  double power = 0;
-  for (const auto& a : paths.a[row]) power += std::norm(a);
-  return power;
 }
 
 }  // namespace
