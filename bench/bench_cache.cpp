@@ -49,7 +49,8 @@ const std::vector<TableCase> tables{table_case("concurrent", "concurrent"), tabl
 // Keys at random, and as rays ask: those of a cell of directions are next to each other in a launch and want one entry.
 // After readers_number reads the thesis' slot answers nobody, until it is written again.
 const Traffic spread_keys{"keys at random", true, 1, no_wear}, other_keys{"keys never put", false, 1, no_wear};
-const std::vector<Traffic> traffics{spread_keys, other_keys,
+const std::vector<Traffic> traffics{spread_keys,
+                                    other_keys,
                                     {"256 askers a key", true, 256, CacheConfig{}.readers_number},
                                     {"4096 askers a key", true, 4096, CacheConfig{}.readers_number}};
 
@@ -171,8 +172,9 @@ class Bench {
 
   // Three finds to a put, an eighth of them of 64 keys, in one launch; see large_cache_test.cpp.
   void mixed() {
-    const uint64_t operations =
-        options_.operations ? options_.operations : context_.info().cpu ? 2'000'000 : 100'000'000;
+    const uint64_t operations = options_.operations   ? options_.operations
+                                : context_.info().cpu ? 2'000'000
+                                                      : 100'000'000;
     for (const TableCase& c : tables) {
       const test::TableKind kind{c.config.kind, c.config.locking, "quantised"};
       const test::MixedReport report = test::run_mixed(context_, kind, operations, operations / 8, cache_load);

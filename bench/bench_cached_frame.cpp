@@ -1,6 +1,6 @@
 // bench_cached_frame: frames of a moving world with ray caches, against frames without: seconds, where they go, and
-// what is lost. Munich with moving cars; the transmitter stands at a crossing, or rides on a car. No frame reuses sequences,
-// but in the case that says so. "error" is the lost power against uncached frames of the same rays.
+// what is lost. Munich with moving cars; the transmitter stands at a crossing, or rides on a car. No frame reuses
+// sequences, but in the case that says so. "error" is the lost power against uncached frames of the same rays.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -53,8 +53,7 @@ Config world(const Options& options, bool riding) {
   const Scene scene = load_scene(config);
   std::vector<glm::dvec3> points = street_points(scene, crossing_m, radius_m, height_m, receivers);
   for (size_t i = 0; i < points.size(); ++i)
-    config.receivers.push_back(
-        {.name = fmt::format("rx{}", i), .position_m = {points[i].x, points[i].y, points[i].z}});
+    config.receivers.push_back({.name = fmt::format("rx{}", i), .position_m = {points[i].x, points[i].y, points[i].z}});
   points.push_back(crossing_m);
   config.tracks = street_traffic(scene, {.vehicles = options.vehicles,
                                          .duration_s = std::max(options.frames - 1, 1u) * step_s,
@@ -184,8 +183,8 @@ void print_line(const Options& options, const std::string& name, const Measured&
     result.baseline = "no cache, in order";
     result.baseline_value = 1e3 * baseline->frame_s;
     result.error = error.lost_power;
-    result.detail += fmt::format("; paths lost {:.3f}%, spurious {:.3f}%", 100 * error.lost_share,
-                                 100 * error.spurious_share);
+    result.detail +=
+        fmt::format("; paths lost {:.3f}%, spurious {:.3f}%", 100 * error.lost_share, 100 * error.spurious_share);
     result.extra["lost_paths"] = error.lost_share;
     result.extra["spurious_paths"] = error.spurious_share;
     result.extra["delay_spread_ns"] = error.delay_spread_ns;

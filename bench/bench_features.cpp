@@ -109,8 +109,11 @@ std::string longest_stages(const StageSeconds& seconds) {
 }
 
 Result result_of(const Group& group, size_t i, const Turns& first, const Turns& turn) {
-  Result result{"features", fmt::format("{}: {}", group.name, group.variants[i].name), turn.device, turn.median_s,
-                "s a frame", Better::lower, "", {}, 0, ""};
+  Result result{"features",  fmt::format("{}: {}", group.name, group.variants[i].name),
+                turn.device, turn.median_s,
+                "s a frame", Better::lower,
+                "",          {},
+                0,           ""};
   if (i > 0) {
     result.baseline = group.variants[0].name;
     result.baseline_value = first.median_s;
@@ -140,11 +143,11 @@ void print_costs(const Group& group, const Options& options, const std::string& 
 void print_listeners(Group group, const std::vector<uint64_t>& rays, const Options& options,
                      const std::string& command) {
   for (const uint64_t count : rays)
-    group.variants.push_back({fmt::format("diffraction, {:.0e} rays a receiver", static_cast<double>(count)),
-                              [count](Config& c) {
-                                diffraction(true).change(c);
-                                c.trace.diffraction_rays = count;
-                              }});
+    group.variants.push_back(
+        {fmt::format("diffraction, {:.0e} rays a receiver", static_cast<double>(count)), [count](Config& c) {
+           diffraction(true).change(c);
+           c.trace.diffraction_rays = count;
+         }});
   const std::vector<Turns> turns = run_in_turn(group.config, group.variants, options.device, options.repeat);
   reference::Case most;
   most.name = group.name;
@@ -179,8 +182,8 @@ void print_tiles(Group group, const std::vector<double>& tiles_m, const Options&
 }
 
 bool same_stages(const StageSeconds& a, const StageSeconds& b) {
-  return std::ranges::equal(a, b, {}, [](const auto& stage) { return stage.first; },
-                            [](const auto& stage) { return stage.first; });
+  return std::ranges::equal(
+      a, b, {}, [](const auto& stage) { return stage.first; }, [](const auto& stage) { return stage.first; });
 }
 
 // Asked for, but absent from the scene: the second variant must be the first one. "error" is 1 where it is not.
@@ -225,8 +228,8 @@ void run_costs(const Place& place, const Options& options, const std::string& co
     for (const size_t receivers : options.quick ? std::vector<size_t>{1} : std::vector<size_t>{1, most_receivers}) {
       Group group = group_of(place, depth, receivers);
       roughen(group.config);
-      for (const Variant& variant : {transmission(1), transmission(2), diffraction(false), diffraction(true),
-                                     scattered(10), all_features()})
+      for (const Variant& variant :
+           {transmission(1), transmission(2), diffraction(false), diffraction(true), scattered(10), all_features()})
         group.variants.push_back(variant);
       print_costs(group, options, command);
     }
@@ -260,8 +263,10 @@ void run(Options options, const std::string& command) {
   const auto canyon = small_place(options.shared, "simple_street_canyon", {33.5, 5.5, 1.5}, {-49, -2, 1.5});
   const auto plates = small_place(options.shared, "triple_reflector", {0.3, 0.2, 1}, {0.5, 0.4, 1.5});
   if (!munich || !canyon || !plates)
-    fmt::print(stderr, "bench_features: munich, simple_street_canyon or triple_reflector is not in {}/scenes, so cases "
-                       "are left out; --shared names their folder\n", options.shared);
+    fmt::print(stderr,
+               "bench_features: munich, simple_street_canyon or triple_reflector is not in {}/scenes, so cases "
+               "are left out; --shared names their folder\n",
+               options.shared);
   const Place& main = munich ? *munich : city;
 
   run_costs(main, options, command);

@@ -19,9 +19,9 @@
 #include <memory>
 
 #include "json_line.hpp"
-#include "temporary_folder.hpp"
 #include "motion/frame_clock.hpp"
 #include "scene/city_traffic.hpp"
+#include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 extern char** environ;
@@ -49,9 +49,10 @@ std::string config_text(const Options& options, uint32_t vehicles, uint64_t rays
       "[[transmitter]]\nname = \"rsu\"\nposition_m = [8.0, 8.0, 6.0]\n",
       rays, std::min(options.refresh, rays));
   for (const auto& [type, height_m] : {std::pair("passenger", 1.6), {"delivery", 3.0}, {"truck", 2.7}})
-    out += fmt::format("[[live_vehicle]]\ntype = \"{0}\"\ncount = {1}\n[[mount]]\nname = \"roof-{0}\"\non = \"{0}\"\n"
-                       "offset_m = [0.0, 0.0, {2}]\n",
-                       type, vehicles, height_m);
+    out += fmt::format(
+        "[[live_vehicle]]\ntype = \"{0}\"\ncount = {1}\n[[mount]]\nname = \"roof-{0}\"\non = \"{0}\"\n"
+        "offset_m = [0.0, 0.0, {2}]\n",
+        type, vehicles, height_m);
   return out;
 }
 
@@ -185,9 +186,8 @@ void compare(const json& reference, const json& mine, Recall& recall) {
   for (const auto& [link, all] : rows(reference))
     for (const auto& [delay_s, power] : all) {
       Rows& candidates = found[link];
-      const auto match = std::ranges::find_if(candidates, [&, delay = delay_s](const auto& row) {
-        return std::abs(row.first - delay) <= 1e-12;
-      });
+      const auto match = std::ranges::find_if(
+          candidates, [&, delay = delay_s](const auto& row) { return std::abs(row.first - delay) <= 1e-12; });
       recall.reference++;
       recall.power += power;
       if (match == candidates.end()) continue;
@@ -251,8 +251,11 @@ void run(const Options& options, uint32_t vehicles, const std::string& command) 
   line.better = Better::lower;
   line.baseline = "cold frames";
   line.baseline_value = percentile(cold_s, 0.5);
-  line.extra = {{"p99_s", percentile(seconds["all"], 0.99)}, {"frames", seconds["all"].size()},
-                {"links", links}, {"paths", paths}, {"answer_bytes", bytes}};
+  line.extra = {{"p99_s", percentile(seconds["all"], 0.99)},
+                {"frames", seconds["all"].size()},
+                {"links", links},
+                {"paths", paths},
+                {"answer_bytes", bytes}};
   std::string stages;
   for (const char* stage : {"solve", "serialise", "parse and socket", "wait"}) {
     const double median_s = percentile(seconds[stage], 0.5);

@@ -15,9 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const case_names[] = {"munich_street_0", "munich_street_1", "munich_street_2", "munich_roof",
-                                  "munich_street_deep", "street_canyon_cars_specular", "box_depth5",
-                                  "triple_reflector", "double_reflector", "simple_reflector"};
+const char* const case_names[] = {"munich_street_0", "munich_street_1",    "munich_street_2",
+                                  "munich_roof",     "munich_street_deep", "street_canyon_cars_specular",
+                                  "box_depth5",      "triple_reflector",   "double_reflector",
+                                  "simple_reflector"};
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;

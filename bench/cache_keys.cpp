@@ -41,9 +41,9 @@ std::vector<RayKey> distinct_keys(const SceneRays& rays, uint32_t division) {
     }
   const auto value = [](const RayKey& key) { return std::tie(key.left, key.cells); };
   std::sort(keys.begin(), keys.end(), [&](const RayKey& a, const RayKey& b) { return value(a) < value(b); });
-  keys.erase(std::unique(keys.begin(), keys.end(),
-                         [&](const RayKey& a, const RayKey& b) { return value(a) == value(b); }),
-             keys.end());
+  keys.erase(
+      std::unique(keys.begin(), keys.end(), [&](const RayKey& a, const RayKey& b) { return value(a) == value(b); }),
+      keys.end());
   return keys;
 }
 

@@ -40,8 +40,8 @@ Launch make_launch(gpu::Context& context, const Segment& segment) {
 
 double answered(const Launch& launch) {
   const std::vector<float> marks = launch.missed.read(0, launch.rays.count);
-  const auto count = std::count_if(marks.begin(), marks.end(),
-                                   [](float mark) { return std::bit_cast<uint32_t>(mark) == WT_NONE; });
+  const auto count =
+      std::count_if(marks.begin(), marks.end(), [](float mark) { return std::bit_cast<uint32_t>(mark) == WT_NONE; });
   return static_cast<double>(count) / launch.rays.count;
 }
 

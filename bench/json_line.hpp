@@ -21,9 +21,9 @@ struct Result {
   Better better = Better::higher;
   std::string baseline;                  // what it is compared with; empty: nothing
   std::optional<double> baseline_value;  // in the same unit
-  double error = 0;    // what the speed costs, in the words of the benchmark's documentation; 0 where
-                       // exact, NaN where it was not measured
-  std::string detail;  // a short remark for the table; may be empty
+  double error = 0;                      // what the speed costs, in the words of the benchmark's documentation; 0 where
+                                         // exact, NaN where it was not measured
+  std::string detail;                    // a short remark for the table; may be empty
   nlohmann::ordered_json extra = nlohmann::ordered_json::object();  // fields of this benchmark alone
 };
 

@@ -26,7 +26,7 @@ using glm::dvec3;
 constexpr double kerb_m = 0.3, least_speed_m_s = 5, most_speed_m_s = 14;
 constexpr double clear_at_start_m = 2.5, strip_m = 3, ahead_m = 4, gap_m = 6;
 constexpr double point_width_m = 0.5;  // of the strip of a vehicle of no size
-constexpr int directions = 24;  // tried from each place, and back from the end of a way
+constexpr int directions = 24;         // tried from each place, and back from the end of a way
 
 struct Type {
   const char* name;
@@ -58,8 +58,8 @@ dvec2 left_of(const dvec2& v) { return {-v.y, v.x}; }
 // Does `axis` tell the two apart?
 bool apart(const dvec2& axis, const Rectangle& r, std::span<const dvec2> corners) {
   const double middle = glm::dot(axis, r.centre);
-  const double half = r.half_length_m * std::abs(glm::dot(axis, r.ahead)) +
-                      r.half_width_m * std::abs(glm::dot(axis, left_of(r.ahead)));
+  const double half =
+      r.half_length_m * std::abs(glm::dot(axis, r.ahead)) + r.half_width_m * std::abs(glm::dot(axis, left_of(r.ahead)));
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const dvec2& corner : corners) {
     least = std::min(least, glm::dot(axis, corner));
@@ -165,10 +165,11 @@ std::vector<TrackConfig> street_traffic(const Scene& scene, const StreetTraffic&
   Type type = draw_type();
   for (size_t tries = 0; tracks.size() < traffic.vehicles; tries++) {
     if (tries > 500 * traffic.vehicles + 5000)
-      throw InputError(fmt::format("{}: only {} of {} vehicles find a free way of {} s within {} m of ({}, {}): drive "
-                                   "fewer, shorter or in a larger part of the scene",
-                                   scene.file, tracks.size(), traffic.vehicles, traffic.duration_s, traffic.radius_m,
-                                   traffic.centre_m.x, traffic.centre_m.y));
+      throw InputError(
+          fmt::format("{}: only {} of {} vehicles find a free way of {} s within {} m of ({}, {}): drive "
+                      "fewer, shorter or in a larger part of the scene",
+                      scene.file, tracks.size(), traffic.vehicles, traffic.duration_s, traffic.radius_m,
+                      traffic.centre_m.x, traffic.centre_m.y));
     const dvec2 offset(draw(-traffic.radius_m, traffic.radius_m), draw(-traffic.radius_m, traffic.radius_m));
     const double speed_m_s = draw(least_speed_m_s, most_speed_m_s), first_angle_rad = draw(0, 2 * std::numbers::pi);
     if (glm::length(offset) > traffic.radius_m) continue;
@@ -181,9 +182,8 @@ std::vector<TrackConfig> street_traffic(const Scene& scene, const StreetTraffic&
       const double length_m = speed_m_s * traffic.duration_s;
       const dvec2 end(millimetres(start.x + length_m * ahead.x), millimetres(start.y + length_m * ahead.y));
       const Drive drive{start, (end - start) / traffic.duration_s, type.length_m / 2};
-      const bool alone = std::all_of(drives.begin(), drives.end(), [&](const Drive& other) {
-        return keep_apart(drive, other, traffic.duration_s);
-      });
+      const bool alone = std::all_of(drives.begin(), drives.end(),
+                                     [&](const Drive& other) { return keep_apart(drive, other, traffic.duration_s); });
       if (!alone || !ground.free({(start + end) / 2.0, ahead, length_m / 2 + ahead_m, strip_m / 2})) continue;
       const auto end_z = ground.height_at(end);
       if (!end_z) continue;

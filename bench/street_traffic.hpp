@@ -13,7 +13,7 @@ namespace wavetracer::bench {
 
 struct StreetTraffic {
   size_t vehicles = 100;
-  double duration_s = 2;  // all are there from 0 s on
+  double duration_s = 2;   // all are there from 0 s on
   glm::dvec3 centre_m{0};  // of the disc in which drives begin; file coordinates
   double radius_m = 300;
   std::vector<glm::dvec3> standing_m = {};  // places that vehicles keep away from as from each other; file coordinates

@@ -99,8 +99,8 @@ void print_top_level_times(const std::string& device, size_t runs, const std::st
     line.value = device_s;
     line.baseline = "the same with the tree built on the host";
     line.baseline_value = host_s;
-    line.detail = fmt::format("{:.4g} us; host {:.4g} us, of it {:.4g} us its tree", device_s * 1e6, host_s * 1e6,
-                              tree_s * 1e6);
+    line.detail =
+        fmt::format("{:.4g} us; host {:.4g} us, of it {:.4g} us its tree", device_s * 1e6, host_s * 1e6, tree_s * 1e6);
     print(line, command);
   }
 }

@@ -31,14 +31,14 @@ inline uint may_reach(const global wt_surface* s, float ix, float iy, float iz, 
 }
 
 // Of transmitters below transmitter_count alone, and of at most max_reflections surfaces: the trie may hold what other
-// ends see, and longer prefixes. One sequence and `groups_per_item` groups of 16 receivers a work-item. nodes[] holds the roots first, then the trie's
-// nodes. receivers: three planes of receiver_capacity floats, padded to a multiple of 16 with copies of the last one.
-// links: a mask of the wanted receivers for each transmitter and 16 receivers.
+// ends see, and longer prefixes. One sequence and `groups_per_item` groups of 16 receivers a work-item. nodes[] holds
+// the roots first, then the trie's nodes. receivers: three planes of receiver_capacity floats, padded to a multiple of
+// 16 with copies of the last one. links: a mask of the wanted receivers for each transmitter and 16 receivers.
 kernel void candidates(const global ulong* table, const global uint* nodes, uint node_count,
                        const global double4* transmitters, const global wt_exact_surface* exact,
                        const global wt_surface* surfaces, const global float* receivers, const global ushort* links,
-                       uint receiver_capacity, uint groups_per_item, uint transmitter_count, uint max_reflections, global wt_candidate* out, uint capacity,
-                       global wt_counters* counters) {
+                       uint receiver_capacity, uint groups_per_item, uint transmitter_count, uint max_reflections,
+                       global wt_candidate* out, uint capacity, global wt_counters* counters) {
   const uint groups = receiver_capacity / 16, items = (groups + groups_per_item - 1) / groups_per_item;
   const uint i = get_global_id(0) / items, first = get_global_id(0) % items * groups_per_item;
   if (i >= node_count) return;

@@ -1,7 +1,7 @@
 // generate_rays: the launch rays of one transmitter, a range of its launch indices, into a range of a ray queue.
 // A ray's number in the launch, of which `number` is that of the first, says its quarter.
-// WT_DIRECTIONS names the map (wt_direction_horizon, _hilbert, _fibonacci, _random); parameter is its step or seed, level
-// and faces are those of the Hilbert curve, heights and table (its first place there) the heights of horizon.
+// WT_DIRECTIONS names the map (wt_direction_horizon, _hilbert, _fibonacci, _random); parameter is its step or seed,
+// level and faces are those of the Hilbert curve, heights and table (its first place there) the heights of horizon.
 #ifdef WT_CPU
 #define WT_LANES 16
 #endif
@@ -16,9 +16,7 @@ inline ulong16 after(ulong index, ulong stride) {
   return index + stride * (ulong16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 inline ulong16 listed(ulong index, const global uint* list) { return index + convert_ulong16(vload16(0, list)); }
-inline uint16 numbered(uint number) {
-  return number + (uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-}
+inline uint16 numbered(uint number) { return number + (uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong16 index, uint16 number, ulong parameter,
                        uint level, uint faces, const global float* heights, uint table, float x, float y, float z,
@@ -56,12 +54,11 @@ inline void store_rays(global float* rays, uint capacity, uint slot, ulong index
 // instance that carries the antenna, or WT_NONE.
 kernel void generate_rays(global float* rays, uint capacity, uint first_slot, uint count, ulong first_index,
                           ulong stride, uint number, ulong parameter, uint level, uint faces,
-                          const global float* heights, uint table, float x, float y, float z, uint root,
-                          uint source) {
+                          const global float* heights, uint table, float x, float y, float z, uint root, uint source) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
-  store_rays(rays, capacity, first_slot + k, after(first_index + stride * k, stride), numbered(number + k),
-             parameter, level, faces, heights, table, x, y, z, root, source);
+  store_rays(rays, capacity, first_slot + k, after(first_index + stride * k, stride), numbered(number + k), parameter,
+             level, faces, heights, table, x, y, z, root, source);
 }
 
 // Launch indices first_index + order[k], which are numbers in the launch, too: a launch in an order of its own costs no
@@ -86,8 +83,8 @@ kernel void generate_ordered(global float* rays, uint capacity, uint first_slot,
 #ifdef WT_SAMPLES
 // Samples first .. first + count - 1 of a list into the slots of an empty queue. A sample is a cell of the launch
 // directions (samples[i]) and a launcher (samples[sample_capacity + i]); launchers: origin and, as words, root, source
-// and the place of its table (two float4 each). A sample's quarter is that of its cell. Directions are turned about z by the angle of this cosine and sine. ends[i] becomes the root:
-// no ray of the sample has hit anything yet.
+// and the place of its table (two float4 each). A sample's quarter is that of its cell. Directions are turned about z
+// by the angle of this cosine and sine. ends[i] becomes the root: no ray of the sample has hit anything yet.
 kernel void generate_samples(global float* rays, uint capacity, uint first, uint count, const global uint* samples,
                              uint sample_capacity, const global float4* launchers, ulong parameter, uint level,
                              uint faces, const global float* heights, float cosine, float sine, global uint* ends) {

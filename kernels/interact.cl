@@ -62,8 +62,8 @@ inline bool goes_on(uint last) {
 // is kept.
 kernel void interact(const global float* rays, const global float* hits, uint capacity, uint ray_count,
                      const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table,
-                     uint mask, global uint* quarters, global wt_counters* counters, global float* next, uint last, global uint* ages,
-                     uint now, global uint* ends, global float* through) {
+                     uint mask, global uint* quarters, global wt_counters* counters, global float* next, uint last,
+                     global uint* ages, uint now, global uint* ends, global float* through) {
   const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
   const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, ray_count);
   if (first >= ray_count) return;
@@ -95,8 +95,9 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
 // One ray a work-item, one block a work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
     const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
-    const global wt_surface* surfaces, global ulong* table, uint mask, global uint* quarters, global wt_counters* counters,
-    global float* next, uint last, global uint* ages, uint now, global uint* ends, global float* through) {
+    const global wt_surface* surfaces, global ulong* table, uint mask, global uint* quarters,
+    global wt_counters* counters, global float* next, uint last, global uint* ages, uint now, global uint* ends,
+    global float* through) {
   local uint alive[WT_BLOCK_MASKS];
   const uint i = get_global_id(0);
   const uint surface = i < ray_count ? wt_load_word(hits, capacity, WT_HIT_SURFACE, i) : WT_NONE;

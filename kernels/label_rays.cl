@@ -16,7 +16,8 @@ kernel void label_rays(global float* rays, uint capacity, uint first_slot, uint 
     wt_store_word(rays, capacity, WT_RAY_SAMPLE, i, first_sample + k);
 #endif
     wt_store_word(rays, capacity, WT_RAY_LEFT, i, WT_NONE);
-    wt_store_word(rays, capacity, WT_RAY_REGION, i, wt_load_word(rays, capacity, WT_RAY_NODE, i) & ~(WT_ROOT | WT_QUARTER_BITS));
+    wt_store_word(rays, capacity, WT_RAY_REGION, i,
+                  wt_load_word(rays, capacity, WT_RAY_NODE, i) & ~(WT_ROOT | WT_QUARTER_BITS));
     wt_store_word(rays, capacity, WT_RAY_ENTRY, i, WT_NONE);
   }
 }

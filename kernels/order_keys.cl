@@ -38,8 +38,8 @@ inline WT_U32 wt_key_direction_origin(wt_direction o, wt_direction d, uint bins)
          wt_morton3_encode32(wt_cube_cell(o.x, 16u), wt_cube_cell(o.y, 16u), wt_cube_cell(o.z, 16u));
 }
 
-// Where all rays have one origin: 65,536 cells of directions. Finer ones would cost the sort a third pass, which tens of
-// millions of rays do not win back.
+// Where all rays have one origin: 65,536 cells of directions. Finer ones would cost the sort a third pass, which tens
+// of millions of rays do not win back.
 inline WT_U32 wt_key_direction(wt_direction o, wt_direction d, uint bins) {
   (void)o, (void)bins;
   WT_U32 x, y;
@@ -67,7 +67,8 @@ kernel void launch_keys(global uint* keys, uint count, ulong first_index, ulong 
   if (k >= count) return;
   wt_direction o;
   o.x = o.y = o.z = 0.0f;
-  const wt_direction d = WT_DIRECTIONS(launch_index(first_index + k), (WT_U64)(parameter), level, faces, heights, (WT_U32)(table));
+  const wt_direction d =
+      WT_DIRECTIONS(launch_index(first_index + k), (WT_U64)(parameter), level, faces, heights, (WT_U32)(table));
   store(WT_LAUNCH_KEY(o, d, bins), keys + k);
 }
 

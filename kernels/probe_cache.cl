@@ -126,9 +126,8 @@ kernel void put_rays(global wt_cache_entry* entries, global uint* heads, global 
 }
 
 kernel void find_rays(global wt_cache_entry* entries, global uint* heads, global uint* used,
-                      const global wt_cache_region* regions, global wt_cache_counters* counters,
-                      wt_cache_widths widths, const global float* rays, uint capacity, uint count, uint now,
-                      global uint* primitives) {
+                      const global wt_cache_region* regions, global wt_cache_counters* counters, wt_cache_widths widths,
+                      const global float* rays, uint capacity, uint count, uint now, global uint* primitives) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   uint slot;

@@ -97,8 +97,8 @@ kernel void thesis_put(global thesis_node* nodes, const global ulong* cells, con
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint primitive = (uint)(cells[i] ^ cells[i] >> 32) + left[i];
-  taken[i] = thesis_write(nodes, thesis_hash_of(cells[i], left[i]), (float)(primitive >> 8), primitive, ~primitive,
-                          pos_hash);
+  taken[i] =
+      thesis_write(nodes, thesis_hash_of(cells[i], left[i]), (float)(primitive >> 8), primitive, ~primitive, pos_hash);
 }
 
 kernel void thesis_find(global thesis_node* nodes, const global ulong* cells, const global uint* left, uint count,

@@ -16,7 +16,7 @@ kernel void mark(const global uint* ends, uint count, const global uint* hits, u
 
 // The four cells of each listed one, a level further down: samples are (cell, launcher), in planes of `capacity`.
 kernel void split(const global uint* list, uint count, const global uint* samples, uint capacity,
-                     global uint* next_samples, uint next_capacity) {
+                  global uint* next_samples, uint next_capacity) {
   const uint k = get_global_id(0);
   if (k >= count) return;
   const uint i = list[k], cell = samples[i], launcher = samples[capacity + i];

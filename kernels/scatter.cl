@@ -36,9 +36,9 @@ kernel void lit(const global ulong* table, const global uint* nodes, uint node_c
 
 // rows_per_item rows a work-item. first_row: of each of lit's entries, and row_count after the last; an entry's rows go
 // by tiles, then by receivers. centres: in the coordinates of the scene or model.
-kernel void scatter(const global ulong* table, const global uint* quarters, const global uint4* entries, const global uint* first_row,
-                    uint entry_count, uint row_count, uint rows_per_item, const global wt_exact_surface* surfaces,
-                    const global uint4* tiles_of, const global double* centres,
+kernel void scatter(const global ulong* table, const global uint* quarters, const global uint4* entries,
+                    const global uint* first_row, uint entry_count, uint row_count, uint rows_per_item,
+                    const global wt_exact_surface* surfaces, const global uint4* tiles_of, const global double* centres,
                     const global wt_exact_instance* instances, uint max_depth, global wt_solved* solved,
                     global double* vertices, global uint* sequences) {
   const ulong begin = (ulong)get_global_id(0) * rows_per_item;

@@ -38,7 +38,8 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
   const uint i = get_global_id(0);
   if (i >= node_count || (nodes[i] & WT_ROOT)) return;
 #ifdef WT_AGES
-  if (wt_load_relaxed_u32(ages + nodes[i]) != now) return;  // no ray met it in this frame: its neighbours are as old as it is
+  if (wt_load_relaxed_u32(ages + nodes[i]) != now)
+    return;  // no ray met it in this frame: its neighbours are as old as it is
 #endif
   uint chain[WT_MAX_DEPTH], parents[WT_MAX_DEPTH];  // from the last surface back, with the node that each was added to
   uint depth = 0;

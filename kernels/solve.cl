@@ -4,9 +4,8 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 kernel void solve(const global ulong* table, const global uint* quarters, const global double4* transmitters,
-                  const global double4* receivers,
-                  const global wt_exact_surface* surfaces, const global double* triangles,
-                  const global wt_exact_instance* instances,
+                  const global double4* receivers, const global wt_exact_surface* surfaces,
+                  const global double* triangles, const global wt_exact_instance* instances,
                   const global wt_candidate* candidates, uint candidate_count, uint max_depth, global wt_solved* solved,
                   global double* vertices, global uint* sequences, uint capacity, global wt_counters* counters) {
   const uint i = get_global_id(0);

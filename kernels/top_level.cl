@@ -67,8 +67,8 @@ kernel void leaves(const global uint* order, const global wt_exact_instance* ins
   for (int row = 0; row < 3; ++row)
     record[row] = (float4)((float)instance->rotation[row], (float)instance->rotation[3 + row],
                            (float)instance->rotation[6 + row], (float)instance->position[row]);
-  record[3] = as_float4((uint4)(as_uint(bodies[2 * number].w), instance->first_surface,
-                                as_uint(bodies[2 * number + 1].w), number));
+  record[3] = as_float4(
+      (uint4)(as_uint(bodies[2 * number].w), instance->first_surface, as_uint(bodies[2 * number + 1].w), number));
 }
 
 // Boxes of the inner nodes but the root, a level after the other, by one group.

@@ -32,13 +32,10 @@ inline bool trace_ray(const global float4* nodes, const global float4* triangles
 
 #ifdef WT_COUNT_BLOCKS
 // One ray a work-item, one block a work-group.
-__attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(const global float4* nodes,
-                                                                        const global float4* triangles,
-                                                                        uint triangle_slots,
-                                                                        const global float4* moving, float extent_m,
-                                                                        const global float* rays,
-                                                                        uint capacity, uint ray_count,
-                                                                        global float* hits, global uint* block_hits) {
+__attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
+    const global float4* nodes, const global float4* triangles, uint triangle_slots, const global float4* moving,
+    float extent_m, const global float* rays, uint capacity, uint ray_count, global float* hits,
+    global uint* block_hits) {
   const uint i = get_global_id(0);
   local uint count;
   if (get_local_id(0) == 0) count = 0;
@@ -91,7 +88,8 @@ kernel void trace(const global float* nodes, const global float* blocks, const g
 // packet. Queues are padded so that reading 16 rays never leaves a plane.
 kernel void trace(const global float* nodes, const global float4* triangles, uint triangle_slots,
                   const global float* nodes8, const global float* blocks, const global float4* moving, float extent_m,
-                  const global float* rays, uint capacity, uint ray_count, global float* hits, global uint* block_hits) {
+                  const global float* rays, uint capacity, uint ray_count, global float* hits,
+                  global uint* block_hits) {
   const uint block = wt_launch_index();
   if (block >= (ray_count + 15) / 16) return;
   const uint first = block * 16;

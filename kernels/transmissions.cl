@@ -31,7 +31,7 @@ inline int behind(const global wt_exact_surface* a, const global wt_surface* b, 
 // Does the leg pass a before b? Beside the edge of a solid float32 may find that a leg passes both of its faces, which
 // in double misses them: it crosses their planes in the wrong order, and where they lie decides.
 inline int passes_before(const global wt_exact_surface* surfaces, const global wt_surface* boxes, const wt_leg* l,
-                     const wt_crossing* a, const wt_crossing* b) {
+                         const wt_crossing* a, const wt_crossing* b) {
   const double3 apart = a->point - b->point;
   if (wt_dot(apart, apart) <= WT_ON_SURFACE_M * WT_ON_SURFACE_M) {
     const int behind_a = behind(surfaces + a->surface, boxes + b->surface, l->from);
@@ -59,8 +59,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_NODE* tri
     const uint first = count;
     wt_walk walk = {0.0f, WT_NONE};
     for (;;) {
-      const uint surface =
-          wt_next_blocking(nodes, triangles, triangle_slots, extent_m, moving, surfaces, &l, &walk);
+      const uint surface = wt_next_blocking(nodes, triangles, triangle_slots, extent_m, moving, surfaces, &l, &walk);
       if (surface == WT_NONE) break;
       uint known = first;
       while (known < count && !one_wall(surfaces, crossings + known, surface)) ++known;

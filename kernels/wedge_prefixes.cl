@@ -14,12 +14,11 @@ inline uint by_other_face(const global ulong* table, uint mask, const global uin
 
 // One node a work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
 // entry WT_WEDGE_KEY is what to sort by, and its prefix is listed.
-kernel void wedge_prefixes(const global ulong* table, uint mask, const global uint* quarters,
-                           const global uint* nodes, uint node_count,
-                           const global double4* origins, const global wt_exact_surface* surfaces,
+kernel void wedge_prefixes(const global ulong* table, uint mask, const global uint* quarters, const global uint* nodes,
+                           uint node_count, const global double4* origins, const global wt_exact_surface* surfaces,
                            const global uint* first_wedges, const global uint* surface_wedges,
-                           const global wt_wedge* wedges, global uint* keys,
-                           global wt_wedge_prefix* prefixes, uint capacity, global wt_counters* counters) {
+                           const global wt_wedge* wedges, global uint* keys, global wt_wedge_prefix* prefixes,
+                           uint capacity, global wt_counters* counters) {
   const uint i = get_global_id(0);
   if (i >= node_count || (nodes[i] & WT_ROOT)) return;
   uint chain[WT_MAX_DEPTH], origin;

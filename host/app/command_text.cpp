@@ -36,8 +36,12 @@ OptionText option_text(const CLI::Option& option) {
 
 CommandText command_text(const CLI::App& program, const CLI::App& command, const std::string& path) {
   const std::string common_footer = program.get_footer();
-  CommandText out{.path = path, .name = command.get_name(), .doc = command.get_description(), .footer = {},
-                  .options = {}, .commands = {}};
+  CommandText out{.path = path,
+                  .name = command.get_name(),
+                  .doc = command.get_description(),
+                  .footer = {},
+                  .options = {},
+                  .commands = {}};
   if (const std::string footer = command.get_footer(); footer != common_footer) out.footer = footer;
   for (const CLI::Option* option : command.get_options()) {
     out.options.push_back(option_text(*option));

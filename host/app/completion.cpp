@@ -16,7 +16,8 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
   return text;
 }
 
@@ -100,7 +101,8 @@ complete -o bashdefault -o default -F _wavetracer wavetracer
 
 std::string zsh_text(const std::string& text) {
   std::string out;
-  for (const char c : brief(text)) out += c == '[' || c == ']' || c == ':' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  for (const char c : brief(text))
+    out += c == '[' || c == ']' || c == ':' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   return replaced(out, "'", "'\\''");
 }
 
@@ -124,10 +126,12 @@ std::string zsh(const CommandText& program) {
   for (const CommandText* command : all_commands(program)) {
     std::string arguments, cases;
     for (const OptionText& option : command->options) arguments += " \\\n    " + zsh_option(option);
-    for (const CommandText& sub : command->commands) cases += fmt::format("    {}) {} ;;\n", sub.name, zsh_function(sub.path));
+    for (const CommandText& sub : command->commands)
+      cases += fmt::format("    {}) {} ;;\n", sub.name, zsh_function(sub.path));
     if (!command->commands.empty()) {
       std::string names;
-      for (const CommandText& sub : command->commands) names += fmt::format("{}\\:\"{}\" ", sub.name, replaced(zsh_text(sub.doc), "\"", ""));
+      for (const CommandText& sub : command->commands)
+        names += fmt::format("{}\\:\"{}\" ", sub.name, replaced(zsh_text(sub.doc), "\"", ""));
       arguments += fmt::format(" \\\n    '1:command:(({}))' '*:: :->words'", names);
     }
     functions += fmt::format("{}() {{\n  _arguments -C{}\n", zsh_function(command->path), arguments);
@@ -155,7 +159,9 @@ _wavetracer_set() {{
 
 // --- fish ---
 
-std::string fish_text(const std::string& text) { return "'" + replaced(replaced(brief(text), "\\", "\\\\"), "'", "\\'") + "'"; }
+std::string fish_text(const std::string& text) {
+  return "'" + replaced(replaced(brief(text), "\\", "\\\\"), "'", "\\'") + "'";
+}
 
 // True where the words of the path have been typed, and no other command of this one.
 std::string fish_condition(const CommandText& command) {

@@ -132,8 +132,8 @@ Extent extent_of_traffic(const Options& options) {
 void check_input(const fs::path& input) {
   std::error_code error;
   if (!fs::exists(input, error))
-    throw InputError(fmt::format("{}: there is no such file or folder; name the folder of a run, its paths.h5, or a map",
-                                 input.string()));
+    throw InputError(fmt::format(
+        "{}: there is no such file or folder; name the folder of a run, its paths.h5, or a map", input.string()));
 }
 
 void import_map(const Options& options) {

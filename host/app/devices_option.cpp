@@ -61,8 +61,8 @@ std::vector<size_t> indices(const std::vector<gpu::DeviceInfo>& there, const Whi
 std::string answer_of(const std::string& devices, const std::string& device) {
   try {
     const std::vector<gpu::DeviceInfo> there = gpu::list_devices();
-    const std::vector<size_t> chosen = devices.empty() ? std::vector{gpu::choose_device(there, device)}
-                                                       : choose_devices(there, devices, device);
+    const std::vector<size_t> chosen =
+        devices.empty() ? std::vector{gpu::choose_device(there, device)} : choose_devices(there, devices, device);
     return fmt::format("0 {}", fmt::join(chosen, " "));
   } catch (const Error& error) {
     return fmt::format("{} {}", static_cast<int>(error.code()), error.what());

@@ -37,7 +37,8 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", wavetracer::app::build_info);
   program.require_subcommand(0, 1);  // none is reported below, after a misspelt one
   program.footer(
-      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` a key of configuration files, as trace.rays, "
+      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` a key of configuration files, as "
+      "trace.rays, "
       "and `wavetracer help config` all of them. `wavetracer init --minimal` writes a first file.");
   wavetracer::app::Invocation invocation{command_line(argc, argv)};
   wavetracer::app::add_run(program, invocation);

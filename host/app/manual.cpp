@@ -1,5 +1,5 @@
-// wavetracer(1): every subcommand with its options, as CLI11 describes them, and what the program says to its surroundings.
-// Assumes that footers of subcommands are laid out as they are to be shown.
+// wavetracer(1): every subcommand with its options, as CLI11 describes them, and what the program says to its
+// surroundings. Assumes that footers of subcommands are laid out as they are to be shown.
 #include <fmt/format.h>
 #include <algorithm>
 #include "app/command_text.hpp"
@@ -30,8 +30,7 @@ std::string entry(const OptionText& option) {
 std::string synopsis(const CommandText& command) {
   std::string out = fmt::format(".B wavetracer{}\n", command.path.empty() ? "" : " " + command.path);
   for (const OptionText& option : command.options)
-    if (option.required || option.positional())
-      out += option.required ? tag(option) + "\n" : "[" + tag(option) + "]\n";
+    if (option.required || option.positional()) out += option.required ? tag(option) + "\n" : "[" + tag(option) + "]\n";
   return out + (command.commands.empty() ? "[\\fIOPTION\\fR...]\n" : "\\fICOMMAND\\fR ...\n");
 }
 

@@ -66,7 +66,7 @@ std::string hash_of(const std::vector<InputFile>& inputs) {
 
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
   Config elsewhere = config;
-  elsewhere.output.directory.clear();  // a folder that was moved is still that of its run
+  elsewhere.output.directory.clear();   // a folder that was moved is still that of its run
   elsewhere.output.keep_shards = true;  // what becomes of shards changes none
   for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
   return {summary.version,

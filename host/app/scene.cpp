@@ -42,7 +42,8 @@ void add_info(CLI::App& scene) {
 }
 
 // The configuration beside drive.fcd.xml; {} are the road-side unit's x, y and z.
-constexpr const char* drive_config = R"(# Every vehicle of drive.fcd.xml to every other within 300 m, and to a road-side unit.
+constexpr const char* drive_config =
+    R"(# Every vehicle of drive.fcd.xml to every other within 300 m, and to a road-side unit.
 # Run it with `wavetracer run -c drive.toml`; `wavetracer init` prints every key there is.
 
 [scene]

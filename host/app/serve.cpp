@@ -1,5 +1,6 @@
 // `wavetracer serve`: poses in, channels out, over a socket, until a signal ends it.
 // Standard output says where it listens, once it does; everything else goes to standard error.
+#include "live/serve.hpp"
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -8,7 +9,6 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "config/config_file.hpp"
-#include "live/serve.hpp"
 
 namespace wavetracer::app {
 namespace {

@@ -8,8 +8,9 @@ Table cache_table() {
   const auto c = [](auto member) { return at(&Config::cache, member); };
   return {
       .name = "cache",
-      .doc = "Segments that are kept and answer later rays instead of tracing them, one region of the table a "
-             "transmitter. Without effect while kind is none.",
+      .doc =
+          "Segments that are kept and answer later rays instead of tracing them, one region of the table a "
+          "transmitter. Without effect while kind is none.",
       .fields = {
           {.name = "kind",
            .slot = c(&CacheConfig::kind),

@@ -110,9 +110,9 @@ class Parser {
   toml::table document_;
   std::deque<toml::table> set_documents_;
   Config config_;
-  std::map<std::string, Assignment> assignments_;                       // by unique path: transmitter.0.name
+  std::map<std::string, Assignment> assignments_;                            // by unique path: transmitter.0.name
   std::map<std::string_view, std::pair<const toml::node*, Place>> retired_;  // by key
-  std::map<std::string, std::vector<toml::source_position>> elements_;  // places of [[transmitter]] and the like
+  std::map<std::string, std::vector<toml::source_position>> elements_;       // places of [[transmitter]] and the like
   std::vector<std::pair<Place, std::string>> problems_;
 
   static Place place(const toml::source_region& region) { return {region.begin, 0}; }

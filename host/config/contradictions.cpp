@@ -21,8 +21,8 @@ void check_scene(const SceneConfig& scene, Found& out) {
                    "no scene: give scene.file = \"FILE\", or scene.generate = \"--seed 1\" for a city made on the "
                    "spot"});
   if (!scene.file.empty() && !scene.generate.empty())
-    out.push_back({{"scene.generate", "scene.file"},
-                   "scene.file and scene.generate exclude each other: empty one of them"});
+    out.push_back(
+        {{"scene.generate", "scene.file"}, "scene.file and scene.generate exclude each other: empty one of them"});
 }
 
 void check_launch(const Config& config, Found& out) {
@@ -46,10 +46,11 @@ void check_rays(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (trace.rays == 0) {
     if (trace.directions != "hilbert" && trace.directions != "horizon")
-      out.push_back({{"trace.rays", "trace.directions"},
-                     fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"{}\": leave "
-                                 "trace.directions out, or give trace.rays a number",
-                                 trace.directions)});
+      out.push_back(
+          {{"trace.rays", "trace.directions"},
+           fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"{}\": leave "
+                       "trace.directions out, or give trace.rays a number",
+                       trace.directions)});
     if (const std::string& method = config.order.method; method != "none" && method != "WS")
       out.push_back({{"trace.rays", "order.method"},
                      fmt::format("trace.rays = \"auto\" launches rays in an order of its own, order.method = \"{}\" "
@@ -137,9 +138,9 @@ std::set<std::string> check_names(const std::string& table, const std::string& k
   for (size_t i = 0; i < all.size(); ++i) {
     const std::string& name = all[i].*member;
     if (!name.empty() && !seen.insert(name).second)
-      out.push_back({{fmt::format("{}.{}.{}", table, i, key)},
-                     fmt::format("{}.{} = {} is taken: {}s are unique, choose another", table, key, toml_string(name),
-                                 key)});
+      out.push_back(
+          {{fmt::format("{}.{}.{}", table, i, key)},
+           fmt::format("{}.{} = {} is taken: {}s are unique, choose another", table, key, toml_string(name), key)});
   }
   return seen;
 }
@@ -186,9 +187,9 @@ void check_trajectories(const Config& config, Found& out) {
   }
   const TimeConfig& time = config.time;
   if (time.start_s && time.end_s && *time.end_s < *time.start_s)
-    out.push_back({{"time.start_s", "time.end_s"},
-                   fmt::format("time.end_s = {} is before time.start_s = {}: exchange them", *time.end_s,
-                               *time.start_s)});
+    out.push_back(
+        {{"time.start_s", "time.end_s"},
+         fmt::format("time.end_s = {} is before time.start_s = {}: exchange them", *time.end_s, *time.start_s)});
 }
 
 }  // namespace

@@ -37,8 +37,9 @@ Field antenna_field(const Member& member, auto antenna) {
           .slot = member(antenna),
           .choices = {"isotropic", "short-dipole", "dipole", "tr38901"},
           .form = Form::choice_or_file,
-          .doc = "Named, or a pattern file (CSV: theta_deg,phi_deg,v_re,v_im,h_re,h_im). isotropic leaves gains "
-                 "that are those of the channel alone."};
+          .doc =
+              "Named, or a pattern file (CSV: theta_deg,phi_deg,v_re,v_im,h_re,h_im). isotropic leaves gains "
+              "that are those of the channel alone."};
 }
 
 template <class Member>

@@ -16,9 +16,9 @@ namespace wavetracer::config {
 
 using Aliases = std::map<std::string, std::string>;
 // Where the value of a field lives. The alternative held is the type of the field.
-using Slot = std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<double>*,
-                          std::array<double, 3>*, Aliases*, std::vector<std::string>*,
-                          std::vector<std::array<double, 4>>*>;
+using Slot =
+    std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<double>*, std::array<double, 3>*,
+                 Aliases*, std::vector<std::string>*, std::vector<std::array<double, 4>>*>;
 
 // Numbers allowed, both ends included unless lower_open.
 struct Range {

@@ -23,7 +23,8 @@ Table live_table() {
           {.name = "max_strangers",
            .slot = l(&LiveConfig::max_strangers),
            .range = {1, 1000},
-           .doc = "Connections that have not said hello yet, at once. When one more comes, the one that has waited longest "
+           .doc = "Connections that have not said hello yet, at once. When one more comes, the one that has waited "
+                  "longest "
                   "gives way: connections that say nothing keep nobody out."},
           {.name = "max_message_bytes",
            .slot = l(&LiveConfig::max_message_bytes),
@@ -71,8 +72,9 @@ Table live_table() {
 Table live_vehicle_table() {
   const auto v = [](auto member) { return at(&Config::live_vehicles, member); };
   return {.name = "live_vehicle",
-          .doc = "Places for vehicles whose poses come at run time, to `wavetracer serve`; one table a type. They "
-                 "exclude trajectories: everything that moves comes from the client.",
+          .doc =
+              "Places for vehicles whose poses come at run time, to `wavetracer serve`; one table a type. They "
+              "exclude trajectories: everything that moves comes from the client.",
           .fields =
               {
                   {.name = "type",

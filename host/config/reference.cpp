@@ -43,7 +43,8 @@ constexpr const char* how_to_read =
     "A configuration is a TOML file; `wavetracer init` prints one with every key, and it runs as it is. "
     "Tables in double brackets may be given many times, one element each. Any key can be set on the command line, "
     "over the file: `--set trace.rays=1000000`, of an element by its number, `--set transmitter.0.antenna=dipole`. "
-    "A value is TOML, and text that is none is a string. Relative paths start at the folder of the file, those of --set "
+    "A value is TOML, and text that is none is a string. Relative paths start at the folder of the file, those of "
+    "--set "
     "at the current one. Unknown keys are errors, with their file, line, column and the nearest known key.";
 
 }  // namespace
@@ -55,17 +56,30 @@ std::string roff(std::string_view text) {
     if (line_start && (c == '.' || c == '\'')) out += "\\&";
     line_start = c == '\n';
     switch (c) {
-      case '\\': out += "\\e"; break;
-      case '-': out += "\\-"; break;
-      case '^': out += "\\(ha"; break;
-      case '~': out += "\\(ti"; break;
-      case '\'': out += "\\(aq"; break;
-      case '"': out += "\\(dq"; break;
+      case '\\':
+        out += "\\e";
+        break;
+      case '-':
+        out += "\\-";
+        break;
+      case '^':
+        out += "\\(ha";
+        break;
+      case '~':
+        out += "\\(ti";
+        break;
+      case '\'':
+        out += "\\(aq";
+        break;
+      case '"':
+        out += "\\(dq";
+        break;
       case '`':
         bold = !bold;
         out += bold ? "\\fB" : "\\fR";
         break;
-      default: out += c;
+      default:
+        out += c;
     }
   }
   return out;

@@ -14,7 +14,8 @@ std::string roff(std::string_view text);
 std::string markdown_reference();
 std::string manual_page(std::string_view version);
 
-// All keys as --set takes them, of the first element where there are many: `mount.0.on`; and the words that each accepts, none where it is free.
+// All keys as --set takes them, of the first element where there are many: `mount.0.on`; and the words that each
+// accepts, none where it is free.
 std::vector<std::pair<std::string, std::vector<std::string>>> settable_keys();
 
 }  // namespace wavetracer::config

@@ -145,8 +145,7 @@ std::string assign_words(const Field& field, const std::string& key, std::vector
     to.push_back(word->get());
   } else if (const auto* array = value.as_array()) {
     for (const toml::node& node : *array) {
-      if (!node.is_string())
-        return fmt::format("{}[{}] must be a string, not {}", key, to.size(), kind_of(node));
+      if (!node.is_string()) return fmt::format("{}[{}] must be a string, not {}", key, to.size(), kind_of(node));
       to.push_back(node.as_string()->get());
     }
   } else {
@@ -161,8 +160,8 @@ std::string assign_waypoints(const Field& field, const std::string& key, std::ve
   if (!array) return wrong_type(field, key, value);
   to.resize(array->size());
   for (size_t i = 0; i < to.size(); ++i) {
-    const std::string problem = assign_vector(field, fmt::format("{}[{}]", key, i), to[i], (*array)[i],
-                                              "four numbers (" + field.unit + ")");
+    const std::string problem =
+        assign_vector(field, fmt::format("{}[{}]", key, i), to[i], (*array)[i], "four numbers (" + field.unit + ")");
     if (!problem.empty()) return problem;
   }
   return to.empty() ? key + " is empty: give one waypoint at least" : "";
@@ -191,35 +190,31 @@ std::string toml_string(std::string_view text) {
 
 std::string assign(const Field& field, const std::string& key, const Slot& slot, const toml::node& value,
                    const std::filesystem::path& folder) {
-  return std::visit(Overload{
-                        [&](std::string* to) { return assign_text(field, key, *to, value, folder); },
-                        [&](bool* to) {
-                          if (!value.is_boolean()) return wrong_type(field, key, value);
-                          *to = value.as_boolean()->get();
-                          return std::string();
-                        },
-                        [&](std::array<double, 3>* to) {
-                          return assign_vector(field, key, *to, value, accepted(field));
-                        },
-                        [&](std::vector<std::string>* to) { return assign_words(field, key, *to, value); },
-                        [&](std::vector<std::array<double, 4>>* to) {
-                          return assign_waypoints(field, key, *to, value);
-                        },
-                        [&](Aliases* to) {  // key is that of one entry: table.field.NAME
-                          if (!value.is_string())
-                            return fmt::format("{} must be a string, not {}", key, kind_of(value));
-                          const size_t dot = key.find('.', key.find('.') + 1);
-                          (*to)[key.substr(dot + 1)] = value.as_string()->get();
-                          return std::string();
-                        },
-                        [&]<class T>(T* to) {
-                          if constexpr (is_integer<T>)
-                            return assign_integer(field, key, *to, value);
-                          else
-                            return assign_real(field, key, *to, value);
-                        },
-                    },
-                    slot);
+  return std::visit(
+      Overload{
+          [&](std::string* to) { return assign_text(field, key, *to, value, folder); },
+          [&](bool* to) {
+            if (!value.is_boolean()) return wrong_type(field, key, value);
+            *to = value.as_boolean()->get();
+            return std::string();
+          },
+          [&](std::array<double, 3>* to) { return assign_vector(field, key, *to, value, accepted(field)); },
+          [&](std::vector<std::string>* to) { return assign_words(field, key, *to, value); },
+          [&](std::vector<std::array<double, 4>>* to) { return assign_waypoints(field, key, *to, value); },
+          [&](Aliases* to) {  // key is that of one entry: table.field.NAME
+            if (!value.is_string()) return fmt::format("{} must be a string, not {}", key, kind_of(value));
+            const size_t dot = key.find('.', key.find('.') + 1);
+            (*to)[key.substr(dot + 1)] = value.as_string()->get();
+            return std::string();
+          },
+          [&]<class T>(T* to) {
+            if constexpr (is_integer<T>)
+              return assign_integer(field, key, *to, value);
+            else
+              return assign_real(field, key, *to, value);
+          },
+      },
+      slot);
 }
 
 std::string literal(const Field& field, const Slot& slot) {

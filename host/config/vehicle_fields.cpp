@@ -137,8 +137,9 @@ Table vehicle_type_table() {
             .doc = std::move(along) + ". 0: that of the mesh file, else that of SUMO's vehicle class of this name."};
   };
   return {.name = "vehicle_type",
-          .doc = "What a vehicle type of the trajectories looks like; one table each. Types that SUMO's classes name "
-                 "need none.",
+          .doc =
+              "What a vehicle type of the trajectories looks like; one table each. Types that SUMO's classes name "
+              "need none.",
           .fields =
               {
                   {.name = "name",
@@ -167,29 +168,28 @@ Table vehicle_type_table() {
 
 Table track_table() {
   const auto t = [](auto member) { return at(&Config::tracks, member); };
-  return {.name = "track",
-          .doc = "A vehicle on waypoints, smoothly connected; one table each, with or without other trajectories.",
-          .fields =
-              {
-                  {.name = "id",
-                   .slot = t(&TrackConfig::id),
-                   .required = true,
-                   .doc = "Unique among vehicles.",
-                   .example = "\"ego\""},
-                  {.name = "type",
-                   .slot = t(&TrackConfig::type),
-                   .doc = "A [[vehicle_type]], or a vehicle class of SUMO."},
-                  {.name = "waypoints",
-                   .slot = t(&TrackConfig::waypoints),
-                   .unit = "s, m, m, m",
-                   .required = true,
-                   .doc = "[time, x, y, z] each, time increasing, in the coordinates of the scene file; the centre of "
-                          "the footprint, on the ground.",
-                   .example = "[[0.0, -50.0, -3.0, 0.0], [5.0, 0.0, -3.0, 0.0]]"},
-              },
-          .append = append<&Config::tracks>,
-          .count = count<&Config::tracks>,
-          .optional = true};
+  return {
+      .name = "track",
+      .doc = "A vehicle on waypoints, smoothly connected; one table each, with or without other trajectories.",
+      .fields =
+          {
+              {.name = "id",
+               .slot = t(&TrackConfig::id),
+               .required = true,
+               .doc = "Unique among vehicles.",
+               .example = "\"ego\""},
+              {.name = "type", .slot = t(&TrackConfig::type), .doc = "A [[vehicle_type]], or a vehicle class of SUMO."},
+              {.name = "waypoints",
+               .slot = t(&TrackConfig::waypoints),
+               .unit = "s, m, m, m",
+               .required = true,
+               .doc = "[time, x, y, z] each, time increasing, in the coordinates of the scene file; the centre of "
+                      "the footprint, on the ground.",
+               .example = "[[0.0, -50.0, -3.0, 0.0], [5.0, 0.0, -3.0, 0.0]]"},
+          },
+      .append = append<&Config::tracks>,
+      .count = count<&Config::tracks>,
+      .optional = true};
 }
 
 }  // namespace wavetracer::config

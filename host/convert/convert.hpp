@@ -10,7 +10,7 @@
 namespace wavetracer {
 
 struct ExportOptions {
-  std::filesystem::path output;  // a file or a folder, by the format; its parent folder must exist
+  std::filesystem::path output;        // a file or a folder, by the format; its parent folder must exist
   size_t first_row = 0, last_row = 0;  // frames of the run, both included
   std::string projection;  // kml: PROJ string of the scene's coordinates; empty: that of its georeference.json
 };
@@ -20,7 +20,8 @@ struct Exporter {
   const char* suffix;  // of the output, such as ".npz"; empty where it is a folder
   const char* doc;     // one line: what it is, who reads it
   // Returns the files that it wrote, the main one first. Warnings go to `warnings`. Throws InputError, RuntimeError.
-  std::vector<std::filesystem::path> (*write)(const SavedRun&, const ExportOptions&, std::vector<std::string>& warnings);
+  std::vector<std::filesystem::path> (*write)(const SavedRun&, const ExportOptions&,
+                                              std::vector<std::string>& warnings);
 };
 
 std::span<const Exporter> exporters();

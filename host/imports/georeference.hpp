@@ -1,5 +1,5 @@
-// Where a scene is on the earth: georeference.json beside the scene file, written by the imports, read by the KML export.
-// Projection by PROJ, no database needed for PROJ strings.
+// Where a scene is on the earth: georeference.json beside the scene file, written by the imports, read by the KML
+// export. Projection by PROJ, no database needed for PROJ strings.
 #pragma once
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -11,9 +11,9 @@
 namespace wavetracer {
 
 struct Georeference {
-  std::string projection;      // PROJ string, such as "+proj=tmerc +lat_0=48.1 +lon_0=11.5 +ellps=WGS84 +units=m"
-  glm::dvec2 offset_m{0, 0};   // scene file coordinate = projected coordinate + offset_m (SUMO's netOffset)
-  std::string attribution;     // who must be named where the data is shown
+  std::string projection;     // PROJ string, such as "+proj=tmerc +lat_0=48.1 +lon_0=11.5 +ellps=WGS84 +units=m"
+  glm::dvec2 offset_m{0, 0};  // scene file coordinate = projected coordinate + offset_m (SUMO's netOffset)
+  std::string attribution;    // who must be named where the data is shown
 };
 
 // Longitude and latitude in degrees (WGS84) from the scene's file coordinates and back.
@@ -22,7 +22,7 @@ class Projection {
   explicit Projection(const Georeference& reference);  // throws InputError where PROJ does not know the string
   ~Projection();
   Projection(Projection&&) noexcept;
-  glm::dvec2 geographic(const glm::dvec2& scene_m) const;    // (longitude, latitude)
+  glm::dvec2 geographic(const glm::dvec2& scene_m) const;  // (longitude, latitude)
   glm::dvec2 scene(const glm::dvec2& longitude_latitude) const;
 
  private:

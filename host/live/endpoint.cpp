@@ -31,8 +31,8 @@ sockaddr_un unix_address(const std::string& path) {
   sockaddr_un out{};
   out.sun_family = AF_UNIX;
   if (path.empty() || path.size() >= sizeof out.sun_path)
-    throw ConfigError(fmt::format("--listen unix:{}: the path of a socket has 1 to {} bytes; choose a shorter one", path,
-                                  sizeof out.sun_path - 1));
+    throw ConfigError(fmt::format("--listen unix:{}: the path of a socket has 1 to {} bytes; choose a shorter one",
+                                  path, sizeof out.sun_path - 1));
   path.copy(out.sun_path, path.size());
   return out;
 }
@@ -44,7 +44,8 @@ void clear(const std::string& path, const sockaddr_un& address) {
   struct stat status;
   if (lstat(path.c_str(), &status) != 0) return;  // bind() says what is wrong with the folder
   if (!S_ISSOCK(status.st_mode))
-    throw ConfigError(fmt::format("--listen unix:{}: there is a file of that name, and no socket; choose another", path));
+    throw ConfigError(
+        fmt::format("--listen unix:{}: there is a file of that name, and no socket; choose another", path));
   const Descriptor probe(socket(AF_UNIX, kind, 0));
   if (connect(*probe, general(address), sizeof address) == 0 || errno != ECONNREFUSED)
     throw ConfigError(fmt::format("--listen unix:{}: a server is there already; choose another path, or end it", path));
@@ -74,9 +75,10 @@ Addresses resolve(const std::string& host, const std::string& port) {
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   if (const int failed = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); failed != 0)
-    throw ConfigError(fmt::format("--listen tcp:{}:{}: {}; give an address in numbers and a port from 0 to 65535, as in "
-                                  "tcp:127.0.0.1:7710 or tcp:[::1]:7710",
-                                  host, port, gai_strerror(failed)));
+    throw ConfigError(
+        fmt::format("--listen tcp:{}:{}: {}; give an address in numbers and a port from 0 to 65535, as in "
+                    "tcp:127.0.0.1:7710 or tcp:[::1]:7710",
+                    host, port, gai_strerror(failed)));
   return {found, freeaddrinfo};
 }
 

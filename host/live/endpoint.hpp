@@ -24,9 +24,9 @@ class Descriptor {
 
 struct Endpoint {
   bool unix_socket = false;
-  std::string path;              // of a Unix socket
-  std::string host, port;        // of TCP; the host is an IPv4 or IPv6 address
-  bool loopback = false;         // nobody beyond this machine can connect
+  std::string path;        // of a Unix socket
+  std::string host, port;  // of TCP; the host is an IPv4 or IPv6 address
+  bool loopback = false;   // nobody beyond this machine can connect
 };
 
 // Throws ConfigError.

@@ -45,8 +45,8 @@ struct ProtocolError : std::runtime_error {
       : std::runtime_error(text), code(std::move(error_code)) {}
 };
 
-// line: without its newline. max_vehicles: in one frame. Throws ProtocolError and nothing else but std::bad_alloc; takes
-// memory in proportion to the line.
+// line: without its newline. max_vehicles: in one frame. Throws ProtocolError and nothing else but std::bad_alloc;
+// takes memory in proportion to the line.
 Message parse_message(std::string_view line, size_t max_vehicles);
 
 }  // namespace wavetracer::live

@@ -1,5 +1,5 @@
-// `wavetracer serve`, without its command line: where to listen, whom to trust, then the server until it is told to stop.
-// Assumes that the caller has seen to signals.
+// `wavetracer serve`, without its command line: where to listen, whom to trust, then the server until it is told to
+// stop. Assumes that the caller has seen to signals.
 #pragma once
 #include <functional>
 #include <string>
@@ -15,8 +15,8 @@ struct ServeOptions {
   std::string token_file;                     // empty: no token
 };
 
-// ready: called once, with the name of the endpoint. Everything that needs no device is checked first. Throws ConfigError
-// for an endpoint beyond this machine without a token, and whatever Simulation and Server throw.
+// ready: called once, with the name of the endpoint. Everything that needs no device is checked first. Throws
+// ConfigError for an endpoint beyond this machine without a token, and whatever Simulation and Server throw.
 void serve(const Config& config, const ServeOptions& options, const std::function<bool()>& stop, const Log& log,
            const std::function<void(const std::string&)>& ready);
 

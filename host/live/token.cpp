@@ -36,9 +36,10 @@ std::string read_token(const std::filesystem::path& file) {
   text = first == text.npos ? "" : text.substr(first, text.find_last_not_of(white) + 1 - first);
   const bool plain = std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
   if (text.size() < least_bytes || text.size() > most_bytes || !plain)
-    throw InputError(fmt::format("--token-file {}: a token is {} to {} letters, digits and signs in one word; make one "
-                                 "with: openssl rand -hex 32",
-                                 file.string(), least_bytes, most_bytes));
+    throw InputError(
+        fmt::format("--token-file {}: a token is {} to {} letters, digits and signs in one word; make one "
+                    "with: openssl rand -hex 32",
+                    file.string(), least_bytes, most_bytes));
   return text;
 }
 

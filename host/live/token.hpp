@@ -7,7 +7,8 @@
 
 namespace wavetracer::live {
 
-// The file's text without white space at its ends, 16 to 4096 bytes of printable ASCII. Throws ConfigError or InputError.
+// The file's text without white space at its ends, 16 to 4096 bytes of printable ASCII. Throws ConfigError or
+// InputError.
 std::string read_token(const std::filesystem::path& file);
 
 // Takes the same time wherever the two differ. The length of the secret is no secret.

@@ -30,7 +30,7 @@ class ByteStream {
   std::string chunk_;
   uint64_t bytes_ = 0, most_bytes_ = 0;  // unpacked so far, and the limit
   size_t size_ = 0;                      // bytes of chunk_ in use
-  bool peeked_ = false;  // the chunk has not been given out by next() yet
+  bool peeked_ = false;                  // the chunk has not been given out by next() yet
 };
 
 }  // namespace wavetracer

@@ -40,8 +40,10 @@ void TrackBuilder::add(std::string_view id, std::string_view type, const Sample&
   const auto found = track_of_.find(id);
   if (found == track_of_.end()) {
     if (has_control_character(id) || has_control_character(type))
-      fail_at(file_, line, fmt::format("{}: its id or type has a control character, such as a line break, which tables "
-                                       "and plots cannot show: leave it out", what));
+      fail_at(file_, line,
+              fmt::format("{}: its id or type has a control character, such as a line break, which tables "
+                          "and plots cannot show: leave it out",
+                          what));
     track_of_.emplace(id, static_cast<uint32_t>(out_.tracks.size()));
     out_.tracks.push_back({std::string(id), type_index(type, line), {sample}, {}});
     last_line_.push_back(line);

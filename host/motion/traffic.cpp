@@ -125,8 +125,8 @@ class Traffic {
       const double wanted_m_s = (30 + random.below(31)) / 3.6;
       const double shift_m = random.below(17) / 8.0 - 1;
       const auto [lane, slot] = slots[i];
-      vehicles_.push_back({type, types_[type].length_m, wanted_m_s, Random(random.next()), lane,
-                           (slot + 0.5) * slot_m + shift_m});
+      vehicles_.push_back(
+          {type, types_[type].length_m, wanted_m_s, Random(random.next()), lane, (slot + 0.5) * slot_m + shift_m});
       choose_turn(vehicles_.back());
       lanes_[lane].vehicles.push_back(i);
     }
@@ -150,8 +150,8 @@ class Traffic {
 
   // The first vehicle that has no reservation asks for one when it would have to brake without.
   void ask(const Lane& lane) {
-    const auto first = std::find_if(lane.vehicles.begin(), lane.vehicles.end(),
-                                    [&](uint32_t i) { return !vehicles_[i].admitted; });
+    const auto first =
+        std::find_if(lane.vehicles.begin(), lane.vehicles.end(), [&](uint32_t i) { return !vehicles_[i].admitted; });
     if (first == lane.vehicles.end()) return;
     Vehicle& v = vehicles_[*first];
     if (v.waits || safe_speed_m_s(line_ahead_m(v), 0) > v.speed_m_s + acceleration_m_s2 * largest_step_s) return;

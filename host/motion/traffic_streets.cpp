@@ -36,10 +36,14 @@ bool Streets::exists(uint32_t lane) const {
   const uint32_t crossing = lane / 4, row = grid_.blocks_x + 1;
   const uint32_t i = crossing % row, j = crossing / row;
   switch (lane % 4) {
-    case 0: return i < grid_.blocks_x;
-    case 1: return j < grid_.blocks_y;
-    case 2: return i > 0;
-    default: return j > 0;
+    case 0:
+      return i < grid_.blocks_x;
+    case 1:
+      return j < grid_.blocks_y;
+    case 2:
+      return i > 0;
+    default:
+      return j > 0;
   }
 }
 

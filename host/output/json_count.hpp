@@ -1,4 +1,5 @@
-// Counts in JSON that may be anybody's: nlohmann turns numbers into others without a word, even where that is undefined.
+// Counts in JSON that may be anybody's: nlohmann turns numbers into others without a word, even where that is
+// undefined.
 #pragma once
 #include <fmt/format.h>
 #include <cstdint>

@@ -137,7 +137,7 @@ std::vector<GrowingGroup> groups_of_blocks(std::span<const std::filesystem::path
     for (GrowingTable& table : all[i].tables)
       if (table.path == "/frames/path_offset")
         reading_part(parts.front(),
-                [&] { point_to(table, rows_of(first, "/paths/delay_s"), rows_of(all, "/paths/delay_s")); });
+                     [&] { point_to(table, rows_of(first, "/paths/delay_s"), rows_of(all, "/paths/delay_s")); });
   }
   return all;
 }

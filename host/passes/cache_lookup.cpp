@@ -24,9 +24,9 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
   const size_t items = (size_t{rays.count} + rays_per_item_ - 1) / rays_per_item_;
   kernel_({items, local_}, "cache_lookup", rays.planes, rays.capacity, rays.count, hits.planes, missed, table.entries,
-         table.heads, table.used, table.device_regions, table.counters, table.widths, now, static_cast<uint32_t>(touch),
-         static_surfaces, scene.surfaces, scene.exact_surfaces, movement.receivers, movement.radius_m,
-         movement.instance_since, receptions ? *receptions : table.used, table.hits, table.uses);
+          table.heads, table.used, table.device_regions, table.counters, table.widths, now,
+          static_cast<uint32_t>(touch), static_surfaces, scene.surfaces, scene.exact_surfaces, movement.receivers,
+          movement.radius_m, movement.instance_since, receptions ? *receptions : table.used, table.hits, table.uses);
 }
 
 }  // namespace wavetracer

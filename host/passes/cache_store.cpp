@@ -25,8 +25,7 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
   const size_t items = (size_t{missed.count} + rays_per_item_ - 1) / rays_per_item_;
   kernel_({items, local_}, "cache_store", rays.planes, rays.capacity, missed.planes, missed_hits.planes,
           missed.capacity, missed.count, indices, hits.planes, table.entries, table.heads, table.used,
-          table.device_regions, table.counters, table.widths, now, static_surfaces,
-          receptions ? *receptions : indices);
+          table.device_regions, table.counters, table.widths, now, static_surfaces, receptions ? *receptions : indices);
 }
 
 }  // namespace wavetracer

@@ -31,8 +31,8 @@ struct CacheTable {
 
 // What moves, as entries of scope = "all" need to know it.
 struct CacheMovement {
-  gpu::Buffer<float> receivers;  // centres, recentred, four floats each (the last is padding)
-  float radius_m = 0;            // of the spheres around them
+  gpu::Buffer<float> receivers;          // centres, recentred, four floats each (the last is padding)
+  float radius_m = 0;                    // of the spheres around them
   gpu::Buffer<uint32_t> instance_since;  // frame in which each instance last moved
 };
 

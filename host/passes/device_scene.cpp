@@ -61,8 +61,8 @@ void mark_opaque(DeviceScene& scene, const std::vector<bool>& opaque) {
 void DeviceScene::require_stack(const std::string& name, uint32_t entries) {
   const uint32_t step = name == "WT_BVH8_STACK" ? 64 : 32;
   std::string& size = definitions[name];
-  size = std::to_string(std::max((entries + step) / step * step,
-                                 size.empty() ? 0u : static_cast<uint32_t>(std::stoul(size))));
+  size = std::to_string(
+      std::max((entries + step) / step * step, size.empty() ? 0u : static_cast<uint32_t>(std::stoul(size))));
 }
 
 DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m) {

@@ -31,7 +31,7 @@ struct DeviceScene {
   // What moves, by passes/place.hpp; placeholders where nothing does.
   gpu::Buffer<float> moving;  // wavetracer/device/moving.h
   gpu::Buffer<wt_exact_instance> exact_instances;
-  gpu::Definitions definitions;         // stack sizes that the trees need
+  gpu::Definitions definitions;  // stack sizes that the trees need
 
   // Makes the stack called `name` at least so large; sizes go in steps, so that scenes of like size share kernels.
   void require_stack(const std::string& name, uint32_t entries);

@@ -13,9 +13,8 @@ Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene) {
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved) {
   kernel_({size_t{solved.count} * (solved.max_depth + 1), 16}, "occlusion", scene.cpu ? scene.nodes8 : scene.nodes2,
           scene.cpu ? scene.blocks8 : scene.triangles2, scene.triangle_slots, scene.extent_m, scene.moving,
-          ends.transmitters,
-          ends.receivers, scene.exact_surfaces, solved.count, solved.max_depth, solved.headers, solved.vertices,
-          solved.sequences);
+          ends.transmitters, ends.receivers, scene.exact_surfaces, solved.count, solved.max_depth, solved.headers,
+          solved.vertices, solved.sequences);
 }
 
 }  // namespace wavetracer

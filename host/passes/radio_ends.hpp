@@ -1,6 +1,6 @@
 // Transmitters and receivers on the device: double4 records (position, instance), and receivers as float planes for the
-// conservative rejection. Where paths are sought from both ends, receivers that do not send launch rays too: listeners. Positions are recentred metres; the instance is that of the vehicle that carries the end, -1
-// where none does.
+// conservative rejection. Where paths are sought from both ends, receivers that do not send launch rays too: listeners.
+// Positions are recentred metres; the instance is that of the vehicle that carries the end, -1 where none does.
 #pragma once
 #include <algorithm>
 #include <vector>

@@ -8,8 +8,8 @@
 
 namespace wavetracer {
 
-// Cells of level 0 of the hilbert map (wavetracer/device/directions.h); each level has four times as many, which the map
-// lays out as twelve faces from level 1 on.
+// Cells of level 0 of the hilbert map (wavetracer/device/directions.h); each level has four times as many, which the
+// map lays out as twelve faces from level 1 on.
 constexpr uint32_t sample_faces = 3;
 constexpr uint32_t finest_level = 12;  // 50 million cells
 

@@ -6,8 +6,7 @@
 
 namespace wavetracer {
 
-Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch,
-             Scope scope)
+Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch, Scope scope)
     : shape_(shape),
       launch_(launch),
       block_(block_size(context.info())),
@@ -31,8 +30,8 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
               scene.moving, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::bvh8:
-      kernel_(launch_.range(blocks, 16), "trace", scene.nodes8, scene.blocks8, scene.moving,
-              scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
+      kernel_(launch_.range(blocks, 16), "trace", scene.nodes8, scene.blocks8, scene.moving, scene.extent_m,
+              rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::packet16:
       kernel_(launch_.range(blocks, 16), "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots,

@@ -10,7 +10,8 @@ namespace wavetracer {
 
 class WedgeJoin {
  public:
-  // receiver_of_origin: of each end that launches, the receiver that it is, or WT_NONE. pairs: paths over two wedges too.
+  // receiver_of_origin: of each end that launches, the receiver that it is, or WT_NONE. pairs: paths over two wedges
+  // too.
   WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth, bool pairs);
   // prefixes: sorted by their keys. Returns the number of candidates, in list().
   uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const Wedges& wedges,

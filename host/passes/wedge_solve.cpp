@@ -15,9 +15,8 @@ WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth)
 }
 
 SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const Wedges& wedges, const RadioEnds& ends,
-                                   const gpu::Buffer<uint64_t>& trie,
-                                   const gpu::Buffer<wt_wedge_candidate>& candidates, uint32_t candidate_count,
-                                   gpu::Buffer<wt_counters>& counters) {
+                                   const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
+                                   uint32_t candidate_count, gpu::Buffer<wt_counters>& counters) {
   const auto run = [&] {
     kernel_({candidate_count, 16}, "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
             scene.exact_triangles, scene.exact_instances, wedges.wedges(), candidates, candidate_count,

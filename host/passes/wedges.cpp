@@ -67,7 +67,9 @@ Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scen
   of_surfaces_ = context.buffer(of_surfaces, "wedges of surfaces");
 }
 
-unsigned Wedges::key_bits() const { return static_cast<unsigned>(std::bit_width(WT_WEDGE_KEY(static_count_ + moving_count_, 31u))); }
+unsigned Wedges::key_bits() const {
+  return static_cast<unsigned>(std::bit_width(WT_WEDGE_KEY(static_count_ + moving_count_, 31u)));
+}
 
 void Wedges::operator()(const DeviceScene& scene) {
   if (moving_count_ > 0)

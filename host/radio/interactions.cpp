@@ -99,8 +99,8 @@ std::vector<Interactions::Edge> Interactions::edges_of(const PathGeometry& geome
     if (geometry.interaction[vertex] == diffraction) {
       const WedgePlace place = wedges_.at(geometry.surface[vertex]);
       if (!edges.empty()) edges.back().after_m = since_m;
-      edges.push_back({vertex, place, wedges_.frame(place, state), legs.directions()[m], legs.directions()[m + 1],
-                       since_m, 0});
+      edges.push_back(
+          {vertex, place, wedges_.frame(place, state), legs.directions()[m], legs.directions()[m + 1], since_m, 0});
       since_m = 0;
     }
     since_m += legs.lengths_m()[m + 1];
@@ -217,7 +217,9 @@ Matrix2 Interactions::carried(const PathGeometry& geometry, size_t path, const W
     since_m += legs.lengths_m()[m];
     switch (geometry.interaction[vertex]) {
       case reflection:
-      case transmission: meet_surface(geometry, vertex, state, k_in, k_out, transfer); break;
+      case transmission:
+        meet_surface(geometry, vertex, state, k_in, k_out, transfer);
+        break;
       case diffraction: {
         const Edge& edge = edges[next_edge++];
         diffract_at(edge, edges.size() == 1 ? lit_sides(geometry, path, edge, sibling) : LitSides{}, transfer);

@@ -1,6 +1,6 @@
 // What a path does to its wave: every interaction as a matrix between transverse fields, and the spreading of its legs.
-// Assumes geometry of host/simulation: specular reflections, straight transmissions, one diffuse scattering or up to two
-// diffractions that are not at one wedge.
+// Assumes geometry of host/simulation: specular reflections, straight transmissions, one diffuse scattering or up to
+// two diffractions that are not at one wedge.
 #pragma once
 #include <complex>
 #include <functional>
@@ -21,7 +21,8 @@
 
 namespace wavetracer {
 
-// Where an interaction happens: the number of its surface or wedge in its own scene or model; of a tile, that of its surface.
+// Where an interaction happens: the number of its surface or wedge in its own scene or model; of a tile, that of its
+// surface.
 struct VertexPlace {
   uint32_t number, instance;  // no_instance: static
 };
@@ -49,7 +50,8 @@ class Interactions {
 
  private:
   struct Edge;  // a diffraction of the path
-  std::vector<Edge> edges_of(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs) const;
+  std::vector<Edge> edges_of(const PathGeometry& geometry, size_t path, const WorldState& state,
+                             const Legs& legs) const;
   static double spreading(const std::vector<Edge>& edges, double length_m);
   double snap_to_shared_face(std::vector<Edge>& edges) const;
   WedgeFace face_of(const WedgePlace& place, int face) const;

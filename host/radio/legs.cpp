@@ -50,8 +50,8 @@ double path_length_m(const WorldState& state, const PathGeometry& geometry, size
 //   dL/dt = sum k(i) . (x'(i+1) - x'(i)) = k_last . rx' - k_first . tx' + sum over vertices (k_in - k_out) . x'.
 // A vertex moves with the material point v there and slides along its surface or edge besides. Where a path is
 // reflected, k_in - k_out is along the normal, and where it is diffracted, normal to the edge: L is stationary under
-// sliding (Fermat's principle), and x' = v serves exactly, v of a turning body included. What is scattered is a point of
-// the body. What is transmitted goes straight on, k_in = k_out, and adds nothing.
+// sliding (Fermat's principle), and x' = v serves exactly, v of a turning body included. What is scattered is a point
+// of the body. What is transmitted goes straight on, k_in = k_out, and adds nothing.
 double closing_speed_m_s(const Legs& legs, const WorldState& state, const PathGeometry& geometry, size_t path,
                          std::span<const uint32_t> instances) {
   const std::vector<glm::dvec3>& k = legs.directions();

@@ -39,8 +39,7 @@ void Transfer::meet(const glm::dvec3& k_in, const glm::dvec3& k_out, const glm::
   second_ = glm::cross(s, k_out);
 }
 
-void Transfer::map(const std::array<glm::dvec3, 2>& from, const std::array<glm::dvec3, 2>& to,
-                        const Matrix2& matrix) {
+void Transfer::map(const std::array<glm::dvec3, 2>& from, const std::array<glm::dvec3, 2>& to, const Matrix2& matrix) {
   const Matrix2 m = turned(matrix_, {first_, second_}, from);
   matrix_ = {matrix[0] * m[0] + matrix[1] * m[2], matrix[0] * m[1] + matrix[1] * m[3],
              matrix[2] * m[0] + matrix[3] * m[2], matrix[2] * m[1] + matrix[3] * m[3]};

@@ -121,8 +121,8 @@ Diffraction diffract(const WedgeFrame& wedge, const std::array<WedgeFace, 2>& fa
                      const LitSides& lit) {
   const double cosine = std::clamp((glm::dot(k_in, wedge.along) + glm::dot(k_out, wedge.along)) / 2, -1.0, 1.0);
   // Within 1e-9 of the edge, half of the digits of a double, azimuths mean nothing.
-  const bool parallel = std::min(glm::length(glm::cross(k_in, wedge.along)),
-                                 glm::length(glm::cross(k_out, wedge.along))) < 1e-9;
+  const bool parallel =
+      std::min(glm::length(glm::cross(k_in, wedge.along)), glm::length(glm::cross(k_out, wedge.along))) < 1e-9;
   if (parallel) return {{wedge.face, wedge.normal}, {wedge.face, wedge.normal}, {}};
 
   const double exterior = wedge.exterior_rad, n = exterior / pi;

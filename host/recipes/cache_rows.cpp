@@ -12,9 +12,9 @@
 namespace wavetracer::recipes {
 namespace {
 
-constexpr std::initializer_list<double CacheTimes::*> stages = {&CacheTimes::loop_s,  &CacheTimes::lookup_s,
+constexpr std::initializer_list<double CacheTimes::*> stages = {&CacheTimes::loop_s,   &CacheTimes::lookup_s,
                                                                 &CacheTimes::gather_s, &CacheTimes::store_s,
-                                                                &CacheTimes::purge_s, &CacheTimes::trace_s};
+                                                                &CacheTimes::purge_s,  &CacheTimes::trace_s};
 
 double a_segment_ns(double seconds, double segments) {
   return segments > 0 ? 1e9 * seconds / segments : report::undefined;
@@ -92,9 +92,9 @@ std::vector<Value> distinct(const std::vector<CacheRow>& rows, Get get) {
 }  // namespace
 
 CacheTimes cache_times(const StageSeconds& seconds) {
-  return {.loop_s = sum_stages(seconds, {"generate_rays", "order", "sort", "label_rays", "cache_lookup", "cache_gather",
-                                         "trace", "trace_moving", "compact", "scan", "cache_store", "cache_purge",
-                                         "interact"}),
+  return {.loop_s = sum_stages(seconds,
+                               {"generate_rays", "order", "sort", "label_rays", "cache_lookup", "cache_gather", "trace",
+                                "trace_moving", "compact", "scan", "cache_store", "cache_purge", "interact"}),
           .lookup_s = sum_stages(seconds, {"cache_lookup"}),
           .gather_s = sum_stages(seconds, {"cache_gather"}),
           .store_s = sum_stages(seconds, {"cache_store"}),

@@ -16,7 +16,7 @@ struct CacheTimes {
   double gather_s = 0;  // missed rays side by side for tracing
   double store_s = 0;   // write
   double purge_s = 0;
-  double trace_s = 0;   // nearest hits
+  double trace_s = 0;  // nearest hits
 };
 
 CacheTimes cache_times(const StageSeconds& seconds);
@@ -39,20 +39,20 @@ struct CacheRow {
   std::string study{};
   std::string drive{};  // see CacheStudy::drives
   std::string setting{};
-  uint64_t rays = 0;    // a transmitter
+  uint64_t rays = 0;  // a transmitter
   uint32_t division = 0;
   double position_step_m = 0;
-  uint32_t depth = 0;   // 0: all segments; else those of this depth
-  uint64_t frames = 0;  // that follow the cold one and are averaged over
-  CacheTimes cold{}, warm{};          // of a frame whose table is empty, and of those after it
+  uint32_t depth = 0;                       // 0: all segments; else those of this depth
+  uint64_t frames = 0;                      // that follow the cold one and are averaged over
+  CacheTimes cold{}, warm{};                // of a frame whose table is empty, and of those after it
   double warm_error_s = report::undefined;  // standard error of the mean of warm.loop_s; NaN for medians
-  double frame_s = 0;                 // wall time of a warm frame, with candidates, paths and fields
-  CacheCounts cold_counts{}, counts{};  // of the cold frame, and of a warm one on average
-  CacheSummary cache{};               // of the last frame
-  double paths = 0, sequences = 0;    // of a warm frame on average
-  report::PathError error{};          // of warm frames
-  double saved_percent = 0;           // of the time of the first setting, warm
-  std::vector<CentroidError> centroids{};  // frame by frame, of recipes that show them
+  double frame_s = 0;                       // wall time of a warm frame, with candidates, paths and fields
+  CacheCounts cold_counts{}, counts{};      // of the cold frame, and of a warm one on average
+  CacheSummary cache{};                     // of the last frame
+  double paths = 0, sequences = 0;          // of a warm frame on average
+  report::PathError error{};                // of warm frames
+  double saved_percent = 0;                 // of the time of the first setting, warm
+  std::vector<CentroidError> centroids{};   // frame by frame, of recipes that show them
 };
 
 // Hits over look-ups; NaN without a look-up.

@@ -61,7 +61,9 @@ void uncached(Config& config) {
   config.cache.kind = "none";
 }
 
-Setting no_cache() { return {"no cache", [](Config&) {}}; }
+Setting no_cache() {
+  return {"no cache", [](Config&) {}};
+}
 
 Setting chained(uint32_t hash_method, uint64_t buffer_size) {
   std::string name = "chained " + hash_name(hash_method);
@@ -111,9 +113,9 @@ Setting with_order(Setting setting) {
 
 const std::vector<std::string>& cache_keys() {
   static const std::vector<std::string> keys = {
-      "trace.reuse",       "cache.kind",           "cache.key",            "cache.hash_method", "cache.division",
-      "cache.buffer_size", "cache.load_factor",    "cache.locking",        "cache.readers_number", "cache.purge",
-      "cache.position_step_m", "cache.residual_value", "cache.scope",      "cache.hit_point"};
+      "trace.reuse",           "cache.kind",           "cache.key",     "cache.hash_method",    "cache.division",
+      "cache.buffer_size",     "cache.load_factor",    "cache.locking", "cache.readers_number", "cache.purge",
+      "cache.position_step_m", "cache.residual_value", "cache.scope",   "cache.hit_point"};
   return keys;
 }
 

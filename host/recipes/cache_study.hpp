@@ -13,23 +13,23 @@ struct Request;  // run.hpp
 struct Host;
 
 struct CacheStudy {
-  std::string name;               // figures of one study share its rows
+  std::string name;  // figures of one study share its rows
   std::vector<Setting> settings;
-  std::vector<uint64_t> rays;     // ascending: the thesis' range and beyond
-  std::vector<uint64_t> few_rays; // measured on CPUs, and on request where time is short
+  std::vector<uint64_t> rays;      // ascending: the thesis' range and beyond
+  std::vector<uint64_t> few_rays;  // measured on CPUs, and on request where time is short
   // Of the built-in city; see with_traffic. A config with vehicles of its own is "own".
   std::vector<std::string> drives = {"still"};
-  size_t at_once = 16;            // settings that share a device besides the first, which is then measured again
-  uint64_t most_frames = 500;     // of a drive, unless the request says how many
-  bool by_depth = false;          // also a row a depth
-  bool centroids = false;         // rows keep the error of every frame
+  size_t at_once = 16;         // settings that share a device besides the first, which is then measured again
+  uint64_t most_frames = 500;  // of a drive, unless the request says how many
+  bool by_depth = false;       // also a row a depth
+  bool centroids = false;      // rows keep the error of every frame
 };
 
 struct CacheMeasurement {
   DeviceSummary device;
   std::vector<CacheRow> rows;
-  uint64_t frames = 0;              // of a drive
-  size_t points = 0, planned = 0;   // a drive and a number of rays each
+  uint64_t frames = 0;             // of a drive
+  size_t points = 0, planned = 0;  // a drive and a number of rays each
 };
 
 // The numbers of rays: within --rays where it is given, else by device. Throws ConfigError where none is left, or the

@@ -23,8 +23,8 @@ std::string panel_text(const DepthPlot& plot, const DepthPanel& panel) {
         "title 'depth {}'",
         depth == 1 ? "" : ", \\\n  ", plot.name, column(plot, panel.x), column(plot, panel.only), quoted(panel.equals),
         column(plot, "depth"), depth, column(plot, panel.y),
-        plot.points ? "points pointtype 7 pointsize 0.2" : "lines linewidth 1.5",
-        colours[(depth - 1) % colours.size()], depth);
+        plot.points ? "points pointtype 7 pointsize 0.2" : "lines linewidth 1.5", colours[(depth - 1) % colours.size()],
+        depth);
   return text + "\n";
 }
 

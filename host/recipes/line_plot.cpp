@@ -30,20 +30,19 @@ std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index
                                 ? fmt::format("column({}) > {:g} ? column({}) : {:g}", y, panel.least, y, panel.least)
                                 : fmt::format("column({})", y);
   const size_t x = column(plot, plot.x);
-  const std::string place = plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x,
-                                                       *plot.least_x)
-                                         : std::to_string(x);
-  return fmt::format("'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype "
-                     "{} pointsize 0.6 title '{}'",
-                     plot.name, place, condition, value, plot.points ? "points" : "linespoints",
-                     colours[index % colours.size()], index / colours.size() + 1, index < colours.size() ? 7 : 6,
-                     quoted(plot.settings[index]));
+  const std::string place =
+      plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x, *plot.least_x)
+                   : std::to_string(x);
+  return fmt::format(
+      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype "
+      "{} pointsize 0.6 title '{}'",
+      plot.name, place, condition, value, plot.points ? "points" : "linespoints", colours[index % colours.size()],
+      index / colours.size() + 1, index < colours.size() ? 7 : 6, quoted(plot.settings[index]));
 }
 
 // Ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an error.
 std::string statistics(const LinePlot& plot) {
-  std::string text =
-      fmt::format("stats '{}.csv' using {} skip 1 name 'x' nooutput\n", plot.name, column(plot, plot.x));
+  std::string text = fmt::format("stats '{}.csv' using {} skip 1 name 'x' nooutput\n", plot.name, column(plot, plot.x));
   for (size_t i = 0; i < plot.panels.size(); ++i)
     if (plot.panels[i].least > 0)
       text += fmt::format("stats '{}.csv' using {} skip 1 name 'y{}' nooutput\n", plot.name,
@@ -65,8 +64,7 @@ std::string panel_text(const LinePlot& plot, size_t index) {
       "plot ",
       panel.log_y ? "" : "un", panel.log_y ? "10^{%T}" : "%g", y_range(panel, index), quoted(panel.title),
       quoted(panel.y_label));
-  for (size_t i = 0; i < plot.settings.size(); ++i)
-    text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, panel, i);
+  for (size_t i = 0; i < plot.settings.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, panel, i);
   return text + "\n";
 }
 

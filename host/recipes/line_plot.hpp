@@ -22,10 +22,10 @@ struct LinePlot {
   std::vector<std::string> settings;
   std::string x, x_label;
   bool log_x = false;
-  std::optional<double> least_x;     // where smaller values are drawn
-  bool points = false;               // without lines
-  uint64_t only_rays = 0;            // rows of this number of rays alone; 0: all
-  bool depths = false;               // rows of depths alone, else rows of all depths (column depth is 0)
+  std::optional<double> least_x;  // where smaller values are drawn
+  bool points = false;            // without lines
+  uint64_t only_rays = 0;         // rows of this number of rays alone; 0: all
+  bool depths = false;            // rows of depths alone, else rows of all depths (column depth is 0)
   uint32_t panels_a_row = 2;
   std::vector<LinePanel> panels;
 };

@@ -40,8 +40,8 @@ PointCorrelation correlate(std::span<const glm::dvec3> a, std::span<const glm::d
 
 // What the rays of two frames have in common at one depth.
 struct DepthCoherence {
-  uint64_t pairs = 0;   // rays that hit in both frames
-  uint64_t either = 0;  // rays that hit in at least one
+  uint64_t pairs = 0;                // rays that hit in both frames
+  uint64_t either = 0;               // rays that hit in at least one
   double both = undefined;           // pairs / either
   double same_surface = undefined;   // share of pairs that hit one surface
   double same_sequence = undefined;  // share of pairs whose surfaces agree up to this depth
@@ -58,10 +58,10 @@ std::vector<glm::dvec3> hit_points(std::span<const Hit> hits);
 // What rays of one frame at one depth have in common with those launched `lag` after them.
 struct LagCoherence {
   uint32_t lag = 0;
-  uint64_t pairs = 0;                // both hit
-  double points = undefined;         // autocorrelation of hit points
-  double distance = undefined;       // autocorrelation of the segments' lengths
-  double same_surface = undefined;   // share of pairs
+  uint64_t pairs = 0;               // both hit
+  double points = undefined;        // autocorrelation of hit points
+  double distance = undefined;      // autocorrelation of the segments' lengths
+  double same_surface = undefined;  // share of pairs
   double same_primitive = undefined;
 };
 

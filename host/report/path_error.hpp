@@ -19,7 +19,7 @@ struct PathError {
   uint64_t links = 0, links_lost = 0, links_spurious = 0;
   double power_median_db = undefined, power_max_db = undefined;
   double delay_spread_ns = undefined, doppler_spread_hz = undefined;  // means over links
-  double delay_ns = undefined;         // mean over paired paths
+  double delay_ns = undefined;                                        // mean over paired paths
   // Distances of the centroids of the two clouds of path vertices, ends excluded: equation 6.3 of the thesis.
   double l1_m = undefined, l2_m = undefined;
   double mean_path_length_m = undefined;  // of the reference: what errors in metres are measured by
@@ -43,8 +43,8 @@ class PathErrorMean {
 
  private:
   PathError sums_;
-  RunningMean lost_power_, spurious_power_, power_median_db_, delay_spread_ns_, doppler_spread_hz_, delay_ns_, l1_m_, l2_m_,
-      mean_path_length_m_, l1_relative_, l2_relative_;
+  RunningMean lost_power_, spurious_power_, power_median_db_, delay_spread_ns_, doppler_spread_hz_, delay_ns_, l1_m_,
+      l2_m_, mean_path_length_m_, l1_relative_, l2_relative_;
 };
 
 }  // namespace wavetracer::report

@@ -18,9 +18,9 @@ constexpr double touch_m = 2e-3;
 // A stretch between two joints: places where edges that are not flat end, touch or cross. Nothing about the faces at it
 // changes along it.
 struct EdgePiece {
-  std::array<uint32_t, 2> joints;  // numbers of places, the lower one first
-  glm::dvec3 start{0}, end{0};     // there, on the longest mesh edge that runs along it
-  glm::dvec3 along{0};             // unit, of that edge, from start to end
+  std::array<uint32_t, 2> joints;           // numbers of places, the lower one first
+  glm::dvec3 start{0}, end{0};              // there, on the longest mesh edge that runs along it
+  glm::dvec3 along{0};                      // unit, of that edge, from start to end
   uint32_t first_edge = 0, edge_count = 0;  // into EdgePieces::edges
 };
 

@@ -22,8 +22,8 @@ dvec3 other_face(const Wedge& w) { return w.face * std::cos(w.exterior_rad) + w.
 // The same wedge, seen the other way along.
 Wedge turned(const Wedge& w) {
   const dvec3 face = other_face(w);
-  return {end_of(w), -w.along,       w.length_m, face, glm::cross(-w.along, face),
-          w.exterior_rad, {w.surface[1], w.surface[0]}};
+  return {
+      end_of(w), -w.along, w.length_m, face, glm::cross(-w.along, face), w.exterior_rad, {w.surface[1], w.surface[0]}};
 }
 
 class Rows {

@@ -9,8 +9,8 @@
 namespace wavetracer {
 
 // Just under 1 mm, so that walls 1 mm apart stay two: above the rounding of float32 files (0.06 mm at 1 km, 0.5 mm at
-// 8 km) and of modelling tools that snap to tenths of millimetres, below any detail that matters to waves of centimetres
-// (5.9 GHz: 51 mm).
+// 8 km) and of modelling tools that snap to tenths of millimetres, below any detail that matters to waves of
+// centimetres (5.9 GHz: 51 mm).
 constexpr double weld_tolerance_m = 9.5e-4;
 
 struct Weld {

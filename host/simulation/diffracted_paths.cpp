@@ -5,7 +5,7 @@
 namespace wavetracer {
 
 DiffractedPaths::DiffractedPaths(gpu::Context& context, Wedges wedges, const std::vector<uint32_t>& receiver_of_origin,
-                         const TraceConfig& config)
+                                 const TraceConfig& config)
     : context_(context),
       wedges_(std::move(wedges)),
       prefixes_(context),
@@ -14,7 +14,7 @@ DiffractedPaths::DiffractedPaths(gpu::Context& context, Wedges wedges, const std
       solve_(context, config.max_depth) {}
 
 SolvedList& DiffractedPaths::operator()(const DeviceScene& scene, const RadioEnds& ends, Sequences& sequences,
-                                    uint32_t node_count, uint64_t& candidates) {
+                                        uint32_t node_count, uint64_t& candidates) {
   wedges_(scene);
   WedgePrefixList& prefixes = prefixes_(scene, wedges_, ends, sequences.table(), sequences.quarters(),
                                         sequences.nodes(), node_count, sequences.counters());

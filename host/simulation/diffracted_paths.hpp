@@ -17,7 +17,7 @@ class DiffractedPaths {
  public:
   // wedges: of the world; receiver_of_origin: see WedgeJoin.
   DiffractedPaths(gpu::Context& context, Wedges wedges, const std::vector<uint32_t>& receiver_of_origin,
-              const TraceConfig& config);
+                  const TraceConfig& config);
   // Solved, but not checked for visibility. candidates: how many there were.
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, Sequences& sequences, uint32_t node_count,
                          uint64_t& candidates);

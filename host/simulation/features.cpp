@@ -57,10 +57,10 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
   out["transmission"] = feature({{!trace.transmission, "trace.transmission = false"},
                                  no_depth,
                                  {!passable, "all materials are metals or half spaces, which nothing passes"}});
-  out["scattering"] = feature({{!trace.scattering, "trace.scattering = false"},
-                               no_depth,
-                               {!rough,
-                                "no material of the scene has a scattering coefficient (material.scattering)"}});
+  out["scattering"] =
+      feature({{!trace.scattering, "trace.scattering = false"},
+               no_depth,
+               {!rough, "no material of the scene has a scattering coefficient (material.scattering)"}});
   out["instances"] = feature({{world.instances().empty(), "no vehicle has a body"}});
   return out;
 }

@@ -43,16 +43,18 @@ LivePlaces::LivePlaces(const Config& config, const VehicleModels& vehicles, cons
     : bounds_{scene.origin_m + scene.lower - config.live.margin_m, scene.origin_m + scene.upper + config.live.margin_m},
       origin_m_(scene.origin_m) {
   if (!config.trajectories.file.empty() || !config.trajectories.generate.empty() || !config.tracks.empty())
-    throw ConfigError("[[live_vehicle]] and trajectories exclude each other: with live vehicles all poses come from the "
-                      "client; leave out trajectories.file, trajectories.generate and every [[track]]");
+    throw ConfigError(
+        "[[live_vehicle]] and trajectories exclude each other: with live vehicles all poses come from the "
+        "client; leave out trajectories.file, trajectories.generate and every [[track]]");
   for (const LiveVehicleConfig& row : config.live_vehicles) {
     if (std::ranges::any_of(types_, [&](const LiveType& type) { return type.name == row.type; }))
       throw ConfigError(fmt::format("[[live_vehicle]] type = \"{}\" is there twice: add up their counts", row.type));
     const std::optional<VehicleType> known = vehicles.find_type(row.type);
     if (!known)
-      throw ConfigError(fmt::format("[[live_vehicle]] type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class of "
-                                    "SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
-                                    row.type));
+      throw ConfigError(
+          fmt::format("[[live_vehicle]] type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class of "
+                      "SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
+                      row.type));
     LiveType& type = types_.emplace_back(
         LiveType{row.type, known->length_m, known->width_m, known->height_m, count_, row.count, {}});
     for (const MountConfig& mount : config.mounts)
@@ -91,10 +93,11 @@ void LivePlaces::check(const LivePose& pose) const {
   const glm::dvec3 &p = pose.position_m, &lower = bounds_.lower_m, &upper = bounds_.upper_m;
   for (int axis = 0; axis < 3; ++axis)
     if (!(p[axis] >= lower[axis] && p[axis] <= upper[axis]))
-      refuse("out_of_bounds",
-             fmt::format("position_m [{}, {}, {}] is outside of [{}, {}, {}] to [{}, {}, {}], the scene and live.margin_m "
-                         "around it",
-                         p.x, p.y, p.z, lower.x, lower.y, lower.z, upper.x, upper.y, upper.z));
+      refuse(
+          "out_of_bounds",
+          fmt::format("position_m [{}, {}, {}] is outside of [{}, {}, {}] to [{}, {}, {}], the scene and live.margin_m "
+                      "around it",
+                      p.x, p.y, p.z, lower.x, lower.y, lower.z, upper.x, upper.y, upper.z));
   if (!(std::abs(glm::length(pose.orientation) - 1) <= unit_tolerance))
     refuse("bad_value", fmt::format("orientation has length {}, not 1", glm::length(pose.orientation)));
   if (!within(pose.velocity_m_s.value_or(glm::dvec3(0)), most_m_s))
@@ -103,8 +106,7 @@ void LivePlaces::check(const LivePose& pose) const {
     refuse("bad_value", fmt::format("a component of angular_velocity_rad_s is beyond {} rad/s", most_rad_s));
 }
 
-std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s,
-                                          std::span<const LivePose> poses) const {
+std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const {
   if (!std::isfinite(time_s)) throw PoseError("bad_value", "time_s is not finite");
   std::set<std::string_view> ids;
   std::vector<bool> taken(count_, false);
@@ -134,11 +136,13 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s,
       now.place = known->second.place;
     } else {
       const LiveType& type = type_of(pose);
-      const auto first = taken.begin() + type.first_place, end = first + type.count, free = std::find(first, end, false);
+      const auto first = taken.begin() + type.first_place, end = first + type.count,
+                 free = std::find(first, end, false);
       if (free == end)
-        throw PoseError("no_place", fmt::format("vehicle \"{}\": all {} places of type \"{}\" are taken: raise the count "
-                                                "of its [[live_vehicle]]",
-                                                pose.id, type.count, pose.type));
+        throw PoseError("no_place",
+                        fmt::format("vehicle \"{}\": all {} places of type \"{}\" are taken: raise the count "
+                                    "of its [[live_vehicle]]",
+                                    pose.id, type.count, pose.type));
       *free = true;
       now.place = static_cast<uint32_t>(free - taken.begin());
     }

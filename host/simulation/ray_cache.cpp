@@ -80,9 +80,8 @@ void RayCache::begin_frame(const WorldState& world) {
   table_.counters.write(std::vector<device::wt_cache_counters>(1), 0, "cache_purge");
   if (touch_) purge();
   const bool evicts = table_.config.kind != "open";
-  touch_ = evicts && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
-             return used_[r] > filling * table_.regions[r].entries;
-           });
+  touch_ = evicts && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()),
+                                         [this](size_t r) { return used_[r] > filling * table_.regions[r].entries; });
   note_positions(world.transmitters);
   note_movement(world.instances);
   note_receivers(world.receivers);

@@ -75,11 +75,11 @@ class RayCache {
   RayTrails* trails_ = nullptr;            // where receptions are kept
   gpu::Buffer<uint32_t> answers_, first_;  // scope = "all": receivers of answered rays, and of missed ones
   bool touch_ = false;
-  std::vector<uint64_t> keys_;                // position key a transmitter
-  std::vector<Placement> placements_;         // where instances were when they last counted as moved
-  std::vector<uint32_t> instance_since_;      // the frame of that
-  std::vector<uint32_t> used_;                // entries a region at the end of the last frame
-  device::wt_cache_counters counters_{};      // of the last frame
+  std::vector<uint64_t> keys_;            // position key a transmitter
+  std::vector<Placement> placements_;     // where instances were when they last counted as moved
+  std::vector<uint32_t> instance_since_;  // the frame of that
+  std::vector<uint32_t> used_;            // entries a region at the end of the last frame
+  device::wt_cache_counters counters_{};  // of the last frame
   CacheSummary frame_summary_;
 };
 

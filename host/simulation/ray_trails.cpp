@@ -120,8 +120,8 @@ void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_
   glm::dvec3 start_m{0};  // of the segment that ends in k
   for (uint32_t k = 0; k <= row.size(); ++k) {
     for (; !hits.empty() && hits.front().depth + 1 == k; hits = hits.subspan(1))
-      push(k, WaypointKind::hit, origin_m + world_.receivers[hits.front().receiver].position_m,
-           hits.front().receiver, no_instance);
+      push(k, WaypointKind::hit, origin_m + world_.receivers[hits.front().receiver].position_m, hits.front().receiver,
+           no_instance);
     if (k == row.size()) break;  // hits of the segment after the last interaction
     const glm::dvec3 position_m{row[k].position[0], row[k].position[1], row[k].position[2]};
     if (row[k].surface == WT_WAYPOINT_LAUNCH) {

@@ -47,7 +47,7 @@ class Refinement {
   uint32_t block_;
   gpu::Buffer<float> launchers_, marks_;
   gpu::Buffer<uint32_t> hits_, blocks_, list_;
-  SampleList lists_[3];  // the first level, kept for the next frame, and two that take turns
+  SampleList lists_[3];           // the first level, kept for the next frame, and two that take turns
   uint64_t first_launchers_ = 0;  // that lists_[0] has the samples of, at its level
   size_t current_ = 0;
   Turn turn_;

@@ -13,12 +13,10 @@ namespace {
 
 // The nearest of each node and receiver; of equals the lowest sample, then the lowest depth.
 std::vector<wt_reception> nearest(std::vector<wt_reception> found) {
-  std::ranges::sort(found, {}, [](const wt_reception& r) {
-    return std::tuple(r.node, r.receiver, r.distance_m, r.sample, r.depth);
-  });
-  const auto repeated = std::ranges::unique(found, {}, [](const wt_reception& r) {
-    return std::pair(r.node, r.receiver);
-  });
+  std::ranges::sort(
+      found, {}, [](const wt_reception& r) { return std::tuple(r.node, r.receiver, r.distance_m, r.sample, r.depth); });
+  const auto repeated =
+      std::ranges::unique(found, {}, [](const wt_reception& r) { return std::pair(r.node, r.receiver); });
   found.erase(repeated.begin(), repeated.end());
   return found;
 }

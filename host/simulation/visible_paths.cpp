@@ -16,10 +16,14 @@ constexpr size_t piece_rows = 1 << 14;
 
 Interaction interaction_of(uint32_t step) {
   switch (step & WT_STEP_KIND) {
-    case WT_STEP_REFLECTION: return Interaction::reflection;
-    case WT_STEP_TRANSMISSION: return Interaction::transmission;
-    case WT_STEP_DIFFRACTION: return Interaction::diffraction;
-    default: return Interaction::diffuse;
+    case WT_STEP_REFLECTION:
+      return Interaction::reflection;
+    case WT_STEP_TRANSMISSION:
+      return Interaction::transmission;
+    case WT_STEP_DIFFRACTION:
+      return Interaction::diffraction;
+    default:
+      return Interaction::diffuse;
   }
 }
 

@@ -1,6 +1,6 @@
 // What moves: vehicle models, instances, radio ends and links of every frame, from configuration and trajectories.
-// A world without trajectories has one frame, at 0 s. A live world ([[live_vehicle]]) has that frame, with nobody there,
-// and those of poses that come at run time.
+// A world without trajectories has one frame, at 0 s. A live world ([[live_vehicle]]) has that frame, with nobody
+// there, and those of poses that come at run time.
 #pragma once
 #include <memory>
 #include <span>
@@ -17,7 +17,8 @@ namespace wavetracer {
 
 class World {
  public:
-  // scene: the static one; only its origin, extent and numbers of surfaces and wedges are used. Throws ConfigError or InputError.
+  // scene: the static one; only its origin, extent and numbers of surfaces and wedges are used. Throws ConfigError or
+  // InputError.
   World(const Config& config, const Scene& scene);
   ~World();
   World(World&&) noexcept;

@@ -54,9 +54,8 @@ bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
 
 bool LinkRules::any_allowed() const {
   return std::ranges::any_of(wanted_transmitters_, [&](uint32_t tx) {
-    return std::ranges::any_of(wanted_receivers_, [&](uint32_t rx) {
-      return allowed(transmitters_.vehicles[tx], receivers_.vehicles[rx]);
-    });
+    return std::ranges::any_of(
+        wanted_receivers_, [&](uint32_t rx) { return allowed(transmitters_.vehicles[tx], receivers_.vehicles[rx]); });
   });
 }
 

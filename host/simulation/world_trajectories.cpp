@@ -42,9 +42,10 @@ Trajectories connect(const std::vector<TrackConfig>& tracks, const VehicleModels
   for (const TrackConfig& track : tracks) {
     std::optional<VehicleType> type = vehicles.find_type(track.type);
     if (!type)
-      throw ConfigError(fmt::format("[[track]] \"{}\": type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class "
-                                    "of SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
-                                    track.id, track.type));
+      throw ConfigError(
+          fmt::format("[[track]] \"{}\": type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class "
+                      "of SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
+                      track.id, track.type));
     type->name = track.type;
     WaypointTrack& to = out.emplace_back(WaypointTrack{track.id, *type, {}});
     for (const auto& [time_s, x, y, z] : track.waypoints) to.waypoints.push_back({time_s, {x, y, z}});

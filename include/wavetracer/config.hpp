@@ -15,7 +15,7 @@ struct MaterialConfig {  // [[material]]: overrides or adds a radio material by 
   std::string name;
   std::optional<double> a, b, c, d;  // ITU-R P.2040 coefficients
   std::optional<double> permittivity, conductivity_s_m;
-  std::optional<double> thickness_m;  // infinity allowed: a half space
+  std::optional<double> thickness_m;                                          // infinity allowed: a half space
   std::optional<double> scattering, scattering_lobe, scattering_cross_polar;  // see Material
 };
 
@@ -47,7 +47,7 @@ struct RadioEnd {  // [[transmitter]] or [[receiver]]
 struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the middles of square cells, for coverage
   std::string name;
   std::optional<double> x_min_m, x_max_m, y_min_m, y_max_m;  // file coordinates; not given: those of the scene
-  double step_m = 5;           // side of a cell
+  double step_m = 5;                                         // side of a cell
   double height_m = 1.5;
   std::string above = "zero";  // zero: height_m is z; ground: above the lowest surface there
   std::string antenna = "isotropic";
@@ -78,10 +78,10 @@ struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories
   std::string material = "metal";                  // of a mesh without one
 };
 
-struct MountConfig {  // [[mount]]: an antenna on vehicles
-  std::string name;         // the end is called VEHICLE/NAME
-  std::string on = "*";     // ids or types of vehicles, * and ? as in shells
-  std::string role = "both";  // transmitter, receiver, both
+struct MountConfig {                        // [[mount]]: an antenna on vehicles
+  std::string name;                         // the end is called VEHICLE/NAME
+  std::string on = "*";                     // ids or types of vehicles, * and ? as in shells
+  std::string role = "both";                // transmitter, receiver, both
   std::array<double, 3> offset_m{0, 0, 0};  // from the centre of the footprint: ahead, left, up
   std::string antenna = "isotropic";
   std::string polarization = "V";
@@ -95,25 +95,25 @@ struct LinksConfig {  // [links]: which pairs are computed
   bool same_vehicle = false;                // between two antennas of one vehicle
 };
 
-struct TimeConfig {  // [time]: frames of a drive
+struct TimeConfig {                      // [time]: frames of a drive
   std::optional<double> start_s, end_s;  // not given: those of the trajectories
   double step_s = 0;                     // 0: that of the trajectories
 };
 
 struct TraceConfig {
-  uint64_t rays = 200000;   // a transmitter; 0 ("auto"): as many as recall asks for, at most max_rays
-  double recall = 0.99;     // of rays = "auto": wanted share of the paths
+  uint64_t rays = 200000;        // a transmitter; 0 ("auto"): as many as recall asks for, at most max_rays
+  double recall = 0.99;          // of rays = "auto": wanted share of the paths
   uint64_t max_rays = 10000000;  // of rays = "auto"
   bool reuse = true;             // sequences of earlier frames of a drive are kept and solved again
   uint64_t refresh_rays = 0;     // rays a transmitter of a frame that reuses; 0: a tenth of rays
   uint32_t forget_frames = 50;   // a sequence that no ray has met for so many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
-  uint32_t max_diffractions = 1;  // a path, 1 or 2
-  bool free_edges = true;         // edges of one face diffract as half planes
-  uint64_t diffraction_rays = 0;  // of a receiver, with diffraction; 0: a tenth of rays, at least 100,000
-  uint32_t max_transmissions = 2;  // a path
-  double tile_m = 5;               // of scattering: no tile is longer
+  uint32_t max_diffractions = 1;       // a path, 1 or 2
+  bool free_edges = true;              // edges of one face diffract as half planes
+  uint64_t diffraction_rays = 0;       // of a receiver, with diffraction; 0: a tenth of rays, at least 100,000
+  uint32_t max_transmissions = 2;      // a path
+  double tile_m = 5;                   // of scattering: no tile is longer
   std::string directions = "horizon";  // horizon, hilbert, fibonacci, random
   std::string reception = "exact";
   double sphere_radius_m = 1.0;
@@ -160,13 +160,14 @@ struct OutputConfig {
   bool keep_shards = true;  // of a drive that is whole and merged
 };
 
-struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer serve`
+struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer
+                            // serve`
   std::string type = "passenger";
   uint32_t count = 1;
 };
 
-struct LiveConfig {  // [live]: what `wavetracer serve` accepts
-  double margin_m = 100;  // vehicles may be as far outside of the scene's box
+struct LiveConfig {                      // [live]: what `wavetracer serve` accepts
+  double margin_m = 100;                 // vehicles may be as far outside of the scene's box
   uint32_t max_clients = 8;              // that have said hello
   uint32_t max_strangers = 8;            // that have not
   uint64_t max_message_bytes = 1048576;  // a line

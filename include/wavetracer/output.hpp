@@ -15,7 +15,8 @@ namespace wavetracer {
 
 // A file that a run has read.
 struct InputFile {
-  std::string name;  // the key that names it, and of a file which that one names its path from there: "scene.file: a.ply"
+  std::string
+      name;  // the key that names it, and of a file which that one names its path from there: "scene.file: a.ply"
   std::string file;
   uint64_t bytes = 0, hash = 0;  // of its content
   bool operator==(const InputFile&) const = default;

@@ -11,8 +11,8 @@ struct PathGeometry {
   std::vector<uint32_t> tx, rx;
   std::vector<uint8_t> quarters;  // see Paths::quarters; of every path, or empty
   std::vector<uint64_t> first{0};
-  // One an interaction, numbered through the world (Instance::first_surface, first_wedge): the surface of a reflection or
-  // transmission, the wedge of a diffraction, the tile of a diffuse scattering (scene/tiles.hpp).
+  // One an interaction, numbered through the world (Instance::first_surface, first_wedge): the surface of a reflection
+  // or transmission, the wedge of a diffraction, the tile of a diffuse scattering (scene/tiles.hpp).
   std::vector<uint32_t> surface;
   std::vector<uint8_t> interaction;  // one an interaction, see Interaction
   std::vector<glm::dvec3> vertex;    // one an interaction, recentred metres

@@ -43,15 +43,16 @@ struct Edge {
   bool flat = false;
 };
 
-// A straight edge at which waves diffract: one physical edge, whichever meshes its faces belong to (host/scene/wedges.hpp
-// has the rule). Its two faces bound a sector of free space wider than pi; the azimuth of a direction d about the edge is
-// atan2(dot(d, normal), dot(d, face)) in [0, 2 pi), and free space goes from 0 (face 0) to exterior_rad (face 1).
+// A straight edge at which waves diffract: one physical edge, whichever meshes its faces belong to
+// (host/scene/wedges.hpp has the rule). Its two faces bound a sector of free space wider than pi; the azimuth of a
+// direction d about the edge is atan2(dot(d, normal), dot(d, face)) in [0, 2 pi), and free space goes from 0 (face 0)
+// to exterior_rad (face 1).
 struct Wedge {
   glm::dvec3 start{0}, along{0, 0, 1};  // unit; (face, normal, along) is right-handed
   double length_m = 0;
-  glm::dvec3 face{1, 0, 0};    // unit, normal to along: from the edge into face 0
-  glm::dvec3 normal{0, 1, 0};  // of face 0, into free space
-  double exterior_rad = 0;     // n pi; 2 pi: a half plane
+  glm::dvec3 face{1, 0, 0};               // unit, normal to along: from the edge into face 0
+  glm::dvec3 normal{0, 1, 0};             // of face 0, into free space
+  double exterior_rad = 0;                // n pi; 2 pi: a half plane
   std::array<uint32_t, 2> surface{0, 0};  // of face 0 and face 1, into Scene::surfaces; the same for a free edge
 };
 

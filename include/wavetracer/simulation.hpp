@@ -95,7 +95,8 @@ struct Feature {
   bool on = false;
   std::string reason;  // why not: "trace.diffraction = false", "no edge of the scene diffracts", ...
 };
-// By name: reflection, diffraction, double_diffraction, transmission, scattering, instances. What is off runs no kernel.
+// By name: reflection, diffraction, double_diffraction, transmission, scattering, instances. What is off runs no
+// kernel.
 using Features = std::map<std::string, Feature>;
 
 // How far a frame is: `done` of `total` of what the stage counts.
@@ -144,8 +145,8 @@ class Simulation {
   // and counts are of the work that was done, which the rays of other ends are part of. Throws ConfigError where the
   // configuration couples all transmitters, see block_obstacle().
   FrameResult run_block(uint32_t frame, TransmitterRange transmitters);
-  // A frame of poses that come at run time, in a world with [[live_vehicle]]. Updates the traffic. Throws PoseError, which
-  // leaves all as it was, and ConfigError where there is no [[live_vehicle]].
+  // A frame of poses that come at run time, in a world with [[live_vehicle]]. Updates the traffic. Throws PoseError,
+  // which leaves all as it was, and ConfigError where there is no [[live_vehicle]].
   LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
   const std::vector<LiveType>& live_types() const;
   const LiveBounds& live_bounds() const;
@@ -163,7 +164,8 @@ class Simulation {
   // Why links of a frame have no path: what their direct lines meet first, and which mechanism that is off may bring
   // something. It costs a pass over the scene.
   MissingLinks explain_missing(const FrameResult& frame) const;
-  // What loading the scene and the trajectories left out or made up; antennas and vehicles in places that cannot be meant.
+  // What loading the scene and the trajectories left out or made up; antennas and vehicles in places that cannot be
+  // meant.
   std::vector<std::string> warnings() const;
   const DeviceSummary& device() const;
   const OrderSummary& order() const;

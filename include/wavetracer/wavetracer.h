@@ -40,11 +40,11 @@ void wavetracer_error_free(wavetracer_error* error);
 const char* wavetracer_version(void);
 
 /* Loads the scene of a configuration and compiles the kernels.
-   config: TOML text, as in the files of `wavetracer run`. folder: where its relative paths start; null: the current one.
-   sets: set_count texts "key=value" that are applied over it, as those of --set; may be null where set_count is 0.
+   config: TOML text, as in the files of `wavetracer run`. folder: where its relative paths start; null: the current
+   one. sets: set_count texts "key=value" that are applied over it, as those of --set; may be null where set_count is 0.
    device: an index, or part of a platform's or device's name; null or "": the default choice. */
-wavetracer_simulation* wavetracer_open(const char* config, const char* folder, const char* const* sets, size_t set_count,
-                            const char* device, wavetracer_error** error);
+wavetracer_simulation* wavetracer_open(const char* config, const char* folder, const char* const* sets,
+                                       size_t set_count, const char* device, wavetracer_error** error);
 void wavetracer_close(wavetracer_simulation* self);
 
 /* What was opened; 0, NaN or null where self is null or the index is too large. Texts live until wavetracer_close. */
@@ -88,7 +88,7 @@ uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 whe
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
 wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 of null */
 wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self); /* all NaN of null */
-const char* wavetracer_frame_warnings(const wavetracer_frame* self);     /* as wavetracer_warnings; lives as the frame */
+const char* wavetracer_frame_warnings(const wavetracer_frame* self); /* as wavetracer_warnings; lives as the frame */
 
 /* Results are columns with the names of the datasets in paths.h5. */
 enum wavetracer_type {
@@ -145,8 +145,8 @@ const char* wavetracer_column_name(size_t index);
 
 /* Writes paths.h5, links.csv and summary.json into a folder, as the program does; what an earlier run left there goes.
    frames: at least one, of this simulation, sorted by their number, each once. Returns 1, or 0 with an error. */
-int wavetracer_write(const wavetracer_simulation* self, const char* folder, const wavetracer_frame* const* frames, size_t count,
-                     wavetracer_error** error);
+int wavetracer_write(const wavetracer_simulation* self, const char* folder, const wavetracer_frame* const* frames,
+                     size_t count, wavetracer_error** error);
 
 #ifdef __cplusplus
 }

@@ -47,8 +47,8 @@ struct WorldState {
 
 // What an instance is, whatever the time.
 struct Instance {
-  std::string id, type;      // of the vehicle, as in its trajectory
-  uint32_t model = 0;        // index into the models of the world
+  std::string id, type;  // of the vehicle, as in its trajectory
+  uint32_t model = 0;    // index into the models of the world
   // Its surfaces and wedges are those of its model, numbered from here on; those of the static scene come first.
   uint32_t first_surface = 0;
   uint32_t first_wedge = 0;

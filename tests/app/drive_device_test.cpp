@@ -147,8 +147,8 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   CHECK(again.code == 0);
   CHECK(contains(again.err, "all frames are there"));
   CHECK(Reader(folder.path("all/waypoints.h5")).shape("/waypoints/frame") == waypoints);
-  const Outcome fewer = run_program({"run", "-c", file, "-o", folder.path("all"), "--frames", "0:4", "--set",
-                                     "output.waypoints=0"});
+  const Outcome fewer =
+      run_program({"run", "-c", file, "-o", folder.path("all"), "--frames", "0:4", "--set", "output.waypoints=0"});
   CHECK(fewer.code == 0);
   CHECK_FALSE(contains(fewer.out, "waypoints"));
   CHECK_FALSE(fs::exists(folder.path("all/waypoints.h5")));

@@ -127,8 +127,8 @@ TEST_CASE("every configuration that comes with the program validates and runs") 
     CAPTURE(valid.err);
     CHECK(valid.code == 0);
     CHECK(contains(valid.out, ": ok\n"));
-    const Outcome run = run_program({"run", "-c", file, "-o", out, "--set", "trace.rays=2000", "--set",
-                                     "trace.refresh_rays=0"});
+    const Outcome run =
+        run_program({"run", "-c", file, "-o", out, "--set", "trace.rays=2000", "--set", "trace.refresh_rays=0"});
     CAPTURE(run.err);
     if (entry.path().stem() == "live") {
       CHECK(run.code == 2);

@@ -63,10 +63,10 @@ TEST_CASE("every kind, key, lock, purge, scope and hit point is available") {
   for (const std::string kind : {"none", "chained", "open", "concurrent"})
     CHECK(of("cache.kind = \"" + kind + "\"") == "no error");
   const std::string open = "cache.kind = \"open\"\n";
-  for (const std::string line : {"key = \"exact\"", "key = \"quantised\"", "locking = \"mutex\"",
-                                 "locking = \"readers\"", "purge = \"position\"", "purge = \"precision\"",
-                                 "scope = \"static\"", "scope = \"all\"", "hit_point = \"own\"",
-                                 "hit_point = \"cached\"", "statistics = true", "buffer_size = 1000003"})
+  for (const std::string line :
+       {"key = \"exact\"", "key = \"quantised\"", "locking = \"mutex\"", "locking = \"readers\"",
+        "purge = \"position\"", "purge = \"precision\"", "scope = \"static\"", "scope = \"all\"", "hit_point = \"own\"",
+        "hit_point = \"cached\"", "statistics = true", "buffer_size = 1000003"})
     CHECK(of(open + "cache." + line) == "no error");
   // Without effect, and said so by the doc: no error.
   CHECK(of(open + "cache.key = \"exact\"\ncache.purge = \"precision\"\ncache.division = 7\n"
@@ -91,9 +91,9 @@ TEST_CASE("numbers of the cache outside their range: value and limit are named, 
   for (const Limit& limit : limits) {
     for (const std::string& value : {limit.below, limit.above}) {
       const size_t column = std::string("cache. = ").size() + limit.key.size() + 1;
-      CHECK(of("cache." + limit.key + " = " + value) == "a.toml:2:" + std::to_string(column) + ": cache." +
-                                                             limit.key + " = " + value +
-                                                             " is out of range: it must be " + limit.accepted);
+      CHECK(of("cache." + limit.key + " = " + value) == "a.toml:2:" + std::to_string(column) + ": cache." + limit.key +
+                                                            " = " + value + " is out of range: it must be " +
+                                                            limit.accepted);
     }
     for (const std::string& value : {limit.lower, limit.upper})
       CHECK(of("cache." + limit.key + " = " + value) == "no error");

@@ -4,9 +4,9 @@
 #include <random>
 #include <set>
 #include "config/config_file.hpp"
-#include "wavetracer/error.hpp"
 #include "config/fields.hpp"
 #include "config/spelling.hpp"
+#include "wavetracer/error.hpp"
 
 using namespace wavetracer;
 

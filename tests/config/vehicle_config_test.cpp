@@ -187,9 +187,9 @@ TEST_CASE("what contradicts itself, with its place") {
   check_contains(error_of(scene + ends + track + track), "a.toml:12:6: track.id = \"ego\" is taken: ids are unique");
   check_contains(error_of(scene + ends + "[[vehicle_type]]\nname = \"m\"\n[[vehicle_type]]\nname = \"m\"\n"),
                  "a.toml:11:8: vehicle_type.name = \"m\" is taken");
-  check_contains(error_of(scene + ends +
-                          "[[track]]\nid = \"e\"\nwaypoints = [[0, 1, 2, 3], [2, 1, 2, 3], [2, 1, 2, 3]]\n"),
-                 "a.toml:10:13: track.waypoints[2] is at 2 s, the one before it at 2 s: time must increase");
+  check_contains(
+      error_of(scene + ends + "[[track]]\nid = \"e\"\nwaypoints = [[0, 1, 2, 3], [2, 1, 2, 3], [2, 1, 2, 3]]\n"),
+      "a.toml:10:13: track.waypoints[2] is at 2 s, the one before it at 2 s: time must increase");
   check_contains(error_of(scene + "time.start_s = 3\ntime.end_s = 2\n" + ends),
                  "a.toml:3:14: time.end_s = 2 is before time.start_s = 3");
   check_contains(error_of(scene + ends + "[[track]]\nid = \"e\"\n"), "a.toml:8:1: [[track]] has no waypoints: give it");

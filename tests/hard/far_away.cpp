@@ -28,8 +28,8 @@ void add_utm(const std::string& device, HardCases& cases) {
   std::string kinds;
   for (uint32_t rx = 0; rx < 2; ++rx) kinds += kinds_between(here, 0, rx);
   const bool all = here.size() > 100 && std::ranges::all_of(std::string("RSTD"), [&](char kind) {
-    return kinds.find(kind) != std::string::npos;
-  });
+                     return kinds.find(kind) != std::string::npos;
+                   });
   const Difference apart = all ? difference(here, there) : Difference{NAN, NAN};
   cases.push_back({"street corner at UTM 691000, 5334000", fmt::format("gains of its {} paths at 0, 0", here.size()),
                    apart.gain_db, 1e-9, "dB"});

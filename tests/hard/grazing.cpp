@@ -42,8 +42,10 @@ void add_figures(const std::string& device, HardCases& cases) {
     double distance_m, gain_db;
     size_t port;  // 0: V, 3: H
   };
-  for (const Figure& f : {Figure{"conductor", 10, -63.2575, 3}, {"conductor", 100, -90.9089, 3},
-                          {"conductor", 500, -101.3683, 3}, {"conductor", 1000, -113.0687, 3},
+  for (const Figure& f : {Figure{"conductor", 10, -63.2575, 3},
+                          {"conductor", 100, -90.9089, 3},
+                          {"conductor", 500, -101.3683, 3},
+                          {"conductor", 1000, -113.0687, 3},
                           {"medium_dry_ground", 100, -91.2969, 0}}) {
     const Paths paths = over(device, ground(f.material, 0, 0), {{f.distance_m, 0, 1.5}}, {0, 0, 1.5});
     const double gain_db = decibels(std::abs(responses(paths, 0, 1)[0][f.port]));

@@ -31,9 +31,14 @@ Mesh wall_of_slivers() {
   }
   for (uint32_t a = 0; a < 3 * columns; a += 6) {  // two columns: below the band, the sliver, above
     const uint32_t b = a + 3, c = b + 3;
-    for (const auto& triangle : std::initializer_list<std::array<uint32_t, 3>>{
-             {a, b, a + 1}, {b, c + 1, a + 1}, {b, c, c + 1}, {a + 1, c + 1, b + 1},
-             {a + 1, b + 1, a + 2}, {b + 1, b + 2, a + 2}, {b + 1, c + 1, b + 2}, {c + 1, c + 2, b + 2}})
+    for (const auto& triangle : std::initializer_list<std::array<uint32_t, 3>>{{a, b, a + 1},
+                                                                               {b, c + 1, a + 1},
+                                                                               {b, c, c + 1},
+                                                                               {a + 1, c + 1, b + 1},
+                                                                               {a + 1, b + 1, a + 2},
+                                                                               {b + 1, b + 2, a + 2},
+                                                                               {b + 1, c + 1, b + 2},
+                                                                               {c + 1, c + 2, b + 2}})
       mesh.triangles.push_back(triangle);
   }
   return mesh;
@@ -75,18 +80,18 @@ HardCase coincident_walls(const std::string& device) {
   const SceneFile file({Part{{{{0, -50, -50}, {0, 100, 0}, {0, 0, 100}}}, "concrete"},
                         Part{{{{0, -40, -45}, {0, 90, 0}, {0, 0, 80}}}, "glass"}});
   const Paths paths = through(device, file, 4);
-  return {"coincident walls", "in front one reflection, behind one transmission",
-          std::max(worst_length(paths, 0, {{"", across(1)}, {"R", across(5)}}),
-                   worst_length(paths, 1, {{"T", across(7)}})),
-          1e-9, "m"};
+  return {
+      "coincident walls", "in front one reflection, behind one transmission",
+      std::max(worst_length(paths, 0, {{"", across(1)}, {"R", across(5)}}), worst_length(paths, 1, {{"T", across(7)}})),
+      1e-9, "m"};
 }
 
 // Between the walls waves go to and fro: TRT from the second wall, TRRT behind it.
 HardCase near_walls(const std::string& device, double apart_m, bool equal) {
   const double more = equal ? 0 : 3;
-  const SceneFile file({Part{{{{0, -50, -50}, {0, 100, 0}, {0, 0, 100}}}, "concrete"},
-                        Part{{{{apart_m, -50 - more, -50 - more}, {0, 100 + 2 * more, 0}, {0, 0, 100 + 2 * more}}},
-                             "glass"}});
+  const SceneFile file(
+      {Part{{{{0, -50, -50}, {0, 100, 0}, {0, 0, 100}}}, "concrete"},
+       Part{{{{apart_m, -50 - more, -50 - more}, {0, 100 + 2 * more, 0}, {0, 0, 100 + 2 * more}}}, "glass"}});
   const Paths paths = through(device, file, 4);
   return {fmt::format("walls {} mm apart{}", 1000 * apart_m, equal ? ", corners as well" : ""),
           "LOS R TRT in front, TT TRRT behind, lengths of images",
@@ -97,9 +102,8 @@ HardCase near_walls(const std::string& device, double apart_m, bool equal) {
 
 // A wall of one quadrilateral beside two whose common corner lies in the middle of its side.
 void add_t_junction(const std::string& device, HardCases& cases) {
-  const std::vector<Quad> parts{{{-5, 0, 0}, {5, 0, 0}, {0, 0, 6}},
-                                {{0, 0, 0}, {5, 0, 0}, {0, 0, 2.7}},
-                                {{0, 0, 2.7}, {5, 0, 0}, {0, 0, 3.3}}};
+  const std::vector<Quad> parts{
+      {{-5, 0, 0}, {5, 0, 0}, {0, 0, 6}}, {{0, 0, 0}, {5, 0, 0}, {0, 0, 2.7}}, {{0, 0, 2.7}, {5, 0, 0}, {0, 0, 3.3}}};
   const SceneFile file(parts), whole({{{-5, 0, 0}, {10, 0, 0}, {0, 0, 6}}});
   const glm::dvec3 tx{1, -4, 3};
   Points front, behind;

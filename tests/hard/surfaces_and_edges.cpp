@@ -14,12 +14,9 @@ struct Place {
 
 // A cube of concrete around the origin, 2 m wide, over a ground at z = -3 m.
 const glm::dvec3 above{6.13, 5.29, 4.37};
-constexpr Place places[] = {{"on a face", {1, 0.2, 0.1}, "LOS R"},
-                            {"on a face that looks away", {-1, 0.2, 0.1}, ""},
-                            {"on an edge", {1, 1, 0.1}, "LOS R"},
-                            {"at a corner", {1, 1, 1}, "LOS R"},
-                            {"on the ground", {3, -4, -3}, "LOS"},
-                            {"at the other end", above, "R"}};
+constexpr Place places[] = {{"on a face", {1, 0.2, 0.1}, "LOS R"}, {"on a face that looks away", {-1, 0.2, 0.1}, ""},
+                            {"on an edge", {1, 1, 0.1}, "LOS R"},  {"at a corner", {1, 1, 1}, "LOS R"},
+                            {"on the ground", {3, -4, -3}, "LOS"}, {"at the other end", above, "R"}};
 
 std::vector<Part> cube_over_ground() {
   return {{reference::box_walls({-1, -1, -1}, {1, 1, 1}), "concrete"},
@@ -91,8 +88,8 @@ void add_all_features(const std::string& device, HardCases& cases) {
   }
   cases.push_back({"all of these places, every feature", "finite numbers alone", not_finite(there) + not_finite(back),
                    0, "values"});
-  cases.push_back({"all of these places, every feature, reversed", "the same paths and gains (reciprocity)", worst_db,
-                   1e-6, "dB"});
+  cases.push_back(
+      {"all of these places, every feature, reversed", "the same paths and gains (reciprocity)", worst_db, 1e-6, "dB"});
 }
 
 }  // namespace
@@ -104,8 +101,8 @@ HardCases surfaces_and_edges(const std::string& device) {
   const SceneFile file(cube_over_ground());
   const glm::dvec3 beside = above + glm::dvec3{0, 0, 1e-7};
   const bool told = tells_to_move(config_of(file.path(), {above}, {beside}, 1000, 1), device);
-  cases.push_back({"receiver 0.1 um from the transmitter", "a warning that says what to do", told ? 0.0 : 1.0, 0,
-                   "missing"});
+  cases.push_back(
+      {"receiver 0.1 um from the transmitter", "a warning that says what to do", told ? 0.0 : 1.0, 0, "missing"});
   return cases;
 }
 

@@ -48,8 +48,8 @@ TEST_CASE("hello, frame and bye") {
   CHECK(hello.token == "abc");
   CHECK(hello.free_running);
   CHECK(hello.detail == Detail::vertices);
-  const auto asked = std::get<FrameMessage>(parse_message(
-      frame(vehicle(R"("position_m":[1,2.5,-3],"yaw_deg":90,"velocity_m_s":[4,5,6])")), 4));
+  const auto asked = std::get<FrameMessage>(
+      parse_message(frame(vehicle(R"("position_m":[1,2.5,-3],"yaw_deg":90,"velocity_m_s":[4,5,6])")), 4));
   CHECK(asked.frame == 3);
   CHECK(asked.time_s == 0.5);
   CHECK(!asked.cold);
@@ -162,9 +162,14 @@ TEST_CASE("mutations of a message are read or refused, nothing else") {
     for (int k = 0; k < 3; ++k) {
       const size_t at = random() % line.size();
       switch (random() % 3) {
-        case 0: line[at] = static_cast<char>(random()); break;
-        case 1: line.erase(at, random() % 8); break;
-        default: line.insert(at, line.substr(random() % line.size(), random() % 16));
+        case 0:
+          line[at] = static_cast<char>(random());
+          break;
+        case 1:
+          line.erase(at, random() % 8);
+          break;
+        default:
+          line.insert(at, line.substr(random() % line.size(), random() % 16));
       }
       if (line.empty()) line = "{";
     }

@@ -87,7 +87,8 @@ TEST_CASE("live poses give the channels of a drive of the same poses") {
     const LiveFrame frame = live.run_poses(traffic, expected.world.time_s, poses);
     const auto of_config = [&](const std::vector<RadioEnd>& ends) { return [&](uint32_t i) { return ends[i].name; }; };
     const auto of_frame = [](const std::vector<std::string>& names) { return [&](uint32_t i) { return names[i]; }; };
-    const auto a = rows(expected.paths, of_config(recorded.config().transmitters), of_config(recorded.config().receivers));
+    const auto a =
+        rows(expected.paths, of_config(recorded.config().transmitters), of_config(recorded.config().receivers));
     const auto b = rows(frame.result.paths, of_frame(frame.transmitters), of_frame(frame.receivers));
     REQUIRE(a.size() == b.size());
     CHECK(a.size() > 10);

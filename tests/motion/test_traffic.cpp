@@ -31,8 +31,8 @@ struct Rectangle {
 };
 
 Rectangle footprint(const VehicleType& type, const Sample& s) {
-  return {s.position_m.x,       s.position_m.y,   std::cos(s.yaw_rad), std::sin(s.yaw_rad), type.length_m / 2,
-          type.width_m / 2};
+  return {s.position_m.x,      s.position_m.y,    std::cos(s.yaw_rad),
+          std::sin(s.yaw_rad), type.length_m / 2, type.width_m / 2};
 }
 
 // Two rectangles are apart where one of their four axes tells them apart (S. Gottschalk and others, 1996).
@@ -43,8 +43,7 @@ bool touch(const Rectangle& a, const Rectangle& b) {
     };
     return std::abs((b.x - a.x) * nx + (b.y - a.y) * ny) > reach(a) + reach(b);
   };
-  return !apart_along(a.ux, a.uy) && !apart_along(-a.uy, a.ux) && !apart_along(b.ux, b.uy) &&
-         !apart_along(-b.uy, b.ux);
+  return !apart_along(a.ux, a.uy) && !apart_along(-a.uy, a.ux) && !apart_along(b.ux, b.uy) && !apart_along(-b.uy, b.ux);
 }
 
 // Pairs of vehicles that touch at a sample, over all samples.
@@ -117,9 +116,8 @@ TEST_CASE("dense traffic goes on: nobody is stuck") {
   const Trajectories full = generate_traffic(options_of(3, 840, 600, 1));
   CHECK(std::all_of(full.tracks.begin(), full.tracks.end(), [](const Track& track) {
     const auto& s = track.samples;
-    return std::any_of(s.begin() + 300, s.end(), [&](const Sample& later) {
-      return glm::distance(later.position_m, s[300].position_m) > 50;
-    });
+    return std::any_of(s.begin() + 300, s.end(),
+                       [&](const Sample& later) { return glm::distance(later.position_m, s[300].position_m) > 50; });
   }));
   CHECK(mean_speed_m_s(t, 0) > 2);
   CHECK(mean_speed_m_s(t, 240) > 2);

@@ -59,15 +59,15 @@ void add_counts(FrameResult& frame) {
 }  // namespace
 
 WaypointRows sample_waypoints(uint32_t frame, size_t count) {
-  WaypointRows rows{.frame = {frame, frame, frame, frame},
-                    .tx = {0, 0, 0, 1},
-                    .sample = {5, 5, 5, uint64_t{1} << 40},
-                    .depth = {0, 1, 2, 2},
-                    .kind = {WaypointKind::launch, WaypointKind::reflection, WaypointKind::hit, WaypointKind::miss},
-                    .position_m = {{1e6 + frame, 0, 0}, {1e6 + frame, 0.25, -1}, {1e6 + frame, 0.5, -2},
-                                   {1e6 + frame, 0.75, -3}},
-                    .surface = {no_surface, 17, 1, no_surface},
-                    .instance = {no_instance, 1, no_instance, no_instance}};
+  WaypointRows rows{
+      .frame = {frame, frame, frame, frame},
+      .tx = {0, 0, 0, 1},
+      .sample = {5, 5, 5, uint64_t{1} << 40},
+      .depth = {0, 1, 2, 2},
+      .kind = {WaypointKind::launch, WaypointKind::reflection, WaypointKind::hit, WaypointKind::miss},
+      .position_m = {{1e6 + frame, 0, 0}, {1e6 + frame, 0.25, -1}, {1e6 + frame, 0.5, -2}, {1e6 + frame, 0.75, -3}},
+      .surface = {no_surface, 17, 1, no_surface},
+      .instance = {no_instance, 1, no_instance, no_instance}};
   const auto shorten = [count](auto&... columns) { (columns.resize(count), ...); };
   shorten(rows.frame, rows.tx, rows.sample, rows.depth, rows.kind, rows.position_m, rows.surface, rows.instance);
   return rows;
@@ -76,9 +76,9 @@ WaypointRows sample_waypoints(uint32_t frame, size_t count) {
 SampleRun::SampleRun() {
   config.file = "/configs/sample.toml";
   config.text = "scene.file = \"scene.xml\"  # \xC3\xA9\n";
-  config.transmitters = {{.name = "rsu, north", .position_m = {1, 2, 3}},
-                         {.name = "rsu", .position_m = {4, 5, 6}, .orientation_deg = {90, 10, 0},
-                          .velocity_m_s = {0, -3, 0.5}}};
+  config.transmitters = {
+      {.name = "rsu, north", .position_m = {1, 2, 3}},
+      {.name = "rsu", .position_m = {4, 5, 6}, .orientation_deg = {90, 10, 0}, .velocity_m_s = {0, -3, 0.5}}};
   config.receivers = {{.name = "car", .position_m = {7, 8, 9}, .antenna = "dipole", .polarization = "VH"},
                       {.name = ""}};
   scene.file = "/scenes/scene.xml";

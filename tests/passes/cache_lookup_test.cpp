@@ -145,8 +145,7 @@ TEST_CASE("exact keys answer the very same rays alone, with the very same hits")
     Cache cache(config, 1, 6, 12);
     std::vector<CachedRay> rays = rays_in_room(3, 1000, 1);
     std::vector<Hit> hits;
-    for (uint32_t i = 0; i < rays.size(); ++i)
-      hits.push_back(i % 5 ? Hit{0.1f * static_cast<float>(i), i, i} : Hit{});
+    for (uint32_t i = 0; i < rays.size(); ++i) hits.push_back(i % 5 ? Hit{0.1f * static_cast<float>(i), i, i} : Hit{});
     cache.put(rays, hits);
     const size_t kept = check_stored(cache, rays);
     CHECK(kept > 950);

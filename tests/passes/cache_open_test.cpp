@@ -61,8 +61,7 @@ class ThesisTable {
     return context().buffer(std::vector<T>{value}, "word");
   }
   static gpu::Kernel kernel(const char* name) {
-    return context().kernel("probe_thesis_cache", name,
-                            {{"WT_NODES", "2"}, {"WT_READERS", std::to_string(readers)}});
+    return context().kernel("probe_thesis_cache", name, {{"WT_NODES", "2"}, {"WT_READERS", std::to_string(readers)}});
   }
 };
 

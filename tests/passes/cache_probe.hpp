@@ -63,8 +63,8 @@ class CacheProbe {
     auto slots = no_slots(universe);
     context_.fill(outcome_, 0);
     context_.reset_profile();
-    run("mixed_operations", static_cast<size_t>(operations / 16 + 1), region_count_, table.widths, operations,
-        universe, slots, outcome_);
+    run("mixed_operations", static_cast<size_t>(operations / 16 + 1), region_count_, table.widths, operations, universe,
+        slots, outcome_);
     const std::vector<uint32_t> o = outcome_.read();
     return {o[0], o[1], o[2], o[3], slots.read(), context_.profile().at("probe")};
   }
@@ -122,9 +122,7 @@ class CacheProbe {
 
   RayQueue labelled(const Ray& ray, uint32_t left) {
     RayQueue queue = make_ray_queue(context_, 1, "labelled ray", WT_RAY_LABELLED_PLANES);
-    const auto set = [&](size_t plane, float value) {
-      queue.planes.write(std::vector{value}, plane * queue.capacity);
-    };
+    const auto set = [&](size_t plane, float value) { queue.planes.write(std::vector{value}, plane * queue.capacity); };
     for (size_t axis = 0; axis < 3; ++axis) {
       set(WT_RAY_ORIGIN + axis, ray.origin[axis]);
       set(WT_RAY_DIRECTION + axis, ray.direction[axis]);

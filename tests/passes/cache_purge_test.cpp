@@ -57,8 +57,8 @@ TEST_CASE("precision: an entry answers while origin and direction are within the
 
 TEST_CASE("scope all: a receiver must be within its radius of the cached segment, by the distance in space") {
   // Segments of 10 m along x, each with a receiver at its middle when it was stored.
-  const std::vector<Float3> now{{5, 0, 0},   {5, 0.99f, 0}, {5, 5, 0},  {5, 0.9f, 0.9f}, {9.5f, 0, 0},
-                                {12, 0, 0},  {-0.9f, 0, 0}, {5, 0, -3}, {-2, 0, 0},      {5, 0.7f, 0.7f}};
+  const std::vector<Float3> now{{5, 0, 0},  {5, 0.99f, 0}, {5, 5, 0},  {5, 0.9f, 0.9f}, {9.5f, 0, 0},
+                                {12, 0, 0}, {-0.9f, 0, 0}, {5, 0, -3}, {-2, 0, 0},      {5, 0.7f, 0.7f}};
   const std::vector<bool> within{true, true, false, false, true, false, true, false, false, true};
   for (const std::string kind : {"chained", "open", "concurrent"}) {
     CAPTURE(kind);
@@ -106,12 +106,9 @@ TEST_CASE("scope all: what was left or met must not have moved since") {
     surfaces[2].instance = surfaces[3].instance = 0;
     surfaces[4].instance = surfaces[5].instance = 1;
     cache.scene.exact_surfaces = context().buffer(surfaces, "exact surfaces");
-    const std::vector<CachedRay> rays{{{0, 0, 0}, {1, 0, 0}, 0, 1, 0},
-                                      {{0, 0, 0}, {1, 0, 0}, 0, 2, 0},
-                                      {{0, 0, 0}, {1, 0, 0}, 2, 3, 0},
-                                      {{0, 0, 0}, {1, 0, 0}, 4, 4, 0},
-                                      {{0, 0, 0}, {1, 0, 0}, 0, 5, 0},
-                                      {{0, 0, 0}, {1, 0, 0}, 0x80000000u, WT_NONE, 0}};
+    const std::vector<CachedRay> rays{{{0, 0, 0}, {1, 0, 0}, 0, 1, 0}, {{0, 0, 0}, {1, 0, 0}, 0, 2, 0},
+                                      {{0, 0, 0}, {1, 0, 0}, 2, 3, 0}, {{0, 0, 0}, {1, 0, 0}, 4, 4, 0},
+                                      {{0, 0, 0}, {1, 0, 0}, 0, 5, 0}, {{0, 0, 0}, {1, 0, 0}, 0x80000000u, WT_NONE, 0}};
     const std::vector<Hit> hits{{1, 1, 1}, {1, 2, 3}, {1, 3, 1}, {1, 4, 5}, {}, {1, 6, 1}};
     cache.now = 7;
     cache.put(rays, hits);

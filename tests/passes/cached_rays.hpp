@@ -60,8 +60,8 @@ inline uint64_t cells_of(const CacheConfig& config, const CachedRay& ray) {
 // The one slot of an open table that a ray may lie in.
 inline uint32_t open_slot(const CacheTable& table, const CachedRay& ray) {
   const device::wt_cache_region& region = table.regions[ray.region];
-  const uint64_t hash = device::wt_cache_hash(table.config.hash_method, cells_of(table.config, ray), ray.left,
-                                              ray.surface, table.widths);
+  const uint64_t hash =
+      device::wt_cache_hash(table.config.hash_method, cells_of(table.config, ray), ray.left, ray.surface, table.widths);
   return region.first_entry + device::wt_cache_bucket(hash, region.entries);
 }
 

@@ -2,8 +2,8 @@
 // Sequences enter through the interact pass, as rays do: with hit lists that a test writes itself.
 #pragma once
 #include <algorithm>
-#include <functional>
 #include <cmath>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <set>
@@ -127,9 +127,10 @@ struct Exact {
   uint32_t candidate_count = 0;
   std::vector<SolvedPath> solved;  // sorted by sequence, then receiver
 
-  Exact(const Scene& scene, const std::vector<glm::dvec3>& transmitters, const std::vector<glm::dvec3>& receivers,
-        const std::vector<Sequence>& sequences, uint32_t max_depth,
-        const std::function<void(DeviceScene&)>& add_instances = [](DeviceScene&) {}) {
+  Exact(
+      const Scene& scene, const std::vector<glm::dvec3>& transmitters, const std::vector<glm::dvec3>& receivers,
+      const std::vector<Sequence>& sequences, uint32_t max_depth,
+      const std::function<void(DeviceScene&)>& add_instances = [](DeviceScene&) {}) {
     double reach_m = 0;
     for (const auto& ends : {transmitters, receivers})
       for (const glm::dvec3& p : ends) reach_m = std::max({reach_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});

@@ -162,8 +162,8 @@ TEST_CASE("with transmission rays that hit also go on straight behind the surfac
       if (step.hits[i].missed()) continue;
       const Ray& after = step.behind[j++];
       const Surface& surface = scene.surfaces[step.hits[i].surface];
-      wrong += after.surface != step.hits[i].surface || after.node != rays[i].node ||
-               after.direction != rays[i].direction;
+      wrong +=
+          after.surface != step.hits[i].surface || after.node != rays[i].node || after.direction != rays[i].direction;
       const glm::dvec3 d = to_double(rays[i].direction), o = to_double(rays[i].origin);
       const double before_side = height(surface, o), after_side = height(surface, to_double(after.origin));
       wrong += before_side * after_side >= 0;

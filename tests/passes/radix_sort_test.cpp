@@ -38,7 +38,8 @@ TEST_CASE("radix sort: counts around powers of two, tiles and chunks") {
       check({random_keys<uint32_t>(n, n), 4, 12});
   });
   for_each_form<uint64_t>(Payload::index, [](auto check) {
-    for (const uint32_t n : {0u, 1u, 2u, 2047u, 2048u, 2049u, 4608u, 5000u}) check({random_keys<uint64_t>(n, n), 27, 35});
+    for (const uint32_t n : {0u, 1u, 2u, 2047u, 2048u, 2049u, 4608u, 5000u})
+      check({random_keys<uint64_t>(n, n), 27, 35});
   });
 }
 

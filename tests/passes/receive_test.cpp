@@ -176,8 +176,7 @@ TEST_CASE("rays that a cache answered pass the receiver that it says, however fa
     if (answered && i % 2 == 0) answers[i] = random.below(20);
     for (uint32_t r = 0; r < 20; ++r) {
       const double apart = nearest(c.rays[i], c.receivers[r]).apart;
-      const bool heard =
-          answered ? answers[i] == r : c.wanted(c.rays[i].transmitter, r) && apart <= c.radius_m;
+      const bool heard = answered ? answers[i] == r : c.wanted(c.rays[i].transmitter, r) && apart <= c.radius_m;
       if (heard) expected[{i, r}] = apart;
     }
   }

@@ -123,8 +123,7 @@ TEST_CASE("the four cells of a cell tile it") {
   };
   const auto place = [&](uint32_t cell, uint32_t level, uint32_t of_level) {
     const LaunchDirections map = map_of(level), lattice = map_of(of_level);
-    const device::wt_direction d = device::wt_direction_hilbert(cell, map.parameter, map.level, map.faces,
-                                                                        nullptr, 0);
+    const device::wt_direction d = device::wt_direction_hilbert(cell, map.parameter, map.level, map.faces, nullptr, 0);
     const double turn = std::atan2(double{d.y}, double{d.x}) / (2 * std::numbers::pi);
     const double size = std::ldexp(1, static_cast<int>(lattice.level));
     return std::pair{static_cast<int>((turn < 0 ? turn + 1 : turn) * lattice.faces * size),

@@ -63,12 +63,10 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
     Place place(context(), world.models, world.instances, scene);
     place(scene, world.placements);
   }
-  const RadioEnds ends =
-      make_radio_ends(context(), world.transmitters, world.receivers, world.links, world.listeners);
+  const RadioEnds ends = make_radio_ends(context(), world.transmitters, world.receivers, world.links, world.listeners);
   Sequences set(context(), 4096);
   enter(set, scene, sequences, 3);
-  const uint32_t node_count =
-      set.collect(static_cast<uint32_t>(world.transmitters.size() + world.listeners.size()));
+  const uint32_t node_count = set.collect(static_cast<uint32_t>(world.transmitters.size() + world.listeners.size()));
   Scatter scatter(context(), tiles, world.surface_count(), max_depth);
   scatter(scene, ends, set.table(), set.quarters(), set.nodes(),
           node_count);  // twice: nothing of the first run may be left
@@ -136,8 +134,8 @@ void check_equal(const Run& run, const Rows& wanted) {
 
 EndState at(const glm::dvec3& p, uint32_t instance = no_instance) { return {.position_m = p, .instance = instance}; }
 
-const std::vector<Quad> street{{{-20, -10, 0}, {40, 0, 0}, {0, 20, 0}},    // ground
-                               {{-20, -10, 0}, {40, 0, 0}, {0, 0, 12}},    // walls y = -10, y = 10
+const std::vector<Quad> street{{{-20, -10, 0}, {40, 0, 0}, {0, 20, 0}},  // ground
+                               {{-20, -10, 0}, {40, 0, 0}, {0, 0, 12}},  // walls y = -10, y = 10
                                {{-20, 10, 0}, {40, 0, 0}, {0, 0, 12}},
                                {{-20, -10, 12}, {40, 0, 0}, {0, -8, 1}}};  // a roof
 
@@ -149,15 +147,15 @@ TEST_CASE("every tile of every surface seen directly, for wanted receivers on th
   Random random(1);
   for (int i = 0; i < 37; ++i)
     world.receivers.push_back(at({random.between(-18, 18), random.between(-9, 16), random.between(-1, 14)}));
-  world.receivers[4].position_m.z = 0;         // on the ground
-  world.receivers[20].position_m.z = 5e-5;     // as good as on it
-  world.receivers[36].position_m.z = 2e-4;     // above it
+  world.receivers[4].position_m.z = 0;      // on the ground
+  world.receivers[20].position_m.z = 5e-5;  // as good as on it
+  world.receivers[36].position_m.z = 2e-4;  // above it
   for (uint32_t t = 0; t < 3; ++t)
     for (uint32_t r = 0; r < 37; ++r)
       if ((t + 3 * r) % 4 != 0 && !(t == 1 && r < 16)) world.links.push_back({t, r});  // a group without any
   // The third transmitter sees the roof and no wall; deeper nodes say nothing about what is seen.
-  const std::vector<Sequence> sequences{{0, {0}},    {0, {1, 2}}, {0, {2, 0, 2}}, {1, {0, 1}},
-                                        {1, {2}},    {2, {3}},    {2, {1, 3}}};
+  const std::vector<Sequence> sequences{{0, {0}}, {0, {1, 2}}, {0, {2, 0, 2}}, {1, {0, 1}},
+                                        {1, {2}}, {2, {3}},    {2, {1, 3}}};
   const TileTable tiles(world.scene, world.models, world.instances, 8);
   const Rows wanted = expected(world, tiles, sequences);
   CHECK(wanted.size() > 1000);
@@ -182,8 +180,8 @@ TEST_CASE("instances: placed tiles, absent ones, and the vehicles that carry the
   world.transmitters = {at({-8, 1, 4}), at(world.placements[0].position_m + glm::dvec3{0, 0, 2}, 0)};
   Random random(2);
   for (int i = 0; i < 18; ++i)
-    world.receivers.push_back(at({random.between(-18, 18), random.between(-9, 9), random.between(1, 5)},
-                                 i % 5 == 0 ? 2 : no_instance));
+    world.receivers.push_back(
+        at({random.between(-18, 18), random.between(-9, 9), random.between(1, 5)}, i % 5 == 0 ? 2 : no_instance));
   world.link_all();
   std::vector<Sequence> sequences;
   for (uint32_t t = 0; t < 2; ++t)

@@ -207,8 +207,8 @@ TEST_CASE("keep renews the sequences of visible solved paths with their prefixes
   const std::vector<uint64_t> table = set.table().read();
   SolvedList solved;
   solved.max_depth = max_depth;
-  std::vector<wt_solved> headers{{.transmitter = 1, .receiver = 0, .depth = 0, .blocked = 0, .node = WT_ROOT | 1,
-                                  .quarters = WT_ALL_QUARTERS}};
+  std::vector<wt_solved> headers{
+      {.transmitter = 1, .receiver = 0, .depth = 0, .blocked = 0, .node = WT_ROOT | 1, .quarters = WT_ALL_QUARTERS}};
   std::vector<uint32_t> surfaces(max_depth, WT_NONE);
   std::vector<Sequence> visible;
   for (uint32_t i = transmitter_count; i < count; i += 4) {
@@ -218,8 +218,7 @@ TEST_CASE("keep renews the sequences of visible solved paths with their prefixes
       s.surfaces.insert(s.surfaces.begin(), static_cast<uint32_t>(table[node]));
     s.transmitter = node & ~WT_ROOT;
     const bool blocked = i % 8 == 0;
-    headers.push_back({s.transmitter, 0, static_cast<uint32_t>(s.surfaces.size()), blocked, nodes[i],
-                       WT_ALL_QUARTERS});
+    headers.push_back({s.transmitter, 0, static_cast<uint32_t>(s.surfaces.size()), blocked, nodes[i], WT_ALL_QUARTERS});
     if (!blocked) visible.push_back(s);
     s.surfaces.resize(max_depth, WT_NONE);
     surfaces.insert(surfaces.end(), s.surfaces.begin(), s.surfaces.end());

@@ -149,8 +149,8 @@ TEST_CASE("an edge of two walls: both orders reflect there, and nothing reaches 
 
 namespace {
 
-// The lengths of the chains of all paths of an antenna's echoes of itself, whatever the order of the surfaces. Its line of
-// sight to itself is left out later (host/radio/near_ends.hpp).
+// The lengths of the chains of all paths of an antenna's echoes of itself, whatever the order of the surfaces. Its line
+// of sight to itself is left out later (host/radio/near_ends.hpp).
 std::vector<size_t> echoes(const std::vector<Quad>& quads, const glm::dvec3& at, uint32_t max_depth) {
   const auto count = static_cast<uint32_t>(quads.size());
   const Exact exact(reference::scene_of_quads(quads), {at}, {at}, all_sequences(1, count, max_depth), max_depth);

@@ -114,9 +114,9 @@ inline PathRow with_crossings(const Scene& scene, const PathRow& row) {
   const auto reflecting = [](uint32_t step) { return (step & WT_STEP_KIND) == WT_STEP_REFLECTION ? step : WT_NONE; };
   for (size_t leg = 0; leg <= row.steps.size(); ++leg) {
     const bool first = leg == 0, last = leg == row.steps.size();
-    for (const Crossing& c : crossings(scene, first ? row.from : row.points[leg - 1], last ? row.to : row.points[leg],
-                                       first ? WT_NONE : reflecting(row.steps[leg - 1]),
-                                       last ? WT_NONE : reflecting(row.steps[leg]))) {
+    for (const Crossing& c :
+         crossings(scene, first ? row.from : row.points[leg - 1], last ? row.to : row.points[leg],
+                   first ? WT_NONE : reflecting(row.steps[leg - 1]), last ? WT_NONE : reflecting(row.steps[leg]))) {
       out.steps.push_back(WT_STEP_TRANSMISSION | c.surface);
       out.points.push_back(c.point);
     }

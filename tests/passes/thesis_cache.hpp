@@ -28,8 +28,7 @@ inline uint32_t separateBy4(uint32_t x) {
 }
 
 inline uint32_t mortonCode5(uint32_t x, uint32_t y, uint32_t z, uint32_t u, uint32_t v) {
-  return separateBy4(x) | (separateBy4(y) << 1) | (separateBy4(z) << 2) | (separateBy4(u) << 3) |
-         (separateBy4(v) << 4);
+  return separateBy4(x) | (separateBy4(y) << 1) | (separateBy4(z) << 2) | (separateBy4(u) << 3) | (separateBy4(v) << 4);
 }
 
 struct CacheKey {

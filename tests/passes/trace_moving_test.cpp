@@ -1,9 +1,9 @@
 // trace_moving after a trace of the static scene gives the hits of one trace of everything; label_rays and interact
 // keep the planes that say where a ray comes from.
+#include "passes/trace_moving.hpp"
 #include "passes/interact.hpp"
 #include "passes/label_rays.hpp"
 #include "passes/scan.hpp"
-#include "passes/trace_moving.hpp"
 #include "passes/traffic.hpp"
 #include "wavetracer/device/moving.h"
 

@@ -54,8 +54,9 @@ std::vector<PathRow> random_rows(const std::vector<Quad>& quads, size_t count, R
     for (uint32_t k = random.below(4); k > 0; --k) {
       const uint32_t number = random.below(static_cast<uint32_t>(quads.size()));
       const uint32_t kind = random.below(3);
-      row.steps.push_back(number |
-                          (kind == 0 ? WT_STEP_REFLECTION : kind == 1 ? WT_STEP_DIFFRACTION : WT_STEP_SCATTERING));
+      row.steps.push_back(number | (kind == 0   ? WT_STEP_REFLECTION
+                                    : kind == 1 ? WT_STEP_DIFFRACTION
+                                                : WT_STEP_SCATTERING));
       row.points.push_back(kind == 0 ? quads[number].corner + random() * quads[number].u + random() * quads[number].v
                                      : random.in_cube(8));
     }

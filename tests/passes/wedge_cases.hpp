@@ -18,8 +18,13 @@ inline glm::dvec3 vector_of(const double* v) { return {v[0], v[1], v[2]}; }
 
 // As wt_wedge, but a Wedge of the scene.
 inline Wedge wedge_of(const wt_wedge& w) {
-  return {vector_of(w.start), vector_of(w.along), w.length,
-          vector_of(w.face),  vector_of(w.normal), w.exterior, {w.surfaces[0], w.surfaces[1]}};
+  return {vector_of(w.start),
+          vector_of(w.along),
+          w.length,
+          vector_of(w.face),
+          vector_of(w.normal),
+          w.exterior,
+          {w.surfaces[0], w.surfaces[1]}};
 }
 
 // Is p in the free sector of the wedge, by angles, and by at least so much (or, if negative, at most so much outside)?

@@ -26,7 +26,7 @@ struct World {
   std::vector<glm::dvec3> transmitters{{-7.1, 1.3, 2.2}, {6.3, 5.9, 1.1}};
   std::vector<glm::dvec3> receivers{{5.2, -4.4, 3.3}, {-1.1, 7.3, 6.2}, {6.3, 5.9, 1.1}};
   std::vector<Link> links{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}};
-  std::vector<uint32_t> listeners{1, 0};                      // origins 2 and 3
+  std::vector<uint32_t> listeners{1, 0};                       // origins 2 and 3
   std::vector<uint32_t> receiver_of_origin{WT_NONE, 2, 1, 0};  // transmitter 1 is receiver 2
 
   glm::dvec3 end(uint32_t origin) const {
@@ -155,7 +155,7 @@ TEST_CASE("two wedges too: all that solves is a candidate, and pairs that do not
   more.receiver_of_origin.push_back(3);
   const Run deeper = join(more, 1, 3, true);
   CHECK(check(more, deeper, 3, true).solved > count.solved);
-  CHECK(deeper.candidates.size() > (1 << 14));  // the list has grown
+  CHECK(deeper.candidates.size() > (1 << 14));                                       // the list has grown
   CHECK(join(world, 0, 1, true).candidates == join(world, 0, 1, false).candidates);  // no room for two
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("ends on the line of an edge, and far away, are not rejected by roundi
   World world;
   const Wedge& w = world.scene.wedges[3];
   world.transmitters = {w.start - 700.0 * w.along + glm::dvec3{1e-3, 2e-3, 0}, w.start + 0.4 * w.along};
-  world.receivers = {w.start + (w.length_m + 900) * w.along + glm::dvec3{2e-3, 1e-3, 0}, {2500, 1800, 400},
-                     world.transmitters[1]};
+  world.receivers = {
+      w.start + (w.length_m + 900) * w.along + glm::dvec3{2e-3, 1e-3, 0}, {2500, 1800, 400}, world.transmitters[1]};
   CHECK(check(world, join(world, 1, 2, false), 2, false).solved > 0);
 }

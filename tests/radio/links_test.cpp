@@ -154,7 +154,8 @@ TEST_CASE("what a link misses is estimated from its own paths; nothing where it 
   for (uint32_t i = 0; i < 4; ++i) paths.depth[i] = 1;
   paths.quarters = {0b1111, 0b0001, 0b0010, 0b1110};
   const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 3), carrier_hz);
-  // What one quarter of four found stands for (3/4)^4 / (1 - (3/4)^4) paths that none found, what three found for 1/255.
+  // What one quarter of four found stands for (3/4)^4 / (1 - (3/4)^4) paths that none found, what three found for
+  // 1/255.
   const double once = 81.0 / 175, alike = (3.0 / 8 * 2 / once + 5) / 5;
   CHECK(links[0].missed_power_share == test::near(alike * 2 * once / 3, 1e-12));
   CHECK(links[1].missed_power_share == test::near(1.0 / 255, 1e-12));

@@ -74,8 +74,8 @@ TEST_CASE("the closed form of F_alpha is the integral of its lobe") {
       CAPTURE(degrees);
       const double c = std::cos(degrees * radians);
       const glm::dvec3 mirrored = direction(c, 0);
-      const double sum = hemisphere(
-          [&](const glm::dvec3& k) { return std::pow((1 + glm::dot(mirrored, k)) / 2, alpha); }, 1000, 128);
+      const double sum =
+          hemisphere([&](const glm::dvec3& k) { return std::pow((1 + glm::dot(mirrored, k)) / 2, alpha); }, 1000, 128);
       CHECK(lobe_integral(alpha, c) == test::near(sum, 1e-7));
     }
   // cos(theta) / F grows with cos(theta), which the smaller of both directions rests on.
@@ -98,9 +98,9 @@ TEST_CASE("Lambert's law scatters all that arrives, a lobe the stated share of i
     double at_0, at_45, at_60, at_80;
   };
   for (const Known& k : {Known{1, .622, .728, .800, .922},
-                       {4, .769, .797, .820, .907},
-                       {10, .849, .830, .825, .885},
-                       {50, .962, .904, .864, .845}}) {
+                         {4, .769, .797, .820, .907},
+                         {10, .849, .830, .825, .885},
+                         {50, .962, .904, .864, .845}}) {
     CAPTURE(k.alpha);
     CHECK(share(k.alpha, 0) == test::near(k.at_0, 2e-3));
     CHECK(share(k.alpha, 45) == test::near(k.at_45, 2e-3));
@@ -235,8 +235,7 @@ TEST_CASE("the power of a plate's tiles converges to the integral over it, to se
     constexpr int steps = 800;
     double exact = 0;
     for (int i = 0; i < steps; ++i)
-      for (int k = 0; k < steps; ++k)
-        exact += integrand({side_m * (i + 0.5) / steps, side_m * (k + 0.5) / steps, 0});
+      for (int k = 0; k < steps; ++k) exact += integrand({side_m * (i + 0.5) / steps, side_m * (k + 0.5) / steps, 0});
     exact *= side_m * side_m / (steps * steps);
     double before = 0;
     for (const double tile_m : {4.0, 2.0, 1.0, 0.5}) {

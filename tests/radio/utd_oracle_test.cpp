@@ -87,8 +87,8 @@ std::vector<double> differences_db(const std::string& name, const std::filesyste
     const double in = azimuth(wedge->frame, -k_in), out = azimuth(wedge->frame, k_out);
     if (std::min(in, n_pi - in) < n_pi - std::numbers::pi) continue;
     if (std::min(out, n_pi - out) < 15 * std::numbers::pi / 180) continue;
-    const Diffraction d = diffract(wedge->frame, faces, k_in, k_out, before * after * sine * sine / (before + after),
-                                   wavelength_m);
+    const Diffraction d =
+        diffract(wedge->frame, faces, k_in, k_out, before * after * sine * sine / (before + after), wavelength_m);
     Transfer transfer(basis_of(k_in));
     transfer.map(d.from, d.to, d.coefficient);
     const Matrix2 a = transfer.seen_in(basis_of(-k_out));

@@ -87,8 +87,8 @@ TEST_CASE("the numbering of faces does not matter") {
     k_in.z = -k_in.z;
     const Diffraction d = between(corner, in, out, beta0, 3);
     const WedgeFrame other{{0, 0, -1}, corner.inward(1), corner.normal(1), exterior};
-    const Diffraction e = diffract(other, {glass(), concrete()}, k_in, direction(out, beta0), 3, wavelength_m,
-                                   corner.transmits);
+    const Diffraction e =
+        diffract(other, {glass(), concrete()}, k_in, direction(out, beta0), 3, wavelength_m, corner.transmits);
     // The edge turned round turns all four vectors of the bases round, and the matrix stays.
     for (size_t j = 0; j < 2; ++j) {
       CHECK(glm::length(d.from[j] + e.from[j]) < 1e-14);
@@ -159,8 +159,7 @@ TEST_CASE("hints decide the side where rounding cannot, and only there") {
     LitSides yes, no;
   };
   const double mirror_out = 2 * pi - 2.0;  // of a source at 2.0: face 1 reflects until 3 pi - pi - 2.0
-  for (const Case& c : {Case{in + pi, {true, {}}, {false, {}}},
-                        Case{pi - in, {{}, {true, {}}}, {{}, {false, {}}}}}) {
+  for (const Case& c : {Case{in + pi, {true, {}}, {false, {}}}, Case{pi - in, {{}, {true, {}}}, {{}, {false, {}}}}}) {
     for (const double off : {-1e-9, 0.0, 1e-9}) {
       const Matrix2 yes = coefficient(c.out + off, c.yes), no = coefficient(c.out + off, c.no);
       CHECK(distance(yes, coefficient(c.out - 2e-6, {})) < 1e-3);

@@ -125,8 +125,8 @@ TEST_CASE("knife edge: the half plane has its loss near the shadow boundary") {
     const auto [soft, hard] = scalar(2 * pi, in, out, half);
     return -20 * std::log10(std::abs(soft + hard) / 2 / std::sqrt(half));
   };
-  for (const auto& [nu, exact] : {std::pair{0.0, 6.02060}, {1.0, 13.86411}, {2.0, 19.09096}, {2.4, 20.61820},
-                                  {5.0, 26.93620}}) {
+  for (const auto& [nu, exact] :
+       {std::pair{0.0, 6.02060}, {1.0, 13.86411}, {2.0, 19.09096}, {2.4, 20.61820}, {5.0, 26.93620}}) {
     CAPTURE(nu);
     CHECK(std::abs(knife_edge_db(nu) - exact) < 6e-6);
     CHECK(std::abs(utd_db(nu) - exact) < 0.001);

@@ -116,15 +116,16 @@ TEST_CASE("coherence-frames: pairing by ray or by place") {
 }
 
 TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares") {
-  const std::vector<LagRow> rows = {lag("hilbert", 1, 1, 0.9, 0.95),  lag("hilbert", 1, 2, 0.4, 0.9),
-                                    lag("hilbert", 2, 1, 0.8, 0.7),   lag("hilbert", 2, 2, 0.6, 0.6),
+  const std::vector<LagRow> rows = {lag("hilbert", 1, 1, 0.9, 0.95),   lag("hilbert", 1, 2, 0.4, 0.9),
+                                    lag("hilbert", 2, 1, 0.8, 0.7),    lag("hilbert", 2, 2, 0.6, 0.6),
                                     lag("fibonacci", 1, 1, -0.4, 0.5), lag("fibonacci", 1, 2, 0.93, 0.8),
                                     lag("fibonacci", 2, 1, -0.3, 0.1), lag("fibonacci", 2, 2, 0.95, 0.1),
-                                    lag("random", 1, 1, -0.001, 0.3),   lag("random", 2, 1, 0.02, 0.2)};
+                                    lag("random", 1, 1, -0.001, 0.3),  lag("random", 2, 1, 0.02, 0.2)};
   const std::string text = squeezed(words_text(lags_words(rows, "the device")));
   CAPTURE(text);
-  CHECK(contains(text, "| hit points correlate, hilbert | 0.90 | 0.80 |\n| hit points correlate, fibonacci | -0.40 | "
-                       "-0.30 |\n| hit points correlate, random | 0.00 | 0.02 |"));
+  CHECK(contains(text,
+                 "| hit points correlate, hilbert | 0.90 | 0.80 |\n| hit points correlate, fibonacci | -0.40 | "
+                 "-0.30 |\n| hit points correlate, random | 0.00 | 0.02 |"));
   CHECK(contains(text, "| lag at which that falls below a half, hilbert | 2 | none measured |"));
   CHECK(contains(text, "first hits correlate most, by 0.93 at lag 2"));
   CHECK(contains(text, "surface, hilbert | 0.95 | 0.70 |"));
@@ -135,8 +136,13 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
 }
 
 TEST_CASE("depth plots: a line a depth and panel, columns by number") {
-  DepthPlot plot{.name = "a", .title = "A device's", .columns = {"kind", "depth", "lag", "value"}, .max_depth = 3,
-                 .x_label = "lag", .y_label = "", .panels = {{"one", "lag", "value", "kind", "k"}}};
+  DepthPlot plot{.name = "a",
+                 .title = "A device's",
+                 .columns = {"kind", "depth", "lag", "value"},
+                 .max_depth = 3,
+                 .x_label = "lag",
+                 .y_label = "",
+                 .panels = {{"one", "lag", "value", "kind", "k"}}};
   const std::string script = depth_plot_script(plot);
   CHECK(contains(script, "using 3:(strcol(1) eq 'k' && column(2) == 3 ? column(4) : NaN)"));
   CHECK(contains(script, "'A device''s'"));

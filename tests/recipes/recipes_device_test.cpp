@@ -273,9 +273,9 @@ TEST_CASE("figure-6.12: the first setting has no error, and so has a cache with 
 TEST_CASE("thesis: every figure on one page without links to elsewhere, also what failed") {
   if (!device_present()) return;
   const Folder folder;
-  const Outcome run = run_program({"bench", "thesis", "-c", folder.file("b.toml", street), "-o", folder.path("out"),
-                                   "--rays", "1000:1000", "--repeat", "1", "--frames", "2", "--set",
-                                   "trace.max_depth=1"});
+  const Outcome run =
+      run_program({"bench", "thesis", "-c", folder.file("b.toml", street), "-o", folder.path("out"), "--rays",
+                   "1000:1000", "--repeat", "1", "--frames", "2", "--set", "trace.max_depth=1"});
   CAPTURE(run.err);
   REQUIRE(run.code == 5);  // some figures failed
   const std::string page = contents(folder.path("out/thesis.html"));

@@ -96,8 +96,8 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
   for (const ThesisFigure& figure : made.figures)
     CHECK(contains(table, "<td><a href=\"#" + figure.name + "\">" + figure.name + "</a></td>"));
   CHECK(contains(table, "<td>a &gt; b</td><td>not &lt;confirmed&gt;</td>"));
-  CHECK(contains(table, "#figure-6.5\">figure-6.5</a></td><td>" + escaped(made.figures[4].title) +
-                            "</td><td>no claim to judge"));
+  CHECK(contains(
+      table, "#figure-6.5\">figure-6.5</a></td><td>" + escaped(made.figures[4].title) + "</td><td>no claim to judge"));
   CHECK(contains(table, "<td>Operations</td><td>failed: no memory</td>"));
   // Every link leads to a section, and numbers are a table in theirs.
   static const std::regex link(R"re(<a href="#([^"]+)")re");

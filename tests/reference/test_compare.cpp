@@ -30,10 +30,15 @@ void repeat_path(Paths& paths, size_t i) {
 }  // namespace
 
 TEST_CASE("every list agrees with itself") {
-  const std::pair<const char*, size_t> cases[] = {
-      {"box_depth5", 461},     {"box_one_screen", 35}, {"simple_reflector", 2}, {"double_reflector", 4},
-      {"triple_reflector", 7}, {"floor_wall", 4},      {"simple_wedge", 4},     {"street_canyon_cars_specular", 136},
-      {"street_canyon_cars_all", 307}};
+  const std::pair<const char*, size_t> cases[] = {{"box_depth5", 461},
+                                                  {"box_one_screen", 35},
+                                                  {"simple_reflector", 2},
+                                                  {"double_reflector", 4},
+                                                  {"triple_reflector", 7},
+                                                  {"floor_wall", 4},
+                                                  {"simple_wedge", 4},
+                                                  {"street_canyon_cars_specular", 136},
+                                                  {"street_canyon_cars_all", 307}};
   for (const auto& [name, paths] : cases) {
     CAPTURE(name);
     const Case reference = load_case(folder / (std::string(name) + ".json"));
@@ -154,8 +159,7 @@ TEST_CASE("kinds of path: counts, and faults that are told apart") {
     CHECK(result.kinds.at(kind).extra == 0);
     CHECK(result.kinds.at(kind).gain_err_db_max < 1e-12);
   }
-  CHECK(to_string(reference.paths, 0) ==
-        "tx 0 rx 0, 276.7664 ns, -94.07 dB, diffraction (26.1118, 4.7000, 1.4920)");
+  CHECK(to_string(reference.paths, 0) == "tx 0 rx 0, 276.7664 ns, -94.07 dB, diffraction (26.1118, 4.7000, 1.4920)");
 }
 
 TEST_CASE("no paths: recall 0, not a crash") {

@@ -64,8 +64,7 @@ TEST_CASE("over a screen: the point divides the edge as the straight line of the
     CHECK(paths.interaction == std::vector<uint8_t>{diffraction});
     CHECK(paths.surface == std::vector<uint32_t>{0});
     CHECK(glm::distance(paths.vertex[0], split(tx, rx, 4)) < 1e-10);
-    const double unfolded =
-        std::hypot(std::hypot(tx.x, tx.z - 4) + std::hypot(rx.x, rx.z - 4), rx.y - tx.y);
+    const double unfolded = std::hypot(std::hypot(tx.x, tx.z - 4) + std::hypot(rx.x, rx.z - 4), rx.y - tx.y);
     CHECK(path_length_m(paths, 0, tx, rx) == doctest::Approx(unfolded).epsilon(1e-14));
     CHECK(off_cone(paths, 0, 0, scene.wedges[0], tx, rx) < 1e-12);
   }
@@ -138,11 +137,9 @@ TEST_CASE("around a box: two edges of one face, four ways, and no single edge se
       brute_force_all(scene, {tx}, {rx}, {.max_depth = 3, .diffraction = true, .max_diffractions = 2});
   std::vector<double> expected, found;
   for (const double y : {-3.0, 3.0})
-    expected.push_back(
-        std::hypot(std::hypot(-2 - tx.x, y - tx.y) + 4 + std::hypot(rx.x - 2, y - rx.y), rx.z - tx.z));
+    expected.push_back(std::hypot(std::hypot(-2 - tx.x, y - tx.y) + 4 + std::hypot(rx.x - 2, y - rx.y), rx.z - tx.z));
   for (const double z : {-4.0, 4.0})
-    expected.push_back(
-        std::hypot(std::hypot(-2 - tx.x, z - tx.z) + 4 + std::hypot(rx.x - 2, z - rx.z), rx.y - tx.y));
+    expected.push_back(std::hypot(std::hypot(-2 - tx.x, z - tx.z) + 4 + std::hypot(rx.x - 2, z - rx.z), rx.y - tx.y));
   REQUIRE(paths.size() == 4);
   for (size_t i = 0; i < 4; ++i) {
     found.push_back(path_length_m(paths, i, tx, rx));

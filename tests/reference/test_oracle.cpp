@@ -120,9 +120,8 @@ TEST_CASE("street canyon with cars, order 3: every path of the list") {
 }
 
 TEST_CASE("a wedge, a floor with a wall, a box with a screen: diffracted and transmitted paths") {
-  const std::tuple<const char*, const char*, size_t> cases[] = {{"simple_wedge", "diffraction", 3},
-                                                                {"floor_wall", "transmission", 1},
-                                                                {"box_one_screen", "transmission", 19}};
+  const std::tuple<const char*, const char*, size_t> cases[] = {
+      {"simple_wedge", "diffraction", 3}, {"floor_wall", "transmission", 1}, {"box_one_screen", "transmission", 19}};
   for (const auto& [name, kind, paths] : cases) {
     CAPTURE(name);
     const Case reference = load_case(folder / "oracle" / (std::string(name) + ".json"));

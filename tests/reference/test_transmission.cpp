@@ -35,8 +35,7 @@ TEST_CASE("screens are listed in the order in which they are passed, up to both 
   const std::vector<Quad> quads{screen(3), screen(1), screen(2)};
   const dvec3 tx{0, 0.1, 0.2}, rx{4, 0.3, 0.1};
   const auto count = [&](uint32_t depth, uint32_t transmissions) {
-    return paths_through(quads, tx, rx,
-                         {.max_depth = depth, .reflection = false, .max_transmissions = transmissions})
+    return paths_through(quads, tx, rx, {.max_depth = depth, .reflection = false, .max_transmissions = transmissions})
         .size();
   };
   CHECK(count(3, 3) == 1);
@@ -45,8 +44,7 @@ TEST_CASE("screens are listed in the order in which they are passed, up to both 
   const PathGeometry there =
       paths_through(quads, tx, rx, {.max_depth = 3, .reflection = false, .max_transmissions = 3});
   CHECK(there.surface == std::vector<uint32_t>{1, 2, 0});
-  const PathGeometry back =
-      paths_through(quads, rx, tx, {.max_depth = 3, .reflection = false, .max_transmissions = 3});
+  const PathGeometry back = paths_through(quads, rx, tx, {.max_depth = 3, .reflection = false, .max_transmissions = 3});
   CHECK(back.surface == std::vector<uint32_t>{0, 2, 1});
 }
 

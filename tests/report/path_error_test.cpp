@@ -137,7 +137,7 @@ TEST_CASE("delay spread: two equal paths have half their distance, and a path al
   add(paths, 0, 0, 100, 1, {});
   add(paths, 0, 1, 100, 1, {});
   const PathError error = path_error(reference, paths);
-  CHECK(error.delay_spread_ns == doctest::Approx(10));  // 20 and 0
+  CHECK(error.delay_spread_ns == doctest::Approx(10));                   // 20 and 0
   CHECK(error.power_median_db == doctest::Approx(5 * std::log10(2.0)));  // mean of the middle two: 3.01 and 0
   CHECK(error.power_max_db == doctest::Approx(10 * std::log10(2.0)));
 }

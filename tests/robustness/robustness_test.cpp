@@ -77,12 +77,14 @@ TEST_CASE("a device that is lost on the way is error 4, and the drive goes on be
   REQUIRE(run_program({"run", "-c", file, "-o", folder.path("expected")}).code == 0);
   const long launch = in_the_middle(file, folder, "FAULT_LAUNCH");
   REQUIRE(launch > 0);
-  for (const auto& [code, name] : {std::pair{"-2", "CL_DEVICE_NOT_AVAILABLE"}, {"-5", "CL_OUT_OF_RESOURCES"},
+  for (const auto& [code, name] : {std::pair{"-2", "CL_DEVICE_NOT_AVAILABLE"},
+                                   {"-5", "CL_OUT_OF_RESOURCES"},
                                    {"-36", "CL_INVALID_COMMAND_QUEUE"}}) {
     CAPTURE(name);
     fs::remove_all(out);
-    const Outcome lost = run_program({"run", "-c", file, "-o", out},
-                                     with({"FAULT_LAUNCH=" + std::to_string(launch), std::string("FAULT_CODE=") + code}));
+    const Outcome lost =
+        run_program({"run", "-c", file, "-o", out},
+                    with({"FAULT_LAUNCH=" + std::to_string(launch), std::string("FAULT_CODE=") + code}));
     CAPTURE(lost.err);
     CHECK(lost.code == 4);
     CHECK(contains(lost.err, name));

@@ -31,8 +31,12 @@ inline RawMesh box(dvec3 low, dvec3 high, bool with_bottom = true) {
   RawMesh out;
   for (unsigned i = 0; i < 8; ++i)
     out.vertices.emplace_back((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
-  for (const auto& [a, b, c, d] : {std::array{4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 6u, 7u, 3u}, {0u, 4u, 6u, 2u},
-                                   {1u, 3u, 7u, 5u}, {0u, 2u, 3u, 1u}}) {
+  for (const auto& [a, b, c, d] : {std::array{4u, 5u, 7u, 6u},
+                                   {0u, 1u, 5u, 4u},
+                                   {2u, 6u, 7u, 3u},
+                                   {0u, 4u, 6u, 2u},
+                                   {1u, 3u, 7u, 5u},
+                                   {0u, 2u, 3u, 1u}}) {
     if (!with_bottom && a == 0u && b == 2u) continue;
     out.triangles.push_back({a, b, c});
     out.triangles.push_back({a, c, d});

@@ -114,16 +114,15 @@ inline size_t check_complete(const std::filesystem::path& scene_file, const Poin
   Simulation simulation(config);
   const auto found = by_key(simulation.run_frame(0).paths);
   const glm::dvec3& origin = simulation.scene().origin_m;
-  const auto expected = by_key(
-      reference::brute_force_all(simulation.scene(), transmitters - origin, receivers - origin,
-                                 {.max_depth = trace.max_depth,
-                                  .reflection = trace.reflection,
-                                  .transmission = trace.transmission,
-                                  .max_transmissions = trace.max_transmissions,
-                                  .diffraction = trace.diffraction,
-                                  .max_diffractions = trace.max_diffractions,
-                                  .free_edges = trace.free_edges}),
-      origin);
+  const auto expected = by_key(reference::brute_force_all(simulation.scene(), transmitters - origin, receivers - origin,
+                                                          {.max_depth = trace.max_depth,
+                                                           .reflection = trace.reflection,
+                                                           .transmission = trace.transmission,
+                                                           .max_transmissions = trace.max_transmissions,
+                                                           .diffraction = trace.diffraction,
+                                                           .max_diffractions = trace.max_diffractions,
+                                                           .free_edges = trace.free_edges}),
+                               origin);
   size_t diffracted = 0;
   double apart_m = 0;
   for (const auto& [key, points] : expected) {

@@ -32,7 +32,8 @@ std::vector<FrameResult> frames_of(const Config& config, uint32_t count) {
 struct Kind {
   std::string kind, locking;
 };
-const std::vector<Kind> kinds = {{"chained", "readers"}, {"open", "mutex"}, {"open", "readers"}, {"concurrent", "readers"}};
+const std::vector<Kind> kinds = {
+    {"chained", "readers"}, {"open", "mutex"}, {"open", "readers"}, {"concurrent", "readers"}};
 
 CacheConfig exact(const Kind& kind) {
   CacheConfig cache;

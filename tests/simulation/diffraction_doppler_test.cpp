@@ -123,8 +123,7 @@ TEST_CASE("among reflections and transmissions: the shift is that of the delay")
     for (const auto& [key, i] : rows_of(paths)) {
       if (!before.contains(key) || !after.contains(key)) continue;
       CAPTURE(to_string(key.first));
-      const double change_s =
-          frames.at[2].paths.delay_s[after.at(key)] - frames.at[0].paths.delay_s[before.at(key)];
+      const double change_s = frames.at[2].paths.delay_s[after.at(key)] - frames.at[0].paths.delay_s[before.at(key)];
       check_shift(paths.doppler_hz[i], -frequency_hz * change_s / frames.between_s());
       largest_hz = std::max(largest_hz, std::abs(paths.doppler_hz[i]));
       diffracted += has(key.first, diffraction);

@@ -51,8 +51,7 @@ TEST_CASE("several transmitters and receivers: each link as if it were alone") {
   const SceneFile file(screens());
   const Paths all = run(screens_config(file, a_b, c_d)).paths;
   for (uint32_t t = 0; t < 2; ++t)
-    for (uint32_t r = 0; r < 2; ++r)
-      check_link(all, t, r, run(screens_config(file, {a_b[t]}, {c_d[r]})).paths, 0, 0);
+    for (uint32_t r = 0; r < 2; ++r) check_link(all, t, r, run(screens_config(file, {a_b[t]}, {c_d[r]})).paths, 0, 0);
 }
 
 TEST_CASE("masked links: no path, no rays for ends without a link, and the others unchanged") {

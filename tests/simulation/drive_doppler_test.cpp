@@ -70,10 +70,11 @@ Config traffic(const std::filesystem::path& scene) {
 TEST_CASE("constant velocities: every shift is that of the delay") {
   const SceneFile file(street());
   Config config = traffic(file.path());
-  add_vehicles(config, {{"a", "passenger", {-25, -4.1, 0}, {13.7, 0.3, 0}, 0, 3},
-                        {"b", "passenger", {31, 2.2, 0}, {-16.1, 0.9, 0.2}, 0, 3},
-                        {"lorry", "truck", {2, 7.7, 0}, {-9.3, -0.4, 0}, 0, 3},
-                        {"tipper", "truck", {-8, -9.6, 0}, {8.1, 0.6, 0}, 0, 3}},
+  add_vehicles(config,
+               {{"a", "passenger", {-25, -4.1, 0}, {13.7, 0.3, 0}, 0, 3},
+                {"b", "passenger", {31, 2.2, 0}, {-16.1, 0.9, 0.2}, 0, 3},
+                {"lorry", "truck", {2, 7.7, 0}, {-9.3, -0.4, 0}, 0, 3},
+                {"tipper", "truck", {-8, -9.6, 0}, {8.1, 0.6, 0}, 0, 3}},
                1);
   Checked sum;
   for (const double time_s : {0.4, 1.3, 2.1}) {

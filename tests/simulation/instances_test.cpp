@@ -59,10 +59,10 @@ void check_same(const Paths& a, const Paths& b) {
     }
     worst_a = std::max(worst_a, std::sqrt(error / size));
     worst_gain_db = std::max(worst_gain_db, std::abs(a.gain_db[i] - b.gain_db[j]));
-    worst_angle_rad = std::max({worst_angle_rad, difference(a.aod_theta_rad[i], b.aod_theta_rad[j]),
-                                difference(a.aod_phi_rad[i], b.aod_phi_rad[j]),
-                                difference(a.aoa_theta_rad[i], b.aoa_theta_rad[j]),
-                                difference(a.aoa_phi_rad[i], b.aoa_phi_rad[j])});
+    worst_angle_rad =
+        std::max({worst_angle_rad, difference(a.aod_theta_rad[i], b.aod_theta_rad[j]),
+                  difference(a.aod_phi_rad[i], b.aod_phi_rad[j]), difference(a.aoa_theta_rad[i], b.aoa_theta_rad[j]),
+                  difference(a.aoa_phi_rad[i], b.aoa_phi_rad[j])});
   }
   CHECK(worst_a < 1e-9);
   CHECK(worst_gain_db < 1e-8);  // 1e-9 of the power
@@ -144,9 +144,10 @@ TEST_CASE("a truck hides one car's antenna from the other's, except through the 
   const SceneFile file(std::vector<Part>{{{{{-60, -60, 0}, {120, 0, 0}, {0, 120, 0}}}, "concrete"}});
   Config config = config_of(file.path(), {}, {}, 100, 0);
   // It crosses the line of sight, along x at y = 0 and 1.6 m high, with 10 m/s.
-  add_vehicles(config, {{"a", "passenger", {-20, 0.3, 0}, {0.01, 0, 0}, 0, 2},
-                        {"b", "passenger", {20, -0.2, 0}, {0.01, 0, 0}, 0, 2},
-                        {"truck", "truck", {0, -10, 0}, {0, 10, 0}, 0, 2}},
+  add_vehicles(config,
+               {{"a", "passenger", {-20, 0.3, 0}, {0.01, 0, 0}, 0, 2},
+                {"b", "passenger", {20, -0.2, 0}, {0.01, 0, 0}, 0, 2},
+                {"truck", "truck", {0, -10, 0}, {0, 10, 0}, 0, 2}},
                0.013);
   config.mounts = {{.name = "roof", .on = "passenger", .role = "both", .offset_m = {0, 0, 1.6}}};
   config.trace.reuse = false;

@@ -74,9 +74,8 @@ double distance_m(const dvec3& p, const dvec3& a, const dvec3& b) {
 }
 
 bool on_wedge(const Scene& scene, const dvec3& p, double within_m) {
-  return std::ranges::any_of(scene.wedges, [&](const Wedge& w) {
-    return distance_m(p, w.start, w.start + w.along * w.length_m) <= within_m;
-  });
+  return std::ranges::any_of(
+      scene.wedges, [&](const Wedge& w) { return distance_m(p, w.start, w.start + w.along * w.length_m) <= within_m; });
 }
 
 std::array<dvec3, 3> corners(const Scene& scene, size_t triangle) {

@@ -11,9 +11,10 @@ namespace {
 Config city(uint64_t rays, uint32_t max_depth, double duration_s, double step_s) {
   Config config = config_of("", {{3, 5, 6}}, {{52, -7, 1.5}, {-46, 4, 1.5}, {7, 60, 2}, {103, 30, 2}}, rays, max_depth);
   config.scene.generate = "--blocks 4x4";
-  add_vehicles(config, {{"a", "passenger", {-60, -3.1, 0}, {11.3, 0.02, 0}, 0, duration_s},
-                        {"b", "passenger", {2.9, 70, 0}, {0.01, -9.1, 0}, duration_s / 4, duration_s},
-                        {"lorry", "truck", {64, 3.2, 0}, {-8.7, -0.03, 0}, 0, 3 * duration_s / 4}},
+  add_vehicles(config,
+               {{"a", "passenger", {-60, -3.1, 0}, {11.3, 0.02, 0}, 0, duration_s},
+                {"b", "passenger", {2.9, 70, 0}, {0.01, -9.1, 0}, duration_s / 4, duration_s},
+                {"lorry", "truck", {64, 3.2, 0}, {-8.7, -0.03, 0}, 0, 3 * duration_s / 4}},
                step_s);
   config.mounts = {{.name = "roof", .on = "passenger", .role = "both", .offset_m = {0, 0, 1.7}}};
   return config;
@@ -39,9 +40,10 @@ std::vector<FrameResult> frames(Simulation& simulation, std::initializer_list<ui
 TEST_CASE("nothing is carried over unchecked: every path of a frame that reuses is one of a large cold launch") {
   const SceneFile file(street());
   Config config = config_of(file.path(), {{-31.3, 2.17, 4.1}}, {{27.1, 5.21, 1.9}, {-8.7, 9.4, 1.3}}, 40000, 3);
-  add_vehicles(config, {{"a", "passenger", {-20.3, -3.1, 0}, {9.7, 0.4, 0}, 0, 4},
-                        {"b", "passenger", {30.7, 3.9, 0}, {-11.3, 0.3, 0}, 0, 2.5},
-                        {"lorry", "truck", {19.6, 7.1, 0}, {-7.9, -0.7, 0}, 1, 4}},
+  add_vehicles(config,
+               {{"a", "passenger", {-20.3, -3.1, 0}, {9.7, 0.4, 0}, 0, 4},
+                {"b", "passenger", {30.7, 3.9, 0}, {-11.3, 0.3, 0}, 0, 2.5},
+                {"lorry", "truck", {19.6, 7.1, 0}, {-7.9, -0.7, 0}, 1, 4}},
                0.25);
   config.mounts = {{.name = "roof", .on = "passenger", .role = "both", .offset_m = {0, 0, 1.7}}};
   Config large = config;

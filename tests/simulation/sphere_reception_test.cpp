@@ -219,8 +219,7 @@ TEST_CASE("cache.scope = \"all\", nothing moves: a second frame receives from th
     for (const char* kind : {"chained", "concurrent"}) {
       CAPTURE(max_depth);
       CAPTURE(kind);
-      Config config =
-          sphere_config(file, {{1.37, 2.21, 1.55}, {5, 1, 2}}, {{6.13, 3.42, 0.87}}, 10000, max_depth, 0.5);
+      Config config = sphere_config(file, {{1.37, 2.21, 1.55}, {5, 1, 2}}, {{6.13, 3.42, 0.87}}, 10000, max_depth, 0.5);
       const FrameResult plain = run(config);
       config.cache = cache_of(kind, "all", "quantised");
       Simulation simulation(config);

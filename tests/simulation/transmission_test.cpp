@@ -115,8 +115,7 @@ std::map<std::vector<uint32_t>, std::vector<glm::dvec3>> brute_force(const std::
     if (!points) continue;
     const PathRow row = with_crossings(scene, {at.transmitter, at.receiver, s.surfaces, *points});
     const size_t transmissions = row.steps.size() - s.surfaces.size();
-    if (row.steps.size() <= config.max_depth && transmissions <= config.max_transmissions)
-      out[row.steps] = row.points;
+    if (row.steps.size() <= config.max_depth && transmissions <= config.max_transmissions) out[row.steps] = row.points;
   }
   return out;
 }

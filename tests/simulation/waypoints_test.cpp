@@ -12,9 +12,8 @@ namespace {
 const glm::dvec3 size{8, 5, 3}, corner{1000, -2000, 30};
 
 Config box_config(const SceneFile& file, uint64_t rays, uint64_t samples) {
-  Config config =
-      config_of(file.path(), {corner + glm::dvec3{1.4, 2.2, 1.6}, corner + glm::dvec3{6, 1, 2}}, {corner + size / 2.0},
-                rays, 3);
+  Config config = config_of(file.path(), {corner + glm::dvec3{1.4, 2.2, 1.6}, corner + glm::dvec3{6, 1, 2}},
+                            {corner + size / 2.0}, rays, 3);
   config.output.waypoints = samples;
   return config;
 }
@@ -49,8 +48,7 @@ TEST_CASE("samples are spread evenly, and their rays are mirrored from wall to w
     }
     CHECK(rows.surface[i] < 6);
     int walls = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      walls += std::min(std::abs(p[axis]), std::abs(p[axis] - size[axis])) < 1e-9;
+    for (int axis = 0; axis < 3; ++axis) walls += std::min(std::abs(p[axis]), std::abs(p[axis] - size[axis])) < 1e-9;
     wrong += walls != 1;
     if (i % 4 == 3) continue;
     // The mirror law at every reflection that has a segment before and after: one component turns.

@@ -60,11 +60,12 @@ inline glm::dvec3 turner_centre(double time_s) {
 inline glm::dvec3 truck_centre(double time_s) { return {15 * time_s, 30, 2}; }
 
 inline std::string vehicle(const std::string& id, const std::string& type, const glm::dvec3& centre, double yaw_rad,
-                    double speed, double length_m) {
-  return fmt::format("<vehicle id=\"{}\" type=\"{}\" x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\" angle=\"{:.17g}\" "
-                     "speed=\"{}\" slope=\"0\"/>",
-                     id, type, centre.x + length_m / 2 * std::cos(yaw_rad), centre.y + length_m / 2 * std::sin(yaw_rad),
-                     centre.z, 90 - yaw_rad * 180 / pi, speed);
+                           double speed, double length_m) {
+  return fmt::format(
+      "<vehicle id=\"{}\" type=\"{}\" x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\" angle=\"{:.17g}\" "
+      "speed=\"{}\" slope=\"0\"/>",
+      id, type, centre.x + length_m / 2 * std::cos(yaw_rad), centre.y + length_m / 2 * std::sin(yaw_rad), centre.z,
+      90 - yaw_rad * 180 / pi, speed);
 }
 
 inline std::string two_vehicles(const std::string& truck_type = "truck") {
@@ -80,7 +81,7 @@ inline std::string two_vehicles(const std::string& truck_type = "truck") {
 }
 
 inline MountConfig mount(const std::string& name, const std::string& on, const std::string& role,
-                  std::array<double, 3> offset_m) {
+                         std::array<double, 3> offset_m) {
   MountConfig out;
   out.name = name;
   out.on = on;

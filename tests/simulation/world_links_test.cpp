@@ -1,7 +1,7 @@
 // World: links against counted pairs, what it refuses, how far it reaches, and traffic that it generates.
+#include "simulation/world_links.hpp"
 #include "simulation/name_pattern.hpp"
 #include "simulation/world_fixture.hpp"
-#include "simulation/world_links.hpp"
 #include "simulation/world_trajectories.hpp"
 
 using namespace wavetracer;

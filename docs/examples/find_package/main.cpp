@@ -8,10 +8,14 @@ namespace {
 
 const char* name_of(uint8_t interaction) {
   switch (interaction) {
-    case wavetracer::reflection: return "reflection";
-    case wavetracer::diffuse: return "scattering";
-    case wavetracer::transmission: return "transmission";
-    default: return "diffraction";
+    case wavetracer::reflection:
+      return "reflection";
+    case wavetracer::diffuse:
+      return "scattering";
+    case wavetracer::transmission:
+      return "transmission";
+    default:
+      return "diffraction";
   }
 }
 

@@ -1,7 +1,7 @@
 // Layouts of the acceleration structures, one definition for C++ (host/accel) and OpenCL C (kernels/lib).
 // Everything is float32 around the scene's origin. A child reference c >= 0 is an inner node's index; c < 0 is a leaf:
-// ~c packs (first << WT_LEAF_BITS) | count. An unused child has an inverted box (lower > upper) and is a leaf of nothing,
-// so that a ray whose slabs overflow, which meets every box, still enters each node once.
+// ~c packs (first << WT_LEAF_BITS) | count. An unused child has an inverted box (lower > upper) and is a leaf of
+// nothing, so that a ray whose slabs overflow, which meets every box, still enters each node once.
 #ifndef WAVETRACER_DEVICE_BVH_H
 #define WAVETRACER_DEVICE_BVH_H
 

@@ -18,14 +18,14 @@ namespace wavetracer::device {
 
 // A traced segment. The first half answers most questions: one sector of memory.
 typedef struct {
-  wt_ulong cells;    // of the ray's direction, see wt_cache_cells
-  wt_uint left;      // primitive that the ray left, WT_NONE at a transmitter: instance and primitive in one number
-  wt_uint version;   // even: whole; odd: being written; 0: never written (H. Boehm, MSPC 2012, figure 6)
-  float t;           // the result, as in a hit list; infinite on a miss
+  wt_ulong cells;   // of the ray's direction, see wt_cache_cells
+  wt_uint left;     // primitive that the ray left, WT_NONE at a transmitter: instance and primitive in one number
+  wt_uint version;  // even: whole; odd: being written; 0: never written (H. Boehm, MSPC 2012, figure 6)
+  float t;          // the result, as in a hit list; infinite on a miss
   wt_uint primitive;
   wt_uint surface;
-  wt_uint time;      // frame in which it was written; WT_NONE: withdrawn, as something has moved
-  float origin[3];   // the ray that was traced
+  wt_uint time;     // frame in which it was written; WT_NONE: withdrawn, as something has moved
+  float origin[3];  // the ray that was traced
   float direction[3];
   wt_uint next;      // entry of the next segment of a ray that took this one, WT_NONE: not known
   wt_uint receiver;  // with reception spheres and cache.scope = "all": the first that the segment passed, or WT_NONE
@@ -35,7 +35,7 @@ typedef struct {
 typedef struct {
   wt_uint first_entry, entries;
   wt_uint first_bucket, buckets;
-  wt_uint since;    // frame since which the transmitter's position key is what it is; entries of before are stale
+  wt_uint since;  // frame since which the transmitter's position key is what it is; entries of before are stale
   wt_uint padding;
 } wt_cache_region;
 

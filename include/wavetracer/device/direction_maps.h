@@ -47,8 +47,8 @@ inline wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 turn) {
   return wt_at_height(1.0f - (WT_TO_F32(height) + 0.5f) * 4.6566129e-10f, turn);
 }
 
-// The same with another spread of heights: heights[table + k] is the z below which lies the share 1 - k / WT_HEIGHT_CELLS
-// of all directions, k = 0 (z = 1) to WT_HEIGHT_CELLS (z = -1); straight between.
+// The same with another spread of heights: heights[table + k] is the z below which lies the share 1 - k /
+// WT_HEIGHT_CELLS of all directions, k = 0 (z = 1) to WT_HEIGHT_CELLS (z = -1); straight between.
 #define WT_HEIGHT_BITS 9u
 #define WT_HEIGHT_CELLS (1u << WT_HEIGHT_BITS)
 inline wt_direction wt_cylinder_to_heights(WT_U32 height, WT_U32 turn, WT_TABLE heights, WT_U32 table) {

@@ -29,10 +29,10 @@ inline WT_U32 wt_reverse16(WT_U32 x) {
   return ((x & 0x00FFu) << 8) | (x >> 8);
 }
 
-// Born in order. The cylinder (azimuth, height) of equal shares is cut into `faces` rectangles side by side, each into 4^level
-// cells along a Hilbert curve; ray i of n takes cell floor((i + 1/2) cells / n), so index ranges are compact solid
-// angles of equal share. Inside cell (x, y) of its face a ray sits at (reverse(y), reverse(x)): the points of a face
-// are a Hammersley net (J. Hammersley, 1960), so azimuths and heights are each evenly spread. Walls are narrow in
+// Born in order. The cylinder (azimuth, height) of equal shares is cut into `faces` rectangles side by side, each into
+// 4^level cells along a Hilbert curve; ray i of n takes cell floor((i + 1/2) cells / n), so index ranges are compact
+// solid angles of equal share. Inside cell (x, y) of its face a ray sits at (reverse(y), reverse(x)): the points of a
+// face are a Hammersley net (J. Hammersley, 1960), so azimuths and heights are each evenly spread. Walls are narrow in
 // azimuth and tall: cell centres, all in one row, would miss many of them. step = floor((2^64 - 1) / n); faces 4^level
 // >= n, chosen by host/passes/generate_rays.cpp.
 inline void wt_hilbert_place(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
@@ -52,7 +52,7 @@ inline void wt_hilbert_place(WT_U64 i, WT_U64 step, unsigned level, unsigned fac
 
 // Uniform.
 inline wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
-                                        WT_U32 table) {
+                                         WT_U32 table) {
   (void)heights, (void)table;
   WT_U32 height, turn;
   wt_hilbert_place(i, step, level, faces, &height, &turn);
@@ -77,7 +77,7 @@ inline wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step, unsigned level
 
 // Independent uniform directions: a counter-based generator, so ray i of a seed is always the same.
 inline wt_direction wt_direction_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned faces, WT_TABLE heights,
-                                           WT_U32 table) {
+                                        WT_U32 table) {
   (void)level, (void)faces, (void)heights, (void)table;
   const WT_U64 bits = wt_mix64(wt_mix64(i + (WT_U64)(0x9E3779B97F4A7C15ul)) ^ seed);
   return wt_cylinder_to_sphere(WT_TO_U32(bits >> 32), WT_TO_U32(bits & 0xFFFFFFFFu));

@@ -18,10 +18,9 @@
 #define WT_TO_U32(x) convert_uint16(x)
 #define WT_TO_U64(x) convert_ulong16(x)
 inline float16 wt_gather(const global float* table, uint16 index) {
-  return (float16)(table[index.s0], table[index.s1], table[index.s2], table[index.s3], table[index.s4],
-                   table[index.s5], table[index.s6], table[index.s7], table[index.s8], table[index.s9],
-                   table[index.sa], table[index.sb], table[index.sc], table[index.sd], table[index.se],
-                   table[index.sf]);
+  return (float16)(table[index.s0], table[index.s1], table[index.s2], table[index.s3], table[index.s4], table[index.s5],
+                   table[index.s6], table[index.s7], table[index.s8], table[index.s9], table[index.sa], table[index.sb],
+                   table[index.sc], table[index.sd], table[index.se], table[index.sf]);
 }
 #else
 #define WT_U32 uint

@@ -16,7 +16,8 @@ typedef uint64_t wt_ulong;
 #define WT_MAX_DEPTH 32u
 
 // A point closer than this to a surface's plane is on that surface: an antenna there is not hidden by it, nor does it
-// reflect or scatter to it. Ten times the float32 rounding of coordinates of a kilometre, and less than any wall is thick.
+// reflect or scatter to it. Ten times the float32 rounding of coordinates of a kilometre, and less than any wall is
+// thick.
 #define WT_ON_SURFACE_M 1e-4
 
 // Structure of arrays: a ray queue of capacity n is WT_RAY_PLANES * n words; plane p of ray i is word p * n + i.
@@ -119,14 +120,14 @@ typedef struct {
 
 // A prefix of an end that sees a wedge. Ends are transmitters, then the receivers that launch for themselves.
 typedef struct {
-  wt_uint node;    // of the prefix, or a root
-  wt_uint origin;  // the end
-  wt_uint depth;   // reflections
-  wt_uint last;    // surface of the last of them
-  float image[3];  // of the end in all of them
-  float along;     // of the image: where its foot on the edge's line is, from the start of the edge
-  float away;      // and how far from that line
-  float length;    // of the edge
+  wt_uint node;      // of the prefix, or a root
+  wt_uint origin;    // the end
+  wt_uint depth;     // reflections
+  wt_uint last;      // surface of the last of them
+  float image[3];    // of the end in all of them
+  float along;       // of the image: where its foot on the edge's line is, from the start of the edge
+  float away;        // and how far from that line
+  float length;      // of the edge
   wt_uint quarters;  // that found it
 } wt_wedge_prefix;
 
@@ -149,18 +150,18 @@ typedef struct {
   wt_uint transmitter;
   wt_uint receiver;
   wt_uint depth;
-  wt_uint blocked;  // 0 until a leg is found obstructed
-  wt_uint node;     // of its sequence; WT_NONE if it is diffracted
+  wt_uint blocked;   // 0 until a leg is found obstructed
+  wt_uint node;      // of its sequence; WT_NONE if it is diffracted
   wt_uint quarters;  // of the launch that found it
 } wt_solved;
 
 // Counters that the passes share; one small buffer, cleared a frame.
 typedef struct {
-  wt_uint nodes;          // used slots of the trie
-  wt_uint trie_overflow;  // an insertion found no slot: grow and trace the batch again
-  wt_uint candidates;     // may exceed the capacity: grow and run again
-  wt_uint solved;         // likewise
-  wt_uint visible;        // likewise
+  wt_uint nodes;             // used slots of the trie
+  wt_uint trie_overflow;     // an insertion found no slot: grow and trace the batch again
+  wt_uint candidates;        // may exceed the capacity: grow and run again
+  wt_uint solved;            // likewise
+  wt_uint visible;           // likewise
   wt_uint wedge_prefixes;    // likewise
   wt_uint wedge_candidates;  // likewise
 } wt_counters;
