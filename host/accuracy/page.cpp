@@ -8,7 +8,7 @@
 #include "accuracy/advice.hpp"
 #include "accuracy/files.hpp"
 #include "accuracy/table.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "recipes/thesis.hpp"
 #include "wavetracer/version.hpp"
 

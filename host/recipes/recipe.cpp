@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include "config/config_file.hpp"
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::recipes {
@@ -86,7 +86,7 @@ const Recipe& find_recipe(const std::string& name) {
     names.push_back(recipe.name);
     known += (known.empty() ? "" : ", ") + recipe.name;
   }
-  throw ConfigError(fmt::format("bench: no recipe \"{}\" among {}{}", name, known, config::hint(name, names)));
+  throw ConfigError(fmt::format("bench: no recipe \"{}\" among {}{}", name, known, spelling_hint(name, names)));
 }
 
 std::string recipe_list() {

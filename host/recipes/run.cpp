@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <ctime>
 #include <span>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "recipes/plot.hpp"
 #include "recipes/table.hpp"
 #include "wavetracer/error.hpp"

@@ -9,7 +9,7 @@
 #include <map>
 #include <span>
 #include <sstream>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "recipes/plot.hpp"
 #include "wavetracer/error.hpp"
 
