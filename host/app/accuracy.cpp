@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct AccuracyOptions {
   accuracy::Request request;
   std::string directory = "out/accuracy", rays;
 };
 
-void run_accuracy(const Options& options, Invocation& invocation) {
+void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   accuracy::Request request = options.request;
   request.command_line = invocation.command_line;
   if (!options.rays.empty()) request.rays = recipes::parse_ray_range(options.rays);
@@ -53,7 +53,7 @@ void run_accuracy(const Options& options, Invocation& invocation) {
 void add_accuracy(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("accuracy", "Measure speed against error of a config, and say what to set");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AccuracyOptions>();
   accuracy::Request& request = options->request;
   command->add_option("-c,--config", request.file, "Config file (TOML)")->required();
   command->add_option("-o,--output", options->directory, "Folder for the table, the plot and the page")

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct BenchOptions {
   std::string recipe, file, directory, device, rays;
   std::vector<std::string> sets;
   uint32_t repeats = 5;
@@ -25,7 +25,7 @@ struct Options {
 
 constexpr const char* all_figures = "thesis";
 
-recipes::Request request(const Options& options, const recipes::Recipe& recipe, const std::string& command_line) {
+recipes::Request request(const BenchOptions& options, const recipes::Recipe& recipe, const std::string& command_line) {
   recipes::Request out{.config = recipes::recipe_config(recipe, options.file, options.sets),
                        .device = options.device,
                        .rays = {},
@@ -44,7 +44,7 @@ std::string listed() {
   return recipes::recipe_list() + fmt::format("  {:<16} {}\n", all_figures, "all figures, as one page: thesis.html");
 }
 
-void bench(const Options& options, Invocation& invocation) {
+void bench(const BenchOptions& options, Invocation& invocation) {
   if (options.recipe.empty())
     throw ConfigError("bench: no recipe given; there are\n" + listed() +
                       "and `./dev bench` measures the parts of the program");
@@ -76,7 +76,7 @@ void bench(const Options& options, Invocation& invocation) {
 
 void add_bench(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("bench", "Run an experiment by name; without one, list them");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchOptions>();
   command->add_option("recipe", options->recipe, "Name of the experiment");
   command->add_option("-c,--config", options->file,
                       "Config file whose scene and ends are used, instead of a generated city; its rays, directions, "

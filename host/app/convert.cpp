@@ -9,10 +9,10 @@
 #include "app/commands.hpp"
 #include "app/frame_range.hpp"
 #include "app/interrupt.hpp"
+#include "base/pending_file.hpp"
 #include "base/spelling.hpp"
 #include "imports/imports.hpp"
 #include "motion/read.hpp"
-#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ConvertOptions {
   std::string input, format, output, frames, projection, traffic;
   bool list = false;
   ImportOptions import;
@@ -51,7 +51,7 @@ const Exporter& named_exporter(const std::string& name) {
                                 spelling_hint(name, format_names()), formats_in_words()));
 }
 
-const Exporter& chosen_exporter(const Options& options) {
+const Exporter& chosen_exporter(const ConvertOptions& options) {
   const std::string suffix = fs::path(options.output).extension().string();
   const Exporter* by_suffix = nullptr;
   for (const Exporter& exporter : exporters())
@@ -96,7 +96,7 @@ void choose_rows(const SavedRun& run, const std::string& text, ExportOptions& op
     throw ConfigError(fmt::format("--frames {}: {} has frames {} to {}", text, run.file().string(), first, last));
 }
 
-void export_run(const Options& options) {
+void export_run(const ConvertOptions& options) {
   const Exporter& exporter = chosen_exporter(options);
   check_output(exporter, options.output);
   const SavedRun run(options.input);
@@ -117,7 +117,7 @@ void export_run(const Options& options) {
 }
 
 // Where the vehicles of a file are: the ground has to reach below them.
-Extent extent_of_traffic(const Options& options) {
+Extent extent_of_traffic(const ConvertOptions& options) {
   if (options.import.net.empty() && fs::path(options.input).extension() != ".xml")
     throw ConfigError(
         fmt::format("--traffic {}: needs --net with the network that the vehicles drive on, since only "
@@ -136,7 +136,7 @@ void check_input(const fs::path& input) {
         "{}: there is no such file or folder; name the folder of a run, its paths.h5, or a map", input.string()));
 }
 
-void import_map(const Options& options) {
+void import_map(const ConvertOptions& options) {
   for (const auto& [flag, value] : {std::pair{"--frames", &options.frames}, {"--projection", &options.projection}})
     if (!value->empty()) throw ConfigError(fmt::format("{}: is for runs, and {} is a map", flag, options.input));
   if (!options.format.empty() && options.format != "mitsuba")
@@ -155,7 +155,7 @@ void import_map(const Options& options) {
 void add_convert(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("convert", "A run in the format of another program, or a map of a city as a scene");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertOptions>();
   command->add_option("INPUT", options->input, "The folder of a run or its paths.h5; or .osm, .osm.pbf, .poly.xml");
   command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
   command->add_option("-o,--output", options->output, "File or folder to write, by the format");

@@ -5,19 +5,19 @@
 #include <memory>
 #include "app/command_text.hpp"
 #include "app/commands.hpp"
-#include "config/reference.hpp"
 #include "base/file.hpp"
+#include "config/reference.hpp"
 #include "wavetracer/version.hpp"
 
 namespace wavetracer::app {
 namespace {
 
-struct Options {
+struct DocumentationOptions {
   std::string man, shell, output;
   bool reference = false;
 };
 
-std::string page(const CLI::App& program, const Options& options) {
+std::string page(const CLI::App& program, const DocumentationOptions& options) {
   if (options.man == "program") return program_manual(describe(program), WAVETRACER_VERSION);
   if (options.man == "config") return config::manual_page(WAVETRACER_VERSION);
   if (!options.shell.empty()) return completion(describe(program), options.shell);
@@ -29,7 +29,7 @@ std::string page(const CLI::App& program, const Options& options) {
 void add_documentation(CLI::App& program) {
   CLI::App* command = program.add_subcommand("documentation", "Write a page of the documentation");
   command->group("");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DocumentationOptions>();
   CLI::Option_group* const what = command->add_option_group("page");
   what->add_option("--man", options->man, "The man page of the program or of its config files")
       ->check(CLI::IsMember({"program", "config"}));

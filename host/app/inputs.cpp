@@ -5,8 +5,8 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
-#include "config/input_files.hpp"
 #include "base/input_file.hpp"
+#include "config/input_files.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
 #include "wavetracer/error.hpp"

@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> directories;
   std::string output;
   bool partial = false;
 };
 
 // The folder that the outputs go to; in another one than the parts' no shards may lie that do not belong to them.
-fs::path target_of(const Options& options) {
+fs::path target_of(const MergeOptions& options) {
   if (options.output.empty()) {
     if (options.directories.size() > 1)
       throw ConfigError("merge: several folders of parts; name the one for the results with -o");
@@ -62,7 +62,7 @@ std::vector<std::unique_ptr<FolderHold>> hold_all(const std::vector<std::string>
   return held;
 }
 
-void merge(const Options& options, Invocation& invocation) {
+void merge(const MergeOptions& options, Invocation& invocation) {
   Progress progress;
   const fs::path target = target_of(options);
   check_output_folder(target);
@@ -90,7 +90,7 @@ void merge(const Options& options, Invocation& invocation) {
 
 void add_merge(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("merge", "Join the parts of a run that several processes have written");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MergeOptions>();
   command->add_option("DIR", options->directories, "Folders of parts, as run --shard or an interrupted run leaves them")
       ->required();
   command->add_option("-o,--output", options->output, "Folder for the results; of one DIR that folder itself");

@@ -11,13 +11,13 @@
 namespace wavetracer::app {
 namespace {
 
-struct Options {
+struct PlotOptions {
   std::string run, folder, format = "svg";
   std::optional<uint32_t> frame;
   plots::PlotChoice choice;
 };
 
-void plot(Options options) {
+void plot(PlotOptions options) {
   options.choice.link.frame = options.frame;
   options.choice.format = options.format == "svg"   ? plots::Format::svg
                           : options.format == "png" ? plots::Format::png
@@ -34,7 +34,7 @@ void plot(Options options) {
 
 void add_plot(CLI::App& program) {
   CLI::App* command = program.add_subcommand("plot", "Draw figures of a run with gnuplot");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlotOptions>();
   command->add_option("RUN", options->run, "Folder of a run, or its paths.h5")->required();
   command->add_option("-o,--output", options->folder, "Folder for the figures; plots in that of the run if not given");
   command

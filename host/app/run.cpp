@@ -19,9 +19,9 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/solve_frame.hpp"
+#include "base/hash.hpp"
 #include "config/config_file.hpp"
 #include "config/input_files.hpp"
-#include "base/hash.hpp"
 #include "output/earlier_run.hpp"
 #include "output/output.hpp"
 #include "wavetracer/simulation.hpp"
@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RunOptions {
   std::string file, directory, frames, device, devices, shard;
   std::vector<std::string> sets;
   uint32_t repeat = 1, processes = 0;
@@ -44,7 +44,7 @@ bool has_vehicles(const Config& config) {
 }
 
 // shared: by several processes, in parts that can be resumed even where there is one frame.
-Config configuration(const Options& options, bool shared) {
+Config configuration(const RunOptions& options, bool shared) {
   Config config = load_config(options.file, options.sets);
   if (!config.live_vehicles.empty())
     throw ConfigError(options.file + ": its [[live_vehicle]] tables wait for poses: start `wavetracer serve -c " +
@@ -94,7 +94,7 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
 }
 
 // What an interrupt left undone, and how to go on.
-std::string unfinished(const Run& run, const Results& results, const Options& options, bool moving) {
+std::string unfinished(const Run& run, const Results& results, const RunOptions& options, bool moving) {
   if (results.totals.frames == 0) return "interrupted before the first frame; nothing was written";
   if (moving)
     return fmt::format("interrupted; what is written is whole, {} of {} frames; go on with --resume",
@@ -108,7 +108,7 @@ std::string job_of(const ShardChoice& part, const RunIdentity& identity) {
   return fmt::format("{} shards of {}", part.count, identity.config);
 }
 
-void check_options(const Options& options, const Ranks& ranks) {
+void check_options(const RunOptions& options, const Ranks& ranks) {
   if (options.shard.empty()) return;
   parse_shard(options.shard);
   if (options.launches())
@@ -121,7 +121,7 @@ void check_options(const Options& options, const Ranks& ranks) {
 }
 
 // Children do the work; their options are these, but for those that made them children.
-void launch_children(const Options& options, const Config& config, Invocation& invocation, Progress& progress) {
+void launch_children(const RunOptions& options, const Config& config, Invocation& invocation, Progress& progress) {
   Launch launch;
   launch.arguments = {"run", "-c", options.file, "-o", config.output.directory};
   for (const std::string& set : options.sets) launch.arguments.insert(launch.arguments.end(), {"--set", set});
@@ -142,14 +142,14 @@ void launch_children(const Options& options, const Config& config, Invocation& i
 }
 
 // The device of a rank: ranks of one host take turns.
-std::string device_of(const Options& options, const Ranks& ranks) {
+std::string device_of(const RunOptions& options, const Ranks& ranks) {
   if (ranks.size == 1) return options.device;
   const std::vector<size_t> devices = choose_devices(gpu::list_devices(), options.devices, options.device);
   return std::to_string(devices[ranks.local_rank % devices.size()]);
 }
 
 // Part of a run that others compute, too.
-std::optional<Results> run_shared(const DriveTask& task, const Options& options, const Ranks& ranks,
+std::optional<Results> run_shared(const DriveTask& task, const RunOptions& options, const Ranks& ranks,
                                   const ProcessInfo* me, Invocation& invocation, Progress& progress) {
   if (me) {
     Shared shared = drive_together(task, ranks, *me, progress);
@@ -174,7 +174,7 @@ std::optional<Results> run_shared(const DriveTask& task, const Options& options,
   return std::nullopt;
 }
 
-void run(const Options& options, Invocation& invocation) {
+void run(const RunOptions& options, Invocation& invocation) {
   const Ranks ranks = ranks_of_this_process();
   if (ranks.launched) prctl(PR_SET_PDEATHSIG, SIGTERM);  // who is nobody's child any more stops after its frame
   check_options(options, ranks);
@@ -237,7 +237,7 @@ void run(const Options& options, Invocation& invocation) {
 
 void add_run(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("run", "Trace a config and write its paths");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunOptions>();
   command->add_option("-c,--config", options->file, "Config file (TOML)")->required();
   command->add_option("-o,--output", options->directory, "Folder for the results, instead of output.directory");
   command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);

@@ -6,11 +6,11 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "app/inputs.hpp"
+#include "base/file.hpp"
 #include "config/config_file.hpp"
 #include "motion/fcd_writer.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
-#include "base/file.hpp"
 #include "scene/info.hpp"
 #include "scene/load.hpp"
 

@@ -13,13 +13,13 @@
 namespace wavetracer::app {
 namespace {
 
-struct Options {
+struct ServeOptions {
   std::string file;
   std::vector<std::string> sets;
   live::ServeOptions serve;
 };
 
-void serve(const Options& options) {
+void serve(const ServeOptions& options) {
   const Config config = load_config(options.file, options.sets);
   check_inputs(config);
   catch_interrupts();
@@ -34,7 +34,7 @@ void serve(const Options& options) {
 
 void add_serve(CLI::App& program, Invocation&) {
   CLI::App* command = program.add_subcommand("serve", "Answer the poses of a running simulator with channels");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ServeOptions>();
   command->add_option("-c,--config", options->file, "Config file (TOML) with [[live_vehicle]]")->required();
   command->add_option("--listen", options->serve.listen, "unix:PATH or tcp:ADDRESS:PORT")->capture_default_str();
   command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);

@@ -7,9 +7,9 @@
 #include <thread>
 #include "app/interrupt.hpp"
 #include "base/hash.hpp"
-#include "output/claims.hpp"
 #include "base/pending_file.hpp"
 #include "base/read_text.hpp"
+#include "output/claims.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {

@@ -9,9 +9,9 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "base/spelling.hpp"
 #include "config/config_file.hpp"
 #include "config/fields.hpp"
-#include "base/spelling.hpp"
 
 namespace wavetracer::app {
 namespace {

@@ -8,12 +8,12 @@
 #include <map>
 #include <sstream>
 #include <tuple>
+#include "base/input_file.hpp"
+#include "base/spelling.hpp"
 #include "config/contradictions.hpp"
 #include "config/fields.hpp"
 #include "config/retired_keys.hpp"
-#include "base/spelling.hpp"
 #include "config/values.hpp"
-#include "base/input_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

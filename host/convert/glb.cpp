@@ -36,9 +36,9 @@ uint8_t linear_byte(uint8_t srgb) {
   return static_cast<uint8_t>(std::lround(255 * (s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4))));
 }
 
-class Writer {
+class GlbWriter {
  public:
-  Writer(const SavedRun& run, const SavedWorld& world) : run_(run), world_(world) {
+  GlbWriter(const SavedRun& run, const SavedWorld& world) : run_(run), world_(world) {
     root_ = group("wavetracer");
     const glm::dvec3& o = world.scene.origin_m;
     node(root_)["matrix"] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, o.x, o.z, -o.y, 1};
@@ -80,7 +80,7 @@ class Writer {
 };
 
 // One a radio material, under its name; its law stands in extras, so that a custom one is not lost.
-size_t Writer::material(const Material& material) {
+size_t GlbWriter::material(const Material& material) {
   for (const auto& [known, index] : materials_)
     if (known == material) return index;
   json law{{"a", material.a}, {"b", material.b}, {"c", material.c}, {"d", material.d}};
@@ -98,7 +98,7 @@ size_t Writer::material(const Material& material) {
 }
 
 // Of paths and markers: the colours of their vertices, whatever the light.
-size_t Writer::line_material() {
+size_t GlbWriter::line_material() {
   if (!line_material_) {
     file_.root()["extensionsUsed"] = {"KHR_materials_unlit"};
     line_material_ = file_.add("materials", {{"name", "lines"},
@@ -109,7 +109,7 @@ size_t Writer::line_material() {
 }
 
 // Triangles of one material. They name each vertex once; normals are left out, which means flat shading.
-json Writer::primitive(const Scene& scene, const std::vector<uint32_t>& triangles, const glm::dvec3& offset_m) {
+json GlbWriter::primitive(const Scene& scene, const std::vector<uint32_t>& triangles, const glm::dvec3& offset_m) {
   std::vector<uint32_t> used;
   for (const uint32_t t : triangles) used.insert(used.end(), scene.triangles[t].begin(), scene.triangles[t].end());
   std::ranges::sort(used);
@@ -127,7 +127,7 @@ json Writer::primitive(const Scene& scene, const std::vector<uint32_t>& triangle
 }
 
 // One a material, in the order in which they are first met.
-json Writer::primitives(const Scene& scene, std::vector<uint32_t> triangles, const glm::dvec3& offset_m) {
+json GlbWriter::primitives(const Scene& scene, std::vector<uint32_t> triangles, const glm::dvec3& offset_m) {
   const auto material_of = [&](uint32_t t) { return scene.surfaces[scene.triangle_surface[t]].material; };
   std::ranges::stable_sort(triangles, {}, material_of);
   json out = json::array();
@@ -142,7 +142,7 @@ json Writer::primitives(const Scene& scene, std::vector<uint32_t> triangles, con
   return out;
 }
 
-void Writer::add_scene() {
+void GlbWriter::add_scene() {
   const Scene& scene = world_.scene;
   if (scene.triangles.empty()) return;
   std::vector<std::vector<uint32_t>> of_object(scene.objects.size());
@@ -157,7 +157,7 @@ void Writer::add_scene() {
   }
 }
 
-void Writer::channel(size_t target, const char* path, size_t times, size_t values, const char* interpolation) {
+void GlbWriter::channel(size_t target, const char* path, size_t times, size_t values, const char* interpolation) {
   json& animations = file_.root()["animations"];
   if (animations.empty()) animations.push_back({{"name", "frames"}});
   json& samplers = animations[0]["samplers"];
@@ -167,7 +167,7 @@ void Writer::channel(size_t target, const char* path, size_t times, size_t value
 }
 
 // Positions and rotations where they change; what is absent has the size 0.
-void Writer::animate(size_t target, const Track& track) {
+void GlbWriter::animate(size_t target, const Track& track) {
   if (!all_times_) all_times_ = file_.add_times(times_s_);
   std::vector<float> times_s;
   std::vector<glm::vec3> positions, scales;
@@ -195,7 +195,7 @@ void Writer::animate(size_t target, const Track& track) {
   if (gaps) channel(target, "scale", *all_times_, file_.add_translations(scales), "STEP");
 }
 
-void Writer::add_moving(size_t parent, const std::string& name, const Track& track, std::optional<size_t> mesh) {
+void GlbWriter::add_moving(size_t parent, const std::string& name, const Track& track, std::optional<size_t> mesh) {
   if (!track.ever_present()) return;
   const auto& key = *std::ranges::find_if(track.keys, [](const auto& k) { return k.has_value(); });
   const glm::dvec3 p = key->position_m - world_.scene.origin_m;
@@ -207,7 +207,7 @@ void Writer::add_moving(size_t parent, const std::string& name, const Track& tra
   if (track.keys.size() > 1) animate(index, track);
 }
 
-void Writer::add_vehicles(const std::vector<Track>& tracks) {
+void GlbWriter::add_vehicles(const std::vector<Track>& tracks) {
   if (tracks.empty()) return;
   const size_t parent = child(root_, {{"name", "vehicles"}});
   std::vector<std::optional<size_t>> mesh_of(world_.models.size());
@@ -228,7 +228,7 @@ void Writer::add_vehicles(const std::vector<Track>& tracks) {
 }
 
 // An octahedron of lines, a metre in radius: no triangles, which a ray tracer would take for a body.
-size_t Writer::marker(const char* name, GlbFile::Colour colour) {
+size_t GlbWriter::marker(const char* name, GlbFile::Colour colour) {
   const std::vector<glm::vec3> corners{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   const std::vector<uint32_t> edges{0, 1, 1, 2, 2, 3, 3, 0, 4, 0, 4, 1, 4, 2, 4,
                                     3, 5, 0, 5, 1, 5, 2, 5, 3, 0, 2, 1, 3, 4, 5};  // and the axes
@@ -241,7 +241,7 @@ size_t Writer::marker(const char* name, GlbFile::Colour colour) {
   return file_.add("meshes", {{"name", name}, {"primitives", {primitive}}});
 }
 
-void Writer::add_ends(const std::vector<Track>& transmitters, const std::vector<Track>& receivers) {
+void GlbWriter::add_ends(const std::vector<Track>& transmitters, const std::vector<Track>& receivers) {
   const auto add = [this](const char* kind, GlbFile::Colour colour, const auto& ends, const auto& tracks) {
     if (tracks.empty()) return;
     const size_t parent = child(root_, {{"name", kind}}), mesh = marker(kind, colour);
@@ -251,7 +251,7 @@ void Writer::add_ends(const std::vector<Track>& transmitters, const std::vector<
   add("receivers", {26, 163, 255, 255}, run_.receivers(), receivers);
 }
 
-void Writer::add_paths(const SavedFrame& frame, Warnings& warnings) {
+void GlbWriter::add_paths(const SavedFrame& frame, Warnings& warnings) {
   GainScale scale;
   scale.add(frame.paths);
   json extras{{"frame", frame.number}, {"time_s", frame.time_s}, {"paths", frame.paths.size()}};
@@ -293,7 +293,7 @@ Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& 
   warnings.insert(warnings.end(), world.warnings.begin(), world.warnings.end());
   const SavedFrame first = run.frame(options.first_row);
   const Tracks tracks(run, options.first_row, options.last_row, first);
-  Writer writer(run, world);
+  GlbWriter writer(run, world);
   writer.set_times(tracks.times_s);
   writer.add_scene();
   writer.add_vehicles(tracks.vehicles);

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <chrono>
 #include <cmath>
+#include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/kml_text.hpp"
 #include "convert/vtk_glb_kml.hpp"
 #include "imports/georeference.hpp"
 #include "output/path_kinds.hpp"
-#include "base/pending_file.hpp"
 #include "results/saved_world.hpp"
 #include "wavetracer/error.hpp"
 
@@ -66,9 +66,9 @@ struct Survey {
   }
 };
 
-class Writer {
+class KmlWriter {
  public:
-  Writer(const SavedRun& run, const SavedWorld& world, const ExportOptions& options)
+  KmlWriter(const SavedRun& run, const SavedWorld& world, const ExportOptions& options)
       : run_(run),
         world_(world),
         options_(options),
@@ -106,7 +106,7 @@ class Writer {
   uint64_t not_drawn_ = 0;  // points that are not finite
 };
 
-std::string Writer::coordinates(const glm::dvec3& p) const {
+std::string KmlWriter::coordinates(const glm::dvec3& p) const {
   const glm::dvec2 earth = projection_.geographic({p.x, p.y});
   if (!(std::abs(earth.x) <= 180 && std::abs(earth.y) <= 90))
     throw InputError(
@@ -116,21 +116,21 @@ std::string Writer::coordinates(const glm::dvec3& p) const {
   return fmt::format("{:.9f},{:.9f},{:.4f}", earth.x, earth.y, p.z);
 }
 
-std::string Writer::point(const glm::dvec3& p) const {
+std::string KmlWriter::point(const glm::dvec3& p) const {
   return "<Point><altitudeMode>relativeToGround</altitudeMode><coordinates>" + coordinates(p) +
          "</coordinates></Point>";
 }
 
 // From a frame to the next one; the last is as long as the one before it. A single frame has no times.
-std::string Writer::times(size_t row) const {
+std::string KmlWriter::times(size_t row) const {
   if (options_.first_row == options_.last_row) return "";
   const double begin_s = run_.time_s(row);
   const double end_s = row < options_.last_row ? run_.time_s(row + 1) : 2 * begin_s - run_.time_s(row - 1);
   return fmt::format("<TimeSpan><begin>{}</begin><end>{}</end></TimeSpan>", date(begin_s), date(end_s));
 }
 
-void Writer::put_placemark(const std::string& name, const std::string& span, const std::string& style,
-                           const std::string& data, const std::string& geometry) {
+void KmlWriter::put_placemark(const std::string& name, const std::string& span, const std::string& style,
+                              const std::string& data, const std::string& geometry) {
   put(fmt::format("<Placemark><name>{}</name>{}<styleUrl>#{}</styleUrl>{}{}</Placemark>\n", xml_text(name), span, style,
                   data.empty() ? "" : "<ExtendedData>" + data + "</ExtendedData>", geometry));
 }
@@ -140,7 +140,7 @@ std::string data_of(const char* name, const std::string& value) {
 }
 
 // Colours of KML are alpha, blue, green, red.
-void Writer::put_styles() {
+void KmlWriter::put_styles() {
   for (size_t k = 0; k < gain_classes; ++k) {
     const Rgb c = gain_colour((static_cast<double>(k) + 0.5) / gain_classes);
     put(
@@ -155,7 +155,7 @@ void Writer::put_styles() {
       "</Style>\n");
 }
 
-void Writer::put_ends(const SavedFrame& frame, const std::string& span, bool staying) {
+void KmlWriter::put_ends(const SavedFrame& frame, const std::string& span, bool staying) {
   const auto put_kind = [&](const char* style, const auto& ends, const auto& positions_m, const auto& stays) {
     for (size_t i = 0; i < ends.size(); ++i)
       if ((stays[i] != 0) == staying && is_finite(positions_m[i]))
@@ -166,7 +166,7 @@ void Writer::put_ends(const SavedFrame& frame, const std::string& span, bool sta
 }
 
 // As boxes: the footprint of the body's bounding box, at the height of its roof, with walls down to the ground.
-void Writer::put_vehicles(const SavedFrame& frame, const std::string& span) {
+void KmlWriter::put_vehicles(const SavedFrame& frame, const std::string& span) {
   for (const SavedPose& pose : frame.poses) {
     if (!is_finite(pose)) continue;
     const SavedInstance& vehicle = run_.instances()[pose.instance];
@@ -187,7 +187,7 @@ void Writer::put_vehicles(const SavedFrame& frame, const std::string& span) {
   }
 }
 
-void Writer::put_paths(const SavedFrame& frame, const std::string& span) {
+void KmlWriter::put_paths(const SavedFrame& frame, const std::string& span) {
   const Paths& paths = frame.paths;
   std::vector<size_t> rows(paths.size());
   for (size_t i = 0; i < rows.size(); ++i) rows[i] = i;
@@ -217,7 +217,7 @@ void Writer::put_paths(const SavedFrame& frame, const std::string& span) {
   }
 }
 
-void Writer::write(Warnings& warnings) {
+void KmlWriter::write(Warnings& warnings) {
   std::string description = "Paths are lines";
   if (!survey_.gains.empty())
     description += fmt::format(": from {:.0f} dB or less (dark) to {:.0f} dB (bright)", survey_.gains.weakest_db(),
@@ -260,7 +260,7 @@ void Writer::write(Warnings& warnings) {
 Written export_kml(const SavedRun& run, const ExportOptions& options, Warnings& warnings) {
   const SavedWorld world = load_saved_world(run);
   warnings.insert(warnings.end(), world.warnings.begin(), world.warnings.end());
-  Writer(run, world, options).write(warnings);
+  KmlWriter(run, world, options).write(warnings);
   return {options.output};
 }
 

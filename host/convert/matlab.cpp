@@ -1,13 +1,11 @@
 // A run as one MATLAB struct of arrays, with the groups and names of paths.h5; complex coefficients.
 // Rows count from 1, as MATLAB's do: tx, rx, instance, first_path and first_vertex can be used as indices.
+#include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/matlab_file.hpp"
-#include "base/pending_file.hpp"
 
 namespace wavetracer {
 namespace {
-
-using Shape = MatlabFile::Shape;
 
 constexpr const char* conventions =
     "h(f) = sum over paths of a exp(-j 2 pi f delay_s). a is (path, rx port, tx port). Angles are those of the global "

@@ -64,9 +64,9 @@ void MatlabFile::write(const std::string& path, const char* type_name, hid_t fil
   const Shape dimensions = empty ? Shape{shape.size()} : Shape(shape.rbegin(), shape.rend());
   const Id space(H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(), nullptr), H5Sclose,
                  "make a data space");
-  const Id dataset(
-      H5Dcreate2(file_, path.c_str(), empty ? H5T_STD_U64LE : file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Dclose, "create dataset " + path);
+  const Id dataset(H5Dcreate2(file_, path.c_str(), empty ? H5T_STD_U64LE : file_type, space, H5P_DEFAULT,
+                              hdf5::untimed(), H5P_DEFAULT),
+                   H5Dclose, "create dataset " + path);
   checked(H5Dwrite(dataset, empty ? H5T_NATIVE_HSIZE : memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT,
                    empty ? shape.data() : values),
           "write " + path);

@@ -2,16 +2,14 @@
 // `a` means the same there, a passband coefficient without the carrier phase of the delay, so nothing is turned.
 #include <fmt/format.h>
 #include <algorithm>
+#include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/npz.hpp"
-#include "base/pending_file.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
-
-using Shape = Npz::Shape;
 
 constexpr uint32_t invalid_id = 0xFFFFFFFFu;
 
@@ -24,13 +22,13 @@ struct Frame {
 struct Axes {
   size_t frames = 0, rx = 0, tx = 0, rx_ports = 1, tx_ports = 1, paths = 0, depth = 0;
 
-  Shape with_frames(const Shape& inner) const {
-    Shape shape;
+  Npz::Shape with_frames(const Npz::Shape& inner) const {
+    Npz::Shape shape;
     if (frames > 1) shape.push_back(frames);
     for (const size_t size : inner) shape.push_back(size);
     return shape;
   }
-  Shape link() const { return with_frames({rx, tx, paths}); }
+  Npz::Shape link() const { return with_frames({rx, tx, paths}); }
   size_t slots() const { return frames * rx * tx * paths; }
   // Values a slot: a_real and a_imag; tau, four angles, doppler; valid; of each interaction three numbers and a
   // position.
@@ -125,7 +123,7 @@ void add_paths(Npz& npz, const std::vector<Frame>& frames, const Axes& axes) {
     npz.add(name, axes.link(),
             per_path(frames, axes, padding, [&](const Paths& paths, size_t row) { return (paths.*member)[row]; }));
   };
-  const Shape ports = axes.with_frames({axes.rx, axes.rx_ports, axes.tx, axes.tx_ports, axes.paths});
+  const Npz::Shape ports = axes.with_frames({axes.rx, axes.rx_ports, axes.tx, axes.tx_ports, axes.paths});
   npz.add("a_real", ports, coefficients(frames, axes, [](const auto& z) { return z.real(); }));
   npz.add("a_imag", ports, coefficients(frames, axes, [](const auto& z) { return z.imag(); }));
   column("tau", -1, &Paths::delay_s);
@@ -140,7 +138,7 @@ void add_paths(Npz& npz, const std::vector<Frame>& frames, const Axes& axes) {
 
 // Kinds have Sionna's numbers. Objects: 0 is the scene, n + 1 the vehicle of row n. Primitives are surfaces or edges.
 void add_interactions(Npz& npz, const std::vector<Frame>& frames, const Axes& axes) {
-  const Shape shape = axes.with_frames({axes.depth, axes.rx, axes.tx, axes.paths});
+  const Npz::Shape shape = axes.with_frames({axes.depth, axes.rx, axes.tx, axes.paths});
   const auto numbers = [&](const char* name, uint32_t padding, auto value) {
     npz.add(name, shape,
             per_interaction(frames, axes, 1, padding,
@@ -151,7 +149,7 @@ void add_interactions(Npz& npz, const std::vector<Frame>& frames, const Axes& ax
     return paths.vertex_instance[v] == no_instance ? 0 : paths.vertex_instance[v] + 1;
   });
   numbers("primitives", invalid_id, [](const Paths& paths, size_t v) { return paths.vertex_surface[v]; });
-  Shape positions = shape;
+  Npz::Shape positions = shape;
   positions.push_back(3);
   npz.add("vertices", positions,
           per_interaction(frames, axes, 3, 0.0, [](const Paths& paths, size_t vertex, double* out) {

@@ -3,8 +3,8 @@
 #include "gpu/cache.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
-#include <cstdlib>
 #include <fstream>
+#include "base/environment.hpp"
 #include "base/hash.hpp"
 
 namespace wavetracer::gpu {
@@ -33,11 +33,6 @@ std::string header(const ProgramKey& key) {
   return out;
 }
 
-std::string value_of(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value ? value : "";
-}
-
 }  // namespace
 
 std::string ProgramKey::text() const {
@@ -47,10 +42,10 @@ std::string ProgramKey::text() const {
 }
 
 ProgramCache ProgramCache::from_environment() {
-  std::filesystem::path root = value_of("XDG_CACHE_HOME");
-  if (const std::string home = value_of("HOME"); root.empty() && !home.empty())
+  std::filesystem::path root = environment("XDG_CACHE_HOME");
+  if (const std::string home = environment("HOME"); root.empty() && !home.empty())
     root = std::filesystem::path(home) / ".cache";
-  if (value_of("WAVETRACER_NO_CACHE") == "1" || root.empty()) return ProgramCache({});
+  if (environment("WAVETRACER_NO_CACHE") == "1" || root.empty()) return ProgramCache({});
   return ProgramCache(root / "wavetracer" / "programs");
 }
 

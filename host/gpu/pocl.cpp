@@ -8,17 +8,13 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include "base/environment.hpp"
 
 namespace wavetracer::gpu {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string value_of(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value ? value : "";
-}
 
 // Why the folder, or the nearest one above it that exists, cannot be written to; empty where it can.
 std::string obstacle(fs::path folder) {
@@ -44,14 +40,15 @@ fs::path own_folder() {
 }  // namespace
 
 fs::path pocl_cache_folder() {
-  if (const std::string chosen = value_of("POCL_CACHE_DIR"); !chosen.empty()) return chosen;
-  if (const std::string caches = value_of("XDG_CACHE_HOME"); !caches.empty()) return fs::path(caches) / "pocl/kcache";
-  if (const std::string home = value_of("HOME"); !home.empty()) return fs::path(home) / ".cache/pocl/kcache";
+  if (const std::string chosen = environment("POCL_CACHE_DIR"); !chosen.empty()) return chosen;
+  if (const std::string caches = environment("XDG_CACHE_HOME"); !caches.empty())
+    return fs::path(caches) / "pocl/kcache";
+  if (const std::string home = environment("HOME"); !home.empty()) return fs::path(home) / ".cache/pocl/kcache";
   return "/tmp/pocl/kcache";
 }
 
 void give_pocl_a_cache() {
-  if (!value_of("POCL_CACHE_DIR").empty()) return;
+  if (!environment("POCL_CACHE_DIR").empty()) return;
   unsetenv("POCL_CACHE_DIR");  // PoCL takes an empty one for a folder
   if (pocl_cache_problem().empty()) return;
   if (const fs::path folder = own_folder(); !folder.empty()) setenv("POCL_CACHE_DIR", folder.c_str(), 1);

@@ -9,10 +9,10 @@
 #include <fstream>
 #include <limits>
 
+#include "base/file.hpp"
 #include "imports/map.hpp"
 #include "imports/plan.hpp"
 #include "imports/scene_files.hpp"
-#include "base/file.hpp"
 #include "scene/materials.hpp"
 #include "wavetracer/error.hpp"
 

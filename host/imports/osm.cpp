@@ -12,9 +12,9 @@
 #include <osmium/io/xml_input.hpp>
 #include <set>
 
+#include "base/file.hpp"
 #include "imports/map.hpp"
 #include "imports/rings.hpp"
-#include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::imports {

@@ -2,8 +2,8 @@
 // In this folder because the output folder knows no simulation.
 #include <fmt/format.h>
 #include <algorithm>
-#include "config/input_files.hpp"
 #include "base/hash.hpp"
+#include "config/input_files.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/output.hpp"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "radio/links.hpp"
 #include "base/stopwatch.hpp"
+#include "radio/links.hpp"
 #include "wavetracer/version.hpp"
 
 namespace wavetracer::live {

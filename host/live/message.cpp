@@ -264,8 +264,9 @@ Message parse_message(std::string_view line, size_t max_vehicles) {
     Object(value, "bye", {"message"});
     return Bye{};
   }
-  refuse("unknown_message", in_quotes(name) + " is none of hello, frame, bye" +
-                                (name.size() <= max_quoted_bytes ? spelling_hint(name, {"hello", "frame", "bye"}) : ""));
+  refuse("unknown_message",
+         in_quotes(name) + " is none of hello, frame, bye" +
+             (name.size() <= max_quoted_bytes ? spelling_hint(name, {"hello", "frame", "bye"}) : ""));
 }
 
 }  // namespace wavetracer::live

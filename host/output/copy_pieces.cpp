@@ -10,7 +10,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint64_t block_bytes = uint64_t{1} << 20;
+constexpr uint64_t copied_at_once_bytes = uint64_t{1} << 20;
 
 void add(std::span<std::byte> numbers, uint64_t base) {
   for (size_t at = 0; at + sizeof base <= numbers.size(); at += sizeof base) {
@@ -41,7 +41,7 @@ void copy_pieces(std::span<const std::filesystem::path> parts, const Pieces& pie
     uint64_t most = 0;
     for (const Piece& piece : pieces[i]) most = std::max(most, piece.bytes);
     if (most == 0) return;
-    std::vector<std::byte> block(std::min(most, block_bytes));
+    std::vector<std::byte> block(std::min(most, copied_at_once_bytes));
     std::ifstream in(parts[i], std::ios::binary);
     for (const Piece& piece : pieces[i]) copy(in, parts[i], piece, block, file);
   });

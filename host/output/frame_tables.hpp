@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 #include <vector>
-#include "output/hdf5.hpp"
 #include "base/pending_file.hpp"
+#include "output/hdf5.hpp"
 #include "output/table_layout.hpp"
 
 namespace wavetracer {

@@ -23,13 +23,6 @@ Id simple_space(const std::vector<hsize_t>& shape) {
   return Id(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "make a data space");
 }
 
-// Without the time of its making, which would tell apart files of equal contents.
-Id untimed() {
-  Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "set up a dataset");
-  checked(H5Pset_obj_track_times(creation, false), "set up a dataset");
-  return creation;
-}
-
 Id create_dataset(hid_t file, const std::string& path, hid_t type, hid_t space, hid_t creation) {
   return Id(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
             "create dataset " + path);
@@ -58,6 +51,12 @@ Id memory_access() {
 }
 
 }  // namespace
+
+Id untimed() {
+  Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "set up a dataset");
+  checked(H5Pset_obj_track_times(creation, false), "set up a dataset");
+  return creation;
+}
 
 hid_t checked(hid_t result, const std::string& doing) {
   if (result >= 0) return result;

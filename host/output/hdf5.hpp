@@ -32,6 +32,9 @@ class Id {
   Close close_;
 };
 
+// How a dataset is made: without the time of its making, which would tell apart files of equal contents.
+Id untimed();
+
 // While it lives, the library prints no error stacks to stderr: failures are exceptions.
 class Silence {
  public:

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 #include <vector>
-#include "output/output.hpp"
 #include "base/pending_file.hpp"
+#include "output/output.hpp"
 
 namespace wavetracer {
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include "base/read_text.hpp"
 #include "output/cache_json.hpp"
 #include "output/json_count.hpp"
-#include "base/read_text.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr uint64_t most_bytes = uint64_t{1} << 32;
+constexpr uint64_t most_manifest_bytes = uint64_t{1} << 32;
 
 std::vector<uint64_t> whole_numbers(const Json& json) {
   std::vector<uint64_t> out;
@@ -173,7 +173,7 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
 std::vector<Shard> read_manifest(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return {};
-  return decode_manifest(read_text(file, most_bytes, "check its permissions, or remove it and run again"),
+  return decode_manifest(read_text(file, most_manifest_bytes, "check its permissions, or remove it and run again"),
                          file.string());
 }
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <functional>
 #include <vector>
+#include "base/pending_file.hpp"
 #include "output/h5_outputs.hpp"
 #include "output/merge_parts.hpp"
-#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

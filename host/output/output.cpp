@@ -2,9 +2,9 @@
 #include "output/output.hpp"
 #include <chrono>
 #include <string>
+#include "base/pending_file.hpp"
 #include "output/earlier_run.hpp"
 #include "output/frame_files.hpp"
-#include "base/pending_file.hpp"
 #include "output/summary_json.hpp"
 
 namespace wavetracer {

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = "process_";
-constexpr size_t most_bytes = 4096;  // of a process file
+constexpr size_t most_process_bytes = 4096;  // of a process file
 
 std::string host_name() {
   std::array<char, 256> name{};
@@ -118,7 +118,7 @@ std::string encode_process(const ProcessInfo& p) {
 }
 
 std::optional<ProcessInfo> decode_process(std::string_view text) {
-  if (text.size() > most_bytes) return std::nullopt;
+  if (text.size() > most_process_bytes) return std::nullopt;
   const auto json = nlohmann::json::parse(text, nullptr, false);
   try {
     return ProcessInfo{.name = json.at("name"),
@@ -136,7 +136,7 @@ std::optional<ProcessInfo> decode_process(std::string_view text) {
 
 std::optional<ProcessInfo> read_process(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::string text(most_bytes + 1, '\0');
+  std::string text(most_process_bytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<size_t>(in.gcount()));
   return decode_process(text);

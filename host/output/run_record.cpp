@@ -3,8 +3,8 @@
 #include "output/run_record.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include "output/json_count.hpp"
 #include "base/read_text.hpp"
+#include "output/json_count.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr uint64_t most_vehicles = uint64_t{1} << 24, most_bytes = uint64_t{1} << 26;
+constexpr uint64_t most_vehicles = uint64_t{1} << 24, most_record_bytes = uint64_t{1} << 26;
 
 }  // namespace
 
@@ -89,8 +89,9 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
 }
 
 RunRecord read_run_record(const std::filesystem::path& file) {
-  return decode_run_record(read_text(file, most_bytes, "it is part of every run that was written in shards; run again"),
-                           file.string());
+  return decode_run_record(
+      read_text(file, most_record_bytes, "it is part of every run that was written in shards; run again"),
+      file.string());
 }
 
 }  // namespace wavetracer

@@ -8,11 +8,11 @@
 #include <memory>
 #include <utility>
 #include <vector>
+#include "base/pending_file.hpp"
 #include "output/frame_files.hpp"
 #include "output/manifest.hpp"
 #include "output/merge_parts.hpp"
 #include "output/output.hpp"
-#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include "base/pending_file.hpp"
 #include "output/copy_pieces.hpp"
 #include "output/hdf5.hpp"
-#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

@@ -27,12 +27,12 @@ std::string cell_table(const SavedRun& run, const std::vector<CoverageCell>& cel
 }
 
 // What is drawn of a cell: its received power where there is a link budget, else its gain.
-struct Drawn {
+struct CellValue {
   double offset_db;  // above the path gain
   std::string label, column;
 };
 
-Drawn drawn(const RadioConfig& radio) {
+CellValue cell_value(const RadioConfig& radio) {
   if (!radio.transmit_power_dbm) return {0, "path gain (dB)", "6"};
   const std::string noise = radio.bandwidth_hz ? fmt::format(", noise {:.1f} dBm", noise_dbm(radio)) : "";
   return {*radio.transmit_power_dbm, "received power (dBm)" + noise, "9"};
@@ -63,7 +63,7 @@ std::string trimmed_range(const std::vector<CoverageCell>& cells, double offset_
 }
 
 // A grid of one row or column.
-std::string row_commands(const std::string& name, bool northward, const Drawn& what) {
+std::string row_commands(const std::string& name, bool northward, const CellValue& what) {
   return fmt::format(
       "set xlabel '{} (m)'\n"
       "set ylabel '{}'\n"
@@ -73,7 +73,7 @@ std::string row_commands(const std::string& name, bool northward, const Drawn& w
 }
 
 std::string image_commands(const std::string& name, const CoverageCell& first, const CoverageCell& last,
-                           const Drawn& what) {
+                           const CellValue& what) {
   const double half_x_m = 0.5 * (last.position_m.x - first.position_m.x) / last.ix,
                half_y_m = 0.5 * (last.position_m.y - first.position_m.y) / last.iy;
   return fmt::format(
@@ -162,13 +162,14 @@ Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::
              ""};
   const CoverageCell &first = cells.front(), &last = cells.back();
   if (last.ix == 0 || last.iy == 0) {
-    out.commands = row_commands(name, last.iy > 0, drawn(radio));
+    out.commands = row_commands(name, last.iy > 0, cell_value(radio));
     return out;
   }
   const double z_m = 0.5 * (first.position_m.z + last.position_m.z);
   out.data.push_back({name + "_walls.csv", wall_table(section(scene, z_m))});
   out.data.push_back({name + "_transmitters.csv", transmitter_table(run, frame, tx)});
-  out.commands = trimmed_range(cells, drawn(radio).offset_db) + image_commands(name, first, last, drawn(radio));
+  out.commands =
+      trimmed_range(cells, cell_value(radio).offset_db) + image_commands(name, first, last, cell_value(radio));
   out.height_px = std::clamp(690.0 * (last.iy + 1) / (last.ix + 1) + 120, 300.0, 1200.0);
   return out;
 }

@@ -3,9 +3,9 @@
 #include "results/saved_world.hpp"
 #include <fmt/format.h>
 #include <map>
+#include "base/hash.hpp"
 #include "config/config_file.hpp"
 #include "config/retired_keys.hpp"
-#include "base/hash.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/error.hpp"

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "scene/city_building.hpp"
 #include "base/file.hpp"
+#include "scene/city_building.hpp"
 #include "scene/ply.hpp"
 #include "wavetracer/error.hpp"
 

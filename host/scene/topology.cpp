@@ -12,7 +12,7 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr uint32_t none = 0xFFFFFFFFu;
+constexpr uint32_t unassigned = 0xFFFFFFFFu;
 
 // The largest component positive (the last one of equals): the same plane whatever the winding of the file.
 dvec3 oriented(const dvec3& n) {
@@ -32,7 +32,10 @@ class SurfaceGrower {
  public:
   SurfaceGrower(const Scene& scene, std::span<const uint32_t> material,
                 std::span<const std::array<uint32_t, 3>> triangle_edges)
-      : scene_(scene), material_(material), triangle_edges_(triangle_edges), seed_of_(scene.triangles.size(), none) {
+      : scene_(scene),
+        material_(material),
+        triangle_edges_(triangle_edges),
+        seed_of_(scene.triangles.size(), unassigned) {
     shapes_.reserve(scene.triangles.size());
     for (uint32_t t = 0; t < scene.triangles.size(); ++t) shapes_.push_back(shape_of(scene, t));
   }
@@ -45,7 +48,7 @@ class SurfaceGrower {
       return shapes_[a].area_m2 != shapes_[b].area_m2 ? shapes_[a].area_m2 > shapes_[b].area_m2 : a < b;
     });
     for (uint32_t seed : order) {
-      if (seed_of_[seed] == none) grow_from(seed);
+      if (seed_of_[seed] == unassigned) grow_from(seed);
     }
     return std::move(seed_of_);
   }
@@ -67,7 +70,7 @@ class SurfaceGrower {
         const Edge& edge = scene_.edges[e];
         for (uint32_t i = 0; i < edge.face_count; ++i) {
           const uint32_t other = scene_.edge_faces[edge.first_face + i];
-          if (seed_of_[other] != none || material_[other] != material_[seed] || !lies_in(other, plane)) continue;
+          if (seed_of_[other] != unassigned || material_[other] != material_[seed] || !lies_in(other, plane)) continue;
           seed_of_[other] = seed;
           stack_.push_back(other);
         }
@@ -177,12 +180,12 @@ void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
   const std::vector<uint32_t> seed_of = grower.grow();
   const size_t count = scene.triangles.size();
   scene.surfaces.clear();
-  scene.triangle_surface.assign(count, none);
-  std::vector<uint32_t> surface_of_seed(count, none);
+  scene.triangle_surface.assign(count, unassigned);
+  std::vector<uint32_t> surface_of_seed(count, unassigned);
   for (uint32_t t = 0; t < count; ++t) {
     const uint32_t seed = seed_of[t];
     uint32_t& index = surface_of_seed[seed];
-    if (index == none) {
+    if (index == unassigned) {
       index = static_cast<uint32_t>(scene.surfaces.size());
       const Plane plane = grower.plane_of(seed);
       const dvec3 corner = scene.vertices[scene.triangles[t][0]];

@@ -12,7 +12,6 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double same_angle_rad = 1e-3;
 
 dvec3 end_of(const Wedge& w) { return w.start + w.along * w.length_m; }
 

@@ -20,7 +20,6 @@ namespace {
 
 using glm::dvec3;
 constexpr double pi = std::numbers::pi;
-constexpr double same_angle_rad = 1e-3;
 // A face that ends at a piece may end 2 mm beside it, on either side: twice that far it is there, or it is not.
 constexpr double probe_m = 2 * touch_m;
 constexpr double inside_m = 1e-6;  // probes on the border between two triangles are in both

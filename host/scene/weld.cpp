@@ -11,7 +11,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint32_t none = 0xFFFFFFFFu;
+constexpr uint32_t no_vertex = 0xFFFFFFFFu;
 
 class Forest {
  public:
@@ -45,8 +45,8 @@ class Grid {
       : vertices_(vertices),
         tolerance_m_(tolerance_m),
         cell_m_(4 * tolerance_m),
-        head_(std::bit_ceil(vertices.size() * 2 + 1), none),
-        next_(vertices.size(), none) {}
+        head_(std::bit_ceil(vertices.size() * 2 + 1), no_vertex),
+        next_(vertices.size(), no_vertex) {}
 
   // Joins vertex i with all earlier ones within the tolerance, then adds it unless its very position is there.
   void add(uint32_t i, Forest& forest) {
@@ -77,7 +77,7 @@ class Grid {
   }
   // True when the chain holds the exact position of i.
   bool join_chain(uint32_t j, uint32_t i, Forest& forest) const {
-    for (; j != none; j = next_[j]) {
+    for (; j != no_vertex; j = next_[j]) {
       const glm::dvec3 d = vertices_[j] - vertices_[i];
       if (glm::dot(d, d) > tolerance_m_ * tolerance_m_) continue;
       forest.join(i, j);

@@ -3,6 +3,7 @@
 #pragma once
 #include <optional>
 
+#include "base/stopwatch.hpp"
 #include "passes/candidates.hpp"
 #include "passes/occlusion.hpp"
 #include "passes/scatter.hpp"
@@ -12,7 +13,6 @@
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/frame_watch.hpp"
 #include "simulation/listeners.hpp"
-#include "base/stopwatch.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/path_geometry.hpp"

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/stopwatch.hpp"
 #include "radio/fields.hpp"
 #include "radio/opacity.hpp"
 #include "scene/load.hpp"
@@ -25,7 +26,6 @@
 #include "simulation/place_warnings.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/reciprocity.hpp"
-#include "base/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/error.hpp"

@@ -3,9 +3,9 @@
 #include <doctest/doctest.h>
 #include <random>
 #include <set>
+#include "base/spelling.hpp"
 #include "config/config_file.hpp"
 #include "config/fields.hpp"
-#include "base/spelling.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
+#include "base/file.hpp"
 #include "convert/convert.hpp"
 #include "convert/kml_text.hpp"
 #include "results/saved_world.hpp"
-#include "base/file.hpp"
 #include "scene/load.hpp"
 #include "vtk_glb_kml_run.hpp"
 #include "wavetracer/error.hpp"

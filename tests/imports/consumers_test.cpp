@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/file.hpp"
 #include "imported.hpp"
 #include "imports/georeference.hpp"
-#include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

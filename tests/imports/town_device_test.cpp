@@ -10,11 +10,11 @@
 #include <set>
 
 #include "app/program.hpp"
+#include "base/file.hpp"
 #include "imports/imports.hpp"
 #include "imports/map.hpp"
 #include "imports/rings.hpp"
 #include "motion/read.hpp"
-#include "base/file.hpp"
 
 namespace {
 

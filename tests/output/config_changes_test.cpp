@@ -1,6 +1,6 @@
 // Which keys of two configurations differ, in words.
-#include <doctest/doctest.h>
 #include "output/config_changes.hpp"
+#include <doctest/doctest.h>
 
 using wavetracer::config_changes;
 using Words = std::vector<std::string>;

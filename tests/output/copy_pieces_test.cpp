@@ -1,9 +1,9 @@
 // Bytes of many files in one, against the same done in memory; and what cannot be copied.
+#include "output/copy_pieces.hpp"
 #include <doctest/doctest.h>
 #include <cstring>
 #include <fstream>
 #include <random>
-#include "output/copy_pieces.hpp"
 #include "output/hdf5.hpp"
 #include "output/merge_h5.hpp"
 #include "output/reader.hpp"

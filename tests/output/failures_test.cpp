@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include "output/output.hpp"
 #include "base/pending_file.hpp"
+#include "output/output.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/error.hpp"
 

@@ -1,5 +1,6 @@
 // A child that answers, fails, faults, takes too much memory or time: each is an answer or an error of its class, and
 // the process that asked goes on.
+#include "output/limited_child.hpp"
 #include <doctest/doctest.h>
 #include <unistd.h>
 #include <csignal>
@@ -9,7 +10,6 @@
 #include <numeric>
 #include <string>
 #include <vector>
-#include "output/limited_child.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

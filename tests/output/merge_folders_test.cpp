@@ -1,9 +1,9 @@
 // Parts of a run in several folders make the outputs of the whole run, or an error that names what is wrong.
 // Frames are made up; parts are cut by hand.
+#include "output/merge_folders.hpp"
 #include <doctest/doctest.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include "output/merge_folders.hpp"
 #include "output/reader.hpp"
 #include "output/run_record.hpp"
 #include "output/sample_run.hpp"

@@ -1,11 +1,11 @@
 // What write_outputs() writes is what a reader finds: paths.h5 through the C library, links.csv and summary.json.
 // Leaves its sample under tests/output/sample of the build folder, for the tests that read it from Python.
+#include "output/output.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include "output/output.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
 

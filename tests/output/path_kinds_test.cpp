@@ -1,7 +1,7 @@
 // Paths by their most special interaction: every mixture, and sums over the shards of a drive.
+#include "output/path_kinds.hpp"
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
-#include "output/path_kinds.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
 #include "output/shards.hpp"

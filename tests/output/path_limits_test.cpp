@@ -1,12 +1,12 @@
 // What the limits of output leave out, and that it is counted wherever it may be missed.
 // The sample's paths are few enough to say by hand which of them remain.
+#include "output/path_limits.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
-#include "output/path_limits.hpp"
 #include "reader.hpp"
 #include "sample_run.hpp"
 #include "temporary_folder.hpp"

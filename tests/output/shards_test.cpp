@@ -1,5 +1,6 @@
 // A drive that is written in shards reads as one that is written whole, whatever happened between its shards.
 // Frames are made up; the program's own drives are tested in tests/app.
+#include "output/shards.hpp"
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
-#include "output/shards.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 

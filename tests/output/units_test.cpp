@@ -1,5 +1,6 @@
 // How a run is cut, and who computes which part: units, process files, claims.
 // Processes are this one, a child of it that has ended, and made-up ones of another machine.
+#include "output/units.hpp"
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,7 +8,6 @@
 #include <thread>
 #include "output/claims.hpp"
 #include "output/process_files.hpp"
-#include "output/units.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 

@@ -1,10 +1,10 @@
 // The brute-force oracle against closed forms: free space, ground, corridor, box, and the rules of blocking.
 // Expected lengths come from image positions written out here, not from the oracle's own mirrors.
+#include "reference/brute_force.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include "reference/brute_force.hpp"
 #include "reference/quads.hpp"
 
 using namespace wavetracer;

@@ -1,10 +1,10 @@
 // The comparison against reference lists, on lists whose outcome is known: the list itself, and the list with faults.
 // Percentages of numpy.percentile are given as numbers computed by hand.
+#include "reference/compare.hpp"
 #include <doctest/doctest.h>
 #include <unistd.h>
 #include <cmath>
 #include <fstream>
-#include "reference/compare.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

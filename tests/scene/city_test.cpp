@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "scene/city.hpp"
 #include "base/file.hpp"
+#include "scene/city.hpp"
 #include "scene/mitsuba.hpp"
 #include "scene_files.hpp"
 #include "wavetracer/error.hpp"

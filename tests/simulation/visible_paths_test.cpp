@@ -10,9 +10,9 @@
 #include <random>
 #include <tuple>
 
+#include "base/stopwatch.hpp"
 #include "simulation/distinct_paths.hpp"
 #include "simulation/reciprocity.hpp"
-#include "base/stopwatch.hpp"
 #include "wavetracer/paths.hpp"
 
 using namespace wavetracer;

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include "base/file.hpp"
 #include "output/sample_run.hpp"
 #include "plots/figure.hpp"
 #include "radio/links.hpp"
 #include "results/missed_shares.hpp"
-#include "base/file.hpp"
 #include "viewer/blocks.hpp"
 #include "viewer/grid_maps.hpp"
 #include "viewer/link_rows.hpp"

@@ -24,7 +24,8 @@ static char* read_text(const char* path) {
   return text;
 }
 
-/* Where the relative paths of a configuration start: its own folder, as for `wavetracer run -c`. The caller frees it. */
+/* Where the relative paths of a configuration start: its own folder, as for `wavetracer run -c`. The caller frees it.
+ */
 static char* folder_of(const char* path) {
   const char* slash = strrchr(path, '/');
   const size_t size = slash ? (size_t)(slash - path) + 1 : 1;
@@ -52,8 +53,8 @@ static int print_frame(const wavetracer_simulation* simulation, const wavetracer
   printf("frame %u: %zu paths\n", wavetracer_frame_number(frame), delay_s.rows);
   for (size_t i = 0; i < delay_s.rows; ++i)
     printf("%s -> %s  %9.2f ns %8.2f dB\n", wavetracer_transmitter_name(simulation, ((const uint32_t*)tx.data)[i]),
-           wavetracer_receiver_name(simulation, ((const uint32_t*)rx.data)[i]),
-           ((const double*)delay_s.data)[i] * 1e9, ((const double*)gain_db.data)[i]);
+           wavetracer_receiver_name(simulation, ((const uint32_t*)rx.data)[i]), ((const double*)delay_s.data)[i] * 1e9,
+           ((const double*)gain_db.data)[i]);
   return WAVETRACER_OK;
 }
 

@@ -1,0 +1,14 @@
+// Variables of the environment.
+#pragma once
+#include <cstdlib>
+#include <string>
+
+namespace wavetracer {
+
+// Empty where the variable is not set.
+inline std::string environment(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value ? value : "";
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""The rules of the house that a program can check.
+
+usage: house.py SOURCE format|names|sizes
+
+format  every source is what clang-format makes of it with .clang-format
+names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
+sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+SKIPPED = 77
+FOLDERS = ("bench", "host", "include", "kernels", "tests")
+SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cl", ".clh"}
+# Folders of tests that are about more than one folder of host/.
+OF_THE_WHOLE = {"consumers", "documents", "fuzz", "hard", "house", "install", "kernels", "reference", "robustness"}
+MOST_LINES, MOST_KERNEL_LINES, MOST_FUNCTION_LINES = 300, 200, 60
+
+
+def sources(root):
+    for folder in FOLDERS:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in SUFFIXES:
+                yield path
+
+
+def misformatted(root):
+    program = shutil.which("clang-format-14") or shutil.which("clang-format")
+    version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout if program else ""
+    if "version 14." not in version:
+        print("clang-format 14 is not there: other versions format otherwise")
+        sys.exit(SKIPPED)
+    files = [str(path) for path in sources(root)]
+    done = subprocess.run([program, "--dry-run", "--ferror-limit=1", *files], capture_output=True, text=True)
+    found = sorted(set(re.findall(r"^(.*?):\d+:\d+: warning: code should be clang-formatted", done.stderr, re.M)))
+    return [f"{pathlib.Path(name).relative_to(root)}: run clang-format -i on it" for name in found]
+
+
+def misnamed(root):
+    faults = []
+    hosts = {path.name for path in (root / "host").iterdir()}
+    for path in sorted((root / "tests").glob("*/*.cpp")):
+        name = path.relative_to(root)
+        has_tests = re.search(r"^TEST_CASE", path.read_text(), re.M) is not None
+        if has_tests and not path.stem.endswith("_test"):
+            faults.append(f"{name}: it has test cases, so its name ends in _test.cpp")
+        if not has_tests and path.stem.endswith("_test"):
+            faults.append(f"{name}: it has no test case, so its name does not end in _test.cpp")
+    for path in sorted((root / "tests").iterdir()):
+        if path.is_dir() and path.name not in hosts | OF_THE_WHOLE:
+            faults.append(f"tests/{path.name}: no folder of host/ has this name")
+    return faults
+
+
+def long_functions(lines):
+    """(name, lines) of functions, and of those in classes at the margin, as clang-format lays them out."""
+    for margin in ("", "  "):
+        header, begin = None, None
+        for number, line in enumerate(lines):
+            at_margin = line.startswith(margin) and line[len(margin):len(margin) + 1] not in ("", " ", "}", "#", "/")
+            if begin is None and at_margin:
+                header = number
+            if begin is None and header is not None and line.endswith("{"):
+                text = " ".join(lines[header:number + 1]).strip()
+                scope = re.match(r"(typedef )?(namespace|extern|struct|class|enum|union|inline namespace)\b", text)
+                scope = scope or re.match(r"(for|if|while|switch|do|else|try|return)\b|[^(]*[=\[\]{.]", text)
+                begin = None if scope or "(" not in text else header
+                header = None
+            elif begin is None and line.endswith((";", "}", ":")):
+                header = None
+            elif begin is not None and line.startswith(margin + "}"):
+                if number - begin + 1 > MOST_FUNCTION_LINES:
+                    text = " ".join(lines[begin:number])
+                    test = re.match(r'\s*TEST_CASE\("([^"]*)"', text)
+                    yield test[1] if test else text.split("(")[0].split()[-1].lstrip("*&"), number - begin + 1
+                begin, header = None, None
+
+
+def large(root):
+    found = {}
+    for path in sources(root):
+        name = str(path.relative_to(root))
+        lines = path.read_text().splitlines()
+        most = MOST_KERNEL_LINES if name.startswith("kernels/") else MOST_LINES
+        if len(lines) > most:
+            found[name] = f"{len(lines)} lines, where {most} are the limit"
+        for function, count in long_functions(lines):
+            found[f"{name} {function}"] = f"{count} lines, where {MOST_FUNCTION_LINES} are the limit"
+    return found
+
+
+def wrong_sizes(root):
+    listed = [line for line in (root / "tests/house/large.txt").read_text().splitlines() if line and line[0] != "#"]
+    found = large(root)
+    for name, why in found.items():
+        print(f"{name}: {why}")
+    new = [f"{name}: {why}; split it" for name, why in found.items() if name not in listed]
+    return new + [f"tests/house/large.txt: {name} is no longer too large: remove the line" for name in listed
+                  if name not in found]
+
+
+CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes}
+
+
+def main():
+    if len(sys.argv) != 3 or sys.argv[2] not in CHECKS:
+        sys.exit(__doc__)
+    faults = CHECKS[sys.argv[2]](pathlib.Path(sys.argv[1]).resolve())
+    for fault in faults:
+        print("FAULT " + fault)
+    sys.exit(1 if faults else 0)
+
+
+main()
