@@ -9,14 +9,14 @@
 #include "accuracy/files.hpp"
 #include "accuracy/table.hpp"
 #include "output/pending_file.hpp"
-#include "recipes/thesis.hpp"
+#include "study/thesis.hpp"
 #include "wavetracer/version.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
-using recipes::escaped;
+using study::escaped;
 
 constexpr const char* style =
     "body{font:16px/1.5 sans-serif;max-width:1320px;margin:2em auto;padding:0 1em;color:#222}"
@@ -79,7 +79,7 @@ std::string page_html(const Study& study, const std::string& command_line, const
 
 Written write_files(const Study& study, const std::string& command_line, const fs::path& folder) {
   plots::Drawn drawn = plots::draw(front_figure(study), plots::Format::svg, folder);
-  const std::string svg = drawn.problem.empty() ? recipes::inline_svg(file_text(drawn.files.back()), "accuracy-") : "";
+  const std::string svg = drawn.problem.empty() ? study::inline_svg(file_text(drawn.files.back()), "accuracy-") : "";
   const std::string page = page_html(study, command_line, svg);
   std::vector<PendingFile> files;
   files.emplace_back(folder / "accuracy.html", std::as_bytes(std::span(page)));

@@ -7,8 +7,8 @@
 #include "app/inputs.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "recipes/run.hpp"
-#include "recipes/thesis.hpp"
+#include "study/run.hpp"
+#include "study/thesis.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -25,23 +25,23 @@ struct Options {
 
 constexpr const char* all_figures = "thesis";
 
-recipes::Request request(const Options& options, const recipes::Recipe& recipe, const std::string& command_line) {
-  recipes::Request out{.config = recipes::recipe_config(recipe, options.file, options.sets),
-                       .device = options.device,
-                       .rays = {},
-                       .repeats = options.repeats,
-                       .frames = options.frames,
-                       .quick = options.quick,
-                       .command_line = command_line};
-  if (!options.rays.empty()) out.rays = recipes::parse_ray_range(options.rays);
-  if (out.rays && !recipe.study) recipes::ray_counts(*out.rays);  // says so where there are none
+study::Request request(const Options& options, const study::Recipe& recipe, const std::string& command_line) {
+  study::Request out{.config = study::recipe_config(recipe, options.file, options.sets),
+                     .device = options.device,
+                     .rays = {},
+                     .repeats = options.repeats,
+                     .frames = options.frames,
+                     .quick = options.quick,
+                     .command_line = command_line};
+  if (!options.rays.empty()) out.rays = study::parse_ray_range(options.rays);
+  if (out.rays && !recipe.study) study::ray_counts(*out.rays);  // says so where there are none
   if (!options.directory.empty())
     out.config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return out;
 }
 
 std::string listed() {
-  return recipes::recipe_list() + fmt::format("  {:<16} {}\n", all_figures, "all figures, as one page: thesis.html");
+  return study::recipe_list() + fmt::format("  {:<16} {}\n", all_figures, "all figures, as one page: thesis.html");
 }
 
 void bench(const Options& options, Invocation& invocation) {
@@ -49,14 +49,14 @@ void bench(const Options& options, Invocation& invocation) {
     throw ConfigError("bench: no recipe given; there are\n" + listed() +
                       "and `./dev bench` measures the parts of the program");
   const bool all = options.recipe == all_figures;
-  const recipes::Recipe& recipe = all ? *recipes::thesis_recipes().front() : recipes::find_recipe(options.recipe);
-  const recipes::Request asked = request(options, recipe, invocation.command_line);
+  const study::Recipe& recipe = all ? *study::thesis_recipes().front() : study::find_recipe(options.recipe);
+  const study::Request asked = request(options, recipe, invocation.command_line);
   check_inputs(asked.config);
   check_output_folder(asked.config.output.directory);
   catch_interrupts();
   Progress progress;
-  const recipes::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
-  const recipes::Report report =
+  const study::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
+  const study::Report report =
       all ? run_thesis([&](const auto& one) { return request(options, one, invocation.command_line); }, host)
           : run_recipe(recipe, asked, host);
   if (interrupted()) {

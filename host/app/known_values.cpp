@@ -5,15 +5,15 @@
 #include "config/fields.hpp"
 #include "convert/convert.hpp"
 #include "plots/plots.hpp"
-#include "recipes/recipe.hpp"
 #include "scene/materials.hpp"
+#include "study/recipe.hpp"
 
 namespace wavetracer::app {
 namespace {
 
 std::vector<std::string> recipe_names() {
   std::vector<std::string> out{"thesis"};
-  for (const recipes::Recipe& recipe : recipes::recipes()) out.emplace_back(recipe.name);
+  for (const study::Recipe& recipe : study::recipes()) out.emplace_back(recipe.name);
   return out;
 }
 
