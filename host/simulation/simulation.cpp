@@ -30,6 +30,7 @@
 #include "simulation/world.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/live.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer {
 
@@ -428,6 +429,7 @@ FrameResult Simulation::State::solve(uint32_t frame, WorldState frame_world, con
   out.seconds["paths"] = paths_seconds;
   out.seconds["fields"] = fields_seconds;
   out.seconds["frame"] = frame_seconds;
+  check_stages(out.seconds);
   out.segments_per_depth = found.segments_per_depth;
   out.counts.rays = found.rays;
   for (const uint64_t segments : found.segments_per_depth) out.counts.segments += segments;

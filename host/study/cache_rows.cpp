@@ -1,13 +1,12 @@
 // Sums of stages, and the table as a list of columns.
 // A stage that a frame has no use for counts nothing.
 #include "study/cache_rows.hpp"
-#include <fmt/format.h>
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
 #include <initializer_list>
+#include <numeric>
 #include "output/median.hpp"
-#include "study/measure.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -16,70 +15,7 @@ constexpr std::initializer_list<double CacheTimes::*> stages = {&CacheTimes::loo
                                                                 &CacheTimes::gather_s, &CacheTimes::store_s,
                                                                 &CacheTimes::purge_s,  &CacheTimes::trace_s};
 
-double a_segment_ns(double seconds, double segments) {
-  return segments > 0 ? 1e9 * seconds / segments : study::undefined;
-}
-
-struct Column {
-  std::string name;
-  std::function<std::string(const CacheRow&)> cell;
-};
-
-Column number(const std::string& name, const std::function<double(const CacheRow&)>& value) {
-  return {name, [value](const CacheRow& row) { return fmt::format("{:.6g}", value(row)); }};
-}
-
-const std::vector<Column>& columns() {
-  using R = CacheRow;
-  static const std::vector<Column> all = {
-      {"study", [](const R& r) { return r.study; }},
-      {"drive", [](const R& r) { return r.drive; }},
-      {"setting", [](const R& r) { return r.setting; }},
-      {"rays", [](const R& r) { return std::to_string(r.rays); }},
-      {"division", [](const R& r) { return std::to_string(r.division); }},
-      number("position_step_m", [](const R& r) { return r.position_step_m; }),
-      {"depth", [](const R& r) { return std::to_string(r.depth); }},
-      {"frames", [](const R& r) { return std::to_string(r.frames); }},
-      number("cold_s", [](const R& r) { return r.cold.loop_s; }),
-      number("warm_s", [](const R& r) { return r.warm.loop_s; }),
-      number("warm_error_s", [](const R& r) { return r.warm_error_s; }),
-      number("saved_percent", [](const R& r) { return r.saved_percent; }),
-      number("frame_s", [](const R& r) { return r.frame_s; }),
-      number("write_ns", write_ns),
-      number("read_ns", read_ns),
-      number("gather_ns", gather_ns),
-      number("trace_ns", trace_ns),
-      number("purge_s", [](const R& r) { return r.warm.purge_s; }),
-      number("segments", [](const R& r) { return r.counts.segments; }),
-      number("lookups", [](const R& r) { return r.counts.lookups; }),
-      number("hit_rate", hit_rate),
-      {"conflicts", [](const R& r) { return std::to_string(r.cache.conflicts); }},
-      {"stale", [](const R& r) { return std::to_string(r.cache.stale); }},
-      {"dropped", [](const R& r) { return std::to_string(r.cache.dropped); }},
-      {"exhausted", [](const R& r) { return std::to_string(r.cache.exhausted); }},
-      {"used", [](const R& r) { return std::to_string(r.cache.used); }},
-      {"entries", [](const R& r) { return std::to_string(r.cache.entries); }},
-      number("paths", [](const R& r) { return r.paths; }),
-      number("sequences", [](const R& r) { return r.sequences; }),
-      number("lost_share", [](const R& r) { return r.error.lost_share; }),
-      number("spurious_share", [](const R& r) { return r.error.spurious_share; }),
-      number("lost_power", [](const R& r) { return r.error.lost_power; }),
-      number("spurious_power", [](const R& r) { return r.error.spurious_power; }),
-      number("lost_power_db", [](const R& r) { return study::share_db(r.error.lost_power); }),
-      number("spurious_power_db", [](const R& r) { return study::share_db(r.error.spurious_power); }),
-      {"links_lost", [](const R& r) { return std::to_string(r.error.links_lost); }},
-      number("power_median_db", [](const R& r) { return r.error.power_median_db; }),
-      number("power_max_db", [](const R& r) { return r.error.power_max_db; }),
-      number("delay_spread_ns", [](const R& r) { return r.error.delay_spread_ns; }),
-      number("delay_ns", [](const R& r) { return r.error.delay_ns; }),
-      number("l1_m", [](const R& r) { return r.error.l1_m; }),
-      number("l2_m", [](const R& r) { return r.error.l2_m; }),
-      number("l1_relative", [](const R& r) { return r.error.l1_relative; }),
-      number("l2_relative", [](const R& r) { return r.error.l2_relative; }),
-      number("mean_path_length_m", [](const R& r) { return r.error.mean_path_length_m; }),
-  };
-  return all;
-}
+double a_segment_ns(double seconds, double segments) { return segments > 0 ? 1e9 * seconds / segments : undefined; }
 
 template <class Value, class Get>
 std::vector<Value> distinct(const std::vector<CacheRow>& rows, Get get) {
@@ -92,22 +28,21 @@ std::vector<Value> distinct(const std::vector<CacheRow>& rows, Get get) {
 }  // namespace
 
 CacheTimes cache_times(const StageSeconds& seconds) {
-  return {.loop_s = sum_stages(seconds,
-                               {"generate_rays", "order", "sort", "label_rays", "cache_lookup", "cache_gather", "trace",
-                                "trace_moving", "compact", "scan", "cache_store", "cache_purge", "interact"}),
-          .lookup_s = sum_stages(seconds, {"cache_lookup"}),
-          .gather_s = sum_stages(seconds, {"cache_gather"}),
-          .store_s = sum_stages(seconds, {"cache_store"}),
-          .purge_s = sum_stages(seconds, {"cache_purge"}),
-          .trace_s = sum_stages(seconds, {"trace", "trace_moving"})};
+  return {.loop_s = part_seconds(seconds, FramePart::discovery) + part_seconds(seconds, FramePart::order) +
+                    part_seconds(seconds, FramePart::cache),
+          .lookup_s = stage_seconds(seconds, "cache_lookup"),
+          .gather_s = stage_seconds(seconds, "cache_gather"),
+          .store_s = stage_seconds(seconds, "cache_store"),
+          .purge_s = stage_seconds(seconds, "cache_purge"),
+          .trace_s = stage_seconds(seconds, "trace") + stage_seconds(seconds, "trace_moving")};
 }
 
-CacheTimes median_times(const std::vector<CacheTimes>& samples) {
+CacheTimes summarised(const std::vector<CacheTimes>& samples, double (*summary)(std::vector<double>)) {
   CacheTimes out;
   for (double CacheTimes::*stage : stages) {
     std::vector<double> values;
     for (const CacheTimes& sample : samples) values.push_back(sample.*stage);
-    out.*stage = median(values);
+    out.*stage = summary(values);
   }
   return out;
 }
@@ -119,7 +54,7 @@ CacheTimes operator-(const CacheTimes& a, const CacheTimes& b) {
 }
 
 double hit_rate(const CacheRow& row) {
-  return row.counts.lookups > 0 ? row.counts.hits / row.counts.lookups : study::undefined;
+  return row.counts.lookups > 0 ? row.counts.hits / row.counts.lookups : undefined;
 }
 double write_ns(const CacheRow& row) { return a_segment_ns(row.cold.store_s, row.cold_counts.missed()); }
 double read_ns(const CacheRow& row) { return a_segment_ns(row.warm.lookup_s, row.counts.lookups); }
@@ -129,37 +64,75 @@ double trace_ns(const CacheRow& row) {
   return a_segment_ns(row.cold.trace_s, cached ? row.cold_counts.missed() : row.cold_counts.segments);
 }
 
+uint64_t entries_used(const CacheRow& row) {
+  return std::accumulate(row.cache.entries_by_hits.begin(), row.cache.entries_by_hits.end(), uint64_t{0});
+}
+
 void set_savings(std::vector<CacheRow>& point) {
   for (CacheRow& row : point) row.saved_percent = 100 * (1 - row.warm.loop_s / point.front().warm.loop_s);
 }
 
-std::string encode_cache_table(const std::vector<CacheRow>& rows) {
-  std::string text = fmt::format("{}\n", fmt::join(cache_columns(), ","));
-  for (const CacheRow& row : rows) {
-    for (const Column& column : columns()) text += (&column == &columns().front() ? "" : ",") + column.cell(row);
-    text += "\n";
-  }
-  return text;
-}
-
 double value_of(const CacheRow& row, const std::string& column) {
-  for (const Column& one : columns()) {
+  for (const Column<CacheRow>& one : cache_columns()) {
     if (one.name != column) continue;
     const std::string cell = one.cell(row);
     char* end = nullptr;
     const double value = std::strtod(cell.c_str(), &end);
-    return !cell.empty() && *end == '\0' ? value : study::undefined;
+    return !cell.empty() && *end == '\0' ? value : undefined;
   }
-  return study::undefined;
+  return undefined;
 }
 
-const std::vector<std::string>& cache_columns() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> out;
-    for (const Column& column : columns()) out.push_back(column.name);
-    return out;
-  }();
-  return names;
+const Columns<CacheRow>& cache_columns() {
+  using R = CacheRow;
+  static const Columns<R> all = {
+      {"study", &R::study},
+      {"drive", &R::drive},
+      {"setting", &R::setting},
+      {"rays", &R::rays},
+      {"division", &R::division},
+      {"position_step_m", &R::position_step_m},
+      {"depth", &R::depth},
+      {"frames", &R::frames},
+      {"cold_s", [](const R& r) { return r.cold.loop_s; }},
+      {"warm_s", [](const R& r) { return r.warm.loop_s; }},
+      {"warm_error_s", &R::warm_error_s},
+      {"saved_percent", &R::saved_percent},
+      {"frame_s", &R::frame_s},
+      {"write_ns", write_ns},
+      {"read_ns", read_ns},
+      {"gather_ns", gather_ns},
+      {"trace_ns", trace_ns},
+      {"purge_s", [](const R& r) { return r.warm.purge_s; }},
+      {"segments", [](const R& r) { return r.counts.segments; }},
+      {"lookups", [](const R& r) { return r.counts.lookups; }},
+      {"hit_rate", hit_rate},
+      {"conflicts", [](const R& r) { return r.cache.conflicts; }},
+      {"stale", [](const R& r) { return r.cache.stale; }},
+      {"dropped", [](const R& r) { return r.cache.dropped; }},
+      {"exhausted", [](const R& r) { return r.cache.exhausted; }},
+      {"used", [](const R& r) { return r.cache.used; }},
+      {"entries", [](const R& r) { return r.cache.entries; }},
+      {"paths", &R::paths},
+      {"sequences", &R::sequences},
+      {"lost_share", [](const R& r) { return r.error.lost_share; }},
+      {"spurious_share", [](const R& r) { return r.error.spurious_share; }},
+      {"lost_power", [](const R& r) { return r.error.lost_power; }},
+      {"spurious_power", [](const R& r) { return r.error.spurious_power; }},
+      {"lost_power_db", [](const R& r) { return share_db(r.error.lost_power); }},
+      {"spurious_power_db", [](const R& r) { return share_db(r.error.spurious_power); }},
+      {"links_lost", [](const R& r) { return r.error.links_lost; }},
+      {"power_median_db", [](const R& r) { return r.error.power_median_db; }},
+      {"power_max_db", [](const R& r) { return r.error.power_max_db; }},
+      {"delay_spread_ns", [](const R& r) { return r.error.delay_spread_ns; }},
+      {"delay_ns", [](const R& r) { return r.error.delay_ns; }},
+      {"l1_m", [](const R& r) { return r.error.l1_m; }},
+      {"l2_m", [](const R& r) { return r.error.l2_m; }},
+      {"l1_relative", [](const R& r) { return r.error.l1_relative; }},
+      {"l2_relative", [](const R& r) { return r.error.l2_relative; }},
+      {"mean_path_length_m", [](const R& r) { return r.error.mean_path_length_m; }},
+  };
+  return all;
 }
 
 const CacheRow* find_cached(const std::vector<CacheRow>& rows, const std::string& setting, uint64_t rays,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <vector>
+#include "study/columns.hpp"
 #include "study/path_error.hpp"
 #include "wavetracer/simulation.hpp"
 
@@ -20,8 +21,8 @@ struct CacheTimes {
 };
 
 CacheTimes cache_times(const StageSeconds& seconds);
-// Stage by stage.
-CacheTimes median_times(const std::vector<CacheTimes>& samples);
+// Stage by stage, such as by median().
+CacheTimes summarised(const std::vector<CacheTimes>& samples, double (*summary)(std::vector<double>));
 CacheTimes operator-(const CacheTimes& a, const CacheTimes& b);
 
 // Segments of a frame.
@@ -45,12 +46,12 @@ struct CacheRow {
   uint32_t depth = 0;                      // 0: all segments; else those of this depth
   uint64_t frames = 0;                     // that follow the cold one and are averaged over
   CacheTimes cold{}, warm{};               // of a frame whose table is empty, and of those after it
-  double warm_error_s = study::undefined;  // standard error of the mean of warm.loop_s; NaN for medians
+  double warm_error_s = undefined;         // standard error of the mean of warm.loop_s; NaN for medians
   double frame_s = 0;                      // wall time of a warm frame, with candidates, paths and fields
   CacheCounts cold_counts{}, counts{};     // of the cold frame, and of a warm one on average
   CacheSummary cache{};                    // of the last frame
   double paths = 0, sequences = 0;         // of a warm frame on average
-  study::PathError error{};                // of warm frames
+  PathError error{};                       // of warm frames
   double saved_percent = 0;                // of the time of the first setting, warm
   std::vector<CentroidError> centroids{};  // frame by frame, of recipes that show them
 };
@@ -63,11 +64,13 @@ double read_ns(const CacheRow& row);
 double gather_ns(const CacheRow& row);
 double trace_ns(const CacheRow& row);
 
+// Entries of the table that hold a segment, as cache.statistics counts them.
+uint64_t entries_used(const CacheRow& row);
+
 // Sets saved_percent of rows of one point, whose first is the reference.
 void set_savings(std::vector<CacheRow>& point);
 
-std::string encode_cache_table(const std::vector<CacheRow>& rows);
-const std::vector<std::string>& cache_columns();
+const Columns<CacheRow>& cache_columns();
 // The number in a column of the table; NaN where it is not one.
 double value_of(const CacheRow& row, const std::string& column);
 

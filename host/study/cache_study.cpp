@@ -9,6 +9,7 @@
 #include "study/ray_counts.hpp"
 #include "study/run.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -24,9 +25,9 @@ struct Subject {
   Simulation simulation;
   std::vector<CacheTimes> cold, warm;
   std::vector<double> frame_s;
-  study::RunningMean loop_s, segments, lookups, hits, paths, sequences;
-  study::PathErrorMean error;
-  study::RunningMean centroid_m;
+  RunningMean loop_s, segments, lookups, hits, paths, sequences;
+  PathErrorMean error;
+  RunningMean centroid_m;
   std::vector<CentroidError> centroids;
   FrameResult first, last;
 };
@@ -48,10 +49,10 @@ void note_cold(Subject& subject, FrameResult frame) {
   subject.first = std::move(frame);
 }
 
-void note_warm(Subject& subject, FrameResult frame, const study::PathError& error) {
+void note_warm(Subject& subject, FrameResult frame, const PathError& error) {
   const CacheCounts counts = counts_of(frame);
   subject.warm.push_back(cache_times(frame.seconds));
-  subject.frame_s.push_back(sum_stages(frame.seconds, {"frame"}));
+  subject.frame_s.push_back(stage_seconds(frame.seconds, "frame"));
   subject.loop_s.add(subject.warm.back().loop_s);
   subject.segments.add(counts.segments);
   subject.lookups.add(counts.lookups);
@@ -66,18 +67,10 @@ void note_warm(Subject& subject, FrameResult frame, const study::PathError& erro
   subject.last = std::move(frame);
 }
 
-CacheTimes mean(const std::vector<CacheTimes>& samples) {
-  const auto average = [&samples](double CacheTimes::*stage) {
-    study::RunningMean mean;
-    for (const CacheTimes& sample : samples) mean.add(sample.*stage);
-    return mean.mean();
-  };
-  return {.loop_s = average(&CacheTimes::loop_s),
-          .lookup_s = average(&CacheTimes::lookup_s),
-          .gather_s = average(&CacheTimes::gather_s),
-          .store_s = average(&CacheTimes::store_s),
-          .purge_s = average(&CacheTimes::purge_s),
-          .trace_s = average(&CacheTimes::trace_s)};
+double mean(std::vector<double> values) {
+  RunningMean mean;
+  for (const double value : values) mean.add(value);
+  return mean.mean();
 }
 
 // Runs a frame of every subject, another one first each time. False: stopped.
@@ -94,7 +87,7 @@ bool run_round(std::vector<Subject>& subjects, uint64_t round, uint32_t frame, b
     if (cold) {
       note_cold(subjects[i], std::move(results[i]));
     } else {
-      const study::PathError error = study::path_error(reference, results[i].paths);
+      const PathError error = path_error(reference, results[i].paths);
       note_warm(subjects[i], std::move(results[i]), error);
     }
   }
@@ -148,8 +141,8 @@ CacheRow row_of(const CacheStudy& study, const Setting& setting, const Subject& 
                .division = cache.division,
                .position_step_m = cache.position_step_m,
                .frames = subject.warm.size(),
-               .cold = median_times(subject.cold),
-               .warm = still ? median_times(subject.warm) : mean(subject.warm),
+               .cold = summarised(subject.cold, median),
+               .warm = summarised(subject.warm, still ? median : mean),
                .frame_s = median(subject.frame_s),
                .cold_counts = counts_of(subject.first),
                .counts = {subject.segments.mean(), subject.lookups.mean(), subject.hits.mean()},
@@ -220,9 +213,6 @@ std::string point_line(const CacheStudy& study, const std::vector<CacheRow>& poi
 
 std::vector<uint64_t> study_rays(const CacheStudy& study, const Request& request, bool gpu) {
   if (!request.rays) return gpu && !request.quick ? study.rays : study.few_rays;
-  if (study.rays.size() == 1)
-    throw ConfigError(fmt::format("--rays {}:{}: {} launches {} rays; leave --rays out", request.rays->first,
-                                  request.rays->last, study.name, grouped(study.rays.front())));
   std::vector<uint64_t> counts;
   for (const uint64_t rays : study.rays)
     if (request.rays->first <= rays && rays <= request.rays->last) counts.push_back(rays);

@@ -32,8 +32,7 @@ struct CacheMeasurement {
   size_t points = 0, planned = 0;  // a drive and a number of rays each
 };
 
-// The numbers of rays: within --rays where it is given, else by device. Throws ConfigError where none is left, or the
-// study has one number only.
+// The numbers of rays: within --rays where it is given, else by device. Throws ConfigError where none is left.
 std::vector<uint64_t> study_rays(const CacheStudy& study, const Request& request, bool gpu);
 // Frames of a drive: those asked for, else 500 as in the thesis, or fewer by study, and 20 on CPUs.
 uint64_t study_frames(const CacheStudy& study, const Request& request, bool gpu);

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include "study/depth_plot.hpp"
 #include "study/hit_recorder.hpp"
-#include "study/ray_counts.hpp"
 #include "study/run.hpp"
 #include "wavetracer/error.hpp"
 
@@ -14,10 +13,6 @@ namespace wavetracer::study {
 namespace {
 
 constexpr double default_speed_m_s = 13.9;  // 50 km/h
-
-const std::vector<std::string> columns = {"against", "frame", "time_s",       "moved_m",       "depth", "pairs",
-                                          "either",  "both",  "same_surface", "same_sequence", "r_x",   "r_y",
-                                          "r_z",     "total", "pooled",       "by_place"};
 
 // Six times the signed volume of a tetrahedron.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
@@ -29,65 +24,6 @@ bool crosses(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, 
   if (volume(a, b, c, from) * volume(a, b, c, to) >= 0) return false;
   const double ab = volume(from, to, a, b), bc = volume(from, to, b, c), ca = volume(from, to, c, a);
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
-}
-
-Config experiment_config(const Config& config) {
-  Config out = config;
-  out.trace.rays = experiment_rays;
-  out.trace.directions = "hilbert";
-  return out;
-}
-
-Findings run(const Recipe& recipe, const Request& request, const Host& host) {
-  const Config config = experiment_config(request.config);
-  Drive drive = plan_drive(config);
-  if (recipe.frames > 1) drive.frames = recipe.frames;
-  TracedScene traced(config, request.device, {drive.place_m(0), drive.place_m(drive.frames - 1)});
-  check_way(drive, traced.scene, config.transmitters.front().name);
-  HitRecorder record(traced, config.trace);
-  host.say(fmt::format("{}: {} frames of {} rays on {}", recipe.name, drive.frames, grouped(experiment_rays),
-                       traced.device.name));
-  Findings found;
-  found.device = traced.device;
-  found.planned = 1;
-  std::vector<FramePair> rows;
-  const study::FrameHits first = record(drive.place_m(0));
-  study::FrameHits previous = first;
-  for (uint32_t frame = 1; frame < drive.frames; ++frame) {
-    if (host.interrupted()) return found;  // half a drive is no result
-    study::FrameHits now = record(drive.place_m(frame));
-    for (const auto& pairs : {compare_pair(first, now, "first", frame), compare_pair(previous, now, "previous", frame)})
-      rows.insert(rows.end(), pairs.begin(), pairs.end());
-    previous = std::move(now);
-  }
-  found.points = 1;
-  found.table = encode_frame_pairs(rows, drive);
-  found.script = depth_plot_script(
-      {.name = recipe.name,
-       .title = recipe.title + ", " + traced.device.name,
-       .columns = columns,
-       .max_depth = config.trace.max_depth,
-       .x_label = "way driven (m)",
-       .y_label = "",
-       .panels_a_row = 2,
-       .panels = {
-           {"correlation with the first frame", "moved_m", "total", "against", "first"},
-           {"correlation with the frame before", "moved_m", "total", "against", "previous"},
-           {"rays that hit the surface of the first frame", "moved_m", "same_surface", "against", "first"},
-           {"rays that hit the surface of the frame before", "moved_m", "same_surface", "against", "previous"}}});
-  found.words = frame_pairs_words(rows, drive, traced.device.name);
-  found.caption = "Correlation and common surfaces of frames against the way driven";
-  found.notes = {
-      fmt::format("drive: {} frames {:g} s apart, from ({:g}, {:g}, {:g}) m at ({:g}, {:g}, {:g}) m/s, in a scene that "
-                  "stands still",
-                  drive.frames, drive.step_s, drive.start_m.x, drive.start_m.y, drive.start_m.z, drive.velocity_m_s.x,
-                  drive.velocity_m_s.y, drive.velocity_m_s.z),
-      "total is equation 6.4 divided by the root of the number of components (three, less those that are constant); "
-      "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in the "
-      "lists of hits",
-      "both is the share of rays that hit in both frames among those that hit in either; same_surface and "
-      "same_sequence are shares of the rays that hit in both"};
-  return found;
 }
 
 }  // namespace
@@ -113,12 +49,12 @@ void check_way(const Drive& drive, const Scene& scene, const std::string& end) {
                       end, drive.moved_m(drive.frames - 1)));
 }
 
-std::vector<FramePair> compare_pair(const study::FrameHits& a, const study::FrameHits& b, const std::string& against,
+std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against,
                                     uint32_t frame) {
   std::vector<FramePair> out;
-  const std::vector<study::DepthCoherence> found = study::compare_frames(a, b);
+  const std::vector<DepthCoherence> found = compare_frames(a, b);
   for (uint32_t i = 0; i < found.size(); ++i) {
-    std::vector<glm::dvec3> points_a = study::hit_points(a[i]), points_b = study::hit_points(b[i]);
+    std::vector<glm::dvec3> points_a = hit_points(a[i]), points_b = hit_points(b[i]);
     const size_t count = std::min(points_a.size(), points_b.size());
     points_a.resize(count);
     points_b.resize(count);
@@ -126,40 +62,83 @@ std::vector<FramePair> compare_pair(const study::FrameHits& a, const study::Fram
                    .frame = frame,
                    .depth = i + 1,
                    .found = found[i],
-                   .by_place = study::correlate(points_a, points_b).total});
+                   .by_place = correlate(points_a, points_b).total});
   }
   return out;
 }
 
-std::string encode_frame_pairs(const std::vector<FramePair>& rows, const Drive& drive) {
-  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
-  for (const FramePair& row : rows) {
-    const study::DepthCoherence& f = row.found;
-    const glm::dvec3& r = f.points.component;
-    text += fmt::format("{},{},{:g},{:.6g},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
-                        row.against, row.frame, drive.time_s(row.frame), drive.moved_m(row.frame), row.depth, f.pairs,
-                        f.either, f.both, f.same_surface, f.same_sequence, r.x, r.y, r.z, f.points.total,
-                        f.points.pooled, row.by_place);
+Columns<FramePair> frame_columns(const Drive& drive) {
+  using P = FramePair;
+  return {
+      {"against", &P::against},
+      {"frame", &P::frame},
+      {"time_s", [drive](const P& p) { return drive.time_s(p.frame); }},
+      {"moved_m", [drive](const P& p) { return drive.moved_m(p.frame); }},
+      {"depth", &P::depth},
+      {"pairs", [](const P& p) { return p.found.pairs; }},
+      {"either", [](const P& p) { return p.found.either; }},
+      {"both", [](const P& p) { return p.found.both; }},
+      {"same_surface", [](const P& p) { return p.found.same_surface; }},
+      {"same_sequence", [](const P& p) { return p.found.same_sequence; }},
+      {"r_x", [](const P& p) { return p.found.points.component.x; }},
+      {"r_y", [](const P& p) { return p.found.points.component.y; }},
+      {"r_z", [](const P& p) { return p.found.points.component.z; }},
+      {"total", [](const P& p) { return p.found.points.total; }},
+      {"pooled", [](const P& p) { return p.found.points.pooled; }},
+      {"by_place", &P::by_place},
+  };
+}
+
+Findings measure(const FrameFigure& figure, const Experiment& experiment, const Request& request, const Host& host) {
+  TraceConfig trace = request.config.trace;
+  trace.rays = experiment_rays;
+  trace.directions = "hilbert";
+  Drive drive = plan_drive(request.config);
+  drive.frames = figure.frames;
+  TracedScene traced(request.config, request.device, {drive.place_m(0), drive.place_m(drive.frames - 1)});
+  check_way(drive, traced.scene, request.config.transmitters.front().name);
+  HitRecorder record(traced, trace);
+  host.say(fmt::format("{}: {} frames of {} rays on {}", experiment.name, drive.frames, grouped(experiment_rays),
+                       traced.device.name));
+  Findings found{.device = traced.device, .planned = 1};
+  std::vector<FramePair> rows;
+  const FrameHits first = record(drive.place_m(0));
+  FrameHits previous = first;
+  for (uint32_t frame = 1; frame < drive.frames; ++frame) {
+    if (host.interrupted()) return found;  // half a drive is no result
+    FrameHits now = record(drive.place_m(frame));
+    for (const auto& pairs : {compare_pair(first, now, "first", frame), compare_pair(previous, now, "previous", frame)})
+      rows.insert(rows.end(), pairs.begin(), pairs.end());
+    previous = std::move(now);
   }
-  return text;
-}
-
-Recipe figure_6_13() {
-  Recipe recipe = coherence_frames();
-  recipe.name = "figure-6.13";
-  recipe.doc = "correlation of what rays hit between 100 frames of a drive, as coherence-frames finds it";
-  recipe.title = "Correlation between frames";
-  recipe.frames = 100;
-  return recipe;
-}
-
-Recipe coherence_frames() {
-  return {.name = "coherence-frames",
-          .doc = "correlation of what rays hit between the frames of a drive, bounce by bounce",
-          .title = "Coherence between frames",
-          .series = {},
-          .experiment = run,
-          .drive = true};
+  found.points = 1;
+  const Columns<FramePair> columns = frame_columns(drive);
+  found.table = encode(columns, rows);
+  found.script = depth_plot_script(
+      {.name = experiment.name,
+       .title = experiment.title + ", " + traced.device.name,
+       .columns = names_of(columns),
+       .max_depth = trace.max_depth,
+       .x_label = "way driven (m)",
+       .y_label = "",
+       .panels_a_row = 2,
+       .panels = {
+           {"correlation with the first frame", "moved_m", "total", "against", "first"},
+           {"correlation with the frame before", "moved_m", "total", "against", "previous"},
+           {"rays that hit the surface of the first frame", "moved_m", "same_surface", "against", "first"},
+           {"rays that hit the surface of the frame before", "moved_m", "same_surface", "against", "previous"}}});
+  found.words = frame_words(experiment, rows, drive, traced.device.name);
+  found.notes = {
+      fmt::format("drive: {} frames {:g} s apart, from ({:g}, {:g}, {:g}) m at ({:g}, {:g}, {:g}) m/s, in a scene that "
+                  "stands still",
+                  drive.frames, drive.step_s, drive.start_m.x, drive.start_m.y, drive.start_m.z, drive.velocity_m_s.x,
+                  drive.velocity_m_s.y, drive.velocity_m_s.z),
+      "total is equation 6.4 divided by the root of the number of components (three, less those that are constant); "
+      "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in the "
+      "lists of hits",
+      "both is the share of rays that hit in both frames among those that hit in either; same_surface and "
+      "same_sequence are shares of the rays that hit in both"};
+  return found;
 }
 
 }  // namespace wavetracer::study

@@ -1,10 +1,13 @@
-// coherence-frames: how far what rays hit in one frame of a drive is what the same rays hit in another.
-// Claims: A. Zhdanov, TU Munich, 2014, section 6.3.2, equation 6.4 and figure 6.13.
+// How far what rays hit in one frame of a drive is what the same rays hit in another.
+// A. Zhdanov, TU Munich, 2014, section 6.3.2, equation 6.4 and figure 6.13.
 #pragma once
 #include <string>
 #include <vector>
+#include "study/claims.hpp"
 #include "study/coherence.hpp"
-#include "study/recipe.hpp"
+#include "study/columns.hpp"
+#include "wavetracer/config.hpp"
+#include "wavetracer/scene.hpp"
 
 namespace wavetracer::study {
 
@@ -13,8 +16,8 @@ struct FramePair {
   std::string against;  // "first": frame 0, "previous": the frame before
   uint32_t frame = 0;
   uint32_t depth = 0;
-  study::DepthCoherence found;
-  double by_place = study::undefined;  // equation 6.4, normalised, of points paired by their place in lists of hits
+  DepthCoherence found;
+  double by_place = undefined;  // equation 6.4, normalised, of points paired by their place in lists of hits
 };
 
 // A transmitter that drives straight on.
@@ -34,10 +37,12 @@ Drive plan_drive(const Config& config);
 void check_way(const Drive& drive, const Scene& scene, const std::string& end);
 
 // A frame beside another, depth by depth.
-std::vector<FramePair> compare_pair(const study::FrameHits& a, const study::FrameHits& b, const std::string& against,
-                                    uint32_t frame);
+std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against, uint32_t frame);
 
-std::string encode_frame_pairs(const std::vector<FramePair>& rows, const Drive& drive);
-Words frame_pairs_words(const std::vector<FramePair>& rows, const Drive& drive, const std::string& device);
+Columns<FramePair> frame_columns(const Drive& drive);
+
+// "at depth 1 if paired by ray and bounce, at no depth if paired by place": where means of subsequent frames are
+// greater.
+Judge<FramePair> correlate_more_than(double share);
 
 }  // namespace wavetracer::study

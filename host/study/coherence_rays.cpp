@@ -5,26 +5,38 @@
 #include <numeric>
 #include "study/depth_plot.hpp"
 #include "study/hit_recorder.hpp"
-#include "study/ray_counts.hpp"
 #include "study/run.hpp"
 
 namespace wavetracer::study {
 namespace {
 
-const std::vector<std::string> columns = {"directions", "depth",    "lag",          "pairs",
-                                          "points",     "distance", "same_surface", "same_primitive"};
 constexpr uint32_t most_lag = 1000;
 const std::vector<std::string> maps = {"hilbert", "fibonacci", "random"};
 
-Findings run(const Recipe& recipe, const Request& request, const Host& host) {
+}  // namespace
+
+const Columns<LagRow>& lag_columns() {
+  using R = LagRow;
+  static const Columns<R> all = {
+      {"directions", &R::directions},
+      {"depth", &R::depth},
+      {"lag", [](const R& r) { return r.found.lag; }},
+      {"pairs", [](const R& r) { return r.found.pairs; }},
+      {"points", [](const R& r) { return r.found.points; }},
+      {"distance", [](const R& r) { return r.found.distance; }},
+      {"same_surface", [](const R& r) { return r.found.same_surface; }},
+      {"same_primitive", [](const R& r) { return r.found.same_primitive; }},
+  };
+  return all;
+}
+
+Findings measure(const LagFigure&, const Experiment& experiment, const Request& request, const Host& host) {
   const auto& place = request.config.transmitters.front().position_m;
   const glm::dvec3 transmitter_m{place[0], place[1], place[2]};
   TracedScene traced(request.config, request.device, {transmitter_m});
-  host.say(fmt::format("{}: a frame of {} rays for each of {} on {}", recipe.name, grouped(experiment_rays),
+  host.say(fmt::format("{}: a frame of {} rays for each of {} on {}", experiment.name, grouped(experiment_rays),
                        fmt::join(maps, ", "), traced.device.name));
-  Findings found;
-  found.device = traced.device;
-  found.planned = 1;
+  Findings found{.device = traced.device, .planned = 1};
   std::vector<uint32_t> lags(most_lag);
   std::iota(lags.begin(), lags.end(), 1);
   std::vector<LagRow> rows;
@@ -33,16 +45,16 @@ Findings run(const Recipe& recipe, const Request& request, const Host& host) {
     TraceConfig trace = request.config.trace;
     trace.rays = experiment_rays;
     trace.directions = directions;
-    const study::FrameHits hits = HitRecorder(traced, trace)(transmitter_m);
+    const FrameHits hits = HitRecorder(traced, trace)(transmitter_m);
     for (uint32_t i = 0; i < hits.size(); ++i)
-      for (const study::LagCoherence& at : study::coherence_along(hits[i], lags))
+      for (const LagCoherence& at : coherence_along(hits[i], lags))
         rows.push_back({.directions = directions, .depth = i + 1, .found = at});
   }
   found.points = 1;
-  found.table = encode_lags(rows);
-  DepthPlot plot{.name = recipe.name,
-                 .title = recipe.title + ", " + traced.device.name,
-                 .columns = columns,
+  found.table = encode(lag_columns(), rows);
+  DepthPlot plot{.name = experiment.name,
+                 .title = experiment.title + ", " + traced.device.name,
+                 .columns = names_of(lag_columns()),
                  .max_depth = request.config.trace.max_depth,
                  .x_label = "lag (rays)",
                  .y_label = "",
@@ -55,34 +67,13 @@ Findings run(const Recipe& recipe, const Request& request, const Host& host) {
   for (const std::string& directions : maps)
     plot.panels.push_back({directions + ": same surface", "lag", "same_surface", "directions", directions});
   found.script = depth_plot_script(plot);
-  found.words = lags_words(rows, traced.device.name);
-  found.caption = "Autocorrelation and common surfaces along the launch order";
+  found.words = lag_words(experiment, rows, traced.device.name);
   found.notes = {
       fmt::format("rays: {} of the transmitter \"{}\", a frame for each map of directions", grouped(experiment_rays),
                   request.config.transmitters.front().name),
       "points and distance are equation 3.4 over the squares of what is paired, of hit points as vectors and of "
       "segment lengths; same_surface and same_primitive are shares of the pairs; a pair is two rays that hit"};
   return found;
-}
-
-}  // namespace
-
-std::string encode_lags(const std::vector<LagRow>& rows) {
-  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
-  for (const LagRow& row : rows) {
-    const study::LagCoherence& f = row.found;
-    text += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.directions, row.depth, f.lag, f.pairs,
-                        f.points, f.distance, f.same_surface, f.same_primitive);
-  }
-  return text;
-}
-
-Recipe coherence_rays() {
-  return {.name = "coherence-rays",
-          .doc = "autocorrelation of what rays hit along the launch order of one frame, for each map of directions",
-          .title = "Coherence inside a frame",
-          .series = {},
-          .experiment = run};
 }
 
 }  // namespace wavetracer::study

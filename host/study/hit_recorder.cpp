@@ -56,8 +56,8 @@ HitRecorder::HitRecorder(TracedScene& traced, const TraceConfig& trace)
       next_(make_ray_queue(traced.context, ray_count_, "next rays")),
       hits_(make_hit_list(traced.context, ray_count_, Trace::block_size(traced.context.info()))) {}
 
-study::FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
-  study::FrameHits out(max_depth_, std::vector<study::Hit>(ray_count_));
+FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
+  FrameHits out(max_depth_, std::vector<Hit>(ray_count_));
   std::vector<uint32_t> launch_index(ray_count_);  // of the rays in the queue
   std::iota(launch_index.begin(), launch_index.end(), 0);
   const uint32_t block = Trace::block_size(traced_.context.info());
@@ -76,7 +76,7 @@ study::FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
 }
 
 // Enters the hits of the queue, and leaves the launch indices of the rays that go on.
-void HitRecorder::record(std::vector<study::Hit>& at, std::vector<uint32_t>& launch_index) const {
+void HitRecorder::record(std::vector<Hit>& at, std::vector<uint32_t>& launch_index) const {
   const auto plane = [this](size_t which) { return hits_.planes.read(which * hits_.capacity, rays_.count); };
   const std::vector<glm::dvec3> origin = read_vectors(rays_, WT_RAY_ORIGIN),
                                 direction = read_vectors(rays_, WT_RAY_DIRECTION);

@@ -32,7 +32,7 @@ class HitRecorder {
   // Takes rays, directions, seed and max_depth of `trace`. `traced` must outlive it.
   HitRecorder(TracedScene& traced, const TraceConfig& trace);
   // Hits of the rays of a transmitter, file coordinates; their points are recentred.
-  study::FrameHits operator()(const glm::dvec3& transmitter_m);
+  FrameHits operator()(const glm::dvec3& transmitter_m);
 
  private:
   TracedScene& traced_;
@@ -44,7 +44,7 @@ class HitRecorder {
   Sequences sequences_;  // interact fills it; nobody asks for it, so it may overflow
   RayQueue rays_, next_;
   HitList hits_;
-  void record(std::vector<study::Hit>& at, std::vector<uint32_t>& launch_index) const;
+  void record(std::vector<Hit>& at, std::vector<uint32_t>& launch_index) const;
 };
 
 }  // namespace wavetracer::study

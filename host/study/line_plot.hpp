@@ -17,17 +17,17 @@ struct LinePanel {
 };
 
 struct LinePlot {
-  std::string name, title;           // of the files NAME.csv and NAME.svg; of the plot
-  std::vector<std::string> columns;  // of the table, in order
-  std::vector<std::string> settings;
-  std::string x, x_label;
+  std::string name{}, title{};         // of the files NAME.csv and NAME.svg; of the plot
+  std::vector<std::string> columns{};  // of the table, in order
+  std::vector<std::string> settings{};
+  std::string x{}, x_label{};
   bool log_x = false;
-  std::optional<double> least_x;  // where smaller values are drawn
-  bool points = false;            // without lines
-  uint64_t only_rays = 0;         // rows of this number of rays alone; 0: all
-  bool depths = false;            // rows of depths alone, else rows of all depths (column depth is 0)
+  std::optional<double> least_x{};  // where smaller values are drawn
+  bool points = false;              // without lines
+  uint64_t only_rays = 0;           // rows of this number of rays alone; 0: all
+  bool depths = false;              // rows of depths alone, else rows of all depths (column depth is 0)
   uint32_t panels_a_row = 2;
-  std::vector<LinePanel> panels;
+  std::vector<LinePanel> panels{};
 };
 
 // The script NAME.gp. Throws std::logic_error for a column that the table has not.

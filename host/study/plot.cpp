@@ -2,11 +2,17 @@
 // Assumes gnuplot 5.
 #include "study/plot.hpp"
 #include <fmt/format.h>
+#include <algorithm>
 #include <set>
-#include "study/table.hpp"
+#include "study/order_rows.hpp"
 
 namespace wavetracer::study {
 namespace {
+
+size_t column_number(const std::string& name) {
+  static const std::vector<std::string> names = names_of(order_columns(false));
+  return std::ranges::find(names, name) - names.begin() + 1;  // as gnuplot counts
+}
 
 // One colour a mnemonic; launch shapes of one method differ in their dashes.
 std::string_view colour(const std::vector<Series>& series, size_t index) {

@@ -1,21 +1,14 @@
 // The page and its picture: strings only.
-// Assumes SVG as gnuplot writes it, with its identifiers in quotes and references that begin with #.
+// A row of the table has cells that need no escape but its names.
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
 #include <tuple>
-#include "study/cache_words.hpp"
 #include "study/ray_counts.hpp"
 #include "study/thesis.hpp"
-#include "wavetracer/version.hpp"
 
 namespace wavetracer::study {
 namespace {
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
 
 // Of every study, drive and setting the row with the most rays; settings without a cache of their own, which others are
 // measured by, are left out.
@@ -31,46 +24,31 @@ std::vector<CacheRow> best_known(const std::vector<CacheRow>& rows) {
 
 bool shown(const CacheRow& row) { return row.depth == 0 && row.error.reference_paths > 0 && row.cache.on; }
 
-std::string table_html(const std::vector<CacheRow>& rows) {
-  std::string text =
-      "<table>\n<thead><tr><th>study</th><th>world</th><th>setting</th><th>rays</th><th>division</th>"
-      "<th>position step</th><th>time saved</th>"
-      "<th>look-ups answered</th><th>lost paths</th><th>spurious paths</th><th>lost power</th><th>delay spread</th>"
-      "<th>centroid L1</th><th>centroid L2</th></tr></thead>\n<tbody>\n";
+// Of each cache at its most rays.
+NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {
+  NumberTable table{
+      .caption = "",
+      .heads = {"study", "world", "setting", "rays", "division", "position step", "time saved", "look-ups answered",
+                "lost paths", "spurious paths", "lost power", "delay spread", "centroid L1", "centroid L2"},
+      .rows = {}};
   for (const CacheRow& row : best_known(rows)) {
     if (!shown(row)) continue;
-    const study::PathError& e = row.error;
-    text += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:g} m</td><td>{:.1f} "
-        "%</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} ns</td><td>{}</td><td>{}</td></tr>\n",
-        escaped(row.study), escaped(row.drive), escaped(row.setting), grouped(row.rays), grouped(row.division),
-        row.position_step_m, row.saved_percent, share_words(hit_rate(row)), share_words(e.lost_share),
-        share_words(e.spurious_share),
-        e.lost_power > 0 ? fmt::format("{:.1f} dB", study::share_db(e.lost_power)) : "none",
-        plain(e.delay_spread_ns, 2), share_words(e.l1_relative), share_words(e.l2_relative));
+    const PathError& e = row.error;
+    table.rows.push_back({row.study, row.drive, row.setting, grouped(row.rays), grouped(row.division),
+                          fmt::format("{:g} m", row.position_step_m), fmt::format("{:.1f} %", row.saved_percent),
+                          share_words(hit_rate(row)), share_words(e.lost_share), share_words(e.spurious_share),
+                          e.lost_power > 0 ? fmt::format("{:.1f} dB", share_db(e.lost_power)) : "none",
+                          plain(e.delay_spread_ns, 2) + " ns", share_words(e.l1_relative), share_words(e.l2_relative)});
   }
-  return text + "</tbody>\n</table>\n";
-}
-
-std::string html_table(const NumberTable& table) {
-  std::string text = table.caption.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(table.caption));
-  text += "<table>\n<thead><tr>";
-  for (const std::string& head : table.heads) text += fmt::format("<th>{}</th>", escaped(head));
-  text += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
-    text += "<tr>";
-    for (const std::string& cell : row) text += fmt::format("<td>{}</td>", escaped(cell));
-    text += "</tr>\n";
-  }
-  return text + "</tbody>\n</table>\n";
+  return table;
 }
 
 // Every claim with what was measured, and where more of it is.
-std::string verdicts_html(const std::vector<ThesisFigure>& figures) {
+std::string verdicts_html(const std::vector<Section>& figures) {
   std::string text =
       "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
       "<th>claim</th><th>measured</th></tr></thead>\n<tbody>\n";
-  for (const ThesisFigure& figure : figures) {
+  for (const Section& figure : figures) {
     std::vector<Verdict> verdicts = figure.words.verdicts;
     if (figure.words.paragraph.empty())
       verdicts = {{figure.title, figure.problem}};
@@ -85,37 +63,7 @@ std::string verdicts_html(const std::vector<ThesisFigure>& figures) {
          "</section>\n";
 }
 
-std::string figure_html(const ThesisFigure& figure) {
-  std::string text =
-      fmt::format("<section id=\"{}\">\n<h2>{}: {}</h2>\n", figure.name, figure.name, escaped(figure.title));
-  if (!figure.problem.empty()) text += fmt::format("<p class=\"problem\">{}</p>\n", escaped(figure.problem));
-  if (!figure.words.paragraph.empty()) text += fmt::format("<p>{}</p>\n", escaped(figure.words.paragraph));
-  if (!figure.words.verdicts.empty()) text += html_table(verdict_table(figure.words.verdicts));
-  text += figure.svg;
-  if (!figure.words.numbers.rows.empty()) text += html_table(figure.words.numbers);
-  if (!figure.notes.empty()) {
-    text += "<ul>\n";
-    for (const std::string& note : figure.notes) text += fmt::format("<li>{}</li>\n", escaped(note));
-    text += "</ul>\n";
-  }
-  return text + "<p><a href=\"#verdicts\">All verdicts</a></p>\n</section>\n";
-}
-
-constexpr const char* style =
-    "body{font:16px/1.5 sans-serif;max-width:1280px;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;font-size:13px}td,th{border-bottom:1px solid #ddd;padding:2px 8px;text-align:right}"
-    "td:nth-child(-n+3),th:nth-child(-n+3){text-align:left}svg{max-width:100%;height:auto}"
-    "ul{font-size:13px;color:#555}.problem{color:#b00}";
-
 }  // namespace
-
-std::string escaped(std::string text) {
-  replace_all(text, "&", "&amp;");
-  replace_all(text, "<", "&lt;");
-  replace_all(text, ">", "&gt;");
-  replace_all(text, "\"", "&quot;");
-  return text;
-}
 
 std::string family(const std::string& setting) {
   std::string text = setting;
@@ -133,14 +81,14 @@ std::string speed_error_table(const std::vector<CacheRow>& rows) {
       points.push_back(row);
       points.back().setting = family(row.setting);
     }
-  return encode_cache_table(points);
+  return encode(cache_columns(), points);
 }
 
 std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device) {
   LinePlot plot;
   plot.name = "thesis";
   plot.title = "Speed against error of all caches, " + device;
-  plot.columns = cache_columns();
+  plot.columns = names_of(cache_columns());
   for (const CacheRow& row : rows)
     if (shown(row) && std::find(plot.settings.begin(), plot.settings.end(), family(row.setting)) == plot.settings.end())
       plot.settings.push_back(family(row.setting));
@@ -158,30 +106,12 @@ std::string speed_error_script(const std::vector<CacheRow>& rows, const std::str
   return line_plot_script(plot);
 }
 
-std::string inline_svg(const std::string& document, const std::string& prefix) {
-  const size_t begin = document.find("<svg");
-  if (begin == std::string::npos) return "";
-  std::string text = document.substr(begin);
-  replace_all(text, "xmlns=\"http://www.w3.org/2000/svg\"", "");
-  replace_all(text, "xmlns:xlink=\"http://www.w3.org/1999/xlink\"", "");
-  replace_all(text, "id=\"", "id=\"" + prefix);
-  replace_all(text, "id='", "id='" + prefix);
-  replace_all(text, "xlink:href='#", "href='#" + prefix);
-  replace_all(text, "url(#", "url(#" + prefix);
-  return text;
-}
-
 std::string thesis_html(const ThesisPage& page) {
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Ray orders and ray "
-      "caches</title>\n<style>{}</style>\n</head>\n<body>\n<h1>Ray orders and ray caches: the thesis' figures, "
-      "measured</h1>\n<p>The claims are those of A. Zhdanov, TU Munich, 2014, chapter 6. Every number below is of "
-      "this run, and every verdict is computed from it.</p>\n<ul>\n<li>device: {} ({}, driver {})</li>\n<li>scene: "
-      "{}</li>\n<li>date: {}, wavetracer {}</li>\n<li>command: <code>{}</code></li>\n</ul>\n",
-      style, escaped(page.device.name), escaped(page.device.platform), escaped(page.device.driver), escaped(page.scene),
-      page.date, WAVETRACER_VERSION, escaped(page.command_line));
-  text += verdicts_html(page.figures);
-  text += "<section id=\"speed-error\">\n<h2>Speed against error</h2>\n";
+  std::string text =
+      "<h1>Ray orders and ray caches: the thesis' figures, measured</h1>\n<p>The claims are those of A. Zhdanov, TU "
+      "Munich, 2014, chapter 6. Every number below is of this run, and every verdict is computed from it.</p>\n" +
+      heading_html(page.heading) + verdicts_html(page.figures) +
+      "<section id=\"speed-error\">\n<h2>Speed against error</h2>\n";
   if (std::none_of(page.rows.begin(), page.rows.end(), shown))
     text += "<p class=\"problem\">No cache was measured.</p>\n";
   else
@@ -189,10 +119,10 @@ std::string thesis_html(const ThesisPage& page) {
         "<p>Each point is a cache at one number of rays: the time it saves, against what it gets wrong, both against "
         "the same rays without a cache. Points without an error lie on the bottom of the axis, those that take twice "
         "the time or more on its left end. The table has the most rays of each.</p>\n" +
-        page.svg + table_html(page.rows);
+        page.svg + table_html(speed_error_numbers(page.rows));
   text += "</section>\n";
-  for (const ThesisFigure& figure : page.figures) text += figure_html(figure);
-  return text + "</body>\n</html>\n";
+  for (const Section& figure : page.figures) text += section_html(figure);
+  return document_html("Ray orders and ray caches", "body{max-width:1280px}.problem{color:#b00}", text);
 }
 
 }  // namespace wavetracer::study

@@ -1,11 +1,11 @@
-// Every recipe with every kind of configuration: a figure without holes, or a message that names the recipe or the key.
-// Few rays and one bounce; cache-division, whose rays cannot be fewer, is asked about what it refuses alone.
+// Every experiment with every kind of configuration: a figure without holes, or a message that names the experiment or
+// the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is asked about what it refuses alone.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
 #include "app/program.hpp"
-#include "study/recipe.hpp"
+#include "study/experiment.hpp"
 #include "study/thesis.hpp"
 
 using namespace wavetracer::study;
@@ -44,10 +44,10 @@ const std::vector<Kind> kinds = {
      "trace.max_depth = 0", "trace.max_depth = 0"},
 };
 
-const std::string& answer(const Kind& kind, const Recipe& recipe) {
-  if (recipe.experiment) return kind.of_experiments;
-  if (recipe.study) return kind.of_caches;
-  return recipe.frames > 1 ? kind.of_drives : kind.of_series;
+const std::string& answer(const Kind& kind, const Experiment& experiment) {
+  if (experiment.study()) return kind.of_caches;
+  if (!experiment.as<OrderFigure>()) return kind.of_experiments;
+  return experiment.moves_transmitter() ? kind.of_drives : kind.of_series;
 }
 
 std::string contents(const std::string& file) {
@@ -56,21 +56,21 @@ std::string contents(const std::string& file) {
   return text.str();
 }
 
-Outcome bench(const Recipe& recipe, const Folder& folder, const std::string& config) {
-  std::vector<std::string> words = {"bench", recipe.name, "-c", config, "-o", folder.path("out"), "--repeat", "1"};
-  const bool series = !recipe.experiment && !recipe.study;
-  if (series || (recipe.study && recipe.study->rays.front() == 1000))
+Outcome bench(const Experiment& experiment, const Folder& folder, const std::string& config) {
+  std::vector<std::string> words = {"bench", experiment.name, "-c", config, "-o", folder.path("out"), "--repeat", "1"};
+  const bool series = experiment.as<OrderFigure>() != nullptr;
+  if (series || (experiment.study() && experiment.study()->rays.front() == 1000))
     words.insert(words.end(), {"--rays", "1000:1000"});
   words.insert(words.end(), {"--frames", "1"});
   return run_program(words);
 }
 
-// In which kinds a recipe draws its figure here: caches and experiments launch many rays, so in one each, and
+// In which kinds a experiment draws its figure here: caches and experiments launch many rays, so in one each, and
 // figure-6.1 has a dozen series.
-bool drawn(const Kind& kind, const Recipe& recipe) {
-  if (recipe.name == "figure-6.1") return contains(kind.name, "vehicles");
-  if (!recipe.experiment && !recipe.study) return true;
-  return recipe.name != "cache-division" && recipe.name != "coherence-frames" &&
+bool drawn(const Kind& kind, const Experiment& experiment) {
+  if (experiment.name == "figure-6.1") return contains(kind.name, "vehicles");
+  if (experiment.as<OrderFigure>()) return true;
+  return experiment.name != "cache-division" && experiment.name != "coherence-frames" &&
          kind.name == "a mast and vehicles with antennas";
 }
 
@@ -81,21 +81,21 @@ std::string config_of(const Kind& kind) {
 
 }  // namespace
 
-TEST_CASE("every recipe with every kind of configuration: a figure, or a message and exit code 2") {
+TEST_CASE("every experiment with every kind of configuration: a figure, or a message and exit code 2") {
   if (!device_present()) return;
   for (const Kind& kind : kinds) {
     CAPTURE(kind.name);
     const Folder folder;
     const std::string config = folder.file("a.toml", config_of(kind));
-    for (const Recipe& recipe : wavetracer::study::recipes()) {
-      CAPTURE(recipe.name);
-      const std::string& refused = answer(kind, recipe);
-      // What is refused is refused by one rule for all recipes with a study: one of them stands for the others.
-      if (recipe.study && !refused.empty() && recipe.name != "figure-6.5") continue;
-      if (refused.empty() && !drawn(kind, recipe)) continue;
-      const Outcome run = bench(recipe, folder, config);
+    for (const Experiment& experiment : wavetracer::study::experiments()) {
+      CAPTURE(experiment.name);
+      const std::string& refused = answer(kind, experiment);
+      // What is refused is refused by one rule for all experiments with a study: one of them stands for the others.
+      if (experiment.study() && !refused.empty() && experiment.name != "figure-6.5") continue;
+      if (refused.empty() && !drawn(kind, experiment)) continue;
+      const Outcome run = bench(experiment, folder, config);
       CAPTURE(run.err);
-      const std::string table = contents(folder.path("out/" + recipe.name + ".csv"));
+      const std::string table = contents(folder.path("out/" + experiment.name + ".csv"));
       if (!refused.empty()) {
         CHECK(run.code == 2);
         CHECK(contains(run.err, "a.toml: "));
@@ -106,7 +106,7 @@ TEST_CASE("every recipe with every kind of configuration: a figure, or a message
       CHECK(run.code == 0);
       CHECK(table.size() > 100);
       // Depths of a cache that nobody asked have no time a look-up: the tables of operations say nan there.
-      if (!recipe.study) CHECK_FALSE(contains(table, "nan"));
+      if (!experiment.study()) CHECK_FALSE(contains(table, "nan"));
     }
   }
 }
@@ -116,7 +116,7 @@ TEST_CASE("figure-6.18 counts the frames of its transmitter alone: vehicles with
   const Folder folder;
   const auto sequences = [&](const std::string& text) {
     const std::string config = folder.file("a.toml", scene + mast + receiver + text);
-    const Outcome run = bench(find_recipe("figure-6.18"), folder, config);
+    const Outcome run = bench(find_experiment("figure-6.18"), folder, config);
     CAPTURE(run.err);
     REQUIRE(run.code == 0);
     std::istringstream lines(contents(folder.path("out/figure-6.18.csv")));
@@ -146,7 +146,8 @@ TEST_CASE("thesis: a configuration of vehicles alone has a page, which names the
   CAPTURE(outcome.err);
   CHECK(outcome.code == 5);
   const std::string page = contents(folder.path("out/thesis.html"));
-  for (const Recipe* recipe : thesis_recipes()) CHECK(contains(page, "<section id=\"" + recipe->name + "\">"));
+  for (const Experiment* experiment : thesis_experiments())
+    CHECK(contains(page, "<section id=\"" + experiment->name + "\">"));
   CHECK(contains(page, "failed: " + config + ": figure-6.13 launches rays from the first [[transmitter]]"));
   CHECK(contains(page, "failed: " + config + ": figure-6.18 launches rays from the first [[transmitter]]"));
   CHECK(contains(outcome.out, "16 of 20 figures are whole"));

@@ -38,18 +38,18 @@ const std::string drawing =
 
 ThesisPage page() {
   ThesisPage out;
-  out.device.name = "A <device> & \"driver\"";
-  out.command_line = "wavetracer bench thesis --set 'a=\"b\"'";
-  out.date = "2014-05-15";
-  const CacheStudy& study = *find_recipe("figure-6.11").study;
+  out.heading.device.name = "A <device> & \"driver\"";
+  out.heading.command_line = "wavetracer bench thesis --set 'a=\"b\"'";
+  out.heading.date = "2014-05-15";
+  const CacheStudy& study = *find_experiment("figure-6.11").study();
   out.rows = made_measurement(study, {1000, 5000}, [](const std::string& setting, uint64_t) {
                return std::pair{setting == "no cache" ? 1.0 : 0.75, setting == "position mixed" ? 2.0 : 0.0};
              }).rows;
   out.svg = inline_svg(drawing, "thesis-");
-  for (const Recipe* recipe : thesis_recipes()) {
-    ThesisFigure figure{.name = recipe->name, .title = recipe->title};
+  for (const Experiment* experiment : thesis_experiments()) {
+    Section figure{.name = experiment->name, .title = experiment->title};
     figure.words = {"a < b & c", {{"a > b", "not <confirmed>"}}, {"Numbers:", {"x"}, {{"1 & 2"}}}};
-    figure.svg = inline_svg(drawing, recipe->name + "-");
+    figure.svg = inline_svg(drawing, experiment->name + "-");
     figure.notes = {"a note"};
     out.figures.push_back(figure);
   }
@@ -59,7 +59,7 @@ ThesisPage page() {
 }  // namespace
 
 TEST_CASE("the page has figures 6.1 to 6.18 in order, then what goes beyond them") {
-  const std::vector<const Recipe*> figures = thesis_recipes();
+  const std::vector<const Experiment*> figures = thesis_experiments();
   REQUIRE(figures.size() == 20);
   for (size_t i = 0; i < 18; ++i) CHECK(figures[i]->name == "figure-6." + std::to_string(i + 1));
   CHECK(figures[18]->name == "cache-division");
@@ -70,7 +70,8 @@ TEST_CASE("the page is well formed, names every figure, and refers to nothing ou
   const std::string html = thesis_html(page());
   CHECK(html.starts_with("<!DOCTYPE html>\n"));
   CHECK(unbalanced(html) == "");
-  for (const Recipe* recipe : thesis_recipes()) CHECK(contains(html, "<section id=\"" + recipe->name + "\">"));
+  for (const Experiment* experiment : thesis_experiments())
+    CHECK(contains(html, "<section id=\"" + experiment->name + "\">"));
   CHECK_FALSE(contains(html, "http"));
   CHECK(contains(html, "A &lt;device&gt; &amp; &quot;driver&quot;"));
   CHECK(contains(html, "a &lt; b &amp; c"));
@@ -93,7 +94,7 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
   const size_t begin = html.find("<section id=\"verdicts\">"), end = html.find("</section>", begin);
   REQUIRE(begin < html.find("<section id=\"speed-error\">"));
   const std::string table = html.substr(begin, end - begin);
-  for (const ThesisFigure& figure : made.figures)
+  for (const Section& figure : made.figures)
     CHECK(contains(table, "<td><a href=\"#" + figure.name + "\">" + figure.name + "</a></td>"));
   CHECK(contains(table, "<td>a &gt; b</td><td>not &lt;confirmed&gt;</td>"));
   CHECK(contains(

@@ -1,12 +1,13 @@
 // A Simulation a series, all alive at once, their frames interleaved.
 // Assumes device memory for the queues of all of them.
-#include "study/measure.hpp"
+#include "study/order_rows.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
 #include "output/median.hpp"
 #include "study/ray_counts.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -17,7 +18,7 @@ struct Subject {
   std::vector<StageSeconds> samples;
 };
 
-void check_same(const Row& a, const Row& b) {
+void check_same(const OrderRow& a, const OrderRow& b) {
   if (a.paths == b.paths && a.sequences == b.sequences) return;
   throw RuntimeError(fmt::format(
       "{} rays: {} finds {} paths in {} sequences, {} finds {} in {} from the same rays, though no order may "
@@ -27,12 +28,35 @@ void check_same(const Row& a, const Row& b) {
 
 }  // namespace
 
-double sum_stages(const StageSeconds& seconds, std::initializer_list<const char*> stages) {
-  double total = 0;
-  for (const char* stage : stages)
-    if (const auto found = seconds.find(stage); found != seconds.end()) total += found->second;
-  return total;
+const Columns<OrderRow>& order_columns(bool averages) {
+  using R = OrderRow;
+  static const Columns<R> one_frame = {
+      {"rays", &R::rays},
+      {"method", [](const R& r) { return r.series.method; }},
+      {"mnemonic", [](const R& r) { return r.series.mnemonic; }},
+      {"shape", [](const R& r) { return r.series.shape; }},
+      {"each_depth", [](const R& r) { return r.series.each_depth; }},
+      {"trace_s", [](const R& r) { return r.times.trace_s; }},
+      {"order_s", [](const R& r) { return r.times.order_s; }},
+      {"unpaid_s", [](const R& r) { return r.times.unpaid_s; }},
+      {"paid_s", [](const R& r) { return r.times.paid_s(); }},
+      {"frame_s", [](const R& r) { return r.times.frame_s; }},
+      {"paths", &R::paths},
+      {"sequences", &R::sequences},
+      {"gain_unpaid", &R::gain_unpaid},
+      {"gain_paid", &R::gain_paid},
+  };
+  static const Columns<R> many = [] {
+    Columns<R> all = one_frame;
+    all.emplace_back("frames", &R::frames);
+    all.emplace_back("reduction_unpaid_percent", [](const R& r) { return reduction_percent(r.gain_unpaid); });
+    all.emplace_back("reduction_paid_percent", [](const R& r) { return reduction_percent(r.gain_paid); });
+    return all;
+  }();
+  return averages ? many : one_frame;
 }
+
+double reduction_percent(double gain) { return 100 * (1 - 1 / gain); }
 
 void require_segments(double segments, const Config& config) {
   if (segments > 0) return;
@@ -43,30 +67,31 @@ void require_segments(double segments, const Config& config) {
                   config.file.empty() ? "" : config.file + ": "));
 }
 
-Times summarise(const std::vector<StageSeconds>& samples, uint32_t frames) {
+OrderTimes summarise(const std::vector<StageSeconds>& samples, uint32_t frames) {
   std::map<std::string, std::vector<double>> values;
   for (const StageSeconds& sample : samples)
     for (const auto& [stage, seconds] : sample) values[stage].push_back(seconds);
   StageSeconds medians;
   for (const auto& [stage, seconds] : values) medians[stage] = median(seconds) / frames;
-  return {.trace_s = sum_stages(medians, {"trace"}),
-          .order_s = sum_stages(medians, {"order", "sort"}),
-          .unpaid_s = sum_stages(medians, {"generate_rays", "trace", "compact", "scan", "interact"}),
-          .frame_s = sum_stages(medians, {"frame"})};
+  return {.trace_s = stage_seconds(medians, "trace"),
+          .order_s = part_seconds(medians, FramePart::order),
+          .unpaid_s = part_seconds(medians, FramePart::discovery),
+          .frame_s = part_seconds(medians, FramePart::whole)};
 }
 
-void compare(std::span<Row> rows) {
-  for (Row& row : rows) {
+void compare(std::span<OrderRow> rows) {
+  for (OrderRow& row : rows) {
     row.gain_unpaid = rows.front().times.unpaid_s / row.times.unpaid_s;
     row.gain_paid = rows.front().times.paid_s() / row.times.paid_s();
-    check_same(*std::find_if(rows.begin(), rows.end(),
-                             [&row](const Row& first) { return first.series.directions == row.series.directions; }),
-               row);
+    check_same(
+        *std::find_if(rows.begin(), rows.end(),
+                      [&row](const OrderRow& first) { return first.series.directions == row.series.directions; }),
+        row);
   }
 }
 
-std::vector<Row> measure(const Config& config, const std::vector<Series>& series, uint64_t rays, uint32_t frames,
-                         const std::string& device, uint32_t repeats) {
+std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
+                                     uint32_t frames, const std::string& device, uint32_t repeats) {
   std::vector<Subject> subjects;
   for (const Series& one : series) {
     Config applied = config;
@@ -80,7 +105,7 @@ std::vector<Row> measure(const Config& config, const std::vector<Series>& series
       Subject& subject = subjects[(i + repeat) % subjects.size()];  // so that no series always follows the same one
       subject.samples.push_back(subject.simulation.run_frame(0).seconds);
     }
-  std::vector<Row> rows;
+  std::vector<OrderRow> rows;
   for (size_t i = 0; i < subjects.size(); ++i)
     rows.push_back({.rays = rays,
                     .frames = frames,
@@ -90,6 +115,12 @@ std::vector<Row> measure(const Config& config, const std::vector<Series>& series
                     .sequences = subjects[i].counts.sequences});
   compare(rows);
   return rows;
+}
+
+const OrderRow* find_row(const std::vector<OrderRow>& rows, const Series& series, uint64_t rays) {
+  for (const OrderRow& row : rows)
+    if (row.rays == rays && row.series == series) return &row;
+  return nullptr;
 }
 
 }  // namespace wavetracer::study

@@ -1,9 +1,10 @@
 // The paragraphs against rows whose gains are known in advance.
 // Factors are chosen so that what is reached, and in which order, can be said by hand.
-#include "study/words.hpp"
+#include "study/order_claims.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
-#include "study/rows.hpp"
+#include "study/made_order_rows.hpp"
+#include "study/run.hpp"
 #include "study/squeezed.hpp"
 
 using namespace wavetracer::study;
@@ -28,9 +29,9 @@ Cost costs(double h3dh, double z) {
 }  // namespace
 
 TEST_CASE("figure-6.1: claims reached and the expected ranks") {
-  const Recipe& recipe = find_recipe("figure-6.1");
-  const auto rows = made_rows(recipe, {1000, 49000, 1000000}, costs(3, 2));
-  const std::string text = text_of(recipe.words(rows, "the device"));
+  const Experiment& experiment = find_experiment("figure-6.1");
+  const auto rows = made_rows(experiment, {1000, 49000, 1000000}, costs(3, 2));
+  const std::string text = text_of(order_words(experiment, rows, "the device"));
   CAPTURE(text);
   // 300 / 100 = 3; 300 / 125 = 2.4
   CHECK(contains(text, "| order | 1,000 rays | 49,000 rays | 1,000,000 rays |"));
@@ -55,9 +56,9 @@ TEST_CASE("figure-6.1: claims reached and the expected ranks") {
 }
 
 TEST_CASE("figure-6.1: claims not reached, other ranks, counts not measured") {
-  const Recipe& recipe = find_recipe("figure-6.1");
-  const auto rows = made_rows(recipe, {1000, 2000}, costs(1.01, 1.2));
-  const std::string text = text_of(recipe.words(rows, "the device"));
+  const Experiment& experiment = find_experiment("figure-6.1");
+  const auto rows = made_rows(experiment, {1000, 2000}, costs(1.01, 1.2));
+  const std::string text = text_of(order_words(experiment, rows, "the device"));
   CAPTURE(text);
   // 300 / (300 / 1.01 + 25) = 0.9316
   CHECK(contains(text, "| order | 1,000 rays | 2,000 rays |\n"));
@@ -69,8 +70,9 @@ TEST_CASE("figure-6.1: claims not reached, other ranks, counts not measured") {
 }
 
 TEST_CASE("figure-6.18: averages over frames") {
-  const Recipe& recipe = find_recipe("figure-6.18");
-  const std::string text = text_of(recipe.words(made_rows(recipe, {49000}, costs(2.5, 1)), "the device"));
+  const Experiment& experiment = find_experiment("figure-6.18");
+  const std::string text =
+      text_of(order_words(experiment, made_rows(experiment, {49000}, costs(2.5, 1)), "the device"));
   CAPTURE(text);
   CHECK(contains(text, "Measured on the device, averaged over 20 frames of a moving transmitter."));
   CHECK(contains(text, "| H3DH | 2.50 (2.07) |"));
@@ -94,22 +96,22 @@ TEST_CASE("numbers have no exponents, tables are aligned") {
 }
 
 TEST_CASE("a row that is not there is not found") {
-  const Recipe& recipe = find_recipe("figure-6.18");
-  const auto rows = made_rows(recipe, {1000}, costs(2, 2));
+  const Experiment& experiment = find_experiment("figure-6.18");
+  const auto rows = made_rows(experiment, {1000}, costs(2, 2));
   CHECK(find_row(rows, unordered(), 1000) == &rows[0]);
   CHECK(find_row(rows, unordered(), 2000) == nullptr);
   CHECK(find_row(rows, ordered("morton"), 1000) == nullptr);
 }
 
 TEST_CASE("the reason: what the device takes for a few rays already") {
-  const Recipe& recipe = find_recipe("figure-6.18");
+  const Experiment& experiment = find_experiment("figure-6.18");
   const auto with = [&](double few, double many) {
-    const auto rows = made_rows(recipe, {1000, 49000}, [&](const Series&, uint64_t rays) {
+    const auto rows = made_rows(experiment, {1000, 49000}, [&](const Series&, uint64_t rays) {
       return std::pair{rays == 1000 ? few : many, 0.0};
     });
-    return text_of(recipe.words(rows, "the device"));
+    return text_of(order_words(experiment, rows, "the device"));
   };
   CHECK(contains(with(220e-6, 245e-6), "WS takes 90% of its time at 49,000 rays at 1,000 already, which is what"));
   CHECK(contains(with(30e-6, 300e-6), "WS takes 10% of its time at 49,000 rays at 1,000 already, so most"));
-  CHECK(reason_words(made_rows(recipe, {1000, 2000}, costs(2, 2))).empty());
+  CHECK(order_fields(made_rows(experiment, {1000, 2000}, costs(2, 2)), "a").at("reason").empty());
 }

@@ -67,8 +67,8 @@ void check_error(const std::vector<std::string>& words, int code, const std::str
 TEST_CASE("bench: errors say what is wrong before anything is measured") {
   const Folder folder;
   const std::string file = folder.file("a.toml", street), out = folder.path("out");
-  check_error({"bench"}, 2, "no recipe given; there are\n  figure-6.1 ");
-  check_error({"bench", "figure-6.0", "-o", out}, 2, "no recipe \"figure-6.0\" among figure-6.1, figure-6.2, ");
+  check_error({"bench"}, 2, "no experiment given; there are\n  figure-6.1 ");
+  check_error({"bench", "figure-6.0", "-o", out}, 2, "no experiment \"figure-6.0\" among figure-6.1, figure-6.2, ");
   check_error({"bench", "figure-6.1", "-o", out, "--rays", "2000:1000"}, 2, "--rays 2000:1000: not a range");
   check_error({"bench", "figure-6.1", "-o", out, "--rays", "3000:4000"}, 2, "no ray count of the figure");
   check_error({"bench", "figure-6.1", "-o", out, "--repeat", "0"}, 2, "--repeat");

@@ -1,6 +1,7 @@
 // Tables as text. Cells hold no line ends; a bar in a cell is escaped.
 // Assumes ASCII, so that bytes are columns.
-#include "study/findings.hpp"
+#include "study/text.hpp"
+#include <fmt/args.h>
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,8 @@ namespace wavetracer::study {
 namespace {
 
 constexpr double least = 0.001;  // what is said in full
+
+std::string percent(double value) { return fmt::format("{:.{}f}%", value, std::abs(value) < 9.95 ? 1 : 0); }
 
 std::string cell_text(const std::string& cell) {
   std::string out;
@@ -51,12 +54,37 @@ std::string words_text(const Words& words) {
   return text;
 }
 
+std::string filled(const std::string& text, const Fields& fields) {
+  fmt::dynamic_format_arg_store<fmt::format_context> store;
+  for (const auto& [name, value] : fields) store.push_back(fmt::arg(name.c_str(), value));
+  return fmt::vformat(text, store);
+}
+
 std::string plain(double value, int digits) {
   if (!std::isfinite(value)) return std::isnan(value) ? "undefined" : value > 0 ? "infinite" : "-infinite";
   if (value == 0) return "0";
   if (std::abs(value) < least) return value > 0 ? "less than 0.001" : "-0.001 to 0";
   const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
   return fmt::format("{:.{}f}", value, std::max(digits - before, 0));
+}
+
+std::string share_words(double share) {
+  if (std::isnan(share)) return "an undefined share";
+  if (share == 0) return "none";
+  return 100 * share < 9.95 ? plain(100 * share, 2) + "%" : percent(100 * share);
+}
+
+std::string saved_words(double percentage) {
+  if (std::abs(percentage) < 0.5) return "the same time";
+  return percent(std::abs(percentage)) + (percentage > 0 ? " less time" : " more time");
+}
+
+std::string verdict(bool holds) { return holds ? "confirmed" : "not confirmed"; }
+
+std::string list_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
 }
 
 }  // namespace wavetracer::study

@@ -1,14 +1,14 @@
-// Recipes without a device: ray counts, series, configs, sums of stages, gains, table and script.
+// Experiments without a device: ray counts, series, configs, sums of stages, gains, table and script.
 // Expected values are written out or computed another way.
 #include <doctest/doctest.h>
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <sstream>
 #include "config/config_file.hpp"
+#include "study/made_order_rows.hpp"
 #include "study/plot.hpp"
 #include "study/ray_counts.hpp"
-#include "study/rows.hpp"
-#include "study/table.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -61,10 +61,10 @@ TEST_CASE("numbers are grouped by thousands") {
 }
 
 TEST_CASE("figure-6.1 has every method of order.method and every launch shape") {
-  const Recipe& recipe = find_recipe("figure-6.1");
-  CHECK(recipe.series.front() == unordered());
+  const Experiment& experiment = find_experiment("figure-6.1");
+  CHECK(experiment.as<OrderFigure>()->series.front() == unordered());
   std::set<std::string> methods, shapes, labels;
-  for (const Series& series : recipe.series) {
+  for (const Series& series : experiment.as<OrderFigure>()->series) {
     methods.insert(series.method);
     shapes.insert(series.shape);
     labels.insert(label(series));
@@ -80,19 +80,19 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
   CHECK(shapes == std::set<std::string>{"1d", "2d", "3d"});
   CHECK(labels == std::set<std::string>{"WS", "WS 2d", "WS 3d", "Z", "H3DH", "H3DH 2d", "H3DH 3d", "HZ", "H3DH2DH",
                                         "H3DH3DH", "direction-origin", "born ordered"});
-  CHECK(labels.size() == recipe.series.size());
+  CHECK(labels.size() == experiment.as<OrderFigure>()->series.size());
 }
 
-TEST_CASE("an unknown recipe is answered with the known ones and the nearest") {
-  CHECK_THROWS_WITH_AS(find_recipe("figure-6.19"),
-                       doctest::Contains("bench: no recipe \"figure-6.19\" among figure-6.1, figure-6.2, "),
+TEST_CASE("an unknown experiment is answered with the known ones and the nearest") {
+  CHECK_THROWS_WITH_AS(find_experiment("figure-6.19"),
+                       doctest::Contains("bench: no experiment \"figure-6.19\" among figure-6.1, figure-6.2, "),
                        ConfigError);
-  CHECK_THROWS_WITH_AS(find_recipe("coherence-ray"), doctest::Contains("did you mean \"coherence-rays\"?"),
+  CHECK_THROWS_WITH_AS(find_experiment("coherence-ray"), doctest::Contains("did you mean \"coherence-rays\"?"),
                        ConfigError);
 }
 
 TEST_CASE("the built-in city is that of configs/city.toml") {
-  const Config city = recipe_config(find_recipe("figure-6.1"), "", {});
+  const Config city = experiment_config(find_experiment("figure-6.1"), "", {});
   const Config demo = load_config(WAVETRACER_SOURCE "/configs/city.toml");
   CHECK(city.scene.generate == demo.scene.generate);
   REQUIRE(city.transmitters.size() == 1);
@@ -102,25 +102,25 @@ TEST_CASE("the built-in city is that of configs/city.toml") {
     CHECK(city.receivers[i].position_m == demo.receivers[i].position_m);
 }
 
-TEST_CASE("keys that a recipe varies cannot be set, others can") {
-  const Recipe& still = find_recipe("figure-6.1");
+TEST_CASE("keys that a experiment varies cannot be set, others can") {
+  const Experiment& still = find_experiment("figure-6.1");
   for (const char* set :
        {"trace.rays=5", "trace.directions=random", "order.method=Z", "order.each_depth = true", "launch.shape=2d"}) {
     CAPTURE(set);
-    CHECK_THROWS_WITH_AS(recipe_config(still, "", {set}), doctest::Contains("gives"), ConfigError);
+    CHECK_THROWS_WITH_AS(experiment_config(still, "", {set}), doctest::Contains("gives"), ConfigError);
   }
-  CHECK(recipe_config(still, "", {"trace.max_depth=3"}).trace.max_depth == 3);
-  CHECK(recipe_config(still, "", {"trace.batch_rays=4096"}).trace.batch_rays == 4096);
-  CHECK_THROWS_AS(recipe_config(find_recipe("figure-6.18"), "", {"trace.batch_rays=4096"}), ConfigError);
+  CHECK(experiment_config(still, "", {"trace.max_depth=3"}).trace.max_depth == 3);
+  CHECK(experiment_config(still, "", {"trace.batch_rays=4096"}).trace.batch_rays == 4096);
+  CHECK_THROWS_AS(experiment_config(find_experiment("figure-6.18"), "", {"trace.batch_rays=4096"}), ConfigError);
 }
 
 TEST_CASE("frames of figure-6.18 are transmitters half a metre apart, whose rays share no batch") {
-  const Recipe& recipe = find_recipe("figure-6.18");
-  const Config config = recipe_config(recipe, "", {});
+  const Experiment& experiment = find_experiment("figure-6.18");
+  const Config config = experiment_config(experiment, "", {});
   for (const bool gpu : {false, true})
     for (const uint64_t rays : ray_counts({})) {
       CAPTURE(rays);
-      const Config point = point_config(recipe, config, rays, gpu);
+      const Config point = point_config(*experiment.as<OrderFigure>(), config, rays, gpu);
       REQUIRE(point.transmitters.size() == 20);
       std::set<std::string> names;
       for (size_t i = 0; i < 20; ++i) {
@@ -131,7 +131,7 @@ TEST_CASE("frames of figure-6.18 are transmitters half a metre apart, whose rays
       CHECK(rays % point.trace.batch_rays == 0);
       CHECK(point.trace.batch_rays >= std::min<uint64_t>(rays, 200000));
     }
-  CHECK(point_config(find_recipe("figure-6.1"), config, 1000, false).transmitters.size() == 1);
+  CHECK(point_config(*find_experiment("figure-6.1").as<OrderFigure>(), config, 1000, false).transmitters.size() == 1);
 }
 
 TEST_CASE("a series launches all rays of its transmitters, every frame, and nothing else") {
@@ -143,37 +143,37 @@ TEST_CASE("a series launches all rays of its transmitters, every frame, and noth
       "[[mount]]\nname = \"sender\"\nrole = \"transmitter\"\n[[mount]]\nname = \"roof\"\n";
   const Config config = parse_config(text, "a.toml");
   for (const char* name : {"figure-6.1", "figure-6.18"}) {
-    const Config point = point_config(find_recipe(name), config, 1000, false);
+    const Config point = point_config(*find_experiment(name).as<OrderFigure>(), config, 1000, false);
     CHECK_FALSE(point.trace.reuse);
     CHECK_FALSE(point.trace.diffraction);
     CHECK(point.cache.kind == "none");
   }
-  const Config moving = point_config(find_recipe("figure-6.18"), config, 1000, false);
+  const Config moving = point_config(*find_experiment("figure-6.18").as<OrderFigure>(), config, 1000, false);
   REQUIRE(moving.mounts.size() == 1);
   CHECK(moving.mounts[0].name == "roof");
   CHECK(moving.mounts[0].role == "receiver");
   CHECK(moving.links.transmitters == std::vector<std::string>{"*"});
-  CHECK(point_config(find_recipe("figure-6.1"), config, 1000, false).mounts.size() == 2);
+  CHECK(point_config(*find_experiment("figure-6.1").as<OrderFigure>(), config, 1000, false).mounts.size() == 2);
 }
 
-TEST_CASE("a recipe says by name what a configuration lacks for it") {
+TEST_CASE("a experiment says by name what a configuration lacks for it") {
   const std::string mounted = "scene.generate = \"--blocks 1\"\n[[mount]]\nname = \"roof\"\n";
   const Config vehicles = parse_config(mounted + "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -3, 0]]\n", "a.toml");
   const Config live = parse_config(mounted + "[[live_vehicle]]\ntype = \"passenger\"\n", "a.toml");
-  for (const Recipe& recipe : wavetracer::study::recipes()) {
-    CAPTURE(recipe.name);
-    const bool needs_mast = recipe.experiment || recipe.frames > 1;
+  for (const Experiment& experiment : wavetracer::study::experiments()) {
+    CAPTURE(experiment.name);
+    const bool needs_mast = experiment.moves_transmitter();
     if (needs_mast)
-      CHECK_THROWS_WITH_AS(check_recipe(recipe, vehicles),
-                           doctest::Contains(("a.toml: " + recipe.name + " launches rays from the first").c_str()),
+      CHECK_THROWS_WITH_AS(check_experiment(experiment, vehicles),
+                           doctest::Contains(("a.toml: " + experiment.name + " launches rays from the first").c_str()),
                            ConfigError);
     else
-      CHECK_NOTHROW(check_recipe(recipe, vehicles));
-    Config flat = recipe_config(recipe, "", {});
-    CHECK_NOTHROW(check_recipe(recipe, flat));
+      CHECK_NOTHROW(check_experiment(experiment, vehicles));
+    Config flat = experiment_config(experiment, "", {});
+    CHECK_NOTHROW(check_experiment(experiment, flat));
     flat.trace.max_depth = 0;
-    CHECK_THROWS_WITH_AS(check_recipe(recipe, flat), doctest::Contains("give 1 or more"), ConfigError);
-    CHECK_THROWS_AS(check_recipe(recipe, live), ConfigError);
+    CHECK_THROWS_WITH_AS(check_experiment(experiment, flat), doctest::Contains("give 1 or more"), ConfigError);
+    CHECK_THROWS_AS(check_experiment(experiment, live), ConfigError);
   }
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("times are sums of the stages' medians, a frame") {
   StageSeconds b = a, c = a;
   b["trace"] = 1000;  // a slow spell
   c["trace"] = 12;
-  const Times one = summarise({a, b, c}, 1);
+  const OrderTimes one = summarise({a, b, c}, 1);
   CHECK(one.trace_s == doctest::Approx(12));
   CHECK(one.order_s == doctest::Approx(11));
   CHECK(one.unpaid_s == doctest::Approx(22));
@@ -195,12 +195,12 @@ TEST_CASE("times are sums of the stages' medians, a frame") {
 }
 
 TEST_CASE("orders that find something else are an error, other directions are not") {
-  const Row plain{.rays = 2000, .series = unordered(), .times = {.unpaid_s = 1}, .paths = 30, .sequences = 1000};
-  Row sorted = plain, born = plain;
+  const OrderRow plain{.rays = 2000, .series = unordered(), .times = {.unpaid_s = 1}, .paths = 30, .sequences = 1000};
+  OrderRow sorted = plain, born = plain;
   sorted.series = ordered("morton");
   born.series = born_ordered();
   born.paths = 31;
-  std::vector<Row> rows = {plain, sorted, born};
+  std::vector<OrderRow> rows = {plain, sorted, born};
   CHECK_NOTHROW(compare(rows));
   rows[1].sequences = 999;
   CHECK_THROWS_WITH_AS(compare(rows),
@@ -213,22 +213,25 @@ TEST_CASE("orders that find something else are an error, other directions are no
 
 TEST_CASE("the table's gains are the ratios of its own columns") {
   for (const char* name : {"figure-6.1", "figure-6.18"}) {
-    const Recipe& recipe = find_recipe(name);
-    const std::vector<Row> rows = made_rows(recipe, {1000, 2000}, [](const Series& s, uint64_t rays) {
+    const Experiment& experiment = find_experiment(name);
+    const std::vector<OrderRow> rows = made_rows(experiment, {1000, 2000}, [](const Series& s, uint64_t rays) {
       const double each = s.method == "none" ? 3e-8 : 1.25e-8;
       return std::pair{each * static_cast<double>(rays), s.method == "none" ? 0.0 : 1.1e-5};
     });
-    const std::vector<std::string> lines = split(encode_table(rows), '\n');
-    REQUIRE(lines.size() == 1 + 2 * recipe.series.size());
+    const Columns<OrderRow>& columns_of = order_columns(experiment.moves_transmitter());
+    const std::vector<std::string> names = names_of(columns_of);
+    const std::vector<std::string> lines = split(encode(columns_of, rows), '\n');
+    REQUIRE(lines.size() == 1 + 2 * experiment.as<OrderFigure>()->series.size());
     const std::string columns =
         "rays,method,mnemonic,shape,each_depth,trace_s,order_s,unpaid_s,paid_s,frame_s,paths,sequences,gain_unpaid,"
         "gain_paid";
-    CHECK(lines[0] == columns + (recipe.frames > 1 ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : ""));
+    CHECK(lines[0] ==
+          columns + (experiment.moves_transmitter() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : ""));
     std::vector<std::string> base;
     for (size_t i = 1; i < lines.size(); ++i) {
       const std::vector<std::string> cells = split(lines[i], ',');
-      const auto cell = [](const std::vector<std::string>& row, const char* column) {
-        return std::strtod(row.at(column_number(column) - 1).c_str(), nullptr);
+      const auto cell = [&](const std::vector<std::string>& row, const char* column) {
+        return std::strtod(row.at(std::ranges::find(names, column) - names.begin()).c_str(), nullptr);
       };
       if (cells.at(2) == "WS" && cells.at(3) == "1d") base = cells;
       REQUIRE(!base.empty());
@@ -238,7 +241,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
         const double gain = cell(base, (which + "_s").c_str()) / cell(cells, (which + "_s").c_str());
         CHECK(cell(cells, ("gain_" + which).c_str()) == doctest::Approx(gain).epsilon(1e-5));
       }
-      if (recipe.frames > 1) {
+      if (experiment.moves_transmitter()) {
         CHECK(cells.at(14) == "20");
         CHECK(std::strtod(cells.at(15).c_str(), nullptr) ==
               doctest::Approx(100 * (1 - cell(cells, "unpaid_s") / cell(base, "unpaid_s"))).epsilon(1e-4));
@@ -248,10 +251,11 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
 }
 
 TEST_CASE("the script draws a line a series in each of two panels") {
-  const Recipe& recipe = find_recipe("figure-6.1");
-  const std::string script = plot_script("figure-6.1", "A device's title", recipe.series);
-  CHECK(occurrences(script, "with linespoints") == 2 * recipe.series.size());
-  for (const Series& series : recipe.series) CHECK(occurrences(script, " title '" + label(series) + "'") == 2);
+  const Experiment& experiment = find_experiment("figure-6.1");
+  const std::string script = plot_script("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series);
+  CHECK(occurrences(script, "with linespoints") == 2 * experiment.as<OrderFigure>()->series.size());
+  for (const Series& series : experiment.as<OrderFigure>()->series)
+    CHECK(occurrences(script, " title '" + label(series) + "'") == 2);
   CHECK(occurrences(script, "'A device''s title'") == 1);
   CHECK(occurrences(script, "/") == occurrences(script, " / "));  // no folder in any name
 }

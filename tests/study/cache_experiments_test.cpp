@@ -1,4 +1,4 @@
-// Recipes on caching without a device: the thesis' parameters, tables, and paragraphs of made-up rows.
+// Experiments on caching without a device: the thesis' parameters, tables, and paragraphs of made-up rows.
 // Numbers are chosen so that verdicts can be said by hand.
 #include <doctest/doctest.h>
 #include <algorithm>
@@ -8,11 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 #include "config/config_file.hpp"
+#include "study/cache_claims.hpp"
 #include "study/cache_rows.hpp"
-#include "study/cache_words.hpp"
-#include "study/figures_tables.hpp"
+#include "study/experiment.hpp"
 #include "study/made_cache_rows.hpp"
-#include "study/recipe.hpp"
 #include "study/run.hpp"
 #include "study/squeezed.hpp"
 #include "wavetracer/error.hpp"
@@ -24,14 +23,14 @@ namespace {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-Config city() { return recipe_config(find_recipe("figure-6.5"), "", {}); }
+Config city() { return experiment_config(find_experiment("figure-6.5"), "", {}); }
 
 // The config of a setting of a figure, by name.
 Config config_of(const std::string& figure, const std::string& setting, uint64_t rays = 50000) {
   Config config = city();
   config.trace.rays = rays;
   uncached(config);
-  for (const Setting& one : find_recipe(figure).study->settings)
+  for (const Setting& one : find_experiment(figure).study()->settings)
     if (one.name == setting) {
       one.apply(config);
       return config;
@@ -40,25 +39,24 @@ Config config_of(const std::string& figure, const std::string& setting, uint64_t
 }
 
 std::string words_of(const std::string& figure, const std::vector<uint64_t>& rays, const CacheCost& cost) {
-  const Recipe& recipe = find_recipe(figure);
-  return squeezed(words_text(show(recipe, made_measurement(*recipe.study, rays, cost), {}).words));
+  const Experiment& experiment = find_experiment(figure);
+  return squeezed(words_text(show(experiment, made_measurement(*experiment.study(), rays, cost), {}).words));
 }
 
 }  // namespace
 
-TEST_CASE("every figure of chapter 6 is a recipe, and those of caching know a study and a view") {
+TEST_CASE("every figure of chapter 6 is a experiment, and those of caching know a study and a view") {
   for (int figure = 1; figure <= 18; ++figure) {
-    const Recipe& recipe = find_recipe("figure-6." + std::to_string(figure));
+    const Experiment& experiment = find_experiment("figure-6." + std::to_string(figure));
     const bool caching = figure != 1 && figure != 13 && figure != 18;
-    CHECK((recipe.study != nullptr) == caching);
-    CHECK((recipe.view != nullptr) == caching);
+    CHECK((experiment.study() != nullptr) == caching);
   }
-  CHECK(find_recipe("figure-6.2").study == find_recipe("figure-6.3").study);
-  CHECK(find_recipe("figure-6.13").frames == 100);
+  CHECK(find_experiment("figure-6.2").study() == find_experiment("figure-6.3").study());
+  CHECK(find_experiment("figure-6.13").as<FrameFigure>()->frames == 100);
 }
 
 TEST_CASE("figures 6.2 to 6.5: chained, 50,000 entries, load factor 3, division 200,000") {
-  CHECK(find_recipe("figure-6.2").study->rays == std::vector<uint64_t>{50000});
+  CHECK(find_experiment("figure-6.2").study()->rays == std::vector<uint64_t>{50000});
   for (const std::string figure : {"figure-6.2", "figure-6.5"})
     for (const auto& [name, hash] :
          std::map<std::string, uint32_t>{{"chained uniform", 1}, {"chained Morton", 2}, {"chained mixed", 3}}) {
@@ -74,7 +72,7 @@ TEST_CASE("figures 6.2 to 6.5: chained, 50,000 entries, load factor 3, division 
     }
   CHECK(config_of("figure-6.5", "chained mixed 500000 entries").cache.buffer_size == 500000);
   CHECK(config_of("figure-6.4", "chained Morton counted").cache.statistics);
-  const std::vector<uint64_t> rays = find_recipe("figure-6.5").study->rays;
+  const std::vector<uint64_t> rays = find_experiment("figure-6.5").study()->rays;
   CHECK(rays.front() == 1000);
   CHECK(rays.back() == 20480000);
   for (size_t i = 1; i + 1 < rays.size(); ++i) CHECK(rays[i] == 2 * rays[i - 1]);
@@ -121,30 +119,30 @@ TEST_CASE("figures 6.11 to 6.17: position 200,000, precision 10,000 with 0.0125 
   CHECK(config_of("figure-6.11", "no cache with reuse").trace.reuse);
   CHECK(config_of("figure-6.11", "concurrent exact").cache.key == "exact");
   CHECK(config_of("figure-6.11", "concurrent").cache.scope == "static");
-  CHECK(find_recipe("figure-6.11").study->rays.front() == 1000);
-  CHECK(find_recipe("figure-6.11").study->rays.back() == 900000);  // ten times the thesis' range
-  CHECK(find_recipe("figure-6.14").study->rays.back() == 490000);
-  CHECK(find_recipe("figure-6.16").study->rays.back() == 610000);
+  CHECK(find_experiment("figure-6.11").study()->rays.front() == 1000);
+  CHECK(find_experiment("figure-6.11").study()->rays.back() == 900000);  // ten times the thesis' range
+  CHECK(find_experiment("figure-6.14").study()->rays.back() == 490000);
+  CHECK(find_experiment("figure-6.16").study()->rays.back() == 610000);
   CHECK(config_of("figure-6.16", "precision 0.0125 Morton").cache.hash_method == 2);
   CHECK(config_of("figure-6.16", "precision 0.0125 Morton").order.method == "hilbert3d-histogram");
 }
 
 TEST_CASE("every setting of every study is a config that reads back") {
-  for (const Recipe& recipe : study::recipes()) {
-    if (!recipe.study) continue;
-    std::set<std::string> drives(recipe.study->drives.begin(), recipe.study->drives.end());
+  for (const Experiment& experiment : study::experiments()) {
+    if (!experiment.study()) continue;
+    std::set<std::string> drives(experiment.study()->drives.begin(), experiment.study()->drives.end());
     for (const std::string& drive : drives)
-      for (const Setting& setting : recipe.study->settings) {
-        CAPTURE(recipe.name);
+      for (const Setting& setting : experiment.study()->settings) {
+        CAPTURE(experiment.name);
         CAPTURE(setting.name);
         Config config = drive == "still" ? city() : with_traffic(city(), drive, 500);
-        config.trace.rays = recipe.study->rays.back();
+        config.trace.rays = experiment.study()->rays.back();
         uncached(config);
         setting.apply(config);
         CHECK_NOTHROW(parse_config(resolved_config(config), "resolved.toml"));
       }
-    for (const uint64_t few : recipe.study->few_rays)
-      CHECK((std::count(recipe.study->rays.begin(), recipe.study->rays.end(), few) == 1));
+    for (const uint64_t few : experiment.study()->few_rays)
+      CHECK((std::count(experiment.study()->rays.begin(), experiment.study()->rays.end(), few) == 1));
   }
 }
 
@@ -162,7 +160,7 @@ TEST_CASE("traffic: the cold frame and those that count, by a mast, by a vehicle
 }
 
 TEST_CASE("numbers of rays and frames: by device, by request") {
-  const CacheStudy& study = *find_recipe("figure-6.11").study;
+  const CacheStudy& study = *find_experiment("figure-6.11").study();
   Request request;
   CHECK(study_rays(study, request, true) == study.rays);
   CHECK(study_rays(study, request, false) == study.few_rays);
@@ -198,7 +196,7 @@ TEST_CASE("rows: nanoseconds a segment, hit rate, savings, columns") {
   set_savings(point);
   CHECK(point[0].saved_percent == 0);
   CHECK(point[1].saved_percent == doctest::Approx(25));
-  const std::string table = encode_cache_table(point);
+  const std::string table = encode(cache_columns(), point);
   CHECK(std::count(table.begin(), table.end(), '\n') == 3);
   CHECK(std::count(table.begin(), table.end(), ',') == 3 * (static_cast<long>(cache_columns().size()) - 1));
   CHECK(value_of(point[1], "saved_percent") == doctest::Approx(25));
@@ -298,9 +296,9 @@ TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and
 }
 
 TEST_CASE("figure-6.4: classes of hits, unused entries, entries that never answer") {
-  const Recipe& recipe = find_recipe("figure-6.4");
+  const Experiment& experiment = find_experiment("figure-6.4");
   const auto same = [](const std::string&, uint64_t) { return std::pair{1.0, 0.0}; };
-  const Findings found = show(recipe, made_measurement(*recipe.study, {50000}, same), {});
+  const Findings found = show(experiment, made_measurement(*experiment.study(), {50000}, same), {});
   CHECK(found.table.starts_with("drive,setting,hits_from,hits_to,entries\nstill,chained uniform counted,0,0,100\n"));
   CHECK(contains(found.table, "chained mixed counted,3,4,400\n"));
   const std::string text = squeezed(words_text(found.words));
@@ -310,24 +308,24 @@ TEST_CASE("figure-6.4: classes of hits, unused entries, entries that never answe
 }
 
 TEST_CASE("all figures of caching: a script with a line a setting, whose columns are in the table") {
-  for (const Recipe& recipe : study::recipes()) {
-    if (!recipe.study) continue;
-    CAPTURE(recipe.name);
-    const Findings found = show(recipe,
-                                made_measurement(*recipe.study, {1000, 2000},
+  for (const Experiment& experiment : study::experiments()) {
+    if (!experiment.study()) continue;
+    CAPTURE(experiment.name);
+    const Findings found = show(experiment,
+                                made_measurement(*experiment.study(), {1000, 2000},
                                                  [](const std::string&, uint64_t) {
                                                    return std::pair{1.0, 0.5};
                                                  }),
                                 {});
-    CHECK(contains(found.script, "'" + recipe.name + ".csv' using"));
+    CHECK(contains(found.script, "'" + experiment.name + ".csv' using"));
     CHECK(contains(found.words.paragraph, "the device"));
     REQUIRE_FALSE(found.words.numbers.rows.empty());
     for (const auto& row : found.words.numbers.rows) CHECK(row.size() == found.words.numbers.heads.size());
     CHECK(found.table.find(',') != std::string::npos);
-    CHECK_FALSE(found.caption.empty());
+    CHECK_FALSE(experiment.caption.empty());
   }
-  const Recipe& recipe = find_recipe("figure-6.5");
-  CHECK(show(recipe, CacheMeasurement{}, {}).points == 0);  // interrupted before the first
+  const Experiment& experiment = find_experiment("figure-6.5");
+  CHECK(show(experiment, CacheMeasurement{}, {}).points == 0);  // interrupted before the first
 }
 
 TEST_CASE("line plots: unknown columns are mistakes, panels without a value are left out") {

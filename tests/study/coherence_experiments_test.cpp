@@ -73,7 +73,8 @@ TEST_CASE("coherence-frames: means of subsequent frames, the last frame with the
       frame_pair("first", 2, 1, 0.61, 0.5, 0.4),    frame_pair("first", 2, 2, study::undefined, 0.1, 0.4),
       frame_pair("previous", 2, 1, 0.7, 0.3, 0.72), frame_pair("previous", 2, 2, 0.26, study::undefined, 0.8)};
   const Drive drive{.start_m = {0, 0, 0}, .velocity_m_s = {10, 0, 0}};
-  const std::string text = squeezed(words_text(frame_pairs_words(rows, drive, "the device")));
+  const std::string text =
+      squeezed(words_text(frame_words(find_experiment("coherence-frames"), rows, drive, "the device")));
   CAPTURE(text);
   CHECK(contains(text, "Measured on the device, 49,000 rays of a transmitter that drives 0.2 m"));
   CHECK(contains(text, "subsequent ones are 0.100 m apart"));
@@ -89,7 +90,7 @@ TEST_CASE("coherence-frames: means of subsequent frames, the last frame with the
   CHECK(contains(text, "| last frame and first: of these, on the same surface | 0.20 | 0.20 |"));
   CHECK(contains(text, "| last frame and first: of these, after the same surfaces | 0.10 | 0.10 |"));
   CHECK(contains(text, "0.02 s old"));
-  const std::string table = encode_frame_pairs(rows, drive);
+  const std::string table = encode(frame_columns(drive), rows);
   CHECK(table.starts_with("against,frame,time_s,moved_m,depth,"));
   CHECK(std::count(table.begin(), table.end(), '\n') == 9);
   CHECK(contains(table, "\nfirst,2,0.02,0.2,2,0,0,0.4,0.2,0.1,nan,nan,nan,nan,nan,0.1\n"));
@@ -121,7 +122,7 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
                                     lag("fibonacci", 1, 1, -0.4, 0.5), lag("fibonacci", 1, 2, 0.93, 0.8),
                                     lag("fibonacci", 2, 1, -0.3, 0.1), lag("fibonacci", 2, 2, 0.95, 0.1),
                                     lag("random", 1, 1, -0.001, 0.3),  lag("random", 2, 1, 0.02, 0.2)};
-  const std::string text = squeezed(words_text(lags_words(rows, "the device")));
+  const std::string text = squeezed(words_text(lag_words(find_experiment("coherence-rays"), rows, "the device")));
   CAPTURE(text);
   CHECK(contains(text,
                  "| hit points correlate, hilbert | 0.90 | 0.80 |\n| hit points correlate, fibonacci | -0.40 | "
@@ -132,7 +133,7 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
   CHECK(contains(text, "surface, fibonacci | 0.50 | 0.10 |"));
   CHECK(contains(text, "surface, random | 0.30 | 0.20 |"));
   CHECK(contains(text, "| the wrong surface, hilbert | 0.05 | 0.30 |"));
-  CHECK(contains(encode_lags(rows), "\nhilbert,1,2,0,0.4,nan,0.9,nan\n"));
+  CHECK(contains(encode(lag_columns(), rows), "\nhilbert,1,2,0,0.4,nan,0.9,nan\n"));
 }
 
 TEST_CASE("depth plots: a line a depth and panel, columns by number") {
