@@ -11,31 +11,26 @@ namespace {
 // Entries for all segments of a frame, of which a ray has few.
 uint64_t ample_buffer(uint64_t rays) { return std::max<uint64_t>(uint64_t{1} << 20, 8 * rays); }
 
-CacheConfig thesis_cache(const std::string& kind, uint32_t hash_method, uint64_t buffer_size) {
-  CacheConfig cache;
-  cache.kind = kind;
-  cache.key = "quantised";
-  cache.hash_method = hash_method;
-  cache.division = thesis_division;
-  cache.buffer_size = buffer_size;
-  cache.load_factor = thesis_load_factor;
-  cache.locking = "readers";
-  cache.readers_number = thesis_readers;
-  cache.purge = "position";
-  cache.position_step_m = thesis_position_step_m;
-  cache.scope = "all";
-  cache.hit_point = "cached";
-  return cache;
-}
+using Change = std::function<void(CacheConfig&)>;
 
-// `statistics` and `first_depth` are left to the user's config.
-Setting cached(const std::string& name, CacheConfig cache) {
-  return {name, [cache](Config& config) {
-            const bool statistics = config.cache.statistics;
-            const uint32_t first_depth = config.cache.first_depth;
-            config.cache = cache;
-            config.cache.statistics = statistics;
-            config.cache.first_depth = first_depth;
+// A table of the thesis. What it has besides comes last; `statistics` and `first_depth` are left to the user's config.
+Setting thesis_table(const std::string& name, const std::string& kind, uint32_t hash_method, const Change& change) {
+  return {name + " " + hash_name(hash_method), [=](Config& config) {
+            CacheConfig& cache = config.cache;
+            cache.kind = kind;
+            cache.key = "quantised";
+            cache.hash_method = hash_method;
+            cache.division = thesis_division;
+            cache.buffer_size = kind == "open" ? thesis_open_buffer : thesis_chained_buffer;
+            cache.load_factor = thesis_load_factor;
+            cache.locking = "readers";
+            cache.readers_number = thesis_readers;
+            cache.purge = "position";
+            cache.position_step_m = thesis_position_step_m;
+            cache.residual_value = thesis_residual;
+            cache.scope = "all";
+            cache.hit_point = "cached";
+            change(cache);
           }};
 }
 
@@ -66,31 +61,29 @@ Setting no_cache() {
 }
 
 Setting chained(uint32_t hash_method, uint64_t buffer_size) {
-  std::string name = "chained " + hash_name(hash_method);
-  if (buffer_size != thesis_chained_buffer) name += fmt::format(" {} entries", buffer_size);
-  return cached(name, thesis_cache("chained", hash_method, buffer_size));
+  Setting setting =
+      thesis_table("chained", "chained", hash_method, [=](CacheConfig& cache) { cache.buffer_size = buffer_size; });
+  if (buffer_size != thesis_chained_buffer) setting.name += fmt::format(" {} entries", buffer_size);
+  return setting;
 }
 
 Setting open_mutex(uint32_t hash_method) {
-  CacheConfig cache = thesis_cache("open", hash_method, thesis_open_buffer);
-  cache.locking = "mutex";
-  return cached("mutex " + hash_name(hash_method), cache);
+  return thesis_table("mutex", "open", hash_method, [](CacheConfig& cache) { cache.locking = "mutex"; });
 }
 
 Setting open_readers(uint32_t hash_method) {
-  return cached("readers " + hash_name(hash_method), thesis_cache("open", hash_method, thesis_open_buffer));
+  return thesis_table("readers", "open", hash_method, [](CacheConfig&) {});
 }
-
 Setting position(uint32_t hash_method) {
-  return cached("position " + hash_name(hash_method), thesis_cache("open", hash_method, thesis_open_buffer));
+  return thesis_table("position", "open", hash_method, [](CacheConfig&) {});
 }
 
 Setting precision(double residual, uint32_t hash_method) {
-  CacheConfig cache = thesis_cache("open", hash_method, thesis_open_buffer);
-  cache.division = thesis_precision_division;
-  cache.purge = "precision";
-  cache.residual_value = residual;
-  return cached(fmt::format("precision {:g} {}", residual, hash_name(hash_method)), cache);
+  return thesis_table(fmt::format("precision {:g}", residual), "open", hash_method, [=](CacheConfig& cache) {
+    cache.division = thesis_precision_division;
+    cache.purge = "precision";
+    cache.residual_value = residual;
+  });
 }
 
 Setting ours() { return ours_with("concurrent", "quantised"); }

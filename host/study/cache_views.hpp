@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 #include "study/cache_study.hpp"
-#include "study/line_plot.hpp"
+#include "study/scripts.hpp"
 #include "study/text.hpp"
 
 namespace wavetracer::study {

@@ -19,7 +19,7 @@ Findings show(const Experiment& experiment, const CacheMeasurement& measured, co
   }
   if (plot.settings.empty()) plot.settings = settings_of(measured.rows);
   found.table = shown.table;
-  found.script = line_plot_script(plot);
+  found.script = line_script(plot);
   const Fields fields = cache_fields(measured.rows, measured.device.name, figure.settings);
   found.words = {filled(experiment.paragraph, fields), judged(figure.claims, measured.rows, fields),
                  shown.numbers.rows.empty() ? summary_table(measured.rows) : shown.numbers};

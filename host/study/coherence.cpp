@@ -2,7 +2,6 @@
 // Sums of points are of differences, so that places far from the origin lose nothing.
 #include "study/coherence.hpp"
 #include <algorithm>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
@@ -122,40 +121,6 @@ std::vector<LagCoherence> coherence_along(std::span<const Hit> hits, std::span<c
     at.same_primitive = share(same_primitive, at.pairs);
     out.push_back(at);
   }
-  return out;
-}
-
-double mean_path_length_m(const FrameHits& hits) {
-  double sum = 0;
-  uint64_t rays = 0;
-  for (size_t depth = 0; depth < hits.size(); ++depth)
-    for (const Hit& hit : hits[depth]) {
-      if (!is_hit(hit)) continue;
-      sum += hit.distance_m;
-      rays += depth == 0;
-    }
-  return rays == 0 ? undefined : sum / static_cast<double>(rays);
-}
-
-PointError point_error(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b, double reference_m) {
-  check_lengths(a.size(), b.size(), "point_error");
-  PointError out;
-  if (a.empty()) return out;
-  glm::dvec3 sum{0};  // of the displacements: that of the centroids, without their rounding
-  double lengths = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    sum += b[i] - a[i];
-    lengths += glm::length(b[i] - a[i]);
-  }
-  const auto count = static_cast<double>(a.size());
-  const glm::dvec3 apart = glm::abs(sum / count);
-  out.l1_m = apart.x + apart.y + apart.z;
-  out.l2_m = glm::length(apart);
-  out.displacement_m = lengths / count;
-  if (!(reference_m > 0)) return out;
-  out.l1_relative = out.l1_m / reference_m;
-  out.l2_relative = out.l2_m / reference_m;
-  out.displacement_relative = out.displacement_m / reference_m;
   return out;
 }
 

@@ -1,5 +1,5 @@
 // Coherence of tracing results: between frames (equations 6.3 and 6.4 of the thesis) and inside one (equation 3.4).
-// A. Zhdanov, TU Munich, 2014. Put right: points paired by ray and bounce, sums normalised, errors beside a length.
+// A. Zhdanov, TU Munich, 2014. Put right: points paired by ray and bounce, sums normalised.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -67,20 +67,5 @@ struct LagCoherence {
 
 // hits: in the order to be judged, misses included.
 std::vector<LagCoherence> coherence_along(std::span<const Hit> hits, std::span<const uint32_t> lags);
-
-// Means over rays that hit something of the length from the transmitter to their last hit; NaN without hits.
-double mean_path_length_m(const FrameHits& hits);
-
-// How far points b are from points a, which they are paired with. Opposite errors cancel in centroids, not in the
-// displacement, which is never less than l2_m. Relative: divided by reference_m; NaN unless that is positive.
-struct PointError {
-  double l1_m = undefined, l2_m = undefined;  // between the centroids: equation 6.3
-  double displacement_m = undefined;          // mean over pairs
-  double l1_relative = undefined, l2_relative = undefined, displacement_relative = undefined;
-};
-
-// reference_m: what errors are measured by, such as mean_path_length_m of the true frame. All NaN without points.
-// Throws std::invalid_argument for lists of different lengths.
-PointError point_error(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b, double reference_m);
 
 }  // namespace wavetracer::study

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include "study/depth_plot.hpp"
 #include "study/hit_recorder.hpp"
 #include "study/run.hpp"
+#include "study/scripts.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::study {
@@ -114,13 +114,12 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   found.points = 1;
   const Columns<FramePair> columns = frame_columns(drive);
   found.table = encode(columns, rows);
-  found.script = depth_plot_script(
+  found.script = depth_script(
       {.name = experiment.name,
        .title = experiment.title + ", " + traced.device.name,
        .columns = names_of(columns),
        .max_depth = trace.max_depth,
        .x_label = "way driven (m)",
-       .y_label = "",
        .panels_a_row = 2,
        .panels = {
            {"correlation with the first frame", "moved_m", "total", "against", "first"},

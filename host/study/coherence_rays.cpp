@@ -3,9 +3,9 @@
 #include "study/coherence_rays.hpp"
 #include <fmt/format.h>
 #include <numeric>
-#include "study/depth_plot.hpp"
 #include "study/hit_recorder.hpp"
 #include "study/run.hpp"
+#include "study/scripts.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -57,7 +57,6 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
                  .columns = names_of(lag_columns()),
                  .max_depth = request.config.trace.max_depth,
                  .x_label = "lag (rays)",
-                 .y_label = "",
                  .log_x = true,
                  .points = true,
                  .panels_a_row = 3,
@@ -66,7 +65,7 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
     plot.panels.push_back({directions + ": autocorrelation of points", "lag", "points", "directions", directions});
   for (const std::string& directions : maps)
     plot.panels.push_back({directions + ": same surface", "lag", "same_surface", "directions", directions});
-  found.script = depth_plot_script(plot);
+  found.script = depth_script(plot);
   found.words = lag_words(experiment, rows, traced.device.name);
   found.notes = {
       fmt::format("rays: {} of the transmitter \"{}\", a frame for each map of directions", grouped(experiment_rays),

@@ -2,8 +2,8 @@
 // Assumes that a frame without a cache, reuse or diffraction launches the rays of its transmitters and no others.
 #include <fmt/format.h>
 #include "study/order_claims.hpp"
-#include "study/plot.hpp"
 #include "study/run.hpp"
+#include "study/scripts.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -52,7 +52,7 @@ Findings measure(const OrderFigure& figure, const Experiment& experiment, const 
   }
   if (rows.empty()) return found;
   found.table = encode(order_columns(figure.frames > 1), rows);
-  found.script = plot_script(experiment.name, experiment.title + ", " + found.device.name, figure.series);
+  found.script = order_script(experiment.name, experiment.title + ", " + found.device.name, figure.series);
   found.words = order_words(experiment, rows, found.device.name);
   found.notes = {
       fmt::format("times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace (of standing "

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+#include "output/median.hpp"
+#include "radio/path_power.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -41,12 +43,6 @@ std::vector<size_t> sorted(const Paths& paths) {
   return order;
 }
 
-double power(const Paths& paths, size_t path) {
-  double sum = 0;
-  for (uint32_t port = 0; port < paths.rx_ports * paths.tx_ports; ++port) sum += std::norm(paths.a[path][port]);
-  return sum;
-}
-
 struct LinkPaths {
   std::vector<double> delays_s, dopplers_hz, powers;
   double power() const { return std::accumulate(powers.begin(), powers.end(), 0.0); }
@@ -58,7 +54,7 @@ std::map<std::pair<uint32_t, uint32_t>, LinkPaths> links_of(const Paths& paths, 
     LinkPaths& link = links[{paths.tx[path], paths.rx[path]}];
     link.delays_s.push_back(paths.delay_s[path]);
     link.dopplers_hz.push_back(paths.doppler_hz[path]);
-    link.powers.push_back(power(paths, path));
+    link.powers.push_back(power_of(paths, path));
   }
   return links;
 }
@@ -66,15 +62,15 @@ std::map<std::pair<uint32_t, uint32_t>, LinkPaths> links_of(const Paths& paths, 
 void compare_paths(const Paths& reference, const std::vector<size_t>& a, const Paths& paths,
                    const std::vector<size_t>& b, PathError& out) {
   double total = 0, lost_power = 0, spurious_power = 0, delays_s = 0;
-  for (const size_t path : a) total += power(reference, path);
+  for (const size_t path : a) total += power_of(reference, path);
   for (size_t i = 0, j = 0; i < a.size() || j < b.size();) {
     const int order = i == a.size() ? 1 : j == b.size() ? -1 : compare(reference, a[i], paths, b[j]);
     if (order < 0) {
       ++out.lost;
-      lost_power += power(reference, a[i++]);
+      lost_power += power_of(reference, a[i++]);
     } else if (order > 0) {
       ++out.spurious;
-      spurious_power += power(paths, b[j++]);
+      spurious_power += power_of(paths, b[j++]);
     } else {
       ++out.paired;
       delays_s += std::abs(paths.delay_s[b[j++]] - reference.delay_s[a[i++]]);
@@ -108,11 +104,8 @@ void compare_links(const Paths& reference, const std::vector<size_t>& a, const P
   out.links = errors_db.size();
   out.links_spurious = links_b.size() - out.links;
   if (errors_db.empty()) return;
-  std::sort(errors_db.begin(), errors_db.end());
-  const size_t middle = errors_db.size() / 2;
-  out.power_median_db =
-      errors_db.size() % 2 == 1 ? errors_db[middle] : 0.5 * (errors_db[middle - 1] + errors_db[middle]);
-  out.power_max_db = errors_db.back();
+  out.power_median_db = median(errors_db);
+  out.power_max_db = *std::ranges::max_element(errors_db);
   out.delay_spread_ns = spreads_ns / static_cast<double>(out.links);
   out.doppler_spread_hz = spreads_hz / static_cast<double>(out.links);
 }
@@ -162,29 +155,14 @@ PathError path_error(const Paths& reference, const Paths& paths) {
 }
 
 void PathErrorMean::add(const PathError& error) {
-  sums_.reference_paths += error.reference_paths;
-  sums_.paired += error.paired;
-  sums_.lost += error.lost;
-  sums_.spurious += error.spurious;
-  sums_.links += error.links;
-  sums_.links_lost += error.links_lost;
-  sums_.links_spurious += error.links_spurious;
+  for (uint64_t PathError::*count :
+       {&PathError::reference_paths, &PathError::paired, &PathError::lost, &PathError::spurious, &PathError::links,
+        &PathError::links_lost, &PathError::links_spurious})
+    sums_.*count += error.*count;
   if (!(error.power_max_db <= sums_.power_max_db) && !std::isnan(error.power_max_db))
     sums_.power_max_db = error.power_max_db;
-  const auto add_defined = [](RunningMean& mean, double value) {
-    if (!std::isnan(value)) mean.add(value);
-  };
-  add_defined(lost_power_, error.lost_power);
-  add_defined(spurious_power_, error.spurious_power);
-  add_defined(power_median_db_, error.power_median_db);
-  add_defined(delay_spread_ns_, error.delay_spread_ns);
-  add_defined(doppler_spread_hz_, error.doppler_spread_hz);
-  add_defined(delay_ns_, error.delay_ns);
-  add_defined(l1_m_, error.l1_m);
-  add_defined(l2_m_, error.l2_m);
-  add_defined(mean_path_length_m_, error.mean_path_length_m);
-  add_defined(l1_relative_, error.l1_relative);
-  add_defined(l2_relative_, error.l2_relative);
+  for (size_t i = 0; i < averaged.size(); ++i)
+    if (const double value = error.*averaged[i]; !std::isnan(value)) means_[i].add(value);
 }
 
 PathError PathErrorMean::mean() const {
@@ -192,17 +170,7 @@ PathError PathErrorMean::mean() const {
   const auto whole = static_cast<double>(out.reference_paths);
   out.lost_share = share(static_cast<double>(out.lost), whole);
   out.spurious_share = share(static_cast<double>(out.spurious), whole);
-  out.lost_power = lost_power_.mean();
-  out.spurious_power = spurious_power_.mean();
-  out.power_median_db = power_median_db_.mean();
-  out.delay_spread_ns = delay_spread_ns_.mean();
-  out.doppler_spread_hz = doppler_spread_hz_.mean();
-  out.delay_ns = delay_ns_.mean();
-  out.l1_m = l1_m_.mean();
-  out.l2_m = l2_m_.mean();
-  out.mean_path_length_m = mean_path_length_m_.mean();
-  out.l1_relative = l1_relative_.mean();
-  out.l2_relative = l2_relative_.mean();
+  for (size_t i = 0; i < averaged.size(); ++i) out.*averaged[i] = means_[i].mean();
   return out;
 }
 

@@ -2,8 +2,8 @@
 // Paths are paired by transmitter, receiver and what they touch, in order: surfaces and edges of the scene and of which
 // vehicle, and how. Assumes the same ports in both frames.
 #pragma once
+#include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include "study/statistics.hpp"
 #include "wavetracer/paths.hpp"
 
@@ -42,9 +42,19 @@ class PathErrorMean {
   PathError mean() const;
 
  private:
+  static constexpr std::array averaged = {&PathError::lost_power,
+                                          &PathError::spurious_power,
+                                          &PathError::power_median_db,
+                                          &PathError::delay_spread_ns,
+                                          &PathError::doppler_spread_hz,
+                                          &PathError::delay_ns,
+                                          &PathError::l1_m,
+                                          &PathError::l2_m,
+                                          &PathError::mean_path_length_m,
+                                          &PathError::l1_relative,
+                                          &PathError::l2_relative};
   PathError sums_;
-  RunningMean lost_power_, spurious_power_, power_median_db_, delay_spread_ns_, doppler_spread_hz_, delay_ns_, l1_m_,
-      l2_m_, mean_path_length_m_, l1_relative_, l2_relative_;
+  std::array<RunningMean, averaged.size()> means_;
 };
 
 }  // namespace wavetracer::study

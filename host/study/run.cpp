@@ -5,7 +5,7 @@
 #include <span>
 #include "output/pending_file.hpp"
 #include "study/page.hpp"
-#include "study/plot.hpp"
+#include "study/scripts.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::study {

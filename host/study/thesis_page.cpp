@@ -103,7 +103,7 @@ std::string speed_error_script(const std::vector<CacheRow>& rows, const std::str
                  {"delay spread", "delay_spread_ns", "ns", "", true, 1e-4},
                  {"centroid, L1, of the mean path", "l1_relative", "share", "", true, 1e-6},
                  {"centroid, L2, of the mean path", "l2_relative", "share", "", true, 1e-6}};
-  return line_plot_script(plot);
+  return line_script(plot);
 }
 
 std::string thesis_html(const ThesisPage& page) {

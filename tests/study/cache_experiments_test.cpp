@@ -335,9 +335,9 @@ TEST_CASE("line plots: unknown columns are mistakes, panels without a value are 
   plot.settings = {"it's"};
   plot.x = "rays";
   plot.panels = {{"one", "value", "m", "still"}};
-  CHECK(contains(line_plot_script(plot), "strcol(2) eq 'it''s' && strcol(1) eq 'still' ? (column(4)) : NaN"));
+  CHECK(contains(line_script(plot), "strcol(2) eq 'it''s' && strcol(1) eq 'still' ? (column(4)) : NaN"));
   plot.panels[0].y = "values";
-  CHECK_THROWS_AS(line_plot_script(plot), std::logic_error);
+  CHECK_THROWS_AS(line_script(plot), std::logic_error);
   CacheRow row{.drive = "still"};
   CHECK(panels_of({row}, {{"a", "l2_m", "m", ""}, {"b", "warm_s", "s", ""}}).size() == 1);
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include "study/coherence_frames.hpp"
 #include "study/coherence_rays.hpp"
-#include "study/depth_plot.hpp"
 #include "study/run.hpp"
+#include "study/scripts.hpp"
 #include "study/squeezed.hpp"
 #include "wavetracer/error.hpp"
 
@@ -142,12 +142,11 @@ TEST_CASE("depth plots: a line a depth and panel, columns by number") {
                  .columns = {"kind", "depth", "lag", "value"},
                  .max_depth = 3,
                  .x_label = "lag",
-                 .y_label = "",
                  .panels = {{"one", "lag", "value", "kind", "k"}}};
-  const std::string script = depth_plot_script(plot);
+  const std::string script = depth_script(plot);
   CHECK(contains(script, "using 3:(strcol(1) eq 'k' && column(2) == 3 ? column(4) : NaN)"));
   CHECK(contains(script, "'A device''s'"));
   CHECK_FALSE(contains(script, "== 4"));
   plot.panels[0].y = "values";
-  CHECK_THROWS_AS(depth_plot_script(plot), std::logic_error);
+  CHECK_THROWS_AS(depth_script(plot), std::logic_error);
 }

@@ -7,8 +7,8 @@
 #include <sstream>
 #include "config/config_file.hpp"
 #include "study/made_order_rows.hpp"
-#include "study/plot.hpp"
 #include "study/ray_counts.hpp"
+#include "study/scripts.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -252,7 +252,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
 
 TEST_CASE("the script draws a line a series in each of two panels") {
   const Experiment& experiment = find_experiment("figure-6.1");
-  const std::string script = plot_script("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series);
+  const std::string script = order_script("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series);
   CHECK(occurrences(script, "with linespoints") == 2 * experiment.as<OrderFigure>()->series.size());
   for (const Series& series : experiment.as<OrderFigure>()->series)
     CHECK(occurrences(script, " title '" + label(series) + "'") == 2);

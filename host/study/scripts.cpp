@@ -1,22 +1,14 @@
 // A row of panels a drive, as the figures order them; the key stands on the right.
 // Assumes gnuplot 5.
-#include "study/line_plot.hpp"
+#include "study/scripts.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <stdexcept>
-#include "study/plot.hpp"
 
 namespace wavetracer::study {
 namespace {
 
-bool has(const LinePlot& plot, const std::string& name) {
-  return std::find(plot.columns.begin(), plot.columns.end(), name) != plot.columns.end();
-}
-
-size_t column(const LinePlot& plot, const std::string& name) {
-  if (!has(plot, name)) throw std::logic_error("no column is called " + name);
-  return std::find(plot.columns.begin(), plot.columns.end(), name) - plot.columns.begin() + 1;  // as gnuplot counts
-}
+size_t column(const LinePlot& plot, const std::string& name) { return column_of(plot.columns, name); }
 
 std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index) {
   const size_t y = column(plot, panel.y);
@@ -24,7 +16,7 @@ std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index
   if (!panel.drive.empty())
     condition += fmt::format(" && strcol({}) eq '{}'", column(plot, "drive"), quoted(panel.drive));
   if (plot.only_rays > 0) condition += fmt::format(" && column({}) == {}", column(plot, "rays"), plot.only_rays);
-  if (has(plot, "depth"))
+  if (std::ranges::find(plot.columns, "depth") != plot.columns.end())
     condition += fmt::format(" && column({}) {} 0", column(plot, "depth"), plot.depths ? ">" : "==");
   const std::string value = panel.log_y && panel.least > 0
                                 ? fmt::format("column({}) > {:g} ? column({}) : {:g}", y, panel.least, y, panel.least)
@@ -74,34 +66,68 @@ std::string x_axis(const LinePlot& plot) {
   return plot.depths ? "set xtics 1\nset xrange [0.5 : x_max + 0.5]\n" : "set xrange [x_min - 0.5 : x_max + 0.5]\n";
 }
 
+// Correlations and shares: every axis ends at 1 and begins a little below 0, or where the values do.
+std::string panel_text(const DepthPlot& plot, const DepthPanel& panel) {
+  std::string text = fmt::format("set title '{}'\nplot ", quoted(panel.title));
+  for (uint32_t depth = 1; depth <= plot.max_depth; ++depth)
+    text += fmt::format(
+        "{}'{}.csv' using {}:(strcol({}) eq '{}' && column({}) == {} ? column({}) : NaN) with {} linecolor '{}' "
+        "title 'depth {}'",
+        depth == 1 ? "" : ", \\\n  ", plot.name, column_of(plot.columns, panel.x), column_of(plot.columns, panel.only),
+        quoted(panel.equals), column_of(plot.columns, "depth"), depth, column_of(plot.columns, panel.y),
+        plot.points ? "points pointtype 7 pointsize 0.2" : "lines linewidth 1.5", colours[(depth - 1) % colours.size()],
+        depth);
+  return text + "\n";
+}
+
 }  // namespace
 
-std::string line_plot_script(const LinePlot& plot) {
+size_t column_of(const std::vector<std::string>& columns, const std::string& name) {
+  const auto found = std::ranges::find(columns, name);
+  if (found == columns.end()) throw std::logic_error("no column is called " + name);
+  return found - columns.begin() + 1;
+}
+
+std::string script_head(const std::string& name, size_t width, size_t height) {
+  return fmt::format(
+      "# Draws {0}.csv; run it in its folder: gnuplot {0}.gp\n"
+      "set terminal svg size {1},{2} font 'sans-serif,13' background 'white'\n"
+      "set output '{0}.svg'\n"
+      "set datafile separator ','\n"
+      "set datafile missing NaN\n",
+      name, width, height);
+}
+
+std::string line_script(const LinePlot& plot) {
   const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
   const size_t height = 120 + 340 * rows;  // pixels; margins are 60 and 75 of them, gaps 105
   const auto part = [height](double pixels) { return pixels / static_cast<double>(height); };
-  std::string text = fmt::format(
-      "# Draws {0}.csv; run it in its folder: gnuplot {0}.gp\n"
-      "set terminal svg size 1250,{1} font 'sans-serif,13' background 'white'\n"
-      "set output '{0}.svg'\n"
-      "set datafile separator ','\n"
-      "set datafile missing NaN\n"
-      "{2}"
-      "set key off\n"
-      "{3}"
-      "set xlabel '{4}'\n"
-      "set grid linecolor '#dddddd'\n"
-      "set border 3\n"
-      "set tics nomirror\n"
-      "set multiplot layout {5},{6} title '{7}' noenhanced margins screen 0.07,0.80,{8:.3f},{9:.3f} "
-      "spacing screen 0.07,{10:.3f}\n",
-      plot.name, height, statistics(plot), x_axis(plot), quoted(plot.x_label), rows, plot.panels_a_row,
-      quoted(plot.title), part(60), 1 - part(75), part(105));
+  std::string text = script_head(plot.name, 1250, height) + statistics(plot) + "set key off\n" + x_axis(plot) +
+                     fmt::format(
+                         "set xlabel '{}'\n{}set multiplot layout {},{} title '{}' noenhanced margins screen "
+                         "0.07,0.80,{:.3f},{:.3f} spacing screen 0.07,{:.3f}\n",
+                         quoted(plot.x_label), script_grid, rows, plot.panels_a_row, quoted(plot.title), part(60),
+                         1 - part(75), part(105));
   for (size_t i = 0; i < plot.panels.size(); ++i) {
     if (i + 1 == plot.panels.size())
       text += fmt::format("set key at screen 0.995, {:.3f} right top Left reverse noenhanced maxrows 40 font ',11'\n",
                           1 - part(75));
     text += panel_text(plot, i);
+  }
+  return text + "unset multiplot\n";
+}
+
+std::string depth_script(const DepthPlot& plot) {
+  const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
+  std::string text =
+      script_head(plot.name, 1150, 80 + 340 * rows) + "set key off\n" + (plot.log_x ? "set logscale x\n" : "") +
+      fmt::format(
+          "set yrange [*<-0.05:1.05]\nset autoscale yfixmin\nset ytics 0.2\nset xlabel '{}'\n{}set multiplot "
+          "layout {},{} title '{}' noenhanced margins screen 0.07,0.88,0.1,0.88 spacing screen 0.06,0.16\n",
+          quoted(plot.x_label), script_grid, rows, plot.panels_a_row, quoted(plot.title));
+  for (const DepthPanel& panel : plot.panels) {
+    if (&panel == &plot.panels.back()) text += "set key at screen 0.99, 0.88 right top Left reverse\n";
+    text += panel_text(plot, panel);
   }
   return text + "unset multiplot\n";
 }

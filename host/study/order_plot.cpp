@@ -1,18 +1,14 @@
 // Both axes are logarithmic. Times are divided by the rays, because a factor of two is thin on an axis of four decades.
 // Assumes gnuplot 5.
-#include "study/plot.hpp"
 #include <fmt/format.h>
-#include <algorithm>
 #include <set>
 #include "study/order_rows.hpp"
+#include "study/scripts.hpp"
 
 namespace wavetracer::study {
 namespace {
 
-size_t column_number(const std::string& name) {
-  static const std::vector<std::string> names = names_of(order_columns(false));
-  return std::ranges::find(names, name) - names.begin() + 1;  // as gnuplot counts
-}
+size_t column_number(const std::string& name) { return column_of(names_of(order_columns(false)), name); }
 
 // One colour a mnemonic; launch shapes of one method differ in their dashes.
 std::string_view colour(const std::vector<Series>& series, size_t index) {
@@ -47,13 +43,9 @@ std::string panel(const std::string& name, const std::vector<Series>& series, co
 
 }  // namespace
 
-std::string plot_script(const std::string& name, const std::string& title, const std::vector<Series>& series) {
-  std::string text = fmt::format(
-      "# Draws {0}.csv; run it in its folder: gnuplot {0}.gp\n"
-      "set terminal svg size 1150,540 font 'sans-serif,13' background 'white'\n"
-      "set output '{0}.svg'\n"
-      "set datafile separator ','\n"
-      "set datafile missing NaN\n"
+std::string order_script(const std::string& name, const std::string& title, const std::vector<Series>& series) {
+  std::string text = script_head(name, 1150, 540);
+  text += fmt::format(
       "stats '{0}.csv' using {1} skip 1 name 'rays' nooutput\n"
       "stats '{0}.csv' using (1e9 * ${2} / ${1}) skip 1 name 'unpaid' nooutput\n"
       "stats '{0}.csv' using (1e9 * ${3} / ${1}) skip 1 name 'paid' nooutput\n",
@@ -66,13 +58,10 @@ std::string plot_script(const std::string& name, const std::string& title, const
       "do for [k = -3:6] {{ do for [m in '1 2 5'] {{ set ytics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }} }}\n"
       "set xlabel 'rays'\n"
       "set ylabel 'device time a ray (ns)'\n"
-      "set grid linecolor '#dddddd'\n"
-      "set border 3\n"
-      "set tics nomirror\n"
-      "set multiplot title '{}' noenhanced\n"
+      "{}set multiplot title '{}' noenhanced\n"
       "set tmargin at screen 0.86\n"
       "set bmargin at screen 0.12\n",
-      quoted(title));
+      script_grid, quoted(title));
   text += "set lmargin at screen 0.07\nset rmargin at screen 0.41\nset key off\n" +
           panel(name, series, "sort not paid", "unpaid_s");
   text +=
