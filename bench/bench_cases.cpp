@@ -175,7 +175,7 @@ class Bench {
 
   const Options& options_;
   std::string command_, device_;
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::vector<std::pair<std::string, MissedRecord>> records_;  // by setting, in order of their first case
 };
 

@@ -127,7 +127,7 @@ class Server {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   pid_t process_ = 0;
   int socket_ = -1;
 };

@@ -129,7 +129,7 @@ class Scaling {
   std::string command_, program_;
   bool gpu_ = false;
   std::vector<std::string> devices_;
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 
   void write_config(uint32_t frames) const {
     std::ofstream(folder_ / "drive.toml") << fmt::format(fmt::runtime(config_text), (frames - 1) / 10.0,

@@ -127,7 +127,7 @@ std::string find_program(const std::string& given) {
 }
 
 void run(const Options& options, const std::string& command) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string config = folder / "start.toml", output = folder / "out";
   std::ofstream(config) << config_text;
   // Caches of this program, of PoCL and of NVIDIA's driver: empty at the first start, filled by it for the later ones.

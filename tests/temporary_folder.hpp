@@ -1,20 +1,25 @@
-// A folder for small input files that goes away with the test.
+// A folder for files of a test or a benchmark that goes away with it.
 // Below the system's temporary folder, under a name that nobody else has.
 #pragma once
+#include <stdlib.h>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace wavetracer::test {
 
 class TemporaryFolder {
  public:
+  // Throws std::filesystem::filesystem_error where no folder can be made.
   TemporaryFolder() {
-    static int count = 0;
-    do {
-      path_ = std::filesystem::temp_directory_path() / ("wavetracer_test_" + std::to_string(++count));
-    } while (!std::filesystem::create_directory(path_));
+    const std::filesystem::path parent = std::filesystem::temp_directory_path();
+    std::string name = (parent / "wavetracer_test_XXXXXX").string();
+    if (!mkdtemp(name.data()))
+      throw std::filesystem::filesystem_error("no folder can be made in it: is TMPDIR writable?", parent,
+                                              std::error_code(errno, std::generic_category()));
+    path_ = name;
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -28,6 +33,7 @@ class TemporaryFolder {
     return path_ / name;
   }
   const std::filesystem::path& path() const { return path_; }
+  std::string operator/(const char* name) const { return (path_ / name).string(); }
 
  private:
   std::filesystem::path path_;

@@ -5,7 +5,7 @@
 #include "accuracy/advice.hpp"
 #include "accuracy/files.hpp"
 #include "accuracy/table.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 
 namespace wavetracer::accuracy {
 namespace {

@@ -9,10 +9,10 @@
 #include "app/commands.hpp"
 #include "app/frame_range.hpp"
 #include "app/interrupt.hpp"
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "imports/imports.hpp"
 #include "motion/read.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
@@ -48,7 +48,7 @@ const Exporter& named_exporter(const std::string& name) {
   for (const Exporter& exporter : exporters())
     if (name == exporter.name) return exporter;
   throw ConfigError(fmt::format("--to {}: there is no such format{}; formats are {}", name,
-                                config::hint(name, format_names()), formats_in_words()));
+                                spelling_hint(name, format_names()), formats_in_words()));
 }
 
 const Exporter& chosen_exporter(const Options& options) {

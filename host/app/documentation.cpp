@@ -6,7 +6,7 @@
 #include "app/command_text.hpp"
 #include "app/commands.hpp"
 #include "config/reference.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "wavetracer/version.hpp"
 
 namespace wavetracer::app {

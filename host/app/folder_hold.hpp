@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <utility>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "output/process_files.hpp"
 
 namespace wavetracer::app {

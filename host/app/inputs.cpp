@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include "config/input_files.hpp"
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
 #include "wavetracer/error.hpp"

@@ -21,7 +21,7 @@
 #include "app/solve_frame.hpp"
 #include "config/config_file.hpp"
 #include "config/input_files.hpp"
-#include "gpu/hash.hpp"
+#include "base/hash.hpp"
 #include "output/earlier_run.hpp"
 #include "output/output.hpp"
 #include "wavetracer/simulation.hpp"
@@ -61,7 +61,7 @@ Config configuration(const Options& options, bool shared) {
 std::string hash_of(const std::vector<InputFile>& inputs) {
   std::string text;
   for (const InputFile& input : inputs) text += fmt::format("{}\n{} {}\n", input.name, input.bytes, input.hash);
-  return gpu::fnv1a_128(text);
+  return fnv1a_128(text);
 }
 
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
@@ -70,7 +70,7 @@ RunIdentity identity_of(const Config& config, const RunSummary& summary, const F
   elsewhere.output.keep_shards = true;  // what becomes of shards changes none
   for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
   return {summary.version,
-          gpu::fnv1a_128(resolved_config(elsewhere)),
+          fnv1a_128(resolved_config(elsewhere)),
           summary.device.gpu ? "gpu" : "cpu",
           range.first,
           range.last,

@@ -10,7 +10,7 @@
 #include "motion/fcd_writer.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "scene/info.hpp"
 #include "scene/load.hpp"
 

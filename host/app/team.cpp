@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 #include "app/interrupt.hpp"
-#include "gpu/hash.hpp"
+#include "base/hash.hpp"
 #include "output/claims.hpp"
-#include "output/pending_file.hpp"
-#include "output/read_text.hpp"
+#include "base/pending_file.hpp"
+#include "base/read_text.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
@@ -79,7 +79,7 @@ class Team {
 
   // One process makes the folder ready; false where an interrupt came first.
   bool wait_until_prepared() {
-    const std::string claim = "prepare_" + gpu::fnv1a_128(ranks_.job);
+    const std::string claim = "prepare_" + fnv1a_128(ranks_.job);
     for (; !interrupted(); std::this_thread::sleep_for(poll_interval)) {
       if (prepared()) return true;
       claims_.look();

@@ -11,7 +11,7 @@
 #include "app/commands.hpp"
 #include "config/config_file.hpp"
 #include "config/fields.hpp"
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -52,10 +52,10 @@ std::vector<std::string> option_names(const CLI::App& command) {
 std::string unknown_word(const CLI::App& command, const std::string& word) {
   if (word.starts_with('-')) {
     const std::string name = word.substr(0, word.find('='));
-    return fmt::format("no option is called {}{}", name, config::hint(name, option_names(command)));
+    return fmt::format("no option is called {}{}", name, spelling_hint(name, option_names(command)));
   }
   if (const std::vector<std::string> names = command_names(command); !names.empty())
-    return fmt::format("no command is called \"{}\"{}", word, config::hint(word, names));
+    return fmt::format("no command is called \"{}\"{}", word, spelling_hint(word, names));
   return fmt::format("\"{}\" is one word too many", word);
 }
 
@@ -69,7 +69,7 @@ std::string choice_hint(const std::string& message) {
     choices.push_back(message.substr(start, end - start));
     start = end + 1;
   }
-  return config::hint(message.substr(colon + 2, list - colon - 2), choices);
+  return spelling_hint(message.substr(colon + 2, list - colon - 2), choices);
 }
 
 std::string problem(const CLI::App& command, const CLI::ParseError& error) {
@@ -100,12 +100,12 @@ const CLI::App& find_command(const CLI::App& program, const std::vector<std::str
       std::vector<std::string> known = command_names(*at);
       if (at == &program) {
         known.push_back(config_topic);
-        const std::string nearest_key = config::hint(word, key_names());
+        const std::string nearest_key = spelling_hint(word, key_names());
         if (word.find('.') != word.npos && !nearest_key.empty())
           throw ConfigError(fmt::format("help: no key is called \"{}\"{}", word, nearest_key));
       }
       throw ConfigError(
-          fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, config::hint(word, known),
+          fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, spelling_hint(word, known),
                       known.empty() ? at->get_name() + " as a whole" : fmt::format("{}", fmt::join(known, ", "))));
     }
     at = found.front();

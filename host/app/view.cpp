@@ -8,7 +8,7 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "app/frame_range.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 
 namespace wavetracer::app {
 

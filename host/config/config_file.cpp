@@ -11,9 +11,9 @@
 #include "config/contradictions.hpp"
 #include "config/fields.hpp"
 #include "config/retired_keys.hpp"
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "config/values.hpp"
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -66,10 +66,10 @@ std::string key_hint(const std::string& key) {
   if (const Table* table = dot == key.npos ? nullptr : find_table(key.substr(0, key.find('.')))) {
     std::vector<std::string> names;
     for (const Field& field : table->fields) names.push_back(field.name);
-    if (const std::string found = nearest(key.substr(dot + 1), names); !found.empty())
+    if (const std::string found = nearest_word(key.substr(dot + 1), names); !found.empty())
       return fmt::format("; did you mean \"{}.{}\"?", table->name, found);
   }
-  return hint(key, known_keys());
+  return spelling_hint(key, known_keys());
 }
 
 bool is_aliases(const Field& field) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "wavetracer/names.hpp"
 
 namespace wavetracer::config {
@@ -118,7 +118,7 @@ std::string assign_text(const Field& field, const std::string& key, std::string&
     return {};
   }
   return fmt::format("{} = {} is not known: it must be {}{}", key, toml_string(given), accepted(field),
-                     hint(given, field.choices));
+                     spelling_hint(given, field.choices));
 }
 
 template <size_t N>

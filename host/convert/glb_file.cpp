@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -8,7 +8,7 @@
 #include "convert/vtk_glb_kml.hpp"
 #include "imports/georeference.hpp"
 #include "output/path_kinds.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "results/saved_world.hpp"
 #include "wavetracer/error.hpp"
 

@@ -2,7 +2,7 @@
 // Rows count from 1, as MATLAB's do: tx, rx, instance, first_path and first_vertex can be used as indices.
 #include "convert/convert.hpp"
 #include "convert/matlab_file.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 
 namespace wavetracer {
 namespace {

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

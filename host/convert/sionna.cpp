@@ -4,7 +4,7 @@
 #include <algorithm>
 #include "convert/convert.hpp"
 #include "convert/npz.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 

@@ -5,7 +5,7 @@
 #include <unistd.h>
 #include <cstdlib>
 #include <fstream>
-#include "gpu/hash.hpp"
+#include "base/hash.hpp"
 
 namespace wavetracer::gpu {
 

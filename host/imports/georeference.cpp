@@ -9,7 +9,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -12,7 +12,7 @@
 #include "imports/map.hpp"
 #include "imports/plan.hpp"
 #include "imports/scene_files.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "scene/materials.hpp"
 #include "wavetracer/error.hpp"
 

@@ -14,7 +14,7 @@
 
 #include "imports/map.hpp"
 #include "imports/rings.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::imports {

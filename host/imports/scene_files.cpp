@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "scene/ply.hpp"
 #include "wavetracer/error.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include "config/input_files.hpp"
-#include "gpu/hash.hpp"
+#include "base/hash.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/output.hpp"
 
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 void add_input(std::vector<InputFile>& inputs, const std::string& name, const std::string& file) {
   if (std::ranges::find(inputs, file, &InputFile::file) != inputs.end()) return;
-  const auto hash = gpu::hash_of_file(file);
+  const auto hash = hash_of_file(file);
   if (!hash) throw InputError(fmt::format("{} ({}): can no longer be read; put it back and run again", file, name));
   inputs.push_back({name, file, hash->bytes, hash->hash});
 }

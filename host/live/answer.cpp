@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "radio/links.hpp"
-#include "simulation/stopwatch.hpp"
+#include "base/stopwatch.hpp"
 #include "wavetracer/version.hpp"
 
 namespace wavetracer::live {

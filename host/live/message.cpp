@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "wavetracer/names.hpp"
 
 namespace wavetracer::live {
@@ -119,7 +119,7 @@ class Object {
     for (const auto& [key, ignored] : value.items())
       if (std::ranges::find(known, key) == known.end())
         refuse("unknown_key", fmt::format("{}: {} is no key of it{}", where_, in_quotes(key),
-                                          key.size() <= max_quoted_bytes ? config::hint(key, known) : ""));
+                                          key.size() <= max_quoted_bytes ? spelling_hint(key, known) : ""));
   }
 
   bool has(const char* key) const { return value_.contains(key); }
@@ -172,7 +172,7 @@ class Object {
     const auto found = std::ranges::find(choices, word);
     if (found == choices.end())
       refuse("bad_value", fmt::format("{} is {}, none of {}{}", name(key), in_quotes(word), fmt::join(choices, ", "),
-                                      config::hint(word, choices)));
+                                      spelling_hint(word, choices)));
     return static_cast<size_t>(found - choices.begin());
   }
 
@@ -265,7 +265,7 @@ Message parse_message(std::string_view line, size_t max_vehicles) {
     return Bye{};
   }
   refuse("unknown_message", in_quotes(name) + " is none of hello, frame, bye" +
-                                (name.size() <= max_quoted_bytes ? config::hint(name, {"hello", "frame", "bye"}) : ""));
+                                (name.size() <= max_quoted_bytes ? spelling_hint(name, {"hello", "frame", "bye"}) : ""));
 }
 
 }  // namespace wavetracer::live

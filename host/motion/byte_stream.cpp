@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <vector>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

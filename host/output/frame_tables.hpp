@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 #include "output/hdf5.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "output/table_layout.hpp"
 
 namespace wavetracer {

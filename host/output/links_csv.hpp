@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 #include "output/output.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

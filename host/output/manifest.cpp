@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include "output/cache_json.hpp"
 #include "output/json_count.hpp"
-#include "output/read_text.hpp"
+#include "base/read_text.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -6,7 +6,7 @@
 #include <vector>
 #include "output/h5_outputs.hpp"
 #include "output/merge_parts.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include "output/earlier_run.hpp"
 #include "output/frame_files.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "output/summary_json.hpp"
 
 namespace wavetracer {

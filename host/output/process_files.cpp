@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <span>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

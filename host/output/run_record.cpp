@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include "output/json_count.hpp"
-#include "output/read_text.hpp"
+#include "base/read_text.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

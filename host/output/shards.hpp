@@ -12,7 +12,7 @@
 #include "output/manifest.hpp"
 #include "output/merge_parts.hpp"
 #include "output/output.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

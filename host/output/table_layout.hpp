@@ -6,7 +6,7 @@
 #include <vector>
 #include "output/copy_pieces.hpp"
 #include "output/hdf5.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 
 namespace wavetracer {
 

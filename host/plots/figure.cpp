@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "plots/gnuplot.hpp"
 
 namespace wavetracer::plots {

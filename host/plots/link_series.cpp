@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "output/path_kinds.hpp"
 #include "radio/path_power.hpp"
 #include "simulation/receiver_grid.hpp"
@@ -93,7 +93,7 @@ std::optional<uint32_t> find_end(const std::vector<RadioEnd>& ends, const std::s
   std::vector<std::pair<size_t, const std::string*>> near;
   for (uint32_t i = 0; i < ends.size(); ++i) {
     if (ends[i].name == name) return i;
-    near.emplace_back(config::edit_distance(name, ends[i].name), &ends[i].name);
+    near.emplace_back(edit_distance(name, ends[i].name), &ends[i].name);
   }
   const size_t shown = std::min<size_t>(near.size(), 3);
   std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(shown), near.end(),

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "plots/coverage_plot.hpp"
 #include "plots/link_plots.hpp"
 #include "results/saved_world.hpp"
@@ -55,11 +55,11 @@ class Plotter {
     for (const std::string& name : choice_.what)
       if (std::ranges::find(known, name) == known.end())
         throw ConfigError(fmt::format("--what \"{}\" is no plot, there are {}{}", name, fmt::join(known, ", "),
-                                      config::hint(name, known)));
+                                      spelling_hint(name, known)));
     if (!choice_.grid.empty() && std::ranges::find(grids_, choice_.grid) == grids_.end())
       throw ConfigError(fmt::format("--grid \"{}\" is the name of no [[receiver_grid]] of the run, it has {}{}",
                                     choice_.grid, grids_.empty() ? "none" : fmt::format("{}", fmt::join(grids_, ", ")),
-                                    config::hint(choice_.grid, grids_)));
+                                    spelling_hint(choice_.grid, grids_)));
     if (run_.path_count() == 0)
       throw InputError(
           fmt::format("{}: the run found no path at all, so there is nothing to plot; look at the places of "

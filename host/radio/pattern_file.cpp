@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include "radio/pattern.hpp"
 #include "wavetracer/error.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include "results/csv_column.hpp"
 
 namespace wavetracer {

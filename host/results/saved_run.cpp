@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include "output/foreign_file.hpp"
 #include "output/summary_json.hpp"
 #include "wavetracer/error.hpp"

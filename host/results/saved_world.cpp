@@ -5,7 +5,7 @@
 #include <map>
 #include "config/config_file.hpp"
 #include "config/retired_keys.hpp"
-#include "gpu/hash.hpp"
+#include "base/hash.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/error.hpp"
@@ -16,7 +16,7 @@ namespace {
 // Of files that are gone the readers speak.
 void warn_changed(const SavedRun& run, std::vector<std::string>& warnings) {
   for (const InputFile& input : run.inputs()) {
-    const auto now = gpu::hash_of_file(input.file);
+    const auto now = hash_of_file(input.file);
     if (now && (now->bytes != input.bytes || now->hash != input.hash))
       warnings.push_back(fmt::format("{} ({}) has changed since the run; what is made of it is not what the run saw",
                                      input.file, input.name));

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "scene/city_building.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "scene/ply.hpp"
 #include "wavetracer/error.hpp"
 

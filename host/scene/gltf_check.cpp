@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

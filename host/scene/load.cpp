@@ -9,7 +9,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include "scene/build.hpp"
 #include "scene/city.hpp"
 #include "scene/mitsuba.hpp"

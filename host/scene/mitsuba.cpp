@@ -13,8 +13,8 @@
 #include <set>
 #include <string_view>
 
-#include "files/input_file.hpp"
-#include "scene/file.hpp"
+#include "base/input_file.hpp"
+#include "base/file.hpp"
 #include "scene/mitsuba_transform.hpp"
 #include "scene/model.hpp"
 #include "scene/ply.hpp"

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "scene/ply_header.hpp"
 #include "scene/polygon.hpp"
 #include "wavetracer/error.hpp"

@@ -12,7 +12,7 @@
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/frame_watch.hpp"
 #include "simulation/listeners.hpp"
-#include "simulation/stopwatch.hpp"
+#include "base/stopwatch.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/path_geometry.hpp"

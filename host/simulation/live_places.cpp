@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "simulation/name_pattern.hpp"
 #include "wavetracer/names.hpp"
 
@@ -82,7 +82,7 @@ const LiveType& LivePlaces::type_of(const LivePose& pose) const {
   std::vector<std::string> names;
   for (const LiveType& type : types_) names.push_back(type.name);
   throw PoseError("unknown_type", fmt::format("vehicle \"{}\": \"{}\" is the type of no [[live_vehicle]]{}", pose.id,
-                                              pose.type, config::hint(pose.type, names)));
+                                              pose.type, spelling_hint(pose.type, names)));
 }
 
 void LivePlaces::check(const LivePose& pose) const {

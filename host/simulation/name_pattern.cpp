@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -37,7 +37,7 @@ void require_match(std::string_view pattern, const std::vector<std::string>& nam
   std::string plain(pattern);
   std::erase_if(plain, [](char c) { return c == '*' || c == '?'; });
   const auto nearest = std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-    return config::edit_distance(plain, a) < config::edit_distance(plain, b);
+    return edit_distance(plain, a) < edit_distance(plain, b);
   });
   throw ConfigError(fmt::format("{}: \"{}\" is the name of no {}; {}", key, pattern, what,
                                 nearest == names.end() ? "there is none" : "the nearest is \"" + *nearest + "\""));

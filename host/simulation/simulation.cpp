@@ -25,7 +25,7 @@
 #include "simulation/place_warnings.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/reciprocity.hpp"
-#include "simulation/stopwatch.hpp"
+#include "base/stopwatch.hpp"
 #include "simulation/tree_choice.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/error.hpp"

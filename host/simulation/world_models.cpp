@@ -8,7 +8,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "motion/input_text.hpp"
 #include "motion/vehicle_types.hpp"
 #include "scene/load.hpp"
@@ -79,7 +79,7 @@ VehicleModels::VehicleModels(const Config& config) : config_(config) {
   for (const VehicleType& type : given_types_) known.push_back(type.name);
   throw ConfigError(
       fmt::format("trajectories.default_type = \"{}\" is neither a [[vehicle_type]] nor a vehicle class of SUMO{}",
-                  name, config::hint(name, known)));
+                  name, spelling_hint(name, known)));
 }
 
 const VehicleTypeConfig* VehicleModels::row_of(std::string_view name) const {

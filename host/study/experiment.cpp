@@ -3,8 +3,8 @@
 #include "study/experiment.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include "base/spelling.hpp"
 #include "config/config_file.hpp"
-#include "config/spelling.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::study {
@@ -86,7 +86,7 @@ const Experiment& find_experiment(const std::string& name) {
     names.push_back(experiment.name);
   }
   throw ConfigError(
-      fmt::format("bench: no experiment \"{}\" among {}{}", name, fmt::join(names, ", "), config::hint(name, names)));
+      fmt::format("bench: no experiment \"{}\" among {}{}", name, fmt::join(names, ", "), spelling_hint(name, names)));
 }
 
 std::string experiment_list() {

@@ -3,7 +3,7 @@
 #include "study/run.hpp"
 #include <fmt/format.h>
 #include <span>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "study/page.hpp"
 #include "study/scripts.hpp"
 #include "wavetracer/error.hpp"

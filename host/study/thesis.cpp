@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <span>
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "study/scripts.hpp"
 #include "wavetracer/error.hpp"
 

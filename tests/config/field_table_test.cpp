@@ -5,7 +5,7 @@
 #include <set>
 #include "config/config_file.hpp"
 #include "config/fields.hpp"
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -169,7 +169,7 @@ TEST_CASE("the resolved config reads back the same, odd characters included") {
 }
 
 TEST_CASE("edit distances of known pairs") {
-  using config::edit_distance;
+  using wavetracer::edit_distance;
   CHECK(edit_distance("", "abc") == 3);
   CHECK(edit_distance("kitten", "sitting") == 3);
   CHECK(edit_distance("rays", "rays") == 0);
@@ -191,11 +191,11 @@ TEST_CASE("edit distances of known pairs") {
 
 TEST_CASE("a hint needs a near word") {
   const std::vector<std::string> known = {"trace.rays", "trace.seed"};
-  CHECK(config::nearest("trace.ray", known) == "trace.rays");
-  CHECK(config::nearest("seed", known) == "trace.seed");
-  CHECK(config::nearest("wavelength", known).empty());
-  CHECK(config::nearest(std::string(size_t{16} << 20, 's'), known).empty());  // no table of its size
-  CHECK(config::hint("xyz", known).empty());
+  CHECK(nearest_word("trace.ray", known) == "trace.rays");
+  CHECK(nearest_word("seed", known) == "trace.seed");
+  CHECK(nearest_word("wavelength", known).empty());
+  CHECK(nearest_word(std::string(size_t{16} << 20, 's'), known).empty());  // no table of its size
+  CHECK(spelling_hint("xyz", known).empty());
 }
 
 TEST_CASE("a transmitter launches at most 2^31 rays") {

@@ -9,7 +9,7 @@
 #include "convert/convert.hpp"
 #include "convert/kml_text.hpp"
 #include "results/saved_world.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "scene/load.hpp"
 #include "vtk_glb_kml_run.hpp"
 #include "wavetracer/error.hpp"

@@ -1,35 +1,15 @@
 // Things that tests set up and that vanish with them: a folder, an environment variable, a folder of kernels.
 // Not thread-safe, as the environment is not.
 #pragma once
-#include <unistd.h>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <string>
+#include "temporary_folder.hpp"
 
 namespace wavetracer::test {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "wavetracer_test_XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-      throw std::filesystem::filesystem_error("mkdtemp", std::error_code(errno, std::generic_category()));
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Sets a variable, or unsets it where value is null, and restores what was there.
 class Environment {

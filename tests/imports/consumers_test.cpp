@@ -7,7 +7,7 @@
 
 #include "imported.hpp"
 #include "imports/georeference.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

@@ -14,7 +14,7 @@
 #include "imports/map.hpp"
 #include "imports/rings.hpp"
 #include "motion/read.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 
 namespace {
 

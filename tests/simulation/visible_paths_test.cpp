@@ -12,7 +12,7 @@
 
 #include "simulation/distinct_paths.hpp"
 #include "simulation/reciprocity.hpp"
-#include "simulation/stopwatch.hpp"
+#include "base/stopwatch.hpp"
 #include "wavetracer/paths.hpp"
 
 using namespace wavetracer;

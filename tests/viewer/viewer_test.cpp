@@ -9,7 +9,7 @@
 #include "plots/figure.hpp"
 #include "radio/links.hpp"
 #include "results/missed_shares.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "viewer/blocks.hpp"
 #include "viewer/grid_maps.hpp"
 #include "viewer/link_rows.hpp"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <span>
 #include "output/output.hpp"
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/error.hpp"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace wavetracer::config {
+namespace wavetracer {
 
 // Insertions, deletions, substitutions and swaps of neighbours that turn a into b
 // (optimal string alignment; F. Damerau, CACM 7(3), 1964); `limit` where they are that many or more.
@@ -15,9 +15,9 @@ size_t edit_distance(std::string_view a, std::string_view b, size_t limit = SIZE
 
 // The known word nearest to `word`, or empty where none is near enough to be what was meant.
 // A word without dots is also compared with the last part of dotted known words: `rays` finds `trace.rays`.
-std::string nearest(std::string_view word, const std::vector<std::string>& known);
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
 // `; did you mean "..."?`, or empty.
-std::string hint(std::string_view word, const std::vector<std::string>& known);
+std::string spelling_hint(std::string_view word, const std::vector<std::string>& known);
 
-}  // namespace wavetracer::config
+}  // namespace wavetracer

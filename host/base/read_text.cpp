@@ -1,5 +1,5 @@
 // Plain POSIX calls: a stream on a folder throws words of the C++ library.
-#include "output/read_text.hpp"
+#include "base/read_text.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>

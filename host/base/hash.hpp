@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace wavetracer::gpu {
+namespace wavetracer {
 
 // FNV-1a, 128 bits (Fowler, Noll, Vo; RFC 9923), as 32 hexadecimal digits.
 std::string fnv1a_128(std::string_view bytes);
@@ -21,4 +21,4 @@ struct FileHash {
 // Zeros of what is no plain file, such as a pipe; nothing where it cannot be read.
 std::optional<FileHash> hash_of_file(const std::filesystem::path& file);
 
-}  // namespace wavetracer::gpu
+}  // namespace wavetracer

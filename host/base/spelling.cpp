@@ -1,10 +1,10 @@
 // Edit distance over three rows, and the choice of the nearest word.
 // Most words differ in too many letters, and cost no table; a table is given up at the first row that is out of reach.
-#include "config/spelling.hpp"
+#include "base/spelling.hpp"
 #include <algorithm>
 #include <array>
 
-namespace wavetracer::config {
+namespace wavetracer {
 namespace {
 
 // Letters that one word has and the other lacks must go, come or be replaced, whatever their order.
@@ -42,7 +42,7 @@ size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
   return std::min(rows[1][b.size()], limit);
 }
 
-std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
   const bool plain = word.find('.') == std::string_view::npos;
   // A third of the word may be wrong, at least one letter: beyond that a hint misleads.
   size_t best = std::max<size_t>(1, word.size() / 3) + 1;
@@ -60,9 +60,9 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   return found;
 }
 
-std::string hint(std::string_view word, const std::vector<std::string>& known) {
-  const std::string found = nearest(word, known);
+std::string spelling_hint(std::string_view word, const std::vector<std::string>& known) {
+  const std::string found = nearest_word(word, known);
   return found.empty() ? "" : "; did you mean \"" + found + "\"?";
 }
 
-}  // namespace wavetracer::config
+}  // namespace wavetracer

@@ -1,14 +1,16 @@
 // Whole files in and out of memory.
 // Assumes that a scene file fits into memory; sizes are taken from the file system, never from file content.
-#include "scene/file.hpp"
+#include "base/file.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <span>
 
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
+#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -23,24 +25,7 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path temporary = path.string() + ".tmp";
-  std::error_code ignored;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.close();
-    if (!out) {
-      const std::string reason = std::strerror(errno);
-      std::filesystem::remove(temporary, ignored);
-      throw RuntimeError(fmt::format("{}: cannot be written: {}", path.string(), reason));
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    std::filesystem::remove(temporary, ignored);
-    throw RuntimeError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
-  }
+  PendingFile(path, std::as_bytes(std::span(content))).commit();
 }
 
 }  // namespace wavetracer

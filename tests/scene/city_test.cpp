@@ -9,7 +9,7 @@
 #include <set>
 
 #include "scene/city.hpp"
-#include "scene/file.hpp"
+#include "base/file.hpp"
 #include "scene/mitsuba.hpp"
 #include "scene_files.hpp"
 #include "wavetracer/error.hpp"

@@ -1,6 +1,6 @@
 // Whole files or none: temporary name, fsync, rename, fsync of the folder.
 // Assumes that the folder is on a file system whose rename() is atomic.
-#include "output/pending_file.hpp"
+#include "base/pending_file.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>

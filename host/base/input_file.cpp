@@ -1,5 +1,5 @@
 // The file is looked at, not opened: opening a pipe waits for its writer.
-#include "files/input_file.hpp"
+#include "base/input_file.hpp"
 #include <fmt/format.h>
 #include "wavetracer/error.hpp"
 

@@ -1,6 +1,6 @@
 // FNV-1a of 128 bits and a splitmix64 fold.
 // Assumes a compiler with 128-bit integers (GCC, Clang) and a little-endian machine, as all OpenCL hosts here are.
-#include "gpu/hash.hpp"
+#include "base/hash.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace wavetracer::gpu {
+namespace wavetracer {
 
 std::string fnv1a_128(std::string_view bytes) {
   using Word = unsigned __int128;
@@ -53,4 +53,4 @@ std::optional<FileHash> hash_of_file(const std::filesystem::path& path) {
   return out;
 }
 
-}  // namespace wavetracer::gpu
+}  // namespace wavetracer

@@ -1,0 +1,21 @@
+# Fails where a source of host/FOLDER includes a header of another folder of host/ that its CMakeLists.txt does not name.
+# cmake -DHOST=host's path -DFOLDER=its name -DDEPENDS="a b" -DSTAMP=file -P check_includes.cmake
+cmake_minimum_required(VERSION 3.25)
+separate_arguments(DEPENDS)
+file(GLOB sources ${HOST}/${FOLDER}/*.cpp ${HOST}/${FOLDER}/*.hpp)
+set(faults "")
+foreach(source ${sources})
+  file(STRINGS ${source} includes REGEX "^#include \"[a-z_0-9]+/")
+  foreach(include ${includes})
+    string(REGEX REPLACE "^#include \"([a-z_0-9]+)/.*" "\\1" other "${include}")
+    if(IS_DIRECTORY ${HOST}/${other} AND NOT other STREQUAL FOLDER AND NOT other IN_LIST DEPENDS)
+      get_filename_component(name ${source} NAME)
+      string(APPEND faults "\n  host/${FOLDER}/${name}: ${include}")
+    endif()
+  endforeach()
+endforeach()
+if(faults)
+  message(FATAL_ERROR "host/${FOLDER}/CMakeLists.txt names these folders behind DEPENDS: ${DEPENDS}. These includes are of "
+                      "others:${faults}\nMove what is needed to a folder below, or, if host/${FOLDER} may know that folder, name it.")
+endif()
+file(TOUCH ${STAMP})
