@@ -1,4 +1,4 @@
-// What the recipes on caching measure: one row a drive, setting and number of rays (or depth), and their table.
+// What the studies of caches measure: one row a drive, setting and number of rays (or depth), and their table.
 // Times are device time of profiling events, averaged over frames; errors are against the same frames without a cache.
 #pragma once
 #include <cstdint>
@@ -53,7 +53,7 @@ struct CacheRow {
   double paths = 0, sequences = 0;         // of a warm frame on average
   PathError error{};                       // of warm frames
   double saved_percent = 0;                // of the time of the first setting, warm
-  std::vector<CentroidError> centroids{};  // frame by frame, of recipes that show them
+  std::vector<CentroidError> centroids{};  // frame by frame, of studies that keep them
 };
 
 // Hits over look-ups; NaN without a look-up.

@@ -8,20 +8,17 @@
 namespace wavetracer::study {
 namespace {
 
-// Entries for all segments of a frame, of which a ray has few.
-uint64_t ample_buffer(uint64_t rays) { return std::max<uint64_t>(uint64_t{1} << 20, 8 * rays); }
-
 using Change = std::function<void(CacheConfig&)>;
 
-// A table of the thesis. What it has besides comes last; `statistics` and `first_depth` are left to the user's config.
-Setting thesis_table(const std::string& name, const std::string& kind, uint32_t hash_method, const Change& change) {
+// The open table of the thesis, then `change`. `statistics` and `first_depth` are left to the user's config.
+Setting thesis_table(const std::string& name, uint32_t hash_method, const Change& change) {
   return {name + " " + hash_name(hash_method), [=](Config& config) {
             CacheConfig& cache = config.cache;
-            cache.kind = kind;
+            cache.kind = "open";
             cache.key = "quantised";
             cache.hash_method = hash_method;
             cache.division = thesis_division;
-            cache.buffer_size = kind == "open" ? thesis_open_buffer : thesis_chained_buffer;
+            cache.buffer_size = thesis_open_buffer;
             cache.load_factor = thesis_load_factor;
             cache.locking = "readers";
             cache.readers_number = thesis_readers;
@@ -34,20 +31,26 @@ Setting thesis_table(const std::string& name, const std::string& kind, uint32_t 
           }};
 }
 
-Setting ours_with(const std::string& name, const std::string& key) {
-  return {name, [key](Config& config) {
-            config.cache.kind = "concurrent";
-            config.cache.key = key;
-            config.cache.division = thesis_division;
-            config.cache.buffer_size = ample_buffer(config.trace.rays);
-            config.cache.purge = "position";
-            config.cache.position_step_m = thesis_position_step_m;
-            config.cache.scope = "static";
-            config.cache.hit_point = "own";
+Setting ours_with(const std::string& name, const Change& change) {
+  return {name, [=](Config& config) {
+            CacheConfig& cache = config.cache;
+            cache.kind = "concurrent";
+            cache.key = "quantised";
+            cache.division = thesis_division;
+            cache.buffer_size = ample_buffer(config);
+            cache.purge = "position";
+            cache.position_step_m = thesis_position_step_m;
+            cache.scope = "static";
+            cache.hit_point = "own";
+            change(cache);
           }};
 }
 
+void nothing_else(CacheConfig&) {}
+
 }  // namespace
+
+uint64_t ample_buffer(const Config& config) { return std::max<uint64_t>(uint64_t{1} << 20, 8 * config.trace.rays); }
 
 void uncached(Config& config) {
   config.trace.directions = "random";
@@ -61,33 +64,33 @@ Setting no_cache() {
 }
 
 Setting chained(uint32_t hash_method, uint64_t buffer_size) {
-  Setting setting =
-      thesis_table("chained", "chained", hash_method, [=](CacheConfig& cache) { cache.buffer_size = buffer_size; });
+  Setting setting = thesis_table("chained", hash_method, [=](CacheConfig& cache) {
+    cache.kind = "chained";
+    cache.buffer_size = buffer_size;
+  });
   if (buffer_size != thesis_chained_buffer) setting.name += fmt::format(" {} entries", buffer_size);
   return setting;
 }
 
 Setting open_mutex(uint32_t hash_method) {
-  return thesis_table("mutex", "open", hash_method, [](CacheConfig& cache) { cache.locking = "mutex"; });
+  return thesis_table("mutex", hash_method, [](CacheConfig& cache) { cache.locking = "mutex"; });
 }
 
-Setting open_readers(uint32_t hash_method) {
-  return thesis_table("readers", "open", hash_method, [](CacheConfig&) {});
-}
-Setting position(uint32_t hash_method) {
-  return thesis_table("position", "open", hash_method, [](CacheConfig&) {});
-}
+Setting open_readers(uint32_t hash_method) { return thesis_table("readers", hash_method, nothing_else); }
+Setting position(uint32_t hash_method) { return thesis_table("position", hash_method, nothing_else); }
 
 Setting precision(double residual, uint32_t hash_method) {
-  return thesis_table(fmt::format("precision {:g}", residual), "open", hash_method, [=](CacheConfig& cache) {
+  return thesis_table(fmt::format("precision {:g}", residual), hash_method, [=](CacheConfig& cache) {
     cache.division = thesis_precision_division;
     cache.purge = "precision";
     cache.residual_value = residual;
   });
 }
 
-Setting ours() { return ours_with("concurrent", "quantised"); }
-Setting exact() { return ours_with("concurrent exact", "exact"); }
+Setting ours() { return ours_with("concurrent", nothing_else); }
+Setting exact() {
+  return ours_with("concurrent exact", [](CacheConfig& cache) { cache.key = "exact"; });
+}
 
 Setting reuse_instead() {
   return {"no cache with reuse", [](Config& config) { config.trace.reuse = true; }};

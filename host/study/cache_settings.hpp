@@ -1,4 +1,4 @@
-// The caches that the recipes compare, by name: the thesis' with its parameters, and ours beside them.
+// The caches that the studies compare, by name: the thesis' with its parameters, and ours beside them.
 // A. Zhdanov, TU Munich, 2014, section 6.3. What the thesis does not give is said at its constant.
 #pragma once
 #include <cstdint>
@@ -22,7 +22,10 @@ constexpr uint32_t thesis_readers = 5;
 // How far a transmitter may move before its entries are stale is not given: the radius of the thesis' antennas.
 constexpr double thesis_position_step_m = 1;
 
-// What every recipe on caching launches: the thesis' unordered rays, each frame whole.
+// Entries for all segments of a frame, of which a ray has few.
+uint64_t ample_buffer(const Config& config);
+
+// What every study of caching launches: the thesis' unordered rays, each frame whole.
 void uncached(Config& config);
 
 Setting no_cache();

@@ -2,7 +2,6 @@
 // cache-division and cache-step launch rays along a Hilbert curve, so that the frame without a cache is as fast as it
 // gets without a sort.
 #include <fmt/format.h>
-#include <algorithm>
 #include <utility>
 #include "study/experiment.hpp"
 #include "study/ray_counts.hpp"
@@ -15,7 +14,7 @@ Setting varied(const std::string& name, const Setting& base, const std::function
   return {name, [apply = base.apply, change](Config& config) {
             apply(config);
             config.trace.directions = "hilbert";
-            config.cache.buffer_size = std::max<uint64_t>(uint64_t{1} << 20, 8 * config.trace.rays);
+            config.cache.buffer_size = ample_buffer(config);
             change(config.cache);
           }};
 }
