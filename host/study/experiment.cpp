@@ -72,8 +72,8 @@ bool Experiment::moves_transmitter() const {
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> all = [] {
     std::vector<Experiment> list;
-    for (const auto& more : {standing_figures(), traffic_figures(), further_experiments()})
-      list.insert(list.end(), more.begin(), more.end());
+    for (const auto* more : {&standing_figures(), &traffic_figures(), &further_experiments()})
+      list.insert(list.end(), more->begin(), more->end());
     return list;
   }();
   return all;

@@ -61,9 +61,9 @@ struct Experiment {
   bool moves_transmitter() const;
 };
 
-std::vector<Experiment> standing_figures();     // 6.1 to 6.9
-std::vector<Experiment> traffic_figures();      // 6.10 to 6.18
-std::vector<Experiment> further_experiments();  // beyond the thesis' figures
+const std::vector<Experiment>& standing_figures();     // 6.1 to 6.9
+const std::vector<Experiment>& traffic_figures();      // 6.10 to 6.18
+const std::vector<Experiment>& further_experiments();  // beyond the thesis' figures
 
 // All of them, in this order.
 const std::vector<Experiment>& experiments();

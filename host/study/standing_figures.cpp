@@ -83,132 +83,135 @@ OrderFigure all_orders() {
           .claims = claims};
 }
 
+const auto chained_operations =
+    shared(operations_study("chained-operations", {no_cache(), chained(1), chained(2), chained(3)}));
+const auto open_operations =
+    shared(operations_study("open-operations", {no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), chained(3)}));
+// Apart from the operations, whose times counting would change.
+const auto chained_hits =
+    shared({.name = "chained-hits",
+            .settings = {no_cache(), counted(chained(1)), counted(chained(2)), counted(chained(3))},
+            .rays = {operation_rays},
+            .few_rays = {operation_rays}});
+const auto chained_rays =
+    shared(rays_study("chained-rays", {no_cache(), chained(1), chained(2), chained(3), chained(1, large_buffer),
+                                       chained(2, large_buffer), chained(3, large_buffer), ours(), born_in_order()}));
+const auto open_rays = shared(
+    rays_study("open-rays", {no_cache(), open_readers(1), open_readers(2), open_readers(3), ours(), born_in_order()}));
+const auto open_rays_ordered =
+    shared(rays_study("open-rays-ordered", {with_order(no_cache()), with_order(open_mutex(1)),
+                                            with_order(open_mutex(2)), with_order(open_mutex(3)), with_order(ours())}));
+
+const std::vector<Experiment> standing = {
+    {.name = "figure-6.1",
+     .doc = "time against 1,000 to 10,000,000 rays, for every order and launch shape",
+     .title = "Ray orders and launch shapes",
+     .caption = "Time a ray against the number of rays",
+     .paragraph = "The thesis finds H3DH and HZ the fastest of its six orders and no order (WS) the slowest at every "
+                  "number of rays, buffers mapped to two and three dimensions no faster than H3DH (section 6.2.3), "
+                  "and reordering to take 23% less time at 1,000 rays and to give 2.5 times the speed at 49,000 "
+                  "(figure 6.18). Measured on {device}.{reason} Rays born in order need no sort.",
+     .figure = all_orders()},
+    {.name = "figure-6.2",
+     .doc = "chained cache: what a write and a read of a segment take, by hash",
+     .title = "Operations of the chained table",
+     .caption = operations_caption,
+     .paragraph = "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against 50 "
+                  "ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next to nothing "
+                  "(section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. What the table adds besides is "
+                  "the gathering of missed rays.",
+     .figure =
+         CacheFigure{.study = chained_operations,
+                     .view = operations(chained_tables),
+                     .claims = {{"writes take longer than reads", of_each(chained_tables, writes_longer_than_reads)},
+                                {"the rest takes next to nothing: gathering less than a tenth of a write",
+                                 of_each(chained_tables, gathers_quickly)}}}},
+    {.name = "figure-6.3",
+     .doc = "chained cache: writes and reads against tracing",
+     .title = "Operations of the chained table and tracing",
+     .caption = operations_caption,
+     .paragraph = "The thesis finds tracing a segment to take almost 2 s at most, more than ten times what a write "
+                  "takes and far more than a read (section 6.3.1, figure 6.3). Measured on {device} at {rays} rays. "
+                  "A cache can only save time where a read is cheaper than tracing.",
+     .figure = CacheFigure{.study = chained_operations,
+                           .view = operations(chained_tables, true),
+                           .claims = trace_claims(chained_tables)}},
+    {.name = "figure-6.4",
+     .doc = "chained cache: hits an entry",
+     .title = "Hits of the chained table's entries",
+     .caption = "Entries of the chained table by the hits they had",
+     .paragraph = "The thesis finds hits spread evenly over the entries, entries of the buffer that are never used, "
+                  "and some that are but never answer (section 6.3.1, figure 6.4). Measured on {device} at {rays} "
+                  "rays, after a cold frame and a warm one.",
+     .figure = CacheFigure{.study = chained_hits,
+                           .view = hits_of_entries(counted_tables),
+                           .claims = {{"some entries are left unused", of_all(counted_tables, some_unused)},
+                                      {"some entries never answer", of_all(counted_tables, some_never_answer)}}}},
+    {.name = "figure-6.5",
+     .doc = "chained cache against none, 1,000 to 20,480,000 rays, by hash",
+     .title = "Frames with the chained table",
+     .caption = times_caption,
+     .paragraph = "The thesis finds no chained cache of 50,000 entries faster than none, whatever the hash, but "
+                  "between 2,560,000 and 10,240,000 rays (section 6.3.1, figure 6.5). Measured on {device} with a "
+                  "warm table, one of them saves time {saves}.",
+     .figure = CacheFigure{.study = chained_rays,
+                           .view = times_by_rays,
+                           .claims = {{"no gain below 2,560,000 and beyond 10,240,000 rays",
+                                       everywhere(outside(2560000, 10240000), saves_not(chained_tables))},
+                                      {"a gain from 2,560,000 to 10,240,000 rays",
+                                       everywhere(between(2560000, 10240000), saves(chained_tables))}},
+                           .settings = chained_tables}},
+    {.name = "figure-6.6",
+     .doc = "open cache: what a write and a read of a segment take, by hash",
+     .title = "Operations of the open table",
+     .caption = operations_caption,
+     .paragraph = "The thesis finds most writes to the open table to take three times as long as most reads (60 ms "
+                  "against 20 ms), and both to take less than in the chained table (section 6.3.1, figure 6.6). "
+                  "Measured on {device} at {rays} rays.",
+     .figure = CacheFigure{.study = open_operations,
+                           .view = operations(mutexes_and_chained),
+                           .claims = {{"writes take longer than reads", of_each(mutexes, writes_longer_than_reads)},
+                                      {"writes take less than in the chained table, with the mixed hash",
+                                       is_less(write_ns, "mutex mixed", "chained mixed")},
+                                      {"reads take less than in the chained table, with the mixed hash",
+                                       is_less(read_ns, "mutex mixed", "chained mixed")}}}},
+    {.name = "figure-6.7",
+     .doc = "open cache: writes and reads against tracing",
+     .title = "Operations of the open table and tracing",
+     .caption = operations_caption,
+     .paragraph = "The thesis finds operations of the open table much faster than tracing, 1 to 2.5 s against some "
+                  "0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
+     .figure =
+         CacheFigure{
+             .study = open_operations, .view = operations(mutexes_and_chained, true), .claims = trace_claims(mutexes)}},
+    {.name = "figure-6.8",
+     .doc = "open cache with two locks against none, 1,000 to 20,480,000 rays, by hash",
+     .title = "Frames with the open table",
+     .caption = times_caption,
+     .paragraph = "The thesis finds the open table with two locks to save time from some 50,000 rays on, most with "
+                  "the mixed hash, then with the uniform one, then with Morton codes (section 6.3.1, figure 6.8). "
+                  "Measured on {device} with a warm table, one of them saves time {saves}.",
+     .figure = CacheFigure{.study = open_rays,
+                           .view = times_by_rays,
+                           .claims = {{"a gain beyond 50,000 rays", everywhere(above(50000), saves(readers))},
+                                      {"the mixed hash is the fastest beyond 50,000 rays",
+                                       everywhere(above(50000), fastest_is("readers mixed", readers))}},
+                           .settings = readers}},
+    {.name = "figure-6.9",
+     .doc = "open cache with a mutex against none, rays in order",
+     .title = "Frames with the open table, rays in order",
+     .caption = times_caption,
+     .paragraph = "With a mutex and rays in order (H3DH), the thesis finds the open table to save time from some "
+                  "16,000 rays on, 2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {device} with a "
+                  "warm table, one of them saves time {saves}.",
+     .figure = CacheFigure{.study = open_rays_ordered,
+                           .view = times_by_rays,
+                           .claims = {{"a gain beyond 16,000 rays", everywhere(above(16000), saves(mutexes))}},
+                           .settings = mutexes}},
+};
+
 }  // namespace
 
-std::vector<Experiment> standing_figures() {
-  const auto chained_operations =
-      shared(operations_study("chained-operations", {no_cache(), chained(1), chained(2), chained(3)}));
-  const auto open_operations = shared(
-      operations_study("open-operations", {no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), chained(3)}));
-  // Apart from the operations, whose times counting would change.
-  CacheStudy hits =
-      operations_study("chained-hits", {no_cache(), counted(chained(1)), counted(chained(2)), counted(chained(3))});
-  hits.by_depth = false;
-  const auto chained_rays =
-      shared(rays_study("chained-rays", {no_cache(), chained(1), chained(2), chained(3), chained(1, large_buffer),
-                                         chained(2, large_buffer), chained(3, large_buffer), ours(), born_in_order()}));
-  const auto open_rays = shared(rays_study(
-      "open-rays", {no_cache(), open_readers(1), open_readers(2), open_readers(3), ours(), born_in_order()}));
-  const auto open_rays_ordered = shared(
-      rays_study("open-rays-ordered", {with_order(no_cache()), with_order(open_mutex(1)), with_order(open_mutex(2)),
-                                       with_order(open_mutex(3)), with_order(ours())}));
-  return {
-      {.name = "figure-6.1",
-       .doc = "time against 1,000 to 10,000,000 rays, for every order and launch shape",
-       .title = "Ray orders and launch shapes",
-       .caption = "Time a ray against the number of rays",
-       .paragraph = "The thesis finds H3DH and HZ the fastest of its six orders and no order (WS) the slowest at every "
-                    "number of rays, buffers mapped to two and three dimensions no faster than H3DH (section 6.2.3), "
-                    "and reordering to take 23% less time at 1,000 rays and to give 2.5 times the speed at 49,000 "
-                    "(figure 6.18). Measured on {device}.{reason} Rays born in order need no sort.",
-       .figure = all_orders()},
-      {.name = "figure-6.2",
-       .doc = "chained cache: what a write and a read of a segment take, by hash",
-       .title = "Operations of the chained table",
-       .caption = operations_caption,
-       .paragraph = "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against 50 "
-                    "ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next to nothing "
-                    "(section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. What the table adds besides is "
-                    "the gathering of missed rays.",
-       .figure =
-           CacheFigure{.study = chained_operations,
-                       .view = operations(chained_tables),
-                       .claims = {{"writes take longer than reads", of_each(chained_tables, writes_longer_than_reads)},
-                                  {"the rest takes next to nothing: gathering less than a tenth of a write",
-                                   of_each(chained_tables, gathers_quickly)}}}},
-      {.name = "figure-6.3",
-       .doc = "chained cache: writes and reads against tracing",
-       .title = "Operations of the chained table and tracing",
-       .caption = operations_caption,
-       .paragraph = "The thesis finds tracing a segment to take almost 2 s at most, more than ten times what a write "
-                    "takes and far more than a read (section 6.3.1, figure 6.3). Measured on {device} at {rays} rays. "
-                    "A cache can only save time where a read is cheaper than tracing.",
-       .figure = CacheFigure{.study = chained_operations,
-                             .view = operations(chained_tables, true),
-                             .claims = trace_claims(chained_tables)}},
-      {.name = "figure-6.4",
-       .doc = "chained cache: hits an entry",
-       .title = "Hits of the chained table's entries",
-       .caption = "Entries of the chained table by the hits they had",
-       .paragraph = "The thesis finds hits spread evenly over the entries, entries of the buffer that are never used, "
-                    "and some that are but never answer (section 6.3.1, figure 6.4). Measured on {device} at {rays} "
-                    "rays, after a cold frame and a warm one.",
-       .figure = CacheFigure{.study = shared(hits),
-                             .view = hits_of_entries(counted_tables),
-                             .claims = {{"some entries are left unused", of_all(counted_tables, some_unused)},
-                                        {"some entries never answer", of_all(counted_tables, some_never_answer)}}}},
-      {.name = "figure-6.5",
-       .doc = "chained cache against none, 1,000 to 20,480,000 rays, by hash",
-       .title = "Frames with the chained table",
-       .caption = times_caption,
-       .paragraph = "The thesis finds no chained cache of 50,000 entries faster than none, whatever the hash, but "
-                    "between 2,560,000 and 10,240,000 rays (section 6.3.1, figure 6.5). Measured on {device} with a "
-                    "warm table, one of them saves time {saves}.",
-       .figure = CacheFigure{.study = chained_rays,
-                             .view = times_by_rays,
-                             .claims = {{"no gain below 2,560,000 and beyond 10,240,000 rays",
-                                         everywhere(outside(2560000, 10240000), saves_not(chained_tables))},
-                                        {"a gain from 2,560,000 to 10,240,000 rays",
-                                         everywhere(between(2560000, 10240000), saves(chained_tables))}},
-                             .settings = chained_tables}},
-      {.name = "figure-6.6",
-       .doc = "open cache: what a write and a read of a segment take, by hash",
-       .title = "Operations of the open table",
-       .caption = operations_caption,
-       .paragraph = "The thesis finds most writes to the open table to take three times as long as most reads (60 ms "
-                    "against 20 ms), and both to take less than in the chained table (section 6.3.1, figure 6.6). "
-                    "Measured on {device} at {rays} rays.",
-       .figure = CacheFigure{.study = open_operations,
-                             .view = operations(mutexes_and_chained),
-                             .claims = {{"writes take longer than reads", of_each(mutexes, writes_longer_than_reads)},
-                                        {"writes take less than in the chained table, with the mixed hash",
-                                         is_less(write_ns, "mutex mixed", "chained mixed")},
-                                        {"reads take less than in the chained table, with the mixed hash",
-                                         is_less(read_ns, "mutex mixed", "chained mixed")}}}},
-      {.name = "figure-6.7",
-       .doc = "open cache: writes and reads against tracing",
-       .title = "Operations of the open table and tracing",
-       .caption = operations_caption,
-       .paragraph = "The thesis finds operations of the open table much faster than tracing, 1 to 2.5 s against some "
-                    "0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
-       .figure = CacheFigure{.study = open_operations,
-                             .view = operations(mutexes_and_chained, true),
-                             .claims = trace_claims(mutexes)}},
-      {.name = "figure-6.8",
-       .doc = "open cache with two locks against none, 1,000 to 20,480,000 rays, by hash",
-       .title = "Frames with the open table",
-       .caption = times_caption,
-       .paragraph = "The thesis finds the open table with two locks to save time from some 50,000 rays on, most with "
-                    "the mixed hash, then with the uniform one, then with Morton codes (section 6.3.1, figure 6.8). "
-                    "Measured on {device} with a warm table, one of them saves time {saves}.",
-       .figure = CacheFigure{.study = open_rays,
-                             .view = times_by_rays,
-                             .claims = {{"a gain beyond 50,000 rays", everywhere(above(50000), saves(readers))},
-                                        {"the mixed hash is the fastest beyond 50,000 rays",
-                                         everywhere(above(50000), fastest_is("readers mixed", readers))}},
-                             .settings = readers}},
-      {.name = "figure-6.9",
-       .doc = "open cache with a mutex against none, rays in order",
-       .title = "Frames with the open table, rays in order",
-       .caption = times_caption,
-       .paragraph = "With a mutex and rays in order (H3DH), the thesis finds the open table to save time from some "
-                    "16,000 rays on, 2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {device} with a "
-                    "warm table, one of them saves time {saves}.",
-       .figure = CacheFigure{.study = open_rays_ordered,
-                             .view = times_by_rays,
-                             .claims = {{"a gain beyond 16,000 rays", everywhere(above(16000), saves(mutexes))}},
-                             .settings = mutexes}},
-  };
-}
+const std::vector<Experiment>& standing_figures() { return standing; }
 
 }  // namespace wavetracer::study
