@@ -68,8 +68,8 @@ report::FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
     trace_(traced_.on_device, rays_, hits_);
     record(out[depth - 1], launch_index);
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
-    interact_(traced_.on_device, rays_, hits_, hit_count, sequences_.table(), sequences_.quarters(),
-              sequences_.counters(), sequences_.ages(), sequences_.now(), next_, depth == max_depth_);
+    interact_(traced_.on_device, rays_, hits_, hit_count, sequences_.trie(),
+              {.reflected = depth == max_depth_ ? nullptr : &next_});
     std::swap(rays_, next_);
   }
   return out;
