@@ -1,4 +1,4 @@
-// The loop of host/simulation/discovery.cpp for one batch. Queues carry no launch index; compaction keeps the order, so
+// The loop of host/simulation/wavefront.cpp for one batch. Queues carry no launch index; compaction keeps the order, so
 // the indices of the rays in a queue are those of the rays that hit before.
 #include "recipes/hit_recorder.hpp"
 #include <algorithm>
