@@ -1,10 +1,10 @@
-// The loop of host/simulation/discovery.cpp for one batch. Queues carry no launch index; compaction keeps the order, so
-// the indices of the rays in a queue are those of the rays that hit before.
+// A batch that is traced again, because its sequences did not fit, enters the same hits again.
+// Labels of rays tell their samples, however queues are ordered.
 #include "study/hit_recorder.hpp"
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <stdexcept>
 #include "scene/load.hpp"
 
 namespace wavetracer::study {
@@ -22,6 +22,13 @@ DeviceSummary summary(const gpu::DeviceInfo& info) {
   return {info.platform, info.name, info.driver, info.opencl_c, info.gpu};
 }
 
+// What experiments on hits look at: reflections of as many rays as the configuration says.
+TraceConfig reflections(TraceConfig trace) {
+  trace.reflection = true;
+  trace.diffraction = trace.transmission = trace.scattering = false;
+  return trace;
+}
+
 // A plane of three-component vectors of a ray queue.
 std::vector<glm::dvec3> read_vectors(const RayQueue& rays, size_t plane) {
   std::vector<glm::dvec3> out(rays.count);
@@ -31,8 +38,6 @@ std::vector<glm::dvec3> read_vectors(const RayQueue& rays, size_t plane) {
   }
   return out;
 }
-
-constexpr uint64_t table_slots = uint64_t{1} << 20;
 
 }  // namespace
 
@@ -45,53 +50,37 @@ TracedScene::TracedScene(const Config& config, const std::string& device_text,
 
 HitRecorder::HitRecorder(TracedScene& traced, const TraceConfig& trace)
     : traced_(traced),
-      ray_count_(static_cast<uint32_t>(trace.rays)),
-      max_depth_(trace.max_depth),
-      generate_(traced.context, LaunchDirections(trace.directions, trace.rays, trace.seed)),
-      trace_(traced.context, traced.on_device, traced.context.info().cpu ? TraceShape::bvh8 : TraceShape::bvh2),
-      scan_(traced.context),
-      interact_(traced.context),
-      sequences_(traced.context, table_slots),
-      rays_(make_ray_queue(traced.context, ray_count_, "rays")),
-      next_(make_ray_queue(traced.context, ray_count_, "next rays")),
-      hits_(make_hit_list(traced.context, ray_count_, Trace::block_size(traced.context.info()))) {}
+      trace_(reflections(trace)),
+      discovery_(traced.context, traced.on_device, trace_, {.follower = this}) {}
 
 FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
-  FrameHits out(max_depth_, std::vector<Hit>(ray_count_));
-  std::vector<uint32_t> launch_index(ray_count_);  // of the rays in the queue
-  std::iota(launch_index.begin(), launch_index.end(), 0);
-  const uint32_t block = Trace::block_size(traced_.context.info());
-  sequences_.clear();
-  rays_.count = 0;
-  generate_(rays_, {0, transmitter_m - traced_.scene.origin_m}, 0, ray_count_);
-  for (uint32_t depth = 1; depth <= max_depth_ && rays_.count > 0; ++depth) {
-    trace_(traced_.on_device, rays_, hits_);
-    record(out[depth - 1], launch_index);
-    const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block - 1) / block);
-    interact_(traced_.on_device, rays_, hits_, hit_count, sequences_.table(), sequences_.quarters(),
-              sequences_.counters(), sequences_.ages(), sequences_.now(), next_, depth == max_depth_);
-    std::swap(rays_, next_);
-  }
-  return out;
+  found_.assign(trace_.max_depth, std::vector<Hit>(trace_.rays));
+  discovery_.sequences().clear();
+  discovery_.sequences().begin_frame();
+  discovery_.find(traced_.on_device, {.who = launchers({transmitter_m - traced_.scene.origin_m}), .rays = trace_.rays});
+  return std::move(found_);
 }
 
-// Enters the hits of the queue, and leaves the launch indices of the rays that go on.
-void HitRecorder::record(std::vector<Hit>& at, std::vector<uint32_t>& launch_index) const {
-  const auto plane = [this](size_t which) { return hits_.planes.read(which * hits_.capacity, rays_.count); };
-  const std::vector<glm::dvec3> origin = read_vectors(rays_, WT_RAY_ORIGIN),
-                                direction = read_vectors(rays_, WT_RAY_DIRECTION);
-  const std::vector<float> t = plane(WT_HIT_T), primitive = plane(WT_HIT_PRIMITIVE), surface = plane(WT_HIT_SURFACE);
-  size_t kept = 0;
-  for (size_t i = 0; i < launch_index.size(); ++i) {
-    const auto hit_surface = std::bit_cast<uint32_t>(surface[i]);
-    if (hit_surface == WT_NONE) continue;
-    at[launch_index[i]] = {.point_m = origin[i] + double{t[i]} * direction[i],
-                           .distance_m = t[i],
-                           .surface = hit_surface,
-                           .primitive = std::bit_cast<uint32_t>(primitive[i])};
-    launch_index[kept++] = launch_index[i];
-  }
-  launch_index.resize(kept);
+uint64_t HitRecorder::launch_index(uint32_t sample) const {
+  for (const LaunchPart& part : parts_)
+    if (sample - part.first_sample < part.count) return part.first_index + part.stride * (sample - part.first_sample);
+  throw std::logic_error("a ray belongs to no part of its launch");
+}
+
+void HitRecorder::follow(const RayQueue& rays, const HitList& hits, uint32_t depth,
+                         const std::optional<AnsweredRays>& /*answered*/) {
+  const auto plane = [&](size_t which) { return hits.planes.read(which * hits.capacity, rays.count); };
+  const std::vector<glm::dvec3> origin = read_vectors(rays, WT_RAY_ORIGIN),
+                                direction = read_vectors(rays, WT_RAY_DIRECTION);
+  const std::vector<float> sample = rays.planes.read(size_t{WT_RAY_SAMPLE} * rays.capacity, rays.count),
+                           t = plane(WT_HIT_T), primitive = plane(WT_HIT_PRIMITIVE), surface = plane(WT_HIT_SURFACE);
+  for (size_t i = 0; i < rays.count; ++i)
+    if (const auto hit_surface = std::bit_cast<uint32_t>(surface[i]); hit_surface != WT_NONE)
+      found_[depth][launch_index(std::bit_cast<uint32_t>(sample[i]))] = {
+          .point_m = origin[i] + double{t[i]} * direction[i],
+          .distance_m = t[i],
+          .surface = hit_surface,
+          .primitive = std::bit_cast<uint32_t>(primitive[i])};
 }
 
 }  // namespace wavetracer::study

@@ -1,14 +1,10 @@
-// What every ray of a launch hit, depth by depth: the wavefront loop with its hits read back to the host.
-// Assumes few rays: one batch, and every plane of the queue is copied at every depth.
+// What every ray of a launch hit, depth by depth, read back to the host: it follows the rays of a discovery.
+// Assumes few rays: planes of the queue are copied at every depth.
 #pragma once
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
-#include "passes/generate_rays.hpp"
-#include "passes/interact.hpp"
-#include "passes/scan.hpp"
-#include "passes/sequences.hpp"
-#include "passes/trace.hpp"
+#include "simulation/discovery.hpp"
 #include "study/coherence.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
@@ -16,7 +12,7 @@
 
 namespace wavetracer::study {
 
-// A static scene on a device, for experiments that look at single passes.
+// A static scene on a device, for experiments that look at rays instead of paths.
 struct TracedScene {
   // transmitters_m: all that will launch rays, file coordinates.
   TracedScene(const Config& config, const std::string& device_text, const std::vector<glm::dvec3>& transmitters_m);
@@ -27,24 +23,26 @@ struct TracedScene {
   DeviceSummary device;
 };
 
-class HitRecorder {
+class HitRecorder final : public RayFollower {
  public:
-  // Takes rays, directions, seed and max_depth of `trace`. `traced` must outlive it.
+  // Takes rays, directions, seed and max_depth of `trace`; rays are reflected, and nothing else. `traced` must outlive
+  // it.
   HitRecorder(TracedScene& traced, const TraceConfig& trace);
   // Hits of the rays of a transmitter, file coordinates; their points are recentred.
   FrameHits operator()(const glm::dvec3& transmitter_m);
 
  private:
+  void begin_batch(std::vector<LaunchPart> parts) override { parts_ = std::move(parts); }
+  void follow(const RayQueue& rays, const HitList& hits, uint32_t depth,
+              const std::optional<AnsweredRays>& answered) override;
+  // Of a sample of the batch.
+  uint64_t launch_index(uint32_t sample) const;
+
   TracedScene& traced_;
-  uint32_t ray_count_, max_depth_;
-  GenerateRays generate_;
-  Trace trace_;
-  Scan scan_;
-  Interact interact_;
-  Sequences sequences_;  // interact fills it; nobody asks for it, so it may overflow
-  RayQueue rays_, next_;
-  HitList hits_;
-  void record(std::vector<Hit>& at, std::vector<uint32_t>& launch_index) const;
+  TraceConfig trace_;
+  Discovery discovery_;
+  std::vector<LaunchPart> parts_;
+  FrameHits found_;
 };
 
 }  // namespace wavetracer::study
