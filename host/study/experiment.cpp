@@ -36,7 +36,7 @@ constexpr double step_m = 0.5;  // between frames: 54 km/h at 30 frames a second
 void reject_varied_keys(const Experiment& experiment, const std::vector<std::string>& sets) {
   std::vector<std::string> varied = series_keys();
   if (experiment.study()) varied.insert(varied.end(), cache_keys().begin(), cache_keys().end());
-  if (experiment.as<OrderFigure>() && experiment.moves_transmitter()) varied.push_back("trace.batch_rays");
+  if (experiment.as<OrderFigure>() && experiment.needs_transmitter()) varied.push_back("trace.batch_rays");
   for (const std::string& set : sets) {
     std::string key = set.substr(0, set.find('='));
     std::erase(key, ' ');
@@ -65,7 +65,7 @@ bool Experiment::one_ray_count() const {
   return as<FrameFigure>() || as<LagFigure>() || (study() && study()->rays.size() == 1);
 }
 
-bool Experiment::moves_transmitter() const {
+bool Experiment::needs_transmitter() const {
   return as<FrameFigure>() || as<LagFigure>() || (as<OrderFigure>() && as<OrderFigure>()->frames > 1);
 }
 
@@ -104,7 +104,7 @@ Config experiment_config(const Experiment& experiment, const std::string& file, 
 
 void check_experiment(const Experiment& experiment, const Config& config) {
   const std::string where = config.file.empty() ? "" : config.file + ": ";
-  if (experiment.moves_transmitter() && config.transmitters.empty())
+  if (experiment.needs_transmitter() && config.transmitters.empty())
     throw ConfigError(
         fmt::format("{}{} launches rays from the first [[transmitter]], and there is none, since antennas on vehicles "
                     "([[mount]]) do not count here; add a [[transmitter]]",

@@ -27,7 +27,7 @@ struct CacheFigure {
   std::shared_ptr<const CacheStudy> study;
   CacheView view;
   Claims<CacheRow> claims = {};
-  std::vector<std::string> settings = {};  // that the field {saves} is about
+  std::vector<std::string> settings = {};  // those that the field {saves} is about
 };
 
 // What rays hit in frames of a drive. Fields: {device}, {rays}, {frames}, {moved} and {apart} (metres of the drive, and
@@ -55,21 +55,21 @@ struct Experiment {
     return std::get_if<Figure>(&figure);
   }
   const CacheStudy* study() const { return as<CacheFigure>() ? as<CacheFigure>()->study.get() : nullptr; }
-  // Launches one number of rays, whatever --rays says.
+  // It launches one number of rays, so that --rays is refused.
   bool one_ray_count() const;
-  // Launches rays from the first [[transmitter]] of a configuration, at the places of its own.
-  bool moves_transmitter() const;
+  // It launches rays from the first [[transmitter]] of a configuration alone, so that there must be one.
+  bool needs_transmitter() const;
 };
 
 const std::vector<Experiment>& standing_figures();     // 6.1 to 6.9
-const std::vector<Experiment>& traffic_figures();      // 6.10 to 6.18
+const std::vector<Experiment>& traffic_figures();      // 6.10 to 6.18, and coherence-frames
 const std::vector<Experiment>& further_experiments();  // beyond the thesis' figures
 
 // All of them, in this order.
 const std::vector<Experiment>& experiments();
 // Throws ConfigError with the known names and the nearest of them.
 const Experiment& find_experiment(const std::string& name);
-// One line an experiment.
+// A line for each experiment.
 std::string experiment_list();
 
 constexpr const char* built_in_city_name = "built-in city";  // as its Config::file

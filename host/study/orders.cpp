@@ -55,9 +55,8 @@ Findings measure(const OrderFigure& figure, const Experiment& experiment, const 
   found.script = order_script(experiment.name, experiment.title + ", " + found.device.name, figure.series);
   found.words = order_words(experiment, rows, found.device.name);
   found.notes = {
-      fmt::format("times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace (of standing "
-                  "and of moving things), compact, scan and interact, the sort is order and sort, all from profiling "
-                  "events",
+      fmt::format("times: medians of {} warm frames, the series in turns; tracing is generate_rays, trace, "
+                  "trace_moving, compact, scan and interact, the sort is order and sort, all from profiling events",
                   request.repeats),
       "every frame launches all rays of its transmitters: trace.reuse, trace.diffraction and cache.kind are off; where "
       "vehicles drive, it is the first frame of their drive"};

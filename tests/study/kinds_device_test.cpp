@@ -47,7 +47,7 @@ const std::vector<Kind> kinds = {
 const std::string& answer(const Kind& kind, const Experiment& experiment) {
   if (experiment.study()) return kind.of_caches;
   if (!experiment.as<OrderFigure>()) return kind.of_experiments;
-  return experiment.moves_transmitter() ? kind.of_drives : kind.of_series;
+  return experiment.needs_transmitter() ? kind.of_drives : kind.of_series;
 }
 
 std::string contents(const std::string& file) {

@@ -162,7 +162,7 @@ TEST_CASE("a experiment says by name what a configuration lacks for it") {
   const Config live = parse_config(mounted + "[[live_vehicle]]\ntype = \"passenger\"\n", "a.toml");
   for (const Experiment& experiment : wavetracer::study::experiments()) {
     CAPTURE(experiment.name);
-    const bool needs_mast = experiment.moves_transmitter();
+    const bool needs_mast = experiment.needs_transmitter();
     if (needs_mast)
       CHECK_THROWS_WITH_AS(check_experiment(experiment, vehicles),
                            doctest::Contains(("a.toml: " + experiment.name + " launches rays from the first").c_str()),
@@ -218,7 +218,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
       const double each = s.method == "none" ? 3e-8 : 1.25e-8;
       return std::pair{each * static_cast<double>(rays), s.method == "none" ? 0.0 : 1.1e-5};
     });
-    const Columns<OrderRow>& columns_of = order_columns(experiment.moves_transmitter());
+    const Columns<OrderRow>& columns_of = order_columns(experiment.needs_transmitter());
     const std::vector<std::string> names = names_of(columns_of);
     const std::vector<std::string> lines = split(encode(columns_of, rows), '\n');
     REQUIRE(lines.size() == 1 + 2 * experiment.as<OrderFigure>()->series.size());
@@ -226,7 +226,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
         "rays,method,mnemonic,shape,each_depth,trace_s,order_s,unpaid_s,paid_s,frame_s,paths,sequences,gain_unpaid,"
         "gain_paid";
     CHECK(lines[0] ==
-          columns + (experiment.moves_transmitter() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : ""));
+          columns + (experiment.needs_transmitter() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : ""));
     std::vector<std::string> base;
     for (size_t i = 1; i < lines.size(); ++i) {
       const std::vector<std::string> cells = split(lines[i], ',');
@@ -241,7 +241,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
         const double gain = cell(base, (which + "_s").c_str()) / cell(cells, (which + "_s").c_str());
         CHECK(cell(cells, ("gain_" + which).c_str()) == doctest::Approx(gain).epsilon(1e-5));
       }
-      if (experiment.moves_transmitter()) {
+      if (experiment.needs_transmitter()) {
         CHECK(cells.at(14) == "20");
         CHECK(std::strtod(cells.at(15).c_str(), nullptr) ==
               doctest::Approx(100 * (1 - cell(cells, "unpaid_s") / cell(base, "unpaid_s"))).epsilon(1e-4));
