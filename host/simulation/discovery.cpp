@@ -66,8 +66,8 @@ DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) 
   while (counts.rays < total) {
     const uint64_t count = std::min(size, total - counts.rays);
     do {
-      follower.begin_batch(source_.launch(wavefront_.rays(), launch, counts.rays, count));  // generate_rays, label_rays
-      wavefront_.trace(scene, follower, counts);
+      follower.begin_batch(source_.launch(wavefront_.rays(), launch, counts.rays, count));  // order_keys to label_rays
+      wavefront_.trace(scene, follower, counts);  // order_keys (of later depths) to interact
     } while (grew());
     follower.end_batch();
     counts.rays += count;

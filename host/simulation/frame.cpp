@@ -57,7 +57,8 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (s_.cache) s_.cache->begin_frame(out.world);
   if (s_.trails) s_.trails->begin_frame(task.frame, ends, out.world);
 
-  const DiscoveryCounts found = discover(task, out.world, block ? &*block : nullptr);  // order_keys to refine
+  const DiscoveryCounts found =
+      discover(task, out.world, block ? &*block : nullptr);  // order_keys to refine (discovery.cpp)
   account.discovered(found);
   if (s_.cache) out.cache = s_.cache->summary();
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();

@@ -46,12 +46,12 @@ std::vector<LaunchPart> RaySource::launch(RayQueue& rays, const Launch& launch, 
     const auto sample = static_cast<uint32_t>(done);
     const auto part = static_cast<uint32_t>(std::min(count - done, each - number));
     if (sorted) {
-      const gpu::Buffer<uint32_t>& order = order_->sort_launch(number, part, from.heights);
-      generate(rays, from, number, part, order);
-      if (label_) (*label_)(rays, sample, part, sample, order);
+      const gpu::Buffer<uint32_t>& order = order_->sort_launch(number, part, from.heights);  // order_keys, sort
+      generate(rays, from, number, part, order);                                             // generate_rays
+      if (label_) (*label_)(rays, sample, part, sample, order);                              // label_rays
     } else {
-      generate(rays, from, phase + stride * number, part, stride);
-      if (label_) (*label_)(rays, sample, part, sample);
+      generate(rays, from, phase + stride * number, part, stride);  // generate_rays
+      if (label_) (*label_)(rays, sample, part, sample);            // label_rays
     }
     parts.push_back({from.transmitter, sample, part, number, each, phase + stride * number, stride});
     done += part;

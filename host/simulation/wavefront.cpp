@@ -56,10 +56,10 @@ void Wavefront::trace_reflected(const DeviceScene& scene, RayFollower& follower,
   Interact& interact = ends ? *interact_samples_ : interact_;
   const uint32_t last = depth_.reflections > 0 ? segments(follower) : stage.depth;
   for (uint32_t depth = stage.depth; depth <= last && rays_.count > 0; ++depth) {
-    source_.sort(rays_, next_, depth);                                  // order_keys, sort, gather_rays
-    finder_.find(scene, rays_, hits_, depth);                           // trace, with a cache around it
-    follower.follow(rays_, hits_, depth - 1, finder_.answered(depth));  // waypoints, receive
-    finder_.count_blocks(rays_, hits_, depth);                          // compact
+    source_.sort(rays_, next_, depth);         // order_keys, sort, gather_rays
+    finder_.find(scene, rays_, hits_, depth);  // cache_lookup, trace, cache_store (ray_cache.cpp)
+    follower.follow(rays_, hits_, depth - 1, finder_.answered(depth));                        // waypoints, receive
+    finder_.count_blocks(rays_, hits_, depth);                                                // compact
     const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block_ - 1) / block_);  // scan
     RaysOnward onward{.reflected = depth == last ? nullptr : &next_, .ends = ends};
     if (stage.transmissions > 0 && depth < depth_.interactions) {
