@@ -9,10 +9,10 @@
 
 #include "gpu/gpu.hpp"
 #include "json_line.hpp"
-#include "report/path_error.hpp"
 #include "scene/load.hpp"
 #include "street.hpp"
 #include "street_traffic.hpp"
+#include "study/path_error.hpp"
 #include "timing.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/simulation.hpp"
@@ -41,7 +41,7 @@ struct Setting {
 struct Measured {
   double frame_s = 0;
   StageSeconds stages;  // medians
-  report::PathError error;
+  study::PathError error;
   double hit_share = 0, hit_share_late = 0;  // of all segments, and of those after the first
   uint64_t used = 0, dropped = 0;
 };
@@ -132,13 +132,13 @@ Measured measure(Config config, const Options& options, const std::vector<Paths>
   Measured out;
   std::vector<double> seconds;
   std::map<std::string, std::vector<double>> stages;
-  report::PathErrorMean error;
+  study::PathErrorMean error;
   uint64_t lookups = 0, hits = 0, late = 0, late_hits = 0;
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     const FrameResult result = simulation.run_frame(frame);
     seconds.push_back(result.seconds.at("frame"));
     for (const auto& [stage, s] : result.seconds) stages[stage].push_back(s);
-    if (reference) error.add(report::path_error((*reference)[frame], result.paths));
+    if (reference) error.add(study::path_error((*reference)[frame], result.paths));
     if (keep) keep->push_back(result.paths);
     const CacheSummary& cache = result.cache;
     if (!cache.on) continue;
@@ -164,7 +164,7 @@ double stage_ms(const Measured& measured, const std::string& stage) {
 
 void print_line(const Options& options, const std::string& name, const Measured& measured, const Measured* baseline,
                 const std::string& command) {
-  const report::PathError& error = measured.error;
+  const study::PathError& error = measured.error;
   Result result{.bench = "cached_frame",
                 .name = name,
                 .device = options.info.name,

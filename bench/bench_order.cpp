@@ -7,13 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <bit>
 #include <filesystem>
-#include <initializer_list>
 #include <set>
 
 #include "json_line.hpp"
 #include "timing.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/simulation.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::bench {
 namespace {
@@ -115,14 +115,6 @@ size_t missing(const std::multiset<PathBits>& a, const std::multiset<PathBits>& 
   return rest.size();
 }
 
-// A stage that a frame has no use for is not in the list.
-double milliseconds(const StageSeconds& seconds, std::initializer_list<const char*> stages) {
-  double total = 0;
-  for (const char* stage : stages)
-    if (const auto found = seconds.find(stage); found != seconds.end()) total += found->second;
-  return total * 1e3;
-}
-
 struct Subject {
   Variant variant;
   Simulation simulation;
@@ -142,9 +134,9 @@ std::vector<Subject> measure(const Place& place, uint64_t rays, const Options& o
     for (size_t i = 0; i < subjects.size(); i++) {
       Subject& s = subjects[(run + i) % subjects.size()];
       const StageSeconds seconds = s.simulation.run_frame(0).seconds;
-      s.trace.push_back(milliseconds(seconds, {"trace"}));
-      s.order.push_back(milliseconds(seconds, {"order", "sort"}));
-      s.unpaid.push_back(milliseconds(seconds, {"generate_rays", "trace", "compact", "scan", "interact"}));
+      s.trace.push_back(1e3 * stage_seconds(seconds, "trace"));
+      s.order.push_back(1e3 * part_seconds(seconds, FramePart::order));
+      s.unpaid.push_back(1e3 * part_seconds(seconds, FramePart::discovery));
       s.paid.push_back(s.unpaid.back() + s.order.back());
     }
   return subjects;

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "path_recall.hpp"
-#include "report/path_power.hpp"
+#include "radio/path_power.hpp"
 
 namespace wavetracer::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "report/path_power.hpp"
+#include "radio/path_power.hpp"
 
 namespace wavetracer::bench {
 namespace {

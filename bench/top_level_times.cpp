@@ -45,14 +45,14 @@ std::vector<Box> boxes_of(const std::vector<Placement>& placements, const Scene&
 double place_seconds(gpu::Context& context, const Scene& block, const std::vector<Scene>& models,
                      const std::vector<Instance>& instances, TopLevelBuild build, size_t runs) {
   DeviceScene scene = make_device_scene(context, block, false, 2 * half_width_m);
-  InstancePlacement place(context, models, instances, scene, build);
+  InstancePlacement placement(context, models, instances, scene, build);
   std::mt19937 generator(1);
   std::vector<double> seconds;
   for (size_t run = 0; run <= runs; run++) {
     const std::vector<Placement> placements = scattered(instances.size(), generator);
     context.finish();
     const double wall = wall_seconds([&] {
-      place(scene, placements);
+      placement.place(scene, placements);
       context.finish();
     });
     if (run > 0) seconds.push_back(wall);  // the first also compiles

@@ -25,7 +25,7 @@ std::string keys(const Row& row) { return fmt::format("{}", fmt::join(row.settin
 
 std::string milliseconds(const Row& row) { return fmt::format("{:.3g} ms", 1e3 * row.frame_s); }
 
-std::string decibels(const report::PathError& error) {
+std::string decibels(const study::PathError& error) {
   return std::isnan(error.power_median_db) ? ""
                                            : fmt::format("{:.2g} dB at the median link, {:.2g} dB at the worst",
                                                          error.power_median_db, error.power_max_db);
@@ -90,7 +90,7 @@ void add_reuse(const Study& study, std::vector<std::string>& out) {
 // What is gained by it, on top of the user's other settings.
 std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row& off) {
   std::string text = fmt::format("{} ({}): ", mechanism.words, fmt::join(mechanism.on, ", "));
-  const report::PathError& error = off.error;
+  const study::PathError& error = off.error;
   if (error.lost == 0 && error.spurious == 0) {
     text += "adds no path";
   } else {

@@ -8,7 +8,7 @@
 namespace wavetracer::accuracy {
 namespace {
 
-Setting of_rays(uint64_t rays) { return {"rays", recipes::grouped(rays), {fmt::format("trace.rays={}", rays)}}; }
+Setting of_rays(uint64_t rays) { return {"rays", study::grouped(rays), {fmt::format("trace.rays={}", rays)}}; }
 
 Setting of_recall(double recall) {
   return {"auto", fmt::format("recall {:g}", recall), {"trace.rays=auto", fmt::format("trace.recall={:g}", recall)}};
@@ -19,7 +19,7 @@ Setting of_depth(uint32_t depth) {
 }
 
 // Once and three times every power of ten of the range, its ends, and the user's own number.
-std::set<uint64_t> ray_steps(uint64_t own, recipes::RayRange range) {
+std::set<uint64_t> ray_steps(uint64_t own, study::RayRange range) {
   std::set<uint64_t> steps = {range.first, range.last};
   for (uint64_t decade = 1000; decade <= range.last; decade *= 10)
     for (const uint64_t rays : {decade, 3 * decade})
@@ -28,7 +28,7 @@ std::set<uint64_t> ray_steps(uint64_t own, recipes::RayRange range) {
   return steps;
 }
 
-Axis ray_axis(const Config& own, bool drive, recipes::RayRange range) {
+Axis ray_axis(const Config& own, bool drive, study::RayRange range) {
   const std::set<uint64_t> steps = ray_steps(own.trace.rays, range);
   Axis axis{of_rays(10 * *steps.rbegin()), {}};
   for (const uint64_t rays : steps) axis.settings.push_back(of_rays(rays));
@@ -62,7 +62,7 @@ const std::vector<Mechanism>& mechanisms() {
   return all;
 }
 
-std::vector<Axis> axes(const Config& own, bool drive, recipes::RayRange rays) {
+std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays) {
   std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
   for (const Mechanism& mechanism : mechanisms())
     all.push_back(

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <vector>
-#include "recipes/ray_counts.hpp"
+#include "study/ray_counts.hpp"
 #include "wavetracer/config.hpp"
 
 namespace wavetracer::accuracy {
@@ -23,10 +23,10 @@ struct Axis {
   std::vector<Setting> settings;
 };
 
-constexpr recipes::RayRange default_rays{10000, 1000000};
+constexpr study::RayRange default_rays{10000, 1000000};
 
 // drive: there are frames that may reuse what earlier ones have found. The reference has ten times the most rays.
-std::vector<Axis> axes(const Config& own, bool drive, recipes::RayRange rays);
+std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays);
 
 // The Features that are on or off by keys, and what they are called at the start of a sentence.
 struct Mechanism {

@@ -1,34 +1,20 @@
 // The page and the order in which files are written: the table first, because the plot and the page are made of it.
-#include <fmt/chrono.h>
+#include "study/page.hpp"
 #include <fmt/format.h>
-#include <ctime>
-#include <fstream>
 #include <span>
-#include <sstream>
 #include "accuracy/advice.hpp"
 #include "accuracy/files.hpp"
 #include "accuracy/table.hpp"
 #include "base/pending_file.hpp"
-#include "recipes/thesis.hpp"
-#include "wavetracer/version.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
-using recipes::escaped;
+using study::cells_html;
+using study::escaped;
 
-constexpr const char* style =
-    "body{font:16px/1.5 sans-serif;max-width:1320px;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;font-size:13px}td,th{border-bottom:1px solid #ddd;padding:2px 8px;text-align:right}"
-    "td:nth-child(-n+3),th:nth-child(-n+3){text-align:left}svg{max-width:100%;height:auto}"
-    ".own{background:#eef6fb}.reference{font-weight:bold}.about{font-size:13px;color:#555}";
-
-std::string cells_html(const std::vector<std::string>& cells, const char* tag) {
-  std::string text;
-  for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
-  return text;
-}
+constexpr const char* style = "body{max-width:1320px}.own{background:#eef6fb}.reference{font-weight:bold}";
 
 std::string table_html(const std::vector<Row>& rows) {
   std::string text = "<table>\n<thead><tr>" + cells_html(short_columns(), "th") + "</tr></thead>\n<tbody>\n";
@@ -48,24 +34,13 @@ std::string frames_text(const Study& study) {
                      study.frames, study.links, times);
 }
 
-std::string file_text(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 std::string page_html(const Study& study, const std::string& command_line, const std::string& svg) {
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Speed against error</title>\n"
-      "<style>{}</style>\n</head>\n<body>\n<h1>Speed against error: {}</h1>\n<ul class=\"about\">\n<li>device: {} ({}, "
-      "driver {})</li>\n<li>scene: {}</li>\n<li>{}</li>\n<li>date: {:%Y-%m-%d}, wavetracer {}</li>\n<li>command: "
-      "<code>{}</code></li>\n</ul>\n",
-      style, escaped(study.config_file), escaped(study.device.name), escaped(study.device.platform),
-      escaped(study.device.driver), escaped(study.scene), escaped(frames_text(study)), fmt::gmtime(std::time(nullptr)),
-      WAVETRACER_VERSION, escaped(command_line));
-  text += "<h2>What to set</h2>\n<ul>\n";
+  study::Heading heading = study::heading_of({}, study.device, command_line);
+  heading.scene = study.scene;
+  std::string text = fmt::format("<h1>Speed against error: {}</h1>\n{}<h2>What to set</h2>\n<ul>\n",
+                                 escaped(study.config_file), heading_html(heading, {frames_text(study)}));
   for (const std::string& item : recommendations(study)) text += fmt::format("<li>{}</li>\n", escaped(item));
   text +=
       "</ul>\n<h2>Every setting</h2>\n<p>One axis changes at a time, everything else is as in the configuration. "
@@ -74,12 +49,13 @@ std::string page_html(const Study& study, const std::string& command_line, const
       "are "
       "of links that have paths in both; the errors of spreads are means over these links. On the plot, what loses "
       "nothing lies on the bottom.</p>\n";
-  return text + svg + table_html(study.rows) + "</body>\n</html>\n";
+  return study::document_html("Speed against error", style, text + svg + table_html(study.rows));
 }
 
 Written write_files(const Study& study, const std::string& command_line, const fs::path& folder) {
   plots::Drawn drawn = plots::draw(front_figure(study), plots::Format::svg, folder);
-  const std::string svg = drawn.problem.empty() ? recipes::inline_svg(file_text(drawn.files.back()), "accuracy-") : "";
+  const std::string svg =
+      drawn.problem.empty() ? study::inline_svg(study::file_text(drawn.files.back()), "accuracy-") : "";
   const std::string page = page_html(study, command_line, svg);
   std::vector<PendingFile> files;
   files.emplace_back(folder / "accuracy.html", std::as_bytes(std::span(page)));

@@ -15,16 +15,16 @@ std::string one_line(std::string text) {
   return text;
 }
 
-report::PathError mean_error(const Measured& reference, const Measured& measured) {
-  report::PathErrorMean mean;
+study::PathError mean_error(const Measured& reference, const Measured& measured) {
+  study::PathErrorMean mean;
   for (size_t i = 0; i < reference.frames.size(); ++i)
-    mean.add(report::path_error(reference.frames[i], measured.frames[i]));
+    mean.add(study::path_error(reference.frames[i], measured.frames[i]));
   return mean.mean();
 }
 
 class Measurement {
  public:
-  Measurement(const Request& request, const recipes::Host& host)
+  Measurement(const Request& request, const study::Host& host)
       : request_(request), host_(host), own_(load_config(request.file, request.sets)) {
     if (!own_.live_vehicles.empty())
       throw ConfigError(request.file +
@@ -135,7 +135,7 @@ class Measurement {
   }
 
   const Request& request_;
-  const recipes::Host& host_;
+  const study::Host& host_;
   const Config own_;
   Measured measured_own_;
   Study out_;
@@ -143,6 +143,6 @@ class Measurement {
 
 }  // namespace
 
-Study study(const Request& request, const recipes::Host& host) { return Measurement(request, host)(); }
+Study study(const Request& request, const study::Host& host) { return Measurement(request, host)(); }
 
 }  // namespace wavetracer::accuracy

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 #include "accuracy/measure.hpp"
-#include "recipes/run.hpp"
-#include "report/path_error.hpp"
+#include "study/path_error.hpp"
+#include "study/run.hpp"
 
 namespace wavetracer::accuracy {
 
 struct Request {
   std::string file;               // of the configuration
   std::vector<std::string> sets;  // as --set takes them
-  recipes::RayRange rays = default_rays;
+  study::RayRange rays = default_rays;
   std::string device;
   uint32_t frames = 5, repeats = 3;
   std::string command_line;  // for the page
@@ -22,9 +22,9 @@ struct Row {
   Setting setting;
   bool reference = false;  // of its axis; rays, auto and reuse share one
   bool own = false;        // the user's own settings
-  double frame_s = report::undefined;
+  double frame_s = study::undefined;
   uint64_t paths = 0;
-  report::PathError error;
+  study::PathError error;
   std::string refusal;                // why it was not measured; empty: it was
   std::vector<std::string> warnings;  // of its frames
 
@@ -43,6 +43,6 @@ struct Study {
 
 // Rows are complete, also where it was interrupted. Throws ConfigError where there is no link, or no path at any
 // reference; and what the user's own settings make Simulation throw.
-Study study(const Request& request, const recipes::Host& host);
+Study study(const Request& request, const study::Host& host);
 
 }  // namespace wavetracer::accuracy

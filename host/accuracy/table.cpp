@@ -88,7 +88,7 @@ std::vector<std::string> short_columns() {
 }
 
 std::vector<std::string> short_cells(const Row& row) {
-  const report::PathError& e = row.error;
+  const study::PathError& e = row.error;
   const std::string role = row.reference ? row.own ? "reference, yours" : "reference" : row.own ? "yours" : "";
   if (!row.measured()) return {row.setting.axis, row.setting.name, note(row), "", "", "", "", "", "", "", "", ""};
   return {row.setting.axis,

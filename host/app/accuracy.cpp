@@ -24,13 +24,13 @@ struct AccuracyOptions {
 void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   accuracy::Request request = options.request;
   request.command_line = invocation.command_line;
-  if (!options.rays.empty()) request.rays = recipes::parse_ray_range(options.rays);
+  if (!options.rays.empty()) request.rays = study::parse_ray_range(options.rays);
   check_inputs(load_config(request.file, request.sets));
   const fs::path folder = fs::absolute(options.directory).lexically_normal();
   check_output_folder(folder);
   catch_interrupts();
   Progress progress;
-  const recipes::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
+  const study::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
   const accuracy::Study study = accuracy::study(request, host);
   if (interrupted()) {
     invocation.code = ExitCode::interrupted;

@@ -1,4 +1,4 @@
-// `wavetracer bench RECIPE`: an experiment by name, written as tables, a plot and a report.
+// `wavetracer bench EXPERIMENT`: an experiment by name, written as tables, a plot and a report.
 // The speed of single parts is measured by the programs of bench/ instead.
 #include <fmt/format.h>
 #include <iostream>
@@ -7,8 +7,8 @@
 #include "app/inputs.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "recipes/run.hpp"
-#include "recipes/thesis.hpp"
+#include "study/run.hpp"
+#include "study/thesis.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct BenchOptions {
-  std::string recipe, file, directory, device, rays;
+  std::string experiment, file, directory, device, rays;
   std::vector<std::string> sets;
   uint32_t repeats = 5;
   uint64_t frames = 0;
@@ -25,45 +25,47 @@ struct BenchOptions {
 
 constexpr const char* all_figures = "thesis";
 
-recipes::Request request(const BenchOptions& options, const recipes::Recipe& recipe, const std::string& command_line) {
-  recipes::Request out{.config = recipes::recipe_config(recipe, options.file, options.sets),
-                       .device = options.device,
-                       .rays = {},
-                       .repeats = options.repeats,
-                       .frames = options.frames,
-                       .quick = options.quick,
-                       .command_line = command_line};
-  if (!options.rays.empty()) out.rays = recipes::parse_ray_range(options.rays);
-  if (out.rays && !recipe.study) recipes::ray_counts(*out.rays);  // says so where there are none
+study::Request request(const BenchOptions& options, const study::Experiment& experiment, const std::string& command_line) {
+  study::Request out{.config = study::experiment_config(experiment, options.file, options.sets),
+                     .device = options.device,
+                     .rays = {},
+                     .repeats = options.repeats,
+                     .frames = options.frames,
+                     .quick = options.quick,
+                     .command_line = command_line};
+  if (!options.rays.empty()) out.rays = study::parse_ray_range(options.rays);
+  if (out.rays && !experiment.study()) study::ray_counts(*out.rays);  // says so where there are none
   if (!options.directory.empty())
     out.config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return out;
 }
 
 std::string listed() {
-  return recipes::recipe_list() + fmt::format("  {:<16} {}\n", all_figures, "all figures, as one page: thesis.html");
+  return study::experiment_list() + fmt::format("  {:<16} {}\n", all_figures, "all figures, as one page: thesis.html");
 }
 
 void bench(const BenchOptions& options, Invocation& invocation) {
-  if (options.recipe.empty())
-    throw ConfigError("bench: no recipe given; there are\n" + listed() +
+  if (options.experiment.empty())
+    throw ConfigError("bench: no experiment given; there are\n" + listed() +
                       "and `./dev bench` measures the parts of the program");
-  const bool all = options.recipe == all_figures;
-  const recipes::Recipe& recipe = all ? *recipes::thesis_recipes().front() : recipes::find_recipe(options.recipe);
-  const recipes::Request asked = request(options, recipe, invocation.command_line);
+  const bool all = options.experiment == all_figures;
+  const study::Experiment& experiment =
+      all ? *study::thesis_experiments().front() : study::find_experiment(options.experiment);
+  const study::Request asked = request(options, experiment, invocation.command_line);
   check_inputs(asked.config);
   check_output_folder(asked.config.output.directory);
   catch_interrupts();
   Progress progress;
-  const recipes::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
-  const recipes::Report report =
+  const study::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
+  const study::Report report =
       all ? run_thesis([&](const auto& one) { return request(options, one, invocation.command_line); }, host)
-          : run_recipe(recipe, asked, host);
+          : run_experiment(experiment, asked, host);
   if (interrupted()) {
     invocation.code = ExitCode::interrupted;
-    progress.line(report.files.empty() ? "interrupted before the first point; nothing was written"
-                                       : fmt::format("interrupted; what is written is whole, after {} of {} {}",
-                                                     report.points, report.planned, all ? "figures" : "ray counts"));
+    progress.line(report.files.empty()
+                      ? "interrupted before the first point; nothing was written"
+                      : fmt::format("interrupted; what is written is whole, after {} of {} {}", report.points,
+                                    report.planned, all ? "figures" : "numbers of rays"));
   }
   if (all && report.points < report.planned && !interrupted()) invocation.code = ExitCode::partial;
   if (report.files.empty()) return;
@@ -77,7 +79,7 @@ void bench(const BenchOptions& options, Invocation& invocation) {
 void add_bench(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("bench", "Run an experiment by name; without one, list them");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("recipe", options->recipe, "Name of the experiment");
+  command->add_option("experiment", options->experiment, "Name of the experiment");
   command->add_option("-c,--config", options->file,
                       "Config file whose scene and ends are used, instead of a generated city; its rays, directions, "
                       "order and launch shape are replaced");

@@ -100,7 +100,8 @@ class Buffer : public Memory {
 };
 
 // A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it.
-// stage names the profiling sum that its time goes to. Memory arguments are Buffers, the rest plain values.
+// stage names the profiling sum that its time goes to. Memory arguments are Buffers, or pointers to Buffers, where a
+// null pointer is NULL in the kernel too; the rest are plain values.
 class Kernel {
  public:
   Kernel() = default;
@@ -119,14 +120,16 @@ class Kernel {
   std::shared_ptr<State> state_;
   void check_count(size_t count) const;
   void set_value(unsigned index, const void* value, size_t bytes);
-  void set_memory(unsigned index, const Memory& memory);
+  void set_memory(unsigned index, const Memory* memory);
   void enqueue(Range range, const char* stage);
   template <class T>
   void set(unsigned index, const T& value) {
     if constexpr (std::is_base_of_v<Memory, T>) {
+      set_memory(index, &value);
+    } else if constexpr (std::is_pointer_v<T>) {
       set_memory(index, value);
     } else {
-      static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+      static_assert(std::is_trivially_copyable_v<T>);
       set_value(index, &value, sizeof(T));
     }
   }

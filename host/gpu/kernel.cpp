@@ -45,16 +45,17 @@ void Kernel::set_value(unsigned index, const void* value, size_t bytes) {
   throw std::logic_error(fmt::format("{} refuses a value of {} bytes: {}", s.describe(index), bytes, error_name(code)));
 }
 
-void Kernel::set_memory(unsigned index, const Memory& memory) {
+void Kernel::set_memory(unsigned index, const Memory* memory) {
   State& s = *state_;
-  if (!memory) throw std::logic_error(fmt::format("{} is a buffer that was never allocated", s.describe(index)));
-  if (memory.context_->state_.get() != s.context) {
+  if (memory && !*memory)
+    throw std::logic_error(fmt::format("{} is a buffer that was never allocated", s.describe(index)));
+  if (memory && memory->context_->state_.get() != s.context) {
     throw std::logic_error(fmt::format("{} is a buffer of another context", s.describe(index)));
   }
   if (index < s.arguments.size() && s.arguments[index].kind != Argument::Kind::memory) {
     throw std::logic_error(fmt::format("{} is no global memory, a buffer was given", s.describe(index)));
   }
-  const cl_mem handle = static_cast<cl_mem>(memory.handle_.get());
+  const cl_mem handle = memory ? static_cast<cl_mem>(memory->handle_.get()) : nullptr;
   const cl_int code = clSetKernelArg(s.kernel(), index, sizeof handle, &handle);
   if (code == CL_SUCCESS) return;
   throw std::logic_error(fmt::format("{} refuses a buffer: {}", s.describe(index), error_name(code)));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
-#include "report/path_power.hpp"
+#include "radio/path_power.hpp"
 
 namespace wavetracer {
 namespace {

@@ -1,6 +1,6 @@
 // The scene on the device: acceleration structures in every shape that this kind of device may trace, and surfaces in
 // float and double; to the static ones place adds those of instances. Which shape traces is chosen in
-// simulation/discovery.cpp.
+// simulation/hit_finder.cpp.
 #pragma once
 #include <cstdint>
 #include <string>

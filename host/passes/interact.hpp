@@ -4,25 +4,35 @@
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
+#include "passes/trie.hpp"
 
 namespace wavetracer {
 
+// What interact does besides; each option is compiled in only where it is on.
+struct InteractOptions {
+  bool ages = false;          // the trie keeps ages
+  bool samples = false;       // rays carry the number of their sample, and note its end
+  bool labels = false;        // queues have WT_RAY_LABELLED_PLANES, see label_rays
+  bool transmission = false;  // rays may also go on straight
+};
+
+// Where rays go on. All queues have the capacity of the one that they come from; what is null is left out.
+struct RaysOnward {
+  RayQueue* reflected = nullptr;                // its count becomes hit_count; null after the last interaction
+  RayQueue* transmitted = nullptr;              // the same rays behind the surface, with the node that they came with
+  const gpu::Buffer<uint32_t>* ends = nullptr;  // one for each sample, needed with InteractOptions::samples
+};
+
 class Interact {
  public:
-  // keep_ages: as the set of sequences was made. samples: rays carry the number of their sample, and note its end.
-  // labels: queues have WT_RAY_LABELLED_PLANES, see label_rays. transmission: operator() may be given `through`.
-  explicit Interact(gpu::Context& context, bool keep_ages = false, bool samples = false, bool labels = false,
-                    bool transmission = false);
-  // next.count becomes hit_count, unless this is the last depth, when next is left alone. Sequences that rays
-  // reach get the bits of their quarters, and the age `now`, where ages are kept. ends: one a sample, needed where
-  // samples are followed. through, of the capacity of the others: its count becomes hit_count, and ray i is ray i of
-  // next, not reflected but behind the surface, with the node that it came with.
+  explicit Interact(gpu::Context& context, InteractOptions options = {});
+  // hit_count: of the rays in the queue. Sequences that rays reach get the bits of their quarters and, where ages are
+  // kept, the age `now`. Throws std::logic_error where the trie or `to` lack what the options ask for.
   void operator()(const DeviceScene& scene, const RayQueue& rays, const HitList& hits, uint32_t hit_count,
-                  gpu::Buffer<uint64_t>& trie, gpu::Buffer<uint32_t>& quarters, gpu::Buffer<wt_counters>& counters,
-                  gpu::Buffer<uint32_t>& ages, uint32_t now, RayQueue& next, bool last,
-                  const gpu::Buffer<uint32_t>* ends = nullptr, RayQueue* through = nullptr);
+                  const Trie& trie, const RaysOnward& to);
 
  private:
+  InteractOptions options_;
   gpu::Kernel kernel_, kernel_through_;
   uint32_t rays_per_item_, local_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/trie.hpp"
 #include "wavetracer/device/records.h"
 
 namespace wavetracer {
@@ -13,6 +14,8 @@ class Sequences {
   Sequences(gpu::Context& context, uint64_t slots, bool keep_ages = false);
   // Empties the set and the counters.
   void clear();
+  // For passes that enter sequences.
+  Trie trie() { return {table_, quarters_, counters_, keep_ages_ ? &ages_ : nullptr, now()}; }
   gpu::Buffer<uint64_t>& table() { return table_; }
   // Of the slots: which quarters of the launches found them, see wt_found_by in kernels/lib/trie.clh. They live as long
   // as the sequence.

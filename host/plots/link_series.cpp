@@ -8,7 +8,7 @@
 #include <map>
 #include "base/spelling.hpp"
 #include "output/path_kinds.hpp"
-#include "report/path_power.hpp"
+#include "radio/path_power.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 

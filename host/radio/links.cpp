@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "report/path_power.hpp"
+#include "radio/path_power.hpp"
 #include "wavetracer/missed.hpp"
 
 namespace wavetracer {

@@ -91,7 +91,7 @@ double LaunchSlopes::ground_m(uint32_t origin, const EndState& end, const WorldS
   return known.height_m;
 }
 
-SlopeTables LaunchSlopes::operator()(const WorldState& world, const Origins& origins) {
+SlopeTables LaunchSlopes::tables(const WorldState& world, const Origins& origins) {
   std::vector<SlopeCounts> counts(origins.count());
   for (const Link& link : world.links) {
     const EndState &tx = world.transmitters[link.tx], &rx = world.receivers[link.rx];

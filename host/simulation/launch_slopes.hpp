@@ -35,7 +35,7 @@ class LaunchSlopes {
   // around outlives this. reach_m: of paths, where that is more than the diagonal of the scene's plan.
   LaunchSlopes(const Surroundings& around, double reach_m);
   // Tables for the origins of this frame's links.
-  SlopeTables operator()(const WorldState& world, const Origins& origins);
+  SlopeTables tables(const WorldState& world, const Origins& origins);
 
  private:
   // Height of the ground under an end; that of an origin which stands is remembered.

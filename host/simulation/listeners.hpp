@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/launch_directions.hpp"
-#include "simulation/discovery.hpp"
+#include "passes/generate_rays.hpp"
 #include "wavetracer/device/moving.h"
 #include "wavetracer/world.hpp"
 

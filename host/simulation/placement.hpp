@@ -30,7 +30,8 @@ class InstancePlacement {
     temporary_ = context.buffer<uint32_t>(std::max<size_t>(words, 1), "sort");
   }
 
-  void operator()(DeviceScene& scene, std::span<const Placement> placements) {
+  // Moves all instances, which are in the order of the placements, and builds the tree over them.
+  void place(DeviceScene& scene, std::span<const Placement> placements) {
     const auto present = static_cast<uint32_t>(std::ranges::count(placements, true, &Placement::present));
     if (!tree_ || present < least_) {
       place_(scene, placements);

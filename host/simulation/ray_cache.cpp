@@ -1,5 +1,5 @@
 // Stamps and eviction on the host, answers on the device.
-// Two host reads a depth: the rays that were not answered, and (by the caller) those that hit.
+// Two host reads for each depth: the rays that were not answered, and (by the caller) those that hit.
 #include "simulation/ray_cache.hpp"
 
 #include <algorithm>
@@ -33,8 +33,22 @@ bool moved(const Placement& a, const Placement& b, double step_m) {
 
 }  // namespace
 
+CacheWorld cache_world(const Scene& scene, const World& world, uint32_t transmitters) {
+  CacheWorld out{.transmitters = transmitters,
+                 .surfaces = static_cast<uint32_t>(scene.surfaces.size()),
+                 .primitives = static_cast<uint32_t>(scene.triangles.size()),
+                 .static_surfaces = static_cast<uint32_t>(scene.surfaces.size()),
+                 .instances = static_cast<uint32_t>(world.instances().size())};
+  for (const Instance& instance : world.instances()) {
+    const Scene& model = world.models()[instance.model];
+    out.surfaces += static_cast<uint32_t>(model.surfaces.size());
+    out.primitives += static_cast<uint32_t>(model.triangles.size());
+  }
+  return out;
+}
+
 RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world,
-                   TraceShape shape, const LaunchShape& launch)
+                   TraceShape shape, const LaunchShape& launch, CachedReception reception)
     : context_(context),
       table_(make_cache_table(context, config, world.transmitters, world.surfaces, world.primitives)),
       movement_(make_cache_movement(context)),
@@ -44,6 +58,7 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
       compact_(context, Trace::block_size(context.info())),
       scan_(context),
       gather_(context, "cache_gather"),
+      traced_(context, scene, shape, launch),
       trace_(context, scene, shape, launch, config.scope == "static" ? Trace::Scope::fixed : Trace::Scope::all),
       block_(Trace::block_size(context.info())),
       static_surfaces_(world.static_surfaces),
@@ -52,17 +67,21 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
       used_(world.transmitters) {
   if (world.instances > 0 && config.scope == "static") trace_moving_.emplace(context, scene);
   if (world.instances > 0) movement_.instance_since = context.buffer(instance_since_, "instances moved");
+  if (!reception.trails || config.scope != "all") return;
+  trails_ = reception.trails;
+  movement_.radius_m = static_cast<float>(reception.radius_m);
 }
 
-void RayCache::keep_receptions(RayTrails& trails, double radius_m) {
-  if (table_.config.scope != "all") return;
-  trails_ = &trails;
-  movement_.radius_m = static_cast<float>(radius_m);
-}
-
-std::optional<AnsweredRays> RayCache::answered() const {
-  if (!trails_) return {};
+std::optional<AnsweredRays> RayCache::answered(uint32_t depth) const {
+  if (!trails_ || !asked(depth)) return {};
   return AnsweredRays{missed_, answers_};
+}
+
+void RayCache::count_blocks(const RayQueue& rays, HitList& hits, uint32_t depth) {
+  if (asked(depth))
+    compact_.count_blocks(hits.planes, size_t{WT_HIT_SURFACE} * hits.capacity, rays.count, hits.block_hits);
+  else
+    traced_.count_blocks(rays, hits, depth);
 }
 
 void RayCache::clear() {
@@ -151,7 +170,8 @@ void RayCache::reserve(uint64_t rays) {
   context_.fill(first_, WT_NONE);  // as it stays where receptions are not kept
 }
 
-void RayCache::operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) {
+void RayCache::find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) {
+  if (!asked(depth)) return traced_.find(scene, rays, hits, depth);
   if (rays.capacity != missed_rays_.capacity) throw std::logic_error("ray_cache: no room for the rays");
   lookup_(scene, rays, hits, missed_, table_, movement_, static_surfaces_, frame_, touch_,
           answers_ ? &answers_ : nullptr);

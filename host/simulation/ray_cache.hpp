@@ -1,4 +1,5 @@
-// The ray cache in a frame: answers rays of a depth, traces the rest, keeps what was traced; one region a transmitter.
+// The ray cache in a frame: answers rays of a depth, traces the rest, keeps what was traced; one region for each
+// transmitter.
 // Rests on what the static scene decides (cache.scope = "static"), or on everything as the thesis does ("all").
 #pragma once
 #include <glm/vec3.hpp>
@@ -9,12 +10,12 @@
 #include "passes/cache_lookup.hpp"
 #include "passes/cache_purge.hpp"
 #include "passes/cache_store.hpp"
-#include "passes/compact.hpp"
 #include "passes/gather_rays.hpp"
 #include "passes/scan.hpp"
-#include "passes/trace.hpp"
 #include "passes/trace_moving.hpp"
+#include "simulation/hit_finder.hpp"
 #include "simulation/ray_trails.hpp"
+#include "simulation/world.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer {
@@ -27,29 +28,34 @@ struct CacheWorld {
   uint32_t instances = 0;
 };
 
-class RayCache {
+CacheWorld cache_world(const Scene& scene, const World& world, uint32_t transmitters);
+
+// With trace.reception = "sphere" and cache.scope = "all", entries say which receiver's sphere their segment passed
+// first, as the thesis' do.
+struct CachedReception {
+  RayTrails* trails = nullptr;  // outlives the cache
+  double radius_m = 0;
+};
+
+class RayCache final : public HitFinder {
  public:
   // shape, launch: how missed rays are traced. Throws ConfigError where the table does not fit.
   RayCache(gpu::Context& context, const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world,
-           TraceShape shape, const LaunchShape& launch);
-  // With scope = "all" entries say which receiver's sphere their segment passed first, as the thesis' do. trails
-  // outlives this.
-  void keep_receptions(RayTrails& trails, double radius_m);
-  // Room for queues of so many rays, of the capacity that make_ray_queue gives them.
-  void reserve(uint64_t rays);
+           TraceShape shape, const LaunchShape& launch, CachedReception reception = {});
+  void reserve(uint64_t rays) override;
   // Forgets everything: the next frame meets an empty table.
   void clear();
   // A frame begins: regions of transmitters that have moved on are purged, and what nobody uses where room is short.
   void begin_frame(const WorldState& world);
-  // The hits of all rays; block counts of hits are left to the caller. depth: from 1.
-  void operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth);
-  // Which of them were answered, and with what receivers, where receptions are kept; valid until the next call.
-  std::optional<AnsweredRays> answered() const;
-  uint32_t first_depth() const { return table_.config.first_depth; }
+  void find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) override;
+  // Where receptions are kept, also with what receivers.
+  std::optional<AnsweredRays> answered(uint32_t depth) const override;
+  void count_blocks(const RayQueue& rays, HitList& hits, uint32_t depth) override;
   // Of the frame so far; reads the device.
   CacheSummary summary();
 
  private:
+  bool asked(uint32_t depth) const { return depth >= table_.config.first_depth; }
   void purge();
   void note_positions(const std::vector<EndState>& transmitters);
   void note_movement(std::span<const Placement> instances);
@@ -65,7 +71,8 @@ class RayCache {
   Compact compact_;
   Scan scan_;
   GatherRays gather_;
-  Trace trace_;
+  TracedHits traced_;  // before cache.first_depth
+  Trace trace_;        // of what is missed
   std::optional<TraceMoving> trace_moving_;
   uint32_t block_, static_surfaces_, frame_ = 0;
   RayQueue missed_rays_;

@@ -85,14 +85,14 @@ void RayOrder::check_room(uint64_t rays) const {
   if (rays + 16 > keys_.size()) throw std::logic_error("ray_order: no room for the rays");
 }
 
-const gpu::Buffer<uint32_t>& RayOrder::launch(uint64_t first, uint32_t count, uint32_t heights) {
+const gpu::Buffer<uint32_t>& RayOrder::sort_launch(uint64_t first, uint32_t count, uint32_t heights) {
   check_room(count);
   keys_of_(first, count, keys_, heights);
   sort_(keys_, order_, count, temporary_, keys_of_.launch_bits());
   return order_;
 }
 
-void RayOrder::operator()(RayQueue& rays, RayQueue& spare) {
+void RayOrder::sort_queue(RayQueue& rays, RayQueue& spare) {
   check_room(rays.count);
   keys_of_(rays, keys_);
   sort_(keys_, order_, rays.count, temporary_, keys_of_.queue_bits());

@@ -37,9 +37,9 @@ class RayOrder {
   void reserve(uint64_t rays);
   // The launch indices first .. first + count - 1 of a launcher with this table of heights in their order, less first.
   // Valid until the next call.
-  const gpu::Buffer<uint32_t>& launch(uint64_t first, uint32_t count, uint32_t heights);
+  const gpu::Buffer<uint32_t>& sort_launch(uint64_t first, uint32_t count, uint32_t heights);
   // Sorts the queue; spare has the same capacity and is overwritten.
-  void operator()(RayQueue& rays, RayQueue& spare);
+  void sort_queue(RayQueue& rays, RayQueue& spare);
 
  private:
   void check_room(uint64_t rays) const;

@@ -54,7 +54,8 @@ void RayTrails::begin_batch(std::vector<LaunchPart> parts) {
   if (reception_) reception_->begin_batch();
 }
 
-void RayTrails::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth, const AnsweredRays* answered) {
+void RayTrails::follow(const RayQueue& rays, const HitList& hits, uint32_t depth,
+                       const std::optional<AnsweredRays>& answered) {
   if (rays.count == 0) return;
   waypoints_(rays, hits, depth);
   if (!reception_) return;

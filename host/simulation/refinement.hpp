@@ -8,13 +8,10 @@
 #include "passes/generate_rays.hpp"
 #include "passes/refine.hpp"
 #include "passes/scan.hpp"
+#include "simulation/launch.hpp"
 #include "wavetracer/config.hpp"
 
 namespace wavetracer {
-
-// Why a refined launch ended: it found what trace.recall asks for; its next level would go beyond trace.max_rays; its
-// cells are as small as they get; or none of its last rays met anything rare, so that there is nothing to refine.
-enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 
 class Refinement {
  public:
@@ -24,7 +21,7 @@ class Refinement {
   void start(const std::vector<Launcher>& launchers, uint64_t slots, uint64_t frame);
   // The samples to trace now.
   const SampleList& level() const { return lists_[current_]; }
-  // Appends nothing: fills the empty queue with samples first .. first + count - 1.
+  // The queue becomes samples first .. first + count - 1 of the level.
   void generate(RayQueue& queue, uint32_t first, uint32_t count);
   // All samples of the level have been traced: prepares the next. False when the launch ends here, for the reason of
   // end().

@@ -12,12 +12,12 @@ namespace wavetracer {
 template <class SecondsOf>
 double warm_seconds(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample, const OrderPlan& plan,
                     const std::vector<glm::dvec3>& transmitters, const SecondsOf& seconds_of) {
-  Discovery discovery(context, scene, sample, plan);
+  Discovery discovery(context, scene, sample, {.order = plan});
   double best = 0;
   for (int run = 0; run < 3; ++run) {
     context.reset_profile();
     discovery.sequences().clear();
-    discovery(scene, launchers(transmitters));
+    discovery.find(scene, {.who = launchers(transmitters), .rays = sample.rays});
     const double seconds = seconds_of(context.profile());
     if (run == 1 || (run > 1 && seconds < best)) best = seconds;  // the first is cold
   }

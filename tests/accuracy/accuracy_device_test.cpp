@@ -37,7 +37,7 @@ SceneFile screen() {
   return SceneFile({Quad{{4, 0, 0}, {0, 4.5, 0}, {0, 0, 4}}, Quad{{-5, 9, -2}, {20, 0, 0}, {0, 0, 8}}});
 }
 
-accuracy::Study study(const std::string& file, recipes::RayRange rays) {
+accuracy::Study study(const std::string& file, study::RayRange rays) {
   const accuracy::Request request{
       .file = file, .sets = {}, .rays = rays, .device = "", .repeats = 1, .command_line = ""};
   return accuracy::study(request, {[](const std::string&) {}, [] { return false; }});
@@ -114,7 +114,7 @@ TEST_CASE("what a mechanism adds is the difference of two runs, and a recommenda
   const auto frame = [&](const std::vector<std::string>& keys) { return run(load_config(file, keys)).paths; };
   const Paths on = frame({"trace.diffraction=true"}), off = frame({"trace.diffraction=false"});
   const accuracy::Row& without = row(edges, "diffraction", "off");
-  const report::PathError error = report::path_error(on, off);
+  const study::PathError error = study::path_error(on, off);
   REQUIRE(error.lost > 0);
   CHECK(without.own);
   CHECK(without.error.lost == error.lost);
@@ -127,7 +127,7 @@ TEST_CASE("what a mechanism adds is the difference of two runs, and a recommenda
     const accuracy::Row* best = accuracy::cheapest(edges, {"rays", "auto"}, limit);
     REQUIRE(best);
     CHECK_FALSE(best->setting.keys.empty());
-    CHECK(report::path_error(reference, frame(best->setting.keys)).lost_power <= limit);
+    CHECK(study::path_error(reference, frame(best->setting.keys)).lost_power <= limit);
   }
 }
 

@@ -96,8 +96,8 @@ TEST_CASE("usage errors exit 2") {
   check(run_program({"run", "-c", file, "--nonsense"}), 2, "--nonsense");
   check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: this run has frame 0 only");
   check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: nothing to resume");
-  check(run_program({"bench", "rays"}), 2, "no recipe \"rays\"");
-  check(run_program({"bench"}), 2, "no recipe given");
+  check(run_program({"bench", "rays"}), 2, "no experiment \"rays\"");
+  check(run_program({"bench"}), 2, "no experiment given");
   check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");
   CHECK(folder.entries() == 1);
 }

@@ -163,6 +163,9 @@ TEST_CASE_FIXTURE(Fixture, "wrong arguments are named") {
   CHECK(contains(not_a_buffer, "argument 0"));
   const std::string not_a_value = message_of<std::logic_error>([&] { add(one, "test", out, out, float4{}, 1.0); });
   CHECK(contains(not_a_value, "argument 1"));
+  const gpu::Buffer<uint32_t>* const absent = nullptr;  // fits where memory does
+  const std::string no_buffer = message_of<std::logic_error>([&] { add(one, "test", out, absent, float4{}, 1.0); });
+  CHECK(contains(no_buffer, "argument 1"));
   const std::string unallocated =
       message_of<std::logic_error>([&] { add(one, "test", gpu::Buffer<uint32_t>(), 1u, float4{}, 1.0); });
   CHECK(contains(unallocated, "argument 0"));

@@ -66,8 +66,7 @@ inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Seq
     std::erase_if(sequences, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
     HitList hits = upload_hits(surfaces, rays.size());
     const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
-    interact(scene, queue, hits, alive, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
-             false);
+    interact(scene, queue, hits, alive, set.trie(), {.reflected = &next});
     std::swap(queue, next);
   }
 }

@@ -34,12 +34,12 @@ struct Step {
     Sequences set(context(), 4096);
     Trace trace_pass(context(), uploaded, shapes().back());
     Scan scan(context());
-    Interact interact(context(), false, false, false, through);
+    Interact interact(context(), {.transmission = through});
     trace_pass(uploaded, queue, list);
     hits = download(list, rays.size());
     const uint32_t alive = scan(list.block_hits, (queue.count + block - 1) / block);
-    interact(uploaded, queue, list, alive, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), after,
-             last, nullptr, through ? &transmitted : nullptr);
+    interact(uploaded, queue, list, alive, set.trie(),
+             {.reflected = last ? nullptr : &after, .transmitted = through ? &transmitted : nullptr});
     next = download(after);
     behind = download(transmitted);
     table = set.table().read();
@@ -232,4 +232,16 @@ TEST_CASE(
     if (step.table[slot] != WT_EMPTY) kinds.insert(found[step.table[slot]] = step.quarters[slot]);
   CHECK(found == expected);
   CHECK(kinds.size() > 5);  // of the 15 there are
+}
+
+TEST_CASE("what its options need and nobody gives is refused") {
+  const DeviceScene scene =
+      make_device_scene(context(), scene_of_triangles(room(Room::ball, 4, 10, {3, -2, 1})), false);
+  RayQueue rays = make_ray_queue(context(), 16, "rays"), behind = make_ray_queue(context(), 16, "transmitted rays");
+  const HitList hits = make_hit_list(context(), 16, Trace::block_size(context().info()));
+  Sequences set(context(), 4096);  // keeps no ages
+  CHECK_THROWS_AS(Interact(context(), {.ages = true})(scene, rays, hits, 0, set.trie(), {}), std::logic_error);
+  CHECK_THROWS_AS(Interact(context(), {.samples = true})(scene, rays, hits, 0, set.trie(), {}), std::logic_error);
+  CHECK_THROWS_AS(Interact(context(), {})(scene, rays, hits, 0, set.trie(), {.transmitted = &behind}),
+                  std::logic_error);
 }

@@ -29,8 +29,7 @@ struct Bounces {
       const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
       segments += queue.count;
       escaped += queue.count - alive;
-      interact(uploaded, queue, hits, alive, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
-               false);
+      interact(uploaded, queue, hits, alive, set.trie(), {.reflected = &next});
       std::swap(queue, next);
     }
     last = download(queue);

@@ -32,7 +32,7 @@ DeviceScene any_scene() { return scene_of_normals(std::vector<Float3>(8, {0, 0, 
 void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>& sequences) {
   const uint32_t block = Trace::block_size(context().info());
   Scan scan(context());
-  Interact interact(context(), true);
+  Interact interact(context(), {.ages = true});
   std::vector<Ray> rays;
   for (const Sequence& s : sequences) rays.push_back({{}, {1, 0, 0}, WT_NONE, WT_ROOT | s.transmitter});
   for (;; set.regrow(max_depth)) {
@@ -44,8 +44,7 @@ void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>&
       std::erase_if(alive, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
       HitList hits = upload_hits(surfaces, rays.size());
       const uint32_t count = scan(hits.block_hits, (queue.count + block - 1) / block);
-      interact(scene, queue, hits, count, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
-               false);
+      interact(scene, queue, hits, count, set.trie(), {.reflected = &next});
       std::swap(queue, next);
     }
     if (!set.overflowed()) return;

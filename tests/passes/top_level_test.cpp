@@ -132,14 +132,14 @@ TEST_CASE("rays hit the same through the device's tree as through the host's") {
 TEST_CASE("instances move on: a tree is that of its frame alone") {
   Traffic traffic = with_gaps(40, 9);
   DeviceScene scene = make_device_scene(context(), scene_of_triangles(traffic.still), false, 60);
-  InstancePlacement place(context(), traffic.models, traffic.instances, scene, TopLevelBuild::device);
-  place(scene, traffic.placements);
+  InstancePlacement instances(context(), traffic.models, traffic.instances, scene, TopLevelBuild::device);
+  instances.place(scene, traffic.placements);
   Random random(3);
   for (Placement& placement : traffic.placements) {
     placement.position_m = random.in_cube(9);
     placement.present = random() < 0.5;
   }
-  place(scene, traffic.placements);
+  instances.place(scene, traffic.placements);
   check_tree(traffic, scene);
 }
 

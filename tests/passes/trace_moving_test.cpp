@@ -61,11 +61,10 @@ TEST_CASE("labels follow a ray through its reflections") {
   auto trie = context().buffer<uint64_t>(4096, "trie");
   context().fill(trie, WT_EMPTY);
   auto counters = context().buffer<wt_counters>(1, "counters");
-  auto ages = context().buffer<uint32_t>(1, "ages");
   auto quarters = context().buffer<uint32_t>(4096, "quarters");
   context().fill(quarters, 0);
-  Interact(context(), false, false, true)(scene, queue, hits, hit_count, trie, quarters, counters, ages, 0, next,
-                                          false);
+  Interact(context(), {.labels = true})(scene, queue, hits, hit_count, {trie, quarters, counters},
+                                        {.reflected = &next});
   REQUIRE(next.count == hit_count);
   REQUIRE(hit_count > 100);
   uint32_t j = 0;

@@ -60,8 +60,7 @@ struct Traffic {
 
   DeviceScene upload(TopLevelBuild build = TopLevelBuild::host) const {
     DeviceScene scene = make_device_scene(context(), scene_of_triangles(still), false, 60);
-    InstancePlacement place(context(), models, instances, scene, build);
-    place(scene, placements);
+    InstancePlacement(context(), models, instances, scene, build).place(scene, placements);
     return scene;
   }
 };

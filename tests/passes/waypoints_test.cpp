@@ -66,7 +66,7 @@ std::vector<wt_waypoint> rows_after(const Scene& scene, const std::vector<Labell
   HitList hits = upload_hits_of(rays);
   Trace trace_pass(context(), uploaded, shapes().back());
   Scan scan(context());
-  Interact interact(context(), false, false, true);
+  Interact interact(context(), {.labels = true});
   Sequences set(context(), 4096);
   Waypoints waypoints(context(), depth);
   waypoints.reserve(rays.size());
@@ -75,8 +75,7 @@ std::vector<wt_waypoint> rows_after(const Scene& scene, const std::vector<Labell
     trace_pass(uploaded, queue, hits);
     waypoints(queue, hits, k);
     const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
-    interact(uploaded, queue, hits, alive, set.table(), set.quarters(), set.counters(), set.ages(), set.now(), next,
-             false);
+    interact(uploaded, queue, hits, alive, set.trie(), {.reflected = &next});
     std::swap(queue, next);
   }
   std::vector<uint32_t> samples;

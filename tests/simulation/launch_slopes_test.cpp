@@ -47,7 +47,7 @@ std::vector<float> table_of(const SlopeTables& tables, uint32_t origin) {
 }
 
 std::vector<float> table(const Scene& scene, const WorldState& world, uint32_t origin = 0, bool listen = false) {
-  return table_of(LaunchSlopes(Surroundings(scene), 0)(world, origins_of(world, listen)), origin);
+  return table_of(LaunchSlopes(Surroundings(scene), 0).tables(world, origins_of(world, listen)), origin);
 }
 
 // Of the directions, the share between these z.
@@ -109,9 +109,9 @@ TEST_CASE("equal worlds of links share a table; what was known from earlier fram
   LaunchSlopes slopes(around, 0);
   const WorldState street = world_of({{0, 0, 1.5}, {5, 0, 1.5}}, {{50, 3, 1.5}}),
                    mast = world_of({{0, 0, 30}}, {{50, 3, 1.5}});
-  const SlopeTables first = slopes(street, origins_of(street));
+  const SlopeTables first = slopes.tables(street, origins_of(street));
   CHECK(first.of_origin[0] == first.of_origin[1]);
-  const SlopeTables second = slopes(mast, origins_of(mast)), third = slopes(street, origins_of(street));
+  const SlopeTables second = slopes.tables(mast, origins_of(mast)), third = slopes.tables(street, origins_of(street));
   CHECK(table_of(second, 0) == table(scene, mast));
   CHECK(table_of(third, 1) == table_of(first, 1));
 }

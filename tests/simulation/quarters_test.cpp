@@ -1,12 +1,8 @@
 // Which quarters of a launch found a path, and what that says of those that none has found.
 // The oracle of the first is a launch of the rays of a quarter alone.
 #include "radio/links.hpp"
-#include "radio/opacity.hpp"
-#include "scene/load.hpp"
 #include "simulation/drive.hpp"
-#include "simulation/exact_paths.hpp"
-#include "simulation/features.hpp"
-#include "simulation/tree_choice.hpp"
+#include "simulation/frame.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -30,29 +26,20 @@ Config radios(const SceneFile& file, uint64_t rays, uint32_t max_depth) {
 
 // What a launch of these directions alone finds.
 PathGeometry found(const Config& config, DirectionShare share) {
-  gpu::Context context;
-  const Scene scene = load_scene(config);
-  const World world(config, scene);
-  const TraceConfig trace = with_features(config.trace, choose_features(config, scene, world));
-  const Origins origins =
-      make_origins(world.receiver_of_transmitter(), world.transmitter_of_receiver(), trace.diffraction);
-  const WorldState state = world.state(0);
-  std::vector<glm::dvec3> from;
-  for (const EndState& end : state.transmitters) from.push_back(end.position_m);
-  DeviceScene device = choose_tree(context, scene, trace, from, world.reach_m());
-  if (trace.transmission)
-    mark_opaque(device, opaque_surfaces(scene, world.models(), world.instances(), config.radio.frequency_hz));
-  Discovery discovery(context, device, trace);
-  ExactPaths exact(context, device, scene, world, trace, origins);
-  const RadioEnds ends = make_radio_ends(context, state.transmitters, state.receivers, state.links, origins.listeners);
-  discovery(device, sending(state), share);
-  if (const std::vector<Launcher> listeners = listening(state, origins); !listeners.empty()) {
-    discovery.listen(trace.rays / 3);
-    discovery(device, listeners, share, LaunchedBy::listeners);
-  }
-  FrameCounts counts;
-  Stopwatch host;
-  return exact(device, ends, discovery.sequences(), counts, host);
+  Setup s(config, "");
+  const WorldState state = s.world.state(0);
+  const RadioEnds ends =
+      make_radio_ends(s.context, state.transmitters, state.receivers, state.links, s.origins.listeners);
+  s.discovery.sequences().clear();
+  s.discovery.find(s.device_scene, {.who = sending(state), .rays = s.trace.rays, .share = share});
+  if (s.trace.diffraction)
+    s.discovery.find(s.device_scene, {.who = listening(state, s.origins),
+                                      .rays = s.trace.rays / 3,
+                                      .share = share,
+                                      .followed = false,
+                                      .sorted = false});
+  FrameAccount account(s.context, 0);
+  return solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), s.frame_watch, account);
 }
 
 bool same_path(const PathGeometry& a, size_t i, const PathGeometry& b, size_t j) {

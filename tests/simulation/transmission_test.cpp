@@ -14,6 +14,7 @@
 #include "reference/compare.hpp"
 #include "scene/load.hpp"
 #include "simulation/discovery.hpp"
+#include "simulation/ray_cache.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -41,16 +42,21 @@ struct Found {
 Found discover(const Scene& scene, const TraceConfig& config, const glm::dvec3& transmitter = {0, 0, 0},
                const OrderPlan& order = {}, const std::optional<CacheConfig>& cache = {}) {
   const DeviceScene uploaded = make_device_scene(context(), scene, false, 100);
-  Discovery discovery(context(), uploaded, config, order);
+  DiscoveryOptions options{.order = order};
+  std::optional<RayCache> asked;
   if (cache) {
     const auto surfaces = static_cast<uint32_t>(scene.surfaces.size());
-    discovery.use_cache(uploaded, *cache, {1, surfaces, static_cast<uint32_t>(scene.triangles.size()), surfaces, 0});
-    discovery.cache()->begin_frame({});
+    asked.emplace(context(), uploaded, *cache,
+                  CacheWorld{1, surfaces, static_cast<uint32_t>(scene.triangles.size()), surfaces, 0},
+                  choose_shape(context().info(), config, order), order.launch);
+    asked->begin_frame({});
+    options.finder = &*asked;
   }
+  Discovery discovery(context(), uploaded, config, options);
   discovery.sequences().clear();
   Found out;
-  out.counts = config.rays ? discovery(uploaded, launchers({transmitter}))
-                           : discovery.refined(uploaded, launchers({transmitter}), 0);
+  out.counts = config.rays ? discovery.find(uploaded, {.who = launchers({transmitter}), .rays = config.rays})
+                           : discovery.find_refined(uploaded, launchers({transmitter}), 0);
   const auto contained = contents(discovery.sequences(), 1);
   REQUIRE(contained.has_value());
   out.sequences = *contained;
@@ -88,7 +94,7 @@ std::vector<PathRow> paths(const Scene& scene, const TraceConfig& config, const 
   Discovery discovery(context(), uploaded, config);
   Sequences& set = discovery.sequences();
   set.clear();
-  discovery(uploaded, launchers({at.transmitter}));
+  discovery.find(uploaded, {.who = launchers({at.transmitter}), .rays = config.rays});
   const RadioEnds ends = standing_ends({at.transmitter}, {at.receiver});
   const uint32_t nodes = set.collect(1);
   Candidates candidates(context());

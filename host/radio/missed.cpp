@@ -1,0 +1,101 @@
+// Horvitz and Thompson's estimate (J. Am. Stat. Assoc. 47, 1952): what was found with a chance p stands for 1 / p, of
+// which it is one itself. The chance of a path is told by how many quarters of the launch found it.
+// Frames of a drive see nearly the same, so their counts make a mean frame, and not a larger sample.
+#include "wavetracer/missed.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "radio/path_power.hpp"
+
+namespace wavetracer {
+namespace {
+
+// Of paths like one that k + 1 of four quarters found, so many are missed: a quarter finds it with p = (k + 1) / 4, all
+// of them miss it with (1 - p)^4.
+constexpr std::array<double, 4> missed_each = {81.0 / 175, 1.0 / 15, 1.0 / 255, 0};
+
+// A. Chao's lower bound (Biometrics 43, 1987): with f1 and f2 found by one and by two of four quarters, 3/8 f1^2 / f2
+// are missed at least, and as many where all are alike. It tells of many; of few, chances that are spread over decades.
+constexpr double chao = 3.0 / 8, many = 5;
+
+// Measured, see docs/method.md: rays are even and sequences differ in size, so the truth lies within a factor of the
+// estimate and of its deviation by chance.
+constexpr double deviations = 1.96, path_factor = 3, power_factor = 5;
+constexpr double unseen = 3;  // as many may be missed where nothing was seen: the rule of three
+
+// What missed_each is to be multiplied with: 1 for few, and so that f1 tells as much as Chao says for many.
+double likeness(double f1, double f2) { return (chao * f1 / missed_each[0] + many) / (f2 + many); }
+
+MissedRange missed_paths(const std::array<double, 4>& found) {
+  const double f1 = found[0], f2 = found[1];
+  double estimate = 0, variance = 0;
+  for (size_t k = 0; k < found.size(); ++k) {
+    estimate += missed_each[k] * found[k];
+    variance += missed_each[k] * missed_each[k] * found[k];
+  }
+  const double few = std::max(f1 - deviations * std::sqrt(f1), 0.0);
+  return {.estimate = likeness(f1, f2) * estimate,
+          .low = std::floor(chao * few * few / (f2 + deviations * std::sqrt(f2) + 1)),
+          .high = path_factor * likeness(f1, f2) * (estimate + deviations * std::sqrt(variance)) + unseen};
+}
+
+}  // namespace
+
+void add_part(MissedCounts& sum, const MissedCounts& more) {
+  for (size_t k = 0; k < sum.paths.size(); ++k) {
+    sum.paths[k] += more.paths[k];
+    sum.powers[k] += more.powers[k];
+  }
+  sum.amplitude += more.amplitude;
+  sum.power += more.power;
+  sum.frames = std::max(sum.frames, more.frames);
+}
+
+void add(MissedCounts& sum, const MissedCounts& more) {
+  const uint64_t frames = sum.frames + more.frames;
+  add_part(sum, more);
+  sum.frames = frames;
+}
+
+MissedCounts missed_counts(const Paths& paths, size_t first, size_t end) {
+  MissedCounts out;
+  if (paths.quarters.size() != paths.size()) return out;
+  out.frames = 1;
+  for (size_t row = first; row < end; ++row) {
+    const double power = power_of(paths, row);
+    out.power += power;
+    if (paths.depth[row] == 0) continue;
+    const auto k = static_cast<size_t>(std::max(std::popcount(paths.quarters[row]), 1) - 1);
+    ++out.paths[k];
+    out.powers[k] += power;
+    out.amplitude += std::sqrt(power);
+  }
+  return out;
+}
+
+Missed estimate_missed(const MissedCounts& counts) {
+  Missed out;
+  if (counts.frames == 0) return out;
+  const auto frames = static_cast<double>(counts.frames);
+  std::array<double, 4> mean{};
+  double found = 0, power = 0;
+  for (size_t k = 0; k < mean.size(); ++k) {
+    const auto paths = static_cast<double>(counts.paths[k]);
+    mean[k] = paths / frames;
+    found += paths;
+    power += missed_each[k] * counts.powers[k];
+  }
+  out.paths = missed_paths(mean);
+  for (double* const value : {&out.paths.estimate, &out.paths.low, &out.paths.high}) *value *= frames;
+  if (!(counts.power > 0) || found == 0) return out;
+  const double amplitude = counts.amplitude / found;
+  MissedRange& share = out.power_share;
+  share.estimate = likeness(mean[0], mean[1]) * power / counts.power;
+  if (out.paths.low > 0) share.low = share.estimate * std::min(out.paths.low / out.paths.estimate, 1.0) / power_factor;
+  share.high = power_factor * share.estimate + unseen * frames * amplitude * amplitude / counts.power;
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,45 @@
+// The frame: the list of what turns poses into paths. It reads as the table of docs/architecture.md.
+// Frames of one setup share its set of sequences and its ray cache, so they are solved one after the other.
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "simulation/frame_account.hpp"
+#include "simulation/link_block.hpp"
+#include "simulation/setup.hpp"
+
+namespace wavetracer {
+
+// What a frame is of.
+struct FrameTask {
+  uint32_t frame = 0;
+  std::function<WorldState()> pose = {};              // where everything is
+  EndName transmitter_name = {}, receiver_name = {};  // for warnings; asked after the poses
+  std::optional<TransmitterRange> transmitters = {};  // the links of these alone; not given: all
+  bool compiling = false;                             // launches are there to be compiled: few rays, and no warnings
+};
+
+class FrameLoop {
+ public:
+  // setup outlives this. On a CPU, compiles what a frame launches.
+  explicit FrameLoop(Setup& setup);
+  // Throws FrameStopped where the observer wants no more, and whatever poses and blocks throw.
+  FrameResult run(const FrameTask& task);
+  // The next frame is cold: it starts from nothing.
+  void forget();
+
+ private:
+  FrameResult solve(const FrameTask& task);
+  void begin_sequences();
+  DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
+  PathGeometry receive_paths(const RadioEnds& ends, FrameAccount& account);
+
+  Setup& s_;
+  uint64_t warm_frames_ = 0;  // since the last cold one, which counts
+};
+
+// The exact paths of what rays have found, each once.
+PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                         const FrameWatch& watch, FrameAccount& account);
+
+}  // namespace wavetracer

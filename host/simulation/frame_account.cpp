@@ -1,0 +1,36 @@
+// Seconds of device stages come from the profile of the context, which starts at zero with the frame.
+#include "simulation/frame_account.hpp"
+
+#include "wavetracer/stages.hpp"
+
+namespace wavetracer {
+
+FrameAccount::FrameAccount(gpu::Context& context, uint32_t frame) : context_(context) {
+  context.reset_profile();
+  frame_.lap();
+  host_.lap();
+  result.frame = frame;
+}
+
+void FrameAccount::discovered(const DiscoveryCounts& found) {
+  result.segments_per_depth = found.segments_per_depth;
+  result.counts.rays = found.rays;
+  result.counts.hits = found.hits;
+  for (const uint64_t segments : found.segments_per_depth) result.counts.segments += segments;
+}
+
+void FrameAccount::left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name) {
+  if (!paths.empty()) warn(left_out_warning(paths, transmitter_name, receiver_name));
+}
+
+FrameResult FrameAccount::close() {
+  const double frame_seconds = frame_.lap();
+  result.counts.paths = result.paths.size();
+  result.seconds = context_.profile();
+  for (const auto& [stage, seconds] : host_stages_) result.seconds[stage] = seconds;
+  result.seconds["frame"] = frame_seconds;
+  check_stages(result.seconds);
+  return std::move(result);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,36 @@
+// The account of a frame, beside the list of its passes: what was counted, how long it took, and what to warn of.
+#pragma once
+#include "base/stopwatch.hpp"
+#include "gpu/gpu.hpp"
+#include "radio/near_ends.hpp"
+#include "simulation/launch.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer {
+
+class FrameAccount {
+ public:
+  // The frame begins. context outlives this.
+  FrameAccount(gpu::Context& context, uint32_t frame);
+
+  // Ends a stage of the host: its seconds are those since the stage before, or since device_done().
+  void end_stage(const char* name) { host_stages_[name] += host_.lap(); }
+  // The device has done what the host waited for: the time until now is no stage of the host.
+  void device_done() { host_.lap(); }
+
+  void discovered(const DiscoveryCounts& found);
+  void warn(std::string text) { result.warnings.push_back(std::move(text)); }
+  // Paths of near ends that were left out. names: of the ends of the frame.
+  void left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name);
+  // The result, complete.
+  FrameResult close();
+
+  FrameResult result;  // so far
+
+ private:
+  gpu::Context& context_;
+  Stopwatch frame_, host_;
+  StageSeconds host_stages_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,25 @@
+// Tracing, and the counts that it leaves to others in launches of another shape.
+#include "simulation/hit_finder.hpp"
+
+namespace wavetracer {
+
+// Packets win as long as neighbours in the queue travel together, which they do to the last depth once they were born
+// or sorted in order.
+TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& trace, const OrderPlan& order) {
+  if (!device.cpu) return TraceShape::bvh2;
+  return trace.directions == "random" && !order.key ? TraceShape::bvh8 : TraceShape::packet16;
+}
+
+TracedHits::TracedHits(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch)
+    : trace_(context, scene, shape, launch) {
+  if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
+}
+
+void TracedHits::find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t) { trace_(scene, rays, hits); }
+
+void TracedHits::count_blocks(const RayQueue& rays, HitList& hits, uint32_t) {
+  if (compact_)
+    compact_->count_blocks(hits.planes, size_t{WT_HIT_SURFACE} * hits.capacity, rays.count, hits.block_hits);
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,57 @@
+// A launch: which ends send rays, in which directions, and what discovery counts of it.
+// Launches are values: they say what is traced, and nothing about how.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "passes/generate_rays.hpp"
+
+namespace wavetracer {
+
+// Every stride-th direction of the full set, from `phase` on. Neighbours of a sorted launch are stride apart.
+struct DirectionShare {
+  uint64_t phase = 0, stride = 1;
+};
+
+struct Launch {
+  std::vector<Launcher> who = {};
+  uint64_t rays = 1;  // directions of the full set, the same number for each launcher
+  DirectionShare share = {};
+  bool followed = true;  // by who follows rays (RayFollower)
+  bool sorted = true;    // by order.method, where the share is all of trace.rays directions
+
+  uint64_t rays_each() const { return (rays - share.phase + share.stride - 1) / share.stride; }
+  uint64_t total() const { return rays_each() * who.size(); }
+};
+
+// Launchers that stand on no vehicle; positions in recentred metres.
+inline std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitters) {
+  std::vector<Launcher> out;
+  for (const glm::dvec3& position : transmitters) out.push_back({static_cast<uint32_t>(out.size()), position});
+  return out;
+}
+
+// Why a refined launch ended: it found what trace.recall asks for; its next level would go beyond trace.max_rays; its
+// cells are as small as they get; or none of its last rays met anything rare, so that there is nothing to refine.
+enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
+
+// What discovery adds to FrameCounts.
+struct DiscoveryCounts {
+  uint64_t rays = 0, hits = 0;
+  std::vector<uint64_t> segments_per_depth;
+  // Of a refined launch: the share of sequences that one sample alone met, and why it ended.
+  double share_once = 0;
+  LaunchEnd end = LaunchEnd::recall;
+
+  // Adds another launch that was not refined.
+  void add(const DiscoveryCounts& more) {
+    rays += more.rays;
+    hits += more.hits;
+    if (segments_per_depth.size() < more.segments_per_depth.size())
+      segments_per_depth.resize(more.segments_per_depth.size());
+    for (size_t k = 0; k < more.segments_per_depth.size(); ++k) segments_per_depth[k] += more.segments_per_depth[k];
+  }
+};
+
+}  // namespace wavetracer

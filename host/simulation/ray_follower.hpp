@@ -1,0 +1,44 @@
+// What follows rays beside the set of sequences, batch by batch and depth by depth. This one follows nothing; RayTrails
+// keeps receptions and waypoints.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "passes/ray_queue.hpp"
+
+namespace wavetracer {
+
+// Samples of one transmitter that follow each other in a batch: sample first_sample + k has launch index
+// first_index + k * stride, and is number first + k of the `launched` samples of its transmitter, of which some are
+// chosen for the output.
+struct LaunchPart {
+  uint32_t transmitter, first_sample, count;
+  uint64_t first, launched;
+  uint64_t first_index, stride = 1;
+};
+
+// Rays that a cache has answered, see Receive.
+struct AnsweredRays {
+  const gpu::Buffer<float>& traced;
+  const gpu::Buffer<uint32_t>& receivers;
+};
+
+class RayFollower {
+ public:
+  virtual ~RayFollower() = default;
+  // Segments that it wants to see after the last interaction of a ray.
+  virtual uint32_t extra_segments() const { return 0; }
+  // Device memory that it needs for each sample of a batch, and room for batches of so many samples.
+  virtual uint64_t bytes_per_sample() const { return 0; }
+  virtual void reserve(uint64_t /*samples*/) {}
+  // The launch begins, or begins again: forgets what it knows of it.
+  virtual void begin_launch() {}
+  // Labelled rays of these parts follow, and none of an earlier call; also where the batch before is traced again.
+  virtual void begin_batch(std::vector<LaunchPart> /*parts*/) {}
+  // Rays that have lived through `depth` interactions, and their hits. answered: where a cache was asked.
+  virtual void follow(const RayQueue& /*rays*/, const HitList& /*hits*/, uint32_t /*depth*/,
+                      const std::optional<AnsweredRays>& /*answered*/) {}
+  virtual void end_batch() {}
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,47 @@
+// Where rays come from: the directions of a launch, in the order that the configuration asks for, labelled where
+// somebody must know whose rays they are.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "passes/label_rays.hpp"
+#include "simulation/launch.hpp"
+#include "simulation/ray_follower.hpp"
+#include "simulation/ray_order.hpp"
+#include "wavetracer/config.hpp"
+
+namespace wavetracer {
+
+class RaySource {
+ public:
+  // extent_m: the largest absolute coordinate of scene and rays. labels: queues have WT_RAY_LABELLED_PLANES.
+  RaySource(gpu::Context& context, const TraceConfig& trace, const OrderPlan& plan, bool labels, float extent_m);
+  // Room for queues of so many rays.
+  void reserve(uint64_t rays);
+  // Of directions = "horizon": the tables that launchers name from now on, see LaunchHeights.
+  void set_heights(const std::vector<float>& tables) { heights_->set(tables); }
+  const std::shared_ptr<LaunchHeights>& heights() const { return heights_; }
+  // The queue becomes the rays first .. first + count - 1 of the launch, counted over all its launchers. Returns whose
+  // they are.
+  std::vector<LaunchPart> launch(RayQueue& rays, const Launch& launch, uint64_t first, uint64_t count);
+  // Labels the rays of a queue that know their samples (a refined launch).
+  void label(RayQueue& rays);
+  // Before the segments of this depth, where the configuration asks for it: sorts the queue. spare has the same
+  // capacity and is overwritten.
+  void sort(RayQueue& rays, RayQueue& spare, uint32_t depth);
+
+ private:
+  GenerateRays& generator(uint64_t rays);
+
+  gpu::Context& context_;
+  TraceConfig trace_;
+  bool sort_each_depth_;
+  std::shared_ptr<LaunchHeights> heights_;
+  std::map<uint64_t, GenerateRays> generators_;  // by the number of directions; made when they are first asked for
+  std::optional<LabelRays> label_;
+  std::optional<RayOrder> order_;  // if the plan has one
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,36 @@
+// The launch knows the share of sequences met once, the frame which quarters of the launch found its paths: what the
+// first fears, the second may take back.
+#include "simulation/recall_warning.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace wavetracer {
+
+namespace {
+
+// What a frame found is the asked share of the paths, as far as its rays can tell: never that it is all of them.
+bool reached(double recall, const MissedCounts& counts) {
+  const auto found = static_cast<double>(std::accumulate(counts.paths.begin(), counts.paths.end(), uint64_t{0}));
+  return recall < 1 && counts.frames > 0 && found >= recall * (found + estimate_missed(counts).paths.estimate);
+}
+
+}  // namespace
+
+std::optional<std::string> recall_warning(const DiscoveryCounts& found, const TraceConfig& trace, bool cold,
+                                          const MissedCounts& missed) {
+  const bool capped = found.end == LaunchEnd::max_rays;
+  if (found.end == LaunchEnd::recall || !(capped || cold)) return {};
+  if (!capped && reached(trace.recall, missed)) return {};
+  const std::string once = found.share_once < 0.005 ? "less than 1" : fmt::format("{:.0f}", 100 * found.share_once);
+  const std::string before =
+      fmt::format("before trace.recall = {}: {}% of the sequences found were met by one ray alone", trace.recall, once);
+  if (capped) return fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" {}", trace.max_rays, before);
+  const char* const why = found.end == LaunchEnd::finest ? "its rays are as close to each other as they get"
+                                                         : "the rays beside those met nothing that is rare";
+  return fmt::format("the launch of rays = \"auto\" ended {}, and {}; give trace.rays a number to find more", before,
+                     why);
+}
+
+}  // namespace wavetracer

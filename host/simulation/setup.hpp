@@ -1,0 +1,60 @@
+// What a simulation is made of: made once, in this order, and complete once it is constructed.
+// Members refer to those before them.
+#pragma once
+#include <optional>
+
+#include "base/stopwatch.hpp"
+#include "radio/fields.hpp"
+#include "simulation/discovery.hpp"
+#include "simulation/exact_paths.hpp"
+#include "simulation/frame_watch.hpp"
+#include "simulation/launch_sides.hpp"
+#include "simulation/launch_slopes.hpp"
+#include "simulation/listeners.hpp"
+#include "simulation/order_choice.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/ray_cache.hpp"
+#include "simulation/ray_trails.hpp"
+#include "simulation/surroundings.hpp"
+#include "simulation/world.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer {
+
+struct Setup {
+  // As Simulation::Simulation.
+  Setup(const Config& asked, const std::string& device_text);
+  Setup(const Setup&) = delete;
+  Setup& operator=(const Setup&) = delete;
+
+  // What was made since the last stage is this one of `seconds`.
+  void end_stage(const char* name) { seconds[name] = watch.lap(); }
+
+  Stopwatch watch;
+  StageSeconds seconds;
+  gpu::Context context;
+  DeviceSummary device;
+  Scene scene;
+  World world;
+  Surroundings around;  // of places in the scene
+  std::vector<std::string> place_warnings;
+  Config config;  // as it was asked for, with all ends of the world
+  Features features;
+  TraceConfig trace;  // without what the scene does not need
+  Origins origins;
+  DeviceScene device_scene;
+  std::optional<InstancePlacement> placement;  // where there are instances
+  LaunchSides launch_sides;
+  OrderChoice order;
+  OrderSummary order_summary;
+  bool reuse;                          // whether frames go on with the sequences of those before
+  std::optional<LaunchSlopes> slopes;  // with trace.directions = "horizon"
+  std::optional<RayTrails> trails;     // with trace.reception = "sphere" or output.waypoints
+  std::optional<RayCache> cache;       // with cache.kind
+  FrameWatch frame_watch;
+  Discovery discovery;
+  ExactPaths exact_paths;
+  FieldModel fields;
+};
+
+}  // namespace wavetracer

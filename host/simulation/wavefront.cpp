@@ -1,0 +1,76 @@
+// The loop reads as the table of docs/architecture.md, from the sort of a queue to interact.
+#include "simulation/wavefront.hpp"
+
+#include <utility>
+
+namespace wavetracer {
+
+namespace {
+
+// Rays forget their sample once they were transmitted, and where nobody refines.
+InteractOptions without_samples(InteractOptions options) {
+  options.samples = false;
+  return options;
+}
+
+}  // namespace
+
+Wavefront::Wavefront(gpu::Context& context, const TracingDepth& depth, InteractOptions options, RaySource& source,
+                     HitFinder& finder, Sequences& sequences)
+    : context_(context),
+      depth_(depth),
+      block_(Trace::block_size(context.info())),
+      planes_(options.labels ? WT_RAY_LABELLED_PLANES : WT_RAY_PLANES + uint32_t{options.samples}),
+      source_(source),
+      finder_(finder),
+      sequences_(sequences),
+      scan_(context),
+      interact_(context, without_samples(options)) {
+  if (options.samples) interact_samples_.emplace(context, options);
+}
+
+void Wavefront::reserve(uint64_t rays) {
+  rays_ = make_ray_queue(context_, rays, "rays", planes_);
+  next_ = make_ray_queue(context_, rays, "next rays", planes_);
+  hits_ = make_hit_list(context_, rays, block_);
+  transmitted_.clear();
+  for (uint32_t depth = 2; depth_.transmissions > 0 && depth <= depth_.interactions; ++depth)
+    transmitted_.push_back(make_ray_queue(context_, rays, "transmitted rays", planes_));
+}
+
+void Wavefront::trace(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
+                      const gpu::Buffer<uint32_t>* ends) {
+  waiting_.clear();
+  trace_reflected(scene, follower, counts, {1, depth_.transmissions}, ends);
+  while (!waiting_.empty()) {
+    const Stage stage = waiting_.back();
+    waiting_.pop_back();
+    std::swap(rays_, transmitted_[stage.depth - 2]);
+    // The end of a sample is that of the ray that was never transmitted.
+    trace_reflected(scene, follower, counts, stage, nullptr);
+  }
+}
+
+void Wavefront::trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Stage stage,
+                                const gpu::Buffer<uint32_t>* ends) {
+  Interact& interact = ends ? *interact_samples_ : interact_;
+  const uint32_t last = depth_.reflections > 0 ? segments(follower) : stage.depth;
+  for (uint32_t depth = stage.depth; depth <= last && rays_.count > 0; ++depth) {
+    source_.sort(rays_, next_, depth);         // order_keys, sort, gather_rays
+    finder_.find(scene, rays_, hits_, depth);  // cache_lookup, trace, cache_store (ray_cache.cpp)
+    follower.follow(rays_, hits_, depth - 1, finder_.answered(depth));                        // waypoints, receive
+    finder_.count_blocks(rays_, hits_, depth);                                                // compact
+    const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block_ - 1) / block_);  // scan
+    RaysOnward onward{.reflected = depth == last ? nullptr : &next_, .ends = ends};
+    if (stage.transmissions > 0 && depth < depth_.interactions) {
+      onward.transmitted = &transmitted_[depth - 1];
+      waiting_.push_back({depth + 1, stage.transmissions - 1});
+    }
+    if (depth <= depth_.interactions) interact(scene, rays_, hits_, hit_count, sequences_.trie(), onward);  // interact
+    counts.segments_per_depth[depth - 1] += rays_.count;
+    counts.hits += hit_count;
+    std::swap(rays_, next_);
+  }
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,59 @@
+// The wavefront loop: all rays of a batch take a step together, until none is left.
+// Sort, find hits, scan, interact; one host read for each depth, the number of rays that go on. With transmission rays
+// split where they hit: queues of transmitted rays are traced depth first, so that at most one waits at each depth.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "passes/interact.hpp"
+#include "passes/scan.hpp"
+#include "passes/sequences.hpp"
+#include "simulation/hit_finder.hpp"
+#include "simulation/launch.hpp"
+#include "simulation/ray_source.hpp"
+#include "simulation/tracing_depth.hpp"
+
+namespace wavetracer {
+
+class Wavefront {
+ public:
+  // options: of interact, but for samples: whether rays may carry them (a refined launch). source, finder and sequences
+  // outlive this.
+  Wavefront(gpu::Context& context, const TracingDepth& depth, InteractOptions options, RaySource& source,
+            HitFinder& finder, Sequences& sequences);
+  // Room for batches of so many rays, queues alone.
+  void reserve(uint64_t rays);
+  // The launch rays of a batch, to be filled before it is traced.
+  RayQueue& rays() { return rays_; }
+  // Segments of a ray, at most.
+  uint32_t segments(const RayFollower& follower) const { return depth_.interactions + follower.extra_segments(); }
+  // Traces the rays to their ends. ends: of a refined launch, where each sample ended.
+  void trace(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
+             const gpu::Buffer<uint32_t>* ends = nullptr);
+
+ private:
+  // What the rays of a queue have in common: the number of their segment, from 1, and how many surfaces they may pass.
+  struct Stage {
+    uint32_t depth, transmissions;
+  };
+  // The queue and what is reflected of it. Queues of transmitted rays are left in transmitted_, and their stages, from
+  // the lowest depth to the highest, in waiting_.
+  void trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Stage stage,
+                       const gpu::Buffer<uint32_t>* ends);
+
+  gpu::Context& context_;
+  TracingDepth depth_;
+  uint32_t block_, planes_;
+  RaySource& source_;
+  HitFinder& finder_;
+  Sequences& sequences_;
+  Scan scan_;
+  Interact interact_;
+  std::optional<Interact> interact_samples_;
+  RayQueue rays_, next_;
+  std::vector<RayQueue> transmitted_;  // for each depth from 2 on, where rays are transmitted
+  std::vector<Stage> waiting_;
+  HitList hits_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,151 @@
+// Rows to verdicts.
+// A row that was not measured confirms nothing.
+#include "study/cache_claims.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include "study/ray_counts.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+// Null for none.
+const CacheRow* fastest(const CacheRows& rows, const std::vector<std::string>& settings, const CachePoint& at) {
+  const CacheRow* best = nullptr;
+  for (const std::string& setting : settings)
+    if (const CacheRow* row = find_cached(rows, setting, at.rays, at.drive);
+        row && (!best || warm_s(*row) < warm_s(*best)))
+      best = row;
+  return best;
+}
+
+CachePoint first_point(const CacheRows& rows) { return {rows.front().drive, rows.front().rays}; }
+
+}  // namespace
+
+double warm_s(const CacheRow& row) { return row.warm.loop_s; }
+double l2_m(const CacheRow& row) { return row.error.l2_m; }
+
+AtPoint saves(std::vector<std::string> settings) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    const CacheRow* best = fastest(rows, settings, at);
+    return best && best->saved_percent >= 0.5;
+  };
+}
+
+AtPoint saves_not(std::vector<std::string> settings) { return std::not_fn(saves(std::move(settings))); }
+
+AtPoint saves_percent(const std::string& setting, double claimed) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    const CacheRow* row = find_cached(rows, setting, at.rays, at.drive);
+    return row && row->saved_percent >= claimed;
+  };
+}
+
+AtPoint fastest_is(const std::string& setting, std::vector<std::string> settings) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    const CacheRow* best = fastest(rows, settings, at);
+    return best && best->setting == setting;
+  };
+}
+
+AtPoint less(CacheValue value, const std::string& setting, const std::string& than, double factor) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    const CacheRow *a = find_cached(rows, setting, at.rays, at.drive), *b = find_cached(rows, than, at.rays, at.drive);
+    return a && b && factor * value(*a) < value(*b);
+  };
+}
+
+AtPoint at_most(CacheValue value, const std::string& setting, double bound) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    const CacheRow* row = find_cached(rows, setting, at.rays, at.drive);
+    return row && value(*row) <= bound;
+  };
+}
+
+AtRays above(uint64_t bound) {
+  return [=](uint64_t rays) { return rays > bound; };
+}
+AtRays between(uint64_t first, uint64_t last) {
+  return [=](uint64_t rays) { return rays >= first && rays <= last; };
+}
+AtRays outside(uint64_t first, uint64_t last) { return std::not_fn(between(first, last)); }
+
+Judge<CacheRow> everywhere(AtRays within, AtPoint holds) {
+  return [=](const CacheRows& rows) -> std::string {
+    std::vector<uint64_t> rays = rays_of(rows);
+    std::erase_if(rays, std::not_fn(within));
+    if (rays.empty()) return "not measured";
+    return verdict(std::ranges::all_of(rays, [&](uint64_t n) { return holds(rows, {rows.front().drive, n}); }));
+  };
+}
+
+Judge<CacheRow> where(AtPoint holds, CacheValue defined) {
+  return [=](const CacheRows& rows) {
+    const auto of_drive = [&](const std::string& drive) -> std::string {
+      std::vector<uint64_t> rays = rays_of(rows);
+      std::erase_if(rays, [&](uint64_t n) {
+        const CacheRow* row = find_cached(rows, rows.front().setting, n, drive);
+        return defined && (!row || std::isnan(defined(*row)));
+      });
+      if (rays.empty()) return "no path has a vertex";
+      return where_words(rays, [&](uint64_t n) { return holds(rows, {drive, n}); });
+    };
+    std::string text;
+    for (const std::string& drive : drives_of(rows))
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", drive_words(drive), of_drive(drive));
+    return text;
+  };
+}
+
+Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds) {
+  return [=](const CacheRows& rows) -> std::string {
+    const auto [drive, rays] = first_point(rows);
+    std::vector<std::string> yes, no;
+    for (const std::string& setting : settings)
+      if (const CacheRow* row = find_cached(rows, setting, rays, drive))
+        (holds(*row) ? yes : no).push_back('"' + setting + '"');
+    if (no.empty()) return yes.empty() ? "not measured" : "confirmed for all";
+    return yes.empty() ? "not confirmed for any"
+                       : fmt::format("confirmed for {}, not for {}", list_words(yes), list_words(no));
+  };
+}
+
+Judge<CacheRow> of_all(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds) {
+  return [=](const CacheRows& rows) -> std::string {
+    const auto [drive, rays] = first_point(rows);
+    bool measured = false, all = true;
+    for (const std::string& setting : settings)
+      if (const CacheRow* row = find_cached(rows, setting, rays, drive)) {
+        measured = true;
+        all = all && holds(*row);
+      }
+    return measured ? verdict(all) : "not measured";
+  };
+}
+
+Judge<CacheRow> is_less(CacheValue value, const std::string& setting, const std::string& than) {
+  return
+      [holds = less(value, setting, than)](const CacheRows& rows) { return verdict(holds(rows, first_point(rows))); };
+}
+
+std::string where_words(const std::vector<uint64_t>& rays, const AtRays& holds) {
+  std::vector<std::string> found;
+  for (const uint64_t count : rays)
+    if (holds(count)) found.push_back(grouped(count));
+  if (found.empty()) return "at none of the numbers of rays";
+  if (found.size() == rays.size() && rays.size() > 1) return "at every number of rays";
+  return "at " + list_words(found) + " rays";
+}
+
+std::string drive_words(const std::string& drive) {
+  if (drive == "spheres") return "fixed transmitter, reception by spheres";
+  return drive == "fixed" || drive == "moving" ? drive + " transmitter" : drive + " world";
+}
+
+Fields cache_fields(const CacheRows& rows, const std::string& device, const std::vector<std::string>& settings) {
+  const auto one_saves = [&, any = saves(settings)](uint64_t n) { return any(rows, {rows.front().drive, n}); };
+  return {{"device", device}, {"rays", grouped(rows.front().rays)}, {"saves", where_words(rays_of(rows), one_saves)}};
+}
+
+}  // namespace wavetracer::study

@@ -1,0 +1,30 @@
+// A claim of the thesis: its words, and what rows must show for it.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+#include "study/text.hpp"
+
+namespace wavetracer::study {
+
+// The verdict on rows, in words. Predicates are made by order_claims.hpp, cache_claims.hpp and coherence_frames.hpp.
+template <class Row>
+using Judge = std::function<std::string(const std::vector<Row>&)>;
+
+template <class Row>
+struct Claim {
+  std::string words;  // with fields, see filled()
+  Judge<Row> judge;
+};
+
+template <class Row>
+using Claims = std::vector<Claim<Row>>;
+
+template <class Row>
+std::vector<Verdict> judged(const Claims<Row>& claims, const std::vector<Row>& rows, const Fields& fields) {
+  std::vector<Verdict> out;
+  for (const Claim<Row>& claim : claims) out.push_back({filled(claim.words, fields), claim.judge(rows)});
+  return out;
+}
+
+}  // namespace wavetracer::study

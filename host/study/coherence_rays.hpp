@@ -1,0 +1,19 @@
+// How far what a ray hits is what the rays hit that are launched after it, for each map of directions.
+// A. Zhdanov, TU Munich, 2014, section 3.2.2 and equation 3.4.
+#pragma once
+#include <string>
+#include <vector>
+#include "study/coherence.hpp"
+#include "study/columns.hpp"
+
+namespace wavetracer::study {
+
+struct LagRow {
+  std::string directions;  // trace.directions, whose launch order is judged
+  uint32_t depth = 0;
+  LagCoherence found;
+};
+
+const Columns<LagRow>& lag_columns();
+
+}  // namespace wavetracer::study

@@ -1,0 +1,155 @@
+// What coherence says: numbers, a column a depth, and what they mean for the claims.
+// Correlations and shares have two decimals; whoever compares them with the table rounds likewise.
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include "study/ray_counts.hpp"
+#include "study/run.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+std::string number(double value) {
+  if (std::isnan(value)) return "undefined";
+  return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0);  // + 0.0: no minus before a zero
+}
+
+// A column a depth.
+NumberTable depth_table(const std::string& caption, size_t depths) {
+  NumberTable table{.caption = caption, .heads = {""}, .rows = {}};
+  for (size_t depth = 1; depth <= depths; ++depth) table.heads.push_back(fmt::format("depth {}", depth));
+  return table;
+}
+
+void add(NumberTable& table, const std::string& what, const std::vector<double>& values) {
+  table.rows.push_back({what});
+  for (const double value : values) table.rows.back().push_back(number(value));
+  table.rows.back().resize(table.heads.size(), "undefined");
+}
+
+// Where values are greater than the bound: "at every depth", "at no depth", "at depths 1 and 3".
+std::string where_greater(const std::vector<double>& values, double bound) {
+  std::vector<std::string> words;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (values[i] > bound) words.push_back(std::to_string(i + 1));
+  if (words.empty()) return "at no depth";
+  if (words.size() == values.size()) return "at every depth";
+  return (words.size() == 1 ? "at depth " : "at depths ") + list_words(words);
+}
+
+using FrameValue = std::function<double(const FramePair&)>;
+
+double by_ray(const FramePair& row) { return row.found.points.total; }
+double by_place(const FramePair& row) { return row.by_place; }
+
+// A value a depth: the mean over all frames against their previous ones, where it is defined.
+std::vector<double> previous_means(const std::vector<FramePair>& rows, const FrameValue& value) {
+  std::vector<RunningMean> means;
+  for (const FramePair& row : rows) {
+    if (row.against != "previous") continue;
+    means.resize(std::max<size_t>(means.size(), row.depth));
+    if (!std::isnan(value(row))) means[row.depth - 1].add(value(row));
+  }
+  std::vector<double> out;
+  for (const RunningMean& mean : means) out.push_back(mean.mean());
+  return out;
+}
+
+// A value a depth, of the last frame against the first.
+std::vector<double> last_values(const std::vector<FramePair>& rows, const FrameValue& value) {
+  std::vector<double> out;
+  for (const FramePair& row : rows)
+    if (row.against == "first" && row.frame == rows.back().frame) out.push_back(value(row));
+  return out;
+}
+
+const LagRow* find_lag(const std::vector<LagRow>& rows, const std::string& directions, uint32_t depth, uint32_t lag) {
+  for (const LagRow& row : rows)
+    if (row.directions == directions && row.depth == depth && row.found.lag == lag) return &row;
+  return nullptr;
+}
+
+// A value a depth, of neighbours.
+std::vector<double> neighbours(const std::vector<LagRow>& rows, const std::string& directions,
+                               double LagCoherence::*value) {
+  std::vector<double> out;
+  for (uint32_t depth = 1; const LagRow* row = find_lag(rows, directions, depth, 1); ++depth)
+    out.push_back(row->found.*value);
+  return out;
+}
+
+// The first lag at which points correlate by less than half.
+std::string half_lag(const std::vector<LagRow>& rows, const std::string& directions, uint32_t depth) {
+  for (const LagRow& row : rows)
+    if (row.directions == directions && row.depth == depth && row.found.points < 0.5) return grouped(row.found.lag);
+  return "none measured";
+}
+
+// "0.98 at lag 987": where points of first hits correlate most.
+std::string greatest_words(const std::vector<LagRow>& rows, const std::string& directions) {
+  const LagRow* best = nullptr;
+  for (const LagRow& row : rows)
+    if (row.directions == directions && row.depth == 1 && (!best || row.found.points > best->found.points)) best = &row;
+  return best ? fmt::format("{} at lag {}", number(best->found.points), grouped(best->found.lag)) : "undefined";
+}
+
+}  // namespace
+
+Judge<FramePair> correlate_more_than(double share) {
+  return [=](const std::vector<FramePair>& rows) {
+    return fmt::format("{} if paired by ray and bounce, {} if paired by place",
+                       where_greater(previous_means(rows, by_ray), share),
+                       where_greater(previous_means(rows, by_place), share));
+  };
+}
+
+Words frame_words(const Experiment& experiment, const std::vector<FramePair>& rows, const Drive& drive,
+                  const std::string& device) {
+  const uint32_t last = rows.back().frame;
+  const Fields fields = {{"device", device},
+                         {"rays", grouped(experiment_rays)},
+                         {"frames", std::to_string(last + 1)},
+                         {"moved", fmt::format("{:.1f}", drive.moved_m(last))},
+                         {"apart", fmt::format("{:.3f}", drive.moved_m(1))},
+                         {"age", fmt::format("{:g}", drive.time_s(last))}};
+  const std::vector<double> paired = previous_means(rows, by_ray);
+  NumberTable table = depth_table("Correlations of points, and shares of rays:", paired.size());
+  add(table, "subsequent frames, points paired by ray and bounce", paired);
+  add(table, "subsequent frames, points paired by place", previous_means(rows, by_place));
+  add(table, "last frame with the first, points paired by ray and bounce", last_values(rows, by_ray));
+  using Values = std::vector<double> (*)(const std::vector<FramePair>&, const FrameValue&);
+  for (const auto& [frames, values] :
+       {std::pair<const char*, Values>{"subsequent frames", previous_means}, {"last frame and first", last_values}}) {
+    const auto line = [&](const char* what, double DepthCoherence::*share) {
+      add(table, fmt::format("{}: {}", frames, what),
+          values(rows, [share](const FramePair& row) { return row.found.*share; }));
+    };
+    line("rays that hit in both of those that hit in one", &DepthCoherence::both);
+    line("of these, on the same surface", &DepthCoherence::same_surface);
+    line("of these, after the same surfaces", &DepthCoherence::same_sequence);
+  }
+  return {filled(experiment.paragraph, fields), judged(experiment.as<FrameFigure>()->claims, rows, fields), table};
+}
+
+// Assumes ascending lags from 1 on for each map and depth.
+Words lag_words(const Experiment& experiment, const std::vector<LagRow>& rows, const std::string& device) {
+  const std::vector<double> same = neighbours(rows, "hilbert", &LagCoherence::same_surface);
+  NumberTable table = depth_table("Rays launched one after the other:", same.size());
+  for (const char* directions : {"hilbert", "fibonacci", "random"})
+    add(table, fmt::format("hit points correlate, {}", directions),
+        neighbours(rows, directions, &LagCoherence::points));
+  table.rows.push_back({"lag at which that falls below a half, hilbert"});
+  for (uint32_t depth = 1; depth <= same.size(); ++depth) table.rows.back().push_back(half_lag(rows, "hilbert", depth));
+  for (const char* directions : {"hilbert", "fibonacci", "random"})
+    add(table, fmt::format("both hit the same surface, {}", directions),
+        neighbours(rows, directions, &LagCoherence::same_surface));
+  std::vector<double> wrong;
+  for (const double share : same) wrong.push_back(1 - share);
+  add(table, "the wrong surface, hilbert", wrong);
+  const Fields fields = {
+      {"device", device}, {"rays", grouped(experiment_rays)}, {"fibonacci", greatest_words(rows, "fibonacci")}};
+  return {filled(experiment.paragraph, fields), {}, table};
+}
+
+}  // namespace wavetracer::study

@@ -1,0 +1,90 @@
+// The experiments of `wavetracer bench`, as data: what is measured, what of it is shown, and what is claimed of it.
+// run.hpp carries one out. Those called figure-6.N are the figures of A. Zhdanov's thesis (TU Munich, 2014).
+// To add one, add a row to one of the lists below; its claims are predicates of order_claims.hpp or cache_claims.hpp.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+#include "study/cache_study.hpp"
+#include "study/cache_views.hpp"
+#include "study/claims.hpp"
+#include "study/coherence_frames.hpp"
+#include "study/order_rows.hpp"
+
+namespace wavetracer::study {
+
+// Orders of rays, over the numbers of rays of ray_counts.hpp. Fields of its words: order_fields().
+struct OrderFigure {
+  std::vector<Series> series;  // the first is what gains are against
+  uint32_t frames;             // places along the way of a moving transmitter; 1: the transmitters of the config
+  Claims<OrderRow> claims;
+};
+
+// A view of a study of caches; figures share studies. Fields: cache_fields().
+struct CacheFigure {
+  std::shared_ptr<const CacheStudy> study;
+  CacheView view;
+  Claims<CacheRow> claims = {};
+  std::vector<std::string> settings = {};  // those that the field {saves} is about
+};
+
+// What rays hit in frames of a drive. Fields: {device}, {rays}, {frames}, {moved} and {apart} (metres of the drive, and
+// of a frame), {age} (of the first frame, in seconds).
+struct FrameFigure {
+  Claims<FramePair> claims;
+  uint32_t frames = Drive().frames;
+};
+
+// What rays hit along the order of their launch, for each map of directions. Fields: {device}, {rays}, {fibonacci}:
+// "0.98 at lag 987", where first hits of Fibonacci rays correlate most.
+struct LagFigure {};
+
+struct Experiment {
+  std::string name;       // on the command line, and of the files
+  std::string doc;        // one line for the list
+  std::string title;      // of the report and the plot
+  std::string caption;    // of the plot
+  std::string paragraph;  // what the thesis says, where, and how it was measured; with fields
+  std::variant<OrderFigure, CacheFigure, FrameFigure, LagFigure> figure;
+
+  // Null for other kinds.
+  template <class Figure>
+  const Figure* as() const {
+    return std::get_if<Figure>(&figure);
+  }
+  const CacheStudy* study() const { return as<CacheFigure>() ? as<CacheFigure>()->study.get() : nullptr; }
+  // It launches one number of rays, so that --rays is refused.
+  bool one_ray_count() const;
+  // It launches rays from the first [[transmitter]] of a configuration alone, so that there must be one.
+  bool needs_transmitter() const;
+};
+
+const std::vector<Experiment>& standing_figures();     // 6.1 to 6.9
+const std::vector<Experiment>& traffic_figures();      // 6.10 to 6.18, and coherence-frames
+const std::vector<Experiment>& further_experiments();  // beyond the thesis' figures
+
+// All of them, in this order.
+const std::vector<Experiment>& experiments();
+// Throws ConfigError with the known names and the nearest of them.
+const Experiment& find_experiment(const std::string& name);
+// A line for each experiment.
+std::string experiment_list();
+
+constexpr const char* built_in_city_name = "built-in city";  // as its Config::file
+
+// Scene and ends of an experiment: those of the file, or of the built-in city where the name is empty. Throws
+// ConfigError, also where a set gives a key that the experiment varies.
+Config experiment_config(const Experiment& experiment, const std::string& file, const std::vector<std::string>& sets);
+
+// Throws ConfigError, with the name of the experiment, where this config has nothing for it to measure.
+void check_experiment(const Experiment& experiment, const Config& config);
+
+// The config of one number of rays of a figure of orders. Every frame launches all rays of transmitters, and no others:
+// none is saved by reuse or a cache, none added by receivers for diffraction. Frames of a moving transmitter are
+// transmitters side by side, half a metre apart along x, each traced in batches of its own: no ray shares a launch or a
+// sort with one of another frame. Nothing else sends then.
+Config point_config(const OrderFigure& figure, const Config& config, uint64_t rays, bool gpu);
+
+}  // namespace wavetracer::study

@@ -1,0 +1,122 @@
+// Rows to phrases. Factors have two decimals.
+// Assumes that compare() has set the gains.
+#include "study/order_claims.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <set>
+#include "study/ray_counts.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+using Rows = std::vector<OrderRow>;
+using Gain = double OrderRow::*;
+
+std::string paid_and_not(const char* unpaid, const char* paid) {
+  return fmt::format("{} with the sort not paid, {} with it paid", unpaid, paid);
+}
+
+// Judges both gains.
+template <class Holds>
+Judge<OrderRow> both_gains(Holds holds) {
+  return [holds](const Rows& rows) {
+    const auto word = [&](Gain gain) { return holds(rows, gain) ? "yes" : "no"; };
+    return paid_and_not(word(&OrderRow::gain_unpaid), word(&OrderRow::gain_paid));
+  };
+}
+
+double gain_of(const Rows& rows, const std::string& method, Gain gain) {
+  return find_row(rows, ordered(method), rows.back().rays)->*gain;
+}
+
+std::string reason(const Rows& rows) {
+  const OrderRow *few = find_row(rows, unordered(), claimed_few), *many = find_row(rows, unordered(), claimed_many);
+  if (!few || !many) return "";
+  const double fixed = 100 * few->times.unpaid_s / many->times.unpaid_s;
+  const std::string start = fmt::format(" The reason: WS takes {:.0f}% of its time at {} rays at {} already, ", fixed,
+                                        grouped(claimed_many), grouped(claimed_few));
+  if (fixed >= 50)
+    return start +
+           "which is what launching and the longest single rays cost this device, however few there are; an order can "
+           "change the rest alone, and its own launches come on top.";
+  return start + "so most of the time at the larger count is that of its rays, which an order can change.";
+}
+
+}  // namespace
+
+Judge<OrderRow> gains(const Series& series, uint64_t rays, double claimed_gain) {
+  return [=](const Rows& rows) -> std::string {
+    const OrderRow* row = find_row(rows, series, rays);
+    if (!row) return "not measured";
+    const auto word = [&](double gain) { return gain >= claimed_gain ? "reached" : "not reached"; };
+    return paid_and_not(word(row->gain_unpaid), word(row->gain_paid));
+  };
+}
+
+Claims<OrderRow> h3dh_gains() {
+  const Series h3dh = ordered("hilbert3d-histogram");
+  return {{"H3DH takes 23% less time than WS at 1,000 rays", gains(h3dh, claimed_few, 1 / (1 - 0.23))},
+          {"H3DH is 2.5 times as fast as WS at 49,000 rays", gains(h3dh, claimed_many, 2.5)}};
+}
+
+Judge<OrderRow> fastest_are(std::vector<std::string> best, std::vector<std::string> others) {
+  return both_gains([=](const Rows& rows, Gain gain) {
+    return std::ranges::all_of(best, [&](const std::string& a) {
+      return std::ranges::all_of(
+          others, [&](const std::string& b) { return gain_of(rows, a, gain) >= gain_of(rows, b, gain); });
+    });
+  });
+}
+
+Judge<OrderRow> none_slower_than_ws(std::vector<std::string> methods) {
+  return both_gains([=](const Rows& rows, Gain gain) {
+    return std::ranges::all_of(methods, [&](const std::string& method) { return gain_of(rows, method, gain) >= 1; });
+  });
+}
+
+Judge<OrderRow> shapes_gain() {
+  return [](const Rows& rows) {
+    const Series h3dh = ordered("hilbert3d-histogram");
+    const auto time = [&](const Series& series) { return find_row(rows, series, rows.back().rays)->times.unpaid_s; };
+    double best = 0;
+    for (const char* shape : {"2d", "3d"})
+      for (const Series& series : {unordered(), h3dh})
+        best = std::max(best, time(series) / time(with_shape(series, shape)));
+    for (const char* mapped : {"hilbert3d-histogram-hilbert2d", "hilbert3d-histogram-hilbert3d"})
+      best = std::max(best, time(h3dh) / time(ordered(mapped)));
+    return fmt::format("a factor of {:.2f} at most", best);
+  };
+}
+
+Fields order_fields(const Rows& rows, const std::string& device) {
+  return {{"device", device},
+          {"most", grouped(rows.back().rays)},
+          {"frames", std::to_string(rows.back().frames)},
+          {"reason", reason(rows)}};
+}
+
+NumberTable gain_table(const Rows& rows) {
+  NumberTable table{.caption = "Speed against WS with the sort not paid, and in brackets with it paid:",
+                    .heads = {"order"},
+                    .rows = {}};
+  std::vector<uint64_t> counts;
+  for (const uint64_t rays : std::set{claimed_few, claimed_many, rows.back().rays})
+    if (find_row(rows, unordered(), rays)) counts.push_back(rays);
+  for (const uint64_t rays : counts) table.heads.push_back(fmt::format("{} rays", grouped(rays)));
+  std::vector<OrderRow> ranked;
+  for (const OrderRow& row : rows)
+    if (row.rays == rows.back().rays) ranked.push_back(row);
+  std::ranges::stable_sort(ranked, std::greater{}, &OrderRow::gain_unpaid);
+  for (const OrderRow& one : ranked) {
+    table.rows.push_back({label(one.series)});
+    for (const uint64_t rays : counts) {
+      const OrderRow* row = find_row(rows, one.series, rays);
+      std::string cell = row ? fmt::format("{:.2f}", row->gain_unpaid) : "not measured";
+      if (row && one.series.method != "none") cell += fmt::format(" ({:.2f})", row->gain_paid);
+      table.rows.back().push_back(cell);
+    }
+  }
+  return table;
+}
+
+}  // namespace wavetracer::study

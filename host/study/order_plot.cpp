@@ -1,0 +1,73 @@
+// Both axes are logarithmic. Times are divided by the rays, because a factor of two is thin on an axis of four decades.
+// Assumes gnuplot 5.
+#include <fmt/format.h>
+#include <set>
+#include "study/order_rows.hpp"
+#include "study/scripts.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+size_t column_number(const std::string& name) { return column_of(names_of(order_columns(false)), name); }
+
+// One colour a mnemonic; launch shapes of one method differ in their dashes.
+std::string_view colour(const std::vector<Series>& series, size_t index) {
+  std::set<std::string> earlier;
+  for (const Series& other : series) {
+    if (other.mnemonic == series[index].mnemonic) break;
+    earlier.insert(other.mnemonic);
+  }
+  return colours[earlier.size() % colours.size()];
+}
+
+std::string line(const std::string& name, const std::vector<Series>& series, size_t index, const std::string& column) {
+  const Series& s = series[index];
+  const bool own_shape = label(s) == s.mnemonic;
+  return fmt::format(
+      "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' ? 1e9 * column({}) / column({}) : NaN) "
+      "with linespoints linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize 0.5 title '{}'",
+      name, column_number("rays"), column_number("mnemonic"), s.mnemonic, column_number("shape"), s.shape,
+      column_number(column), column_number("rays"), colour(series, index),
+      own_shape         ? "1"
+      : s.shape == "2d" ? "'-'"
+                        : "'.'",
+      own_shape ? 7 : 6, label(s));
+}
+
+std::string panel(const std::string& name, const std::vector<Series>& series, const std::string& title,
+                  const std::string& column) {
+  std::string text = fmt::format("set title '{}'\nplot ", title);
+  for (size_t i = 0; i < series.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line(name, series, i, column);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string order_script(const std::string& name, const std::string& title, const std::vector<Series>& series) {
+  std::string text = script_head(name, 1150, 540);
+  text += fmt::format(
+      "stats '{0}.csv' using {1} skip 1 name 'rays' nooutput\n"
+      "stats '{0}.csv' using (1e9 * ${2} / ${1}) skip 1 name 'unpaid' nooutput\n"
+      "stats '{0}.csv' using (1e9 * ${3} / ${1}) skip 1 name 'paid' nooutput\n",
+      name, column_number("rays"), column_number("unpaid_s"), column_number("paid_s"));
+  text += fmt::format(
+      "set logscale xy\n"
+      "set xrange [rays_min / 1.25 : 1.25 * rays_max]\n"
+      "set yrange [0.8 * unpaid_min : 1.25 * paid_max]\n"
+      "set format x '10^{{%T}}'\n"
+      "do for [k = -3:6] {{ do for [m in '1 2 5'] {{ set ytics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }} }}\n"
+      "set xlabel 'rays'\n"
+      "set ylabel 'device time a ray (ns)'\n"
+      "{}set multiplot title '{}' noenhanced\n"
+      "set tmargin at screen 0.86\n"
+      "set bmargin at screen 0.12\n",
+      script_grid, quoted(title));
+  text += "set lmargin at screen 0.07\nset rmargin at screen 0.41\nset key off\n" +
+          panel(name, series, "sort not paid", "unpaid_s");
+  text +=
+      "set lmargin at screen 0.48\nset rmargin at screen 0.82\nset key at screen 0.99, 0.86 right top Left reverse\n" +
+      panel(name, series, "sort paid", "paid_s");
+  return text + "unset multiplot\n";
+}
+
+}  // namespace wavetracer::study

@@ -1,0 +1,126 @@
+// A Simulation a series, all alive at once, their frames interleaved.
+// Assumes device memory for the queues of all of them.
+#include "study/order_rows.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+#include "output/median.hpp"
+#include "study/ray_counts.hpp"
+#include "wavetracer/error.hpp"
+#include "wavetracer/stages.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+struct Subject {
+  Simulation simulation;
+  FrameCounts counts;
+  std::vector<StageSeconds> samples;
+};
+
+void check_same(const OrderRow& a, const OrderRow& b) {
+  if (a.paths == b.paths && a.sequences == b.sequences) return;
+  throw RuntimeError(fmt::format(
+      "{} rays: {} finds {} paths in {} sequences, {} finds {} in {} from the same rays, though no order may "
+      "change what is found: the device or its driver is not to be trusted; try another with --device",
+      grouped(a.rays), label(a.series), a.paths, a.sequences, label(b.series), b.paths, b.sequences));
+}
+
+}  // namespace
+
+const Columns<OrderRow>& order_columns(bool averages) {
+  using R = OrderRow;
+  static const Columns<R> one_frame = {
+      {"rays", &R::rays},
+      {"method", [](const R& r) { return r.series.method; }},
+      {"mnemonic", [](const R& r) { return r.series.mnemonic; }},
+      {"shape", [](const R& r) { return r.series.shape; }},
+      {"each_depth", [](const R& r) { return r.series.each_depth; }},
+      {"trace_s", [](const R& r) { return r.times.trace_s; }},
+      {"order_s", [](const R& r) { return r.times.order_s; }},
+      {"unpaid_s", [](const R& r) { return r.times.unpaid_s; }},
+      {"paid_s", [](const R& r) { return r.times.paid_s(); }},
+      {"frame_s", [](const R& r) { return r.times.frame_s; }},
+      {"paths", &R::paths},
+      {"sequences", &R::sequences},
+      {"gain_unpaid", &R::gain_unpaid},
+      {"gain_paid", &R::gain_paid},
+  };
+  static const Columns<R> many = [] {
+    Columns<R> all = one_frame;
+    all.emplace_back("frames", &R::frames);
+    all.emplace_back("reduction_unpaid_percent", [](const R& r) { return reduction_percent(r.gain_unpaid); });
+    all.emplace_back("reduction_paid_percent", [](const R& r) { return reduction_percent(r.gain_paid); });
+    return all;
+  }();
+  return averages ? many : one_frame;
+}
+
+double reduction_percent(double gain) { return 100 * (1 - 1 / gain); }
+
+void require_segments(double segments, const Config& config) {
+  if (segments > 0) return;
+  throw ConfigError(
+      fmt::format("{}no transmitter launches rays in the frames that are measured, because no link is wanted there: "
+                  "see [links], and "
+                  "whether vehicles with antennas are there at [time] start_s",
+                  config.file.empty() ? "" : config.file + ": "));
+}
+
+OrderTimes summarise(const std::vector<StageSeconds>& samples, uint32_t frames) {
+  std::map<std::string, std::vector<double>> values;
+  for (const StageSeconds& sample : samples)
+    for (const auto& [stage, seconds] : sample) values[stage].push_back(seconds);
+  StageSeconds medians;
+  for (const auto& [stage, seconds] : values) medians[stage] = median(seconds) / frames;
+  return {.trace_s = stage_seconds(medians, "trace"),
+          .order_s = part_seconds(medians, FramePart::order),
+          .unpaid_s = part_seconds(medians, FramePart::discovery),
+          .frame_s = part_seconds(medians, FramePart::whole)};
+}
+
+void compare(std::span<OrderRow> rows) {
+  for (OrderRow& row : rows) {
+    row.gain_unpaid = rows.front().times.unpaid_s / row.times.unpaid_s;
+    row.gain_paid = rows.front().times.paid_s() / row.times.paid_s();
+    check_same(
+        *std::find_if(rows.begin(), rows.end(),
+                      [&row](const OrderRow& first) { return first.series.directions == row.series.directions; }),
+        row);
+  }
+}
+
+std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
+                                     uint32_t frames, const std::string& device, uint32_t repeats) {
+  std::vector<Subject> subjects;
+  for (const Series& one : series) {
+    Config applied = config;
+    apply(applied, one, rays);
+    subjects.push_back({Simulation(applied, device), {}, {}});
+    subjects.back().counts = subjects.back().simulation.run_frame(0).counts;
+    require_segments(static_cast<double>(subjects.back().counts.segments), config);
+  }
+  for (uint32_t repeat = 0; repeat < repeats; ++repeat)
+    for (size_t i = 0; i < subjects.size(); ++i) {
+      Subject& subject = subjects[(i + repeat) % subjects.size()];  // so that no series always follows the same one
+      subject.samples.push_back(subject.simulation.run_frame(0).seconds);
+    }
+  std::vector<OrderRow> rows;
+  for (size_t i = 0; i < subjects.size(); ++i)
+    rows.push_back({.rays = rays,
+                    .frames = frames,
+                    .series = series[i],
+                    .times = summarise(subjects[i].samples, frames),
+                    .paths = subjects[i].counts.paths,
+                    .sequences = subjects[i].counts.sequences});
+  compare(rows);
+  return rows;
+}
+
+const OrderRow* find_row(const std::vector<OrderRow>& rows, const Series& series, uint64_t rays) {
+  for (const OrderRow& row : rows)
+    if (row.rays == rays && row.series == series) return &row;
+  return nullptr;
+}
+
+}  // namespace wavetracer::study

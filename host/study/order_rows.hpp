@@ -1,0 +1,57 @@
+// Orders of rays, measured: every series at one number of rays, timed in turns so that a slow spell of the machine hits
+// all. Times are medians of warm frames; the first frame of each series is dropped.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+#include "study/columns.hpp"
+#include "study/series.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer::study {
+
+// Seconds a frame.
+struct OrderTimes {
+  double trace_s = 0;   // the stage trace alone
+  double order_s = 0;   // keys, sort, gathering
+  double unpaid_s = 0;  // what discovers on the device, with the order as a gift
+  double frame_s = 0;   // wall time of the whole frame, with candidates, paths and fields
+
+  double paid_s() const { return unpaid_s + order_s; }
+};
+
+struct OrderRow {
+  uint64_t rays = 0;    // a transmitter
+  uint32_t frames = 1;  // that the times are an average of
+  Series series;
+  OrderTimes times;
+  uint64_t paths = 0, sequences = 0;      // of all frames together
+  double gain_unpaid = 1, gain_paid = 1;  // unpaid_s and paid_s of the unordered launch over those of this series
+};
+
+// From `rays` to `gain_paid`; of averages over frames also `frames` and the reductions of time, in percent, that the
+// gains amount to.
+const Columns<OrderRow>& order_columns(bool averages);
+
+// How much less time a gain means, in percent; negative: more time.
+double reduction_percent(double gain);
+
+// Throws ConfigError where frames of this config traced nothing, so that there is no time to compare.
+void require_segments(double segments, const Config& config);
+
+// Of the seconds of several frames, stage by stage the median; and their sums as above, divided by `frames`.
+OrderTimes summarise(const std::vector<StageSeconds>& samples, uint32_t frames);
+
+// Sets the gains of rows of one number of rays against the first. Throws RuntimeError where two series of the same
+// directions differ in paths or sequences, which no order may change.
+void compare(std::span<OrderRow> rows);
+
+// `config` with each series applied to it, on the device; `frames` transmitters stand for as many frames.
+std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
+                                     uint32_t frames, const std::string& device, uint32_t repeats);
+
+// Null where the series was not measured at that number of rays.
+const OrderRow* find_row(const std::vector<OrderRow>& rows, const Series& series, uint64_t rays);
+
+}  // namespace wavetracer::study

@@ -1,0 +1,59 @@
+// Ranges in, ray counts out.
+// Numbers are read as std::from_chars reads them, so the locale does not matter.
+#include "study/ray_counts.hpp"
+#include <fmt/format.h>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+constexpr uint64_t fewest = claimed_few, most = 1000000000;  // 10^9
+
+// 0, which no range may hold, where the text is no whole number.
+uint64_t whole_number(std::string_view text) {
+  double value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = problem == std::errc() && end == text.data() + text.size() && value == std::floor(value);
+  return whole && value > 0 && value <= static_cast<double>(most) * 10 ? static_cast<uint64_t>(value) : 0;
+}
+
+}  // namespace
+
+RayRange parse_ray_range(const std::string& text) {
+  const size_t colon = text.find(':');
+  RayRange range{0, 0};
+  if (colon != std::string::npos)
+    range = {whole_number(std::string_view(text).substr(0, colon)),
+             whole_number(std::string_view(text).substr(colon + 1))};
+  if (range.first < fewest || range.last > most || range.first > range.last)
+    throw ConfigError(
+        fmt::format("--rays {}: not a range of ray counts; give A:B with {} <= A <= B <= {}, such as 1000:1e6", text,
+                    grouped(fewest), grouped(most)));
+  return range;
+}
+
+std::vector<uint64_t> ray_counts(RayRange range) {
+  std::vector<uint64_t> counts;
+  for (uint64_t decade = fewest; decade <= most; decade *= 10)
+    for (const uint64_t count : {decade, 2 * decade, 5 * decade}) {
+      if (count == 50000 && range.first <= claimed_many && claimed_many <= range.last) counts.push_back(claimed_many);
+      if (range.first <= count && count <= range.last) counts.push_back(count);
+    }
+  if (counts.empty())
+    throw ConfigError(
+        fmt::format("--rays {}:{}: no ray count of the figure lies in it; those are 1, 2 and 5 times a power of ten, "
+                    "and {}",
+                    range.first, range.last, grouped(claimed_many)));
+  return counts;
+}
+
+std::string grouped(uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
+  return digits;
+}
+
+}  // namespace wavetracer::study

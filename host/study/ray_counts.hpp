@@ -1,0 +1,28 @@
+// The ray counts of a figure: 1, 2 and 5 times every power of ten, and the thesis' 49,000.
+// A range picks from them; it does not add its ends.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wavetracer::study {
+
+// The ray counts at which the thesis states what reordering gains.
+constexpr uint64_t claimed_few = 1000, claimed_many = 49000;
+// Rays of experiments that do not vary them.
+constexpr uint64_t experiment_rays = claimed_many;
+
+struct RayRange {
+  uint64_t first = 1000, last = 10000000;
+};
+
+// "A:B", each a whole number such as 50000 or 5e4, 1,000 <= A <= B <= 10^9. Throws ConfigError.
+RayRange parse_ray_range(const std::string& text);
+
+// Ascending. Throws ConfigError where the range holds none.
+std::vector<uint64_t> ray_counts(RayRange range);
+
+// 49000 as people read it: 49,000.
+std::string grouped(uint64_t number);
+
+}  // namespace wavetracer::study

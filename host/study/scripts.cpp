@@ -1,0 +1,135 @@
+// A row of panels a drive, as the figures order them; the key stands on the right.
+// Assumes gnuplot 5.
+#include "study/scripts.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <stdexcept>
+
+namespace wavetracer::study {
+namespace {
+
+size_t column(const LinePlot& plot, const std::string& name) { return column_of(plot.columns, name); }
+
+std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index) {
+  const size_t y = column(plot, panel.y);
+  std::string condition = fmt::format("strcol({}) eq '{}'", column(plot, "setting"), quoted(plot.settings[index]));
+  if (!panel.drive.empty())
+    condition += fmt::format(" && strcol({}) eq '{}'", column(plot, "drive"), quoted(panel.drive));
+  if (plot.only_rays > 0) condition += fmt::format(" && column({}) == {}", column(plot, "rays"), plot.only_rays);
+  if (std::ranges::find(plot.columns, "depth") != plot.columns.end())
+    condition += fmt::format(" && column({}) {} 0", column(plot, "depth"), plot.depths ? ">" : "==");
+  const std::string value = panel.log_y && panel.least > 0
+                                ? fmt::format("column({}) > {:g} ? column({}) : {:g}", y, panel.least, y, panel.least)
+                                : fmt::format("column({})", y);
+  const size_t x = column(plot, plot.x);
+  const std::string place =
+      plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x, *plot.least_x)
+                   : std::to_string(x);
+  return fmt::format(
+      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype "
+      "{} pointsize 0.6 title '{}'",
+      plot.name, place, condition, value, plot.points ? "points" : "linespoints", colours[index % colours.size()],
+      index / colours.size() + 1, index < colours.size() ? 7 : 6, quoted(plot.settings[index]));
+}
+
+// Ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an error.
+std::string statistics(const LinePlot& plot) {
+  std::string text = fmt::format("stats '{}.csv' using {} skip 1 name 'x' nooutput\n", plot.name, column(plot, plot.x));
+  for (size_t i = 0; i < plot.panels.size(); ++i)
+    if (plot.panels[i].least > 0)
+      text += fmt::format("stats '{}.csv' using {} skip 1 name 'y{}' nooutput\n", plot.name,
+                          column(plot, plot.panels[i].y), i);
+  return text;
+}
+
+std::string y_range(const LinePanel& panel, size_t index) {
+  if (panel.least <= 0) return "[*:*]";
+  return panel.log_y ? fmt::format("[{0:g} : (y{1}_max > {2:g} ? 2 * y{1}_max : {2:g})]", panel.least / 2, index,
+                                   10 * panel.least)
+                     : fmt::format("[0 : (y{0}_max > {1:g} ? 1.05 * y{0}_max : {1:g})]", index, panel.least);
+}
+
+std::string panel_text(const LinePlot& plot, size_t index) {
+  const LinePanel& panel = plot.panels[index];
+  std::string text = fmt::format(
+      "{}set logscale y\nset format y '{}'\nset yrange {}\nset title '{}' noenhanced\nset ylabel '{}' noenhanced\n"
+      "plot ",
+      panel.log_y ? "" : "un", panel.log_y ? "10^{%T}" : "%g", y_range(panel, index), quoted(panel.title),
+      quoted(panel.y_label));
+  for (size_t i = 0; i < plot.settings.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, panel, i);
+  return text + "\n";
+}
+
+std::string x_axis(const LinePlot& plot) {
+  if (plot.log_x) return "set logscale x\nset format x '10^{%T}'\nset xrange [x_min / 1.25 : 1.25 * x_max]\n";
+  if (plot.least_x) return fmt::format("set xrange [{:g} : (x_max > 0 ? 1.05 * x_max : 0) + 5]\n", *plot.least_x - 5);
+  return plot.depths ? "set xtics 1\nset xrange [0.5 : x_max + 0.5]\n" : "set xrange [x_min - 0.5 : x_max + 0.5]\n";
+}
+
+// Correlations and shares: every axis ends at 1 and begins a little below 0, or where the values do.
+std::string panel_text(const DepthPlot& plot, const DepthPanel& panel) {
+  std::string text = fmt::format("set title '{}'\nplot ", quoted(panel.title));
+  for (uint32_t depth = 1; depth <= plot.max_depth; ++depth)
+    text += fmt::format(
+        "{}'{}.csv' using {}:(strcol({}) eq '{}' && column({}) == {} ? column({}) : NaN) with {} linecolor '{}' "
+        "title 'depth {}'",
+        depth == 1 ? "" : ", \\\n  ", plot.name, column_of(plot.columns, panel.x), column_of(plot.columns, panel.only),
+        quoted(panel.equals), column_of(plot.columns, "depth"), depth, column_of(plot.columns, panel.y),
+        plot.points ? "points pointtype 7 pointsize 0.2" : "lines linewidth 1.5", colours[(depth - 1) % colours.size()],
+        depth);
+  return text + "\n";
+}
+
+}  // namespace
+
+size_t column_of(const std::vector<std::string>& columns, const std::string& name) {
+  const auto found = std::ranges::find(columns, name);
+  if (found == columns.end()) throw std::logic_error("no column is called " + name);
+  return found - columns.begin() + 1;
+}
+
+std::string script_head(const std::string& name, size_t width, size_t height) {
+  return fmt::format(
+      "# Draws {0}.csv; run it in its folder: gnuplot {0}.gp\n"
+      "set terminal svg size {1},{2} font 'sans-serif,13' background 'white'\n"
+      "set output '{0}.svg'\n"
+      "set datafile separator ','\n"
+      "set datafile missing NaN\n",
+      name, width, height);
+}
+
+std::string line_script(const LinePlot& plot) {
+  const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
+  const size_t height = 120 + 340 * rows;  // pixels; margins are 60 and 75 of them, gaps 105
+  const auto part = [height](double pixels) { return pixels / static_cast<double>(height); };
+  std::string text = script_head(plot.name, 1250, height) + statistics(plot) + "set key off\n" + x_axis(plot) +
+                     fmt::format(
+                         "set xlabel '{}'\n{}set multiplot layout {},{} title '{}' noenhanced margins screen "
+                         "0.07,0.80,{:.3f},{:.3f} spacing screen 0.07,{:.3f}\n",
+                         quoted(plot.x_label), script_grid, rows, plot.panels_a_row, quoted(plot.title), part(60),
+                         1 - part(75), part(105));
+  for (size_t i = 0; i < plot.panels.size(); ++i) {
+    if (i + 1 == plot.panels.size())
+      text += fmt::format("set key at screen 0.995, {:.3f} right top Left reverse noenhanced maxrows 40 font ',11'\n",
+                          1 - part(75));
+    text += panel_text(plot, i);
+  }
+  return text + "unset multiplot\n";
+}
+
+std::string depth_script(const DepthPlot& plot) {
+  const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
+  std::string text =
+      script_head(plot.name, 1150, 80 + 340 * rows) + "set key off\n" + (plot.log_x ? "set logscale x\n" : "") +
+      fmt::format(
+          "set yrange [*<-0.05:1.05]\nset autoscale yfixmin\nset ytics 0.2\nset xlabel '{}'\n{}set multiplot "
+          "layout {},{} title '{}' noenhanced margins screen 0.07,0.88,0.1,0.88 spacing screen 0.06,0.16\n",
+          quoted(plot.x_label), script_grid, rows, plot.panels_a_row, quoted(plot.title));
+  for (const DepthPanel& panel : plot.panels) {
+    if (&panel == &plot.panels.back()) text += "set key at screen 0.99, 0.88 right top Left reverse\n";
+    text += panel_text(plot, panel);
+  }
+  return text + "unset multiplot\n";
+}
+
+}  // namespace wavetracer::study

@@ -1,0 +1,131 @@
+// Figure by figure: measure or take the study's rows, write the files, keep what the page shows.
+// Requests are made before anything is measured: what is wrong with one is a mistake of the user's, and not forgiven.
+#include "study/thesis.hpp"
+#include <fmt/format.h>
+#include <map>
+#include <span>
+#include "base/pending_file.hpp"
+#include "study/scripts.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+Section unmeasured(const Experiment& experiment) {
+  return {.name = experiment.name,
+          .title = experiment.title,
+          .problem = "not measured: the program ended or was interrupted before"};
+}
+
+using Studies = std::map<std::string, CacheMeasurement>;
+
+// An experiment that launches one number of rays takes no range of them; figures of orders end early on CPUs.
+Request fitting(Request request, const Experiment& experiment, bool gpu) {
+  if (experiment.one_ray_count()) request.rays.reset();
+  if (experiment.as<OrderFigure>() && !gpu) request.quick = true;
+  return request;
+}
+
+Findings findings(const Experiment& experiment, const Request& request, const Host& host, Studies& studies) {
+  if (!experiment.study()) return find_out(experiment, request, host);
+  check_experiment(experiment, request.config);
+  const CacheStudy& study = *experiment.study();
+  if (!studies.contains(study.name)) studies[study.name] = measure_study(study, request, host);
+  return show(experiment, studies.at(study.name), request);
+}
+
+// What the page shows of a figure; errors become sentences.
+Section figure_of(const Experiment& experiment, const Request& request, const Host& host, Studies& studies,
+                  Report& report) {
+  Section figure = unmeasured(experiment);
+  if (host.interrupted()) return figure;
+  figure.problem.clear();
+  try {
+    const Findings found = findings(experiment, request, host, studies);
+    write_report(experiment, request, found, host);
+    report.points += found.points > 0 && found.points == found.planned;
+    figure = section_of(experiment, found);
+    if (found.points < found.planned)
+      figure.problem = fmt::format("interrupted after {} of {} points", found.points, found.planned);
+    const fs::path plot = fs::path(request.config.output.directory) / (experiment.name + ".svg");
+    if (found.points > 0 && fs::exists(plot))
+      figure.svg = inline_svg(file_text(plot), experiment.name + "-");
+    else if (found.points > 0)
+      figure.problem += fmt::format("{}no plot, as gnuplot is absent or failed; the numbers are in {}.csv",
+                                    figure.problem.empty() ? "" : "; ", experiment.name);
+  } catch (const std::exception& error) {
+    figure.problem = fmt::format("failed: {}", error.what());
+    host.say(experiment.name + " failed: " + error.what());
+  }
+  return figure;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  PendingFile(path, std::as_bytes(std::span(text))).commit();
+}
+
+// The page as far as it goes, so that whatever ends the program later leaves it.
+void write_so_far(const ThesisPage& page, const fs::path& directory) {
+  PendingDirectory folder(directory);
+  write(folder.path() / "thesis.html", thesis_html(page));
+  folder.keep();
+}
+
+// thesis.csv, its plot and the page.
+void write_page(ThesisPage& page, const fs::path& directory, const Host& host, Report& report) {
+  PendingDirectory folder(directory);
+  const auto named = [&folder](const char* name) { return folder.path() / name; };
+  std::error_code ignored;
+  fs::remove(named("thesis.svg"), ignored);  // an earlier one would belie the new table
+  if (!page.rows.empty()) {
+    write(named("thesis.csv"), speed_error_table(page.rows));
+    write(named("thesis.gp"), speed_error_script(page.rows, page.heading.device.name));
+    const std::string problem = run_gnuplot(folder.path(), "thesis.gp");
+    if (problem.empty())
+      page.svg = inline_svg(file_text(named("thesis.svg")), "thesis-");
+    else
+      host.say(problem);
+  }
+  write(named("thesis.html"), thesis_html(page));
+  folder.keep();
+  report.files.push_back(named("thesis.html"));
+}
+
+}  // namespace
+
+std::vector<const Experiment*> thesis_experiments() {
+  std::vector<const Experiment*> out;
+  for (const Experiment& experiment : experiments())
+    if (experiment.name.starts_with("figure-") || experiment.study()) out.push_back(&experiment);
+  return out;
+}
+
+Report run_thesis(const std::function<Request(const Experiment&)>& request_for, const Host& host) {
+  const std::vector<const Experiment*> figures = thesis_experiments();
+  std::vector<Request> requests;  // all of them before hours of measuring, since each may hold a mistake of the user's
+  for (const Experiment* experiment : figures) requests.push_back(request_for(*experiment));
+  const Request& first = requests.front();
+  Config probe = first.config;
+  probe.trace.rays = 1000;
+  ThesisPage page;
+  page.heading = heading_of(first.config, Simulation(probe, first.device).device(), first.command_line);
+  Studies studies;
+  Report report{.text = "", .files = {}, .points = 0, .planned = figures.size()};
+  for (const Experiment* experiment : figures) page.figures.push_back(unmeasured(*experiment));
+  for (size_t i = 0; i < figures.size(); ++i) {
+    const Request request = fitting(requests[i], *figures[i], page.heading.device.gpu);
+    page.figures[i] = figure_of(*figures[i], request, host, studies, report);
+    page.rows.clear();
+    for (const auto& [name, measured] : studies)
+      page.rows.insert(page.rows.end(), measured.rows.begin(), measured.rows.end());
+    write_so_far(page, first.config.output.directory);
+  }
+  write_page(page, first.config.output.directory, host, report);
+  report.text =
+      fmt::format("{} of {} figures are whole: {}", report.points, report.planned, report.files.back().string());
+  return report;
+}
+
+}  // namespace wavetracer::study

@@ -1,0 +1,128 @@
+// The page and its picture: strings only.
+// A row of the table has cells that need no escape but its names.
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include "study/ray_counts.hpp"
+#include "study/thesis.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+// Of every study, drive and setting the row with the most rays; settings without a cache of their own, which others are
+// measured by, are left out.
+std::vector<CacheRow> best_known(const std::vector<CacheRow>& rows) {
+  const auto key = [](const CacheRow& row) { return std::tie(row.study, row.drive, row.setting); };
+  std::map<std::tuple<std::string, std::string, std::string>, uint64_t> most;
+  for (const CacheRow& row : rows) most[key(row)] = std::max(most[key(row)], row.rays);
+  std::vector<CacheRow> out;
+  for (const CacheRow& row : rows)
+    if (row.depth == 0 && row.rays == most.at(key(row))) out.push_back(row);
+  return out;
+}
+
+bool shown(const CacheRow& row) { return row.depth == 0 && row.error.reference_paths > 0 && row.cache.on; }
+
+// Of each cache at its most rays.
+NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {
+  NumberTable table{
+      .caption = "",
+      .heads = {"study", "world", "setting", "rays", "division", "position step", "time saved", "look-ups answered",
+                "lost paths", "spurious paths", "lost power", "delay spread", "centroid L1", "centroid L2"},
+      .rows = {}};
+  for (const CacheRow& row : best_known(rows)) {
+    if (!shown(row)) continue;
+    const PathError& e = row.error;
+    table.rows.push_back({row.study, row.drive, row.setting, grouped(row.rays), grouped(row.division),
+                          fmt::format("{:g} m", row.position_step_m), fmt::format("{:.1f} %", row.saved_percent),
+                          share_words(hit_rate(row)), share_words(e.lost_share), share_words(e.spurious_share),
+                          e.lost_power > 0 ? fmt::format("{:.1f} dB", share_db(e.lost_power)) : "none",
+                          plain(e.delay_spread_ns, 2) + " ns", share_words(e.l1_relative), share_words(e.l2_relative)});
+  }
+  return table;
+}
+
+// Every claim with what was measured, and where more of it is.
+std::string verdicts_html(const std::vector<Section>& figures) {
+  std::string text =
+      "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
+      "<th>claim</th><th>measured</th></tr></thead>\n<tbody>\n";
+  for (const Section& figure : figures) {
+    std::vector<Verdict> verdicts = figure.words.verdicts;
+    if (figure.words.paragraph.empty())
+      verdicts = {{figure.title, figure.problem}};
+    else if (verdicts.empty())
+      verdicts = {{figure.title, "no claim to judge; the numbers are in its section"}};
+    for (const auto& [claim, measured] : verdicts)
+      text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td></tr>\n", figure.name,
+                          escaped(claim), escaped(measured));
+  }
+  return text +
+         "</tbody>\n</table>\n<p><a href=\"#speed-error\">Speed against error of all caches</a></p>\n"
+         "</section>\n";
+}
+
+}  // namespace
+
+std::string family(const std::string& setting) {
+  std::string text = setting;
+  for (const uint32_t hash : {1u, 2u, 3u}) {
+    const std::string ending = " " + hash_name(hash);
+    if (const size_t at = text.find(ending); at != std::string::npos) text.erase(at, ending.size());
+  }
+  return text;
+}
+
+std::string speed_error_table(const std::vector<CacheRow>& rows) {
+  std::vector<CacheRow> points;
+  for (const CacheRow& row : rows)
+    if (shown(row)) {
+      points.push_back(row);
+      points.back().setting = family(row.setting);
+    }
+  return encode(cache_columns(), points);
+}
+
+std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device) {
+  LinePlot plot;
+  plot.name = "thesis";
+  plot.title = "Speed against error of all caches, " + device;
+  plot.columns = names_of(cache_columns());
+  for (const CacheRow& row : rows)
+    if (shown(row) && std::find(plot.settings.begin(), plot.settings.end(), family(row.setting)) == plot.settings.end())
+      plot.settings.push_back(family(row.setting));
+  plot.x = "saved_percent";
+  plot.x_label = "time saved (%)";
+  plot.points = true;
+  plot.least_x = -100;
+  // No error is drawn at the bottom of an axis.
+  plot.panels = {{"lost power", "lost_power", "share", "", true, 1e-7},
+                 {"lost paths", "lost_share", "share", "", true, 1e-5},
+                 {"spurious paths", "spurious_share", "share", "", true, 1e-5},
+                 {"delay spread", "delay_spread_ns", "ns", "", true, 1e-4},
+                 {"centroid, L1, of the mean path", "l1_relative", "share", "", true, 1e-6},
+                 {"centroid, L2, of the mean path", "l2_relative", "share", "", true, 1e-6}};
+  return line_script(plot);
+}
+
+std::string thesis_html(const ThesisPage& page) {
+  std::string text =
+      "<h1>Ray orders and ray caches: the thesis' figures, measured</h1>\n<p>The claims are those of A. Zhdanov, TU "
+      "Munich, 2014, chapter 6. Every number below is of this run, and every verdict is computed from it.</p>\n" +
+      heading_html(page.heading) + verdicts_html(page.figures) +
+      "<section id=\"speed-error\">\n<h2>Speed against error</h2>\n";
+  if (std::none_of(page.rows.begin(), page.rows.end(), shown))
+    text += "<p class=\"problem\">No cache was measured.</p>\n";
+  else
+    text +=
+        "<p>Each point is a cache at one number of rays: the time it saves, against what it gets wrong, both against "
+        "the same rays without a cache. Points without an error lie on the bottom of the axis, those that take twice "
+        "the time or more on its left end. The table has the most rays of each.</p>\n" +
+        page.svg + table_html(speed_error_numbers(page.rows));
+  text += "</section>\n";
+  for (const Section& figure : page.figures) text += section_html(figure);
+  return document_html("Ray orders and ray caches", "body{max-width:1280px}.problem{color:#b00}", text);
+}
+
+}  // namespace wavetracer::study

@@ -1,0 +1,62 @@
+// When a refined launch that ended early is worth a warning, and what the warning tells the user to do.
+#include "simulation/recall_warning.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace wavetracer;
+
+namespace {
+
+// Paths that all quarters of the launch found: nothing is missed, as far as anybody can tell. rare: such that one did.
+MissedCounts counts(uint64_t well_known, uint64_t rare) {
+  MissedCounts out;
+  out.frames = 1;
+  out.paths = {rare, 0, 0, well_known};
+  return out;
+}
+
+DiscoveryCounts counts_of(double share_once, LaunchEnd end) {
+  DiscoveryCounts out;
+  out.share_once = share_once;
+  out.end = end;
+  return out;
+}
+
+bool warns(LaunchEnd end, bool cold, const MissedCounts& missed, double recall = 0.99) {
+  TraceConfig trace;
+  trace.recall = recall;
+  return recall_warning(counts_of(0.2, end), trace, cold, missed).has_value();
+}
+
+}  // namespace
+
+TEST_CASE("a launch that found what was asked for is no news; one that was capped always is") {
+  for (const bool cold : {false, true}) {
+    CHECK_FALSE(warns(LaunchEnd::recall, cold, counts(10, 90)));
+    CHECK(warns(LaunchEnd::max_rays, cold, counts(100, 0)));
+  }
+}
+
+TEST_CASE("a launch that had nothing left to refine is news where a cold frame's paths say that some are missed") {
+  for (const LaunchEnd end : {LaunchEnd::finest, LaunchEnd::nothing_rare}) {
+    CHECK(warns(end, true, counts(10, 90)));
+    CHECK_FALSE(warns(end, true, counts(100000, 0)));
+    CHECK_FALSE(warns(end, false, counts(10, 90)));  // earlier frames found paths that this one's rays need not
+    CHECK(warns(end, true, MissedCounts{}));         // nothing is known
+    CHECK(warns(end, true, counts(100000, 0), 1));   // all paths: that is never known
+  }
+}
+
+TEST_CASE("warnings say what ended the launch, how much is met once, and what to do") {
+  TraceConfig trace;
+  trace.recall = 0.999;
+  trace.max_rays = 5000;
+  const auto text = [&](LaunchEnd end, double once) {
+    return recall_warning(counts_of(once, end), trace, true, {}).value_or("");
+  };
+  CHECK(text(LaunchEnd::max_rays, 0.25) ==
+        "trace.max_rays = 5000 ended the launch of rays = \"auto\" before trace.recall = 0.999: 25% of the sequences "
+        "found were met by one ray alone");
+  CHECK(text(LaunchEnd::finest, 0.001).find("less than 1% of the sequences") != std::string::npos);
+  CHECK(text(LaunchEnd::nothing_rare, 0.1).find("give trace.rays a number to find more") != std::string::npos);
+}

@@ -1,0 +1,152 @@
+// coherence-frames and coherence-rays without a device: the drive, the tables, the paragraphs of made-up rows.
+// Numbers of the paragraphs are chosen so that they can be said by hand.
+#include <doctest/doctest.h>
+#include <algorithm>
+#include "study/coherence_frames.hpp"
+#include "study/coherence_rays.hpp"
+#include "study/run.hpp"
+#include "study/scripts.hpp"
+#include "study/squeezed.hpp"
+#include "wavetracer/error.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::study;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+FramePair frame_pair(const std::string& against, uint32_t frame, uint32_t depth, double total, double by_place,
+                     double shares) {
+  FramePair out{.against = against, .frame = frame, .depth = depth, .found = {}, .by_place = by_place};
+  out.found.points.total = total;
+  out.found.both = shares;
+  out.found.same_surface = shares / 2;
+  out.found.same_sequence = shares / 4;
+  return out;
+}
+
+LagRow lag(const std::string& directions, uint32_t depth, uint32_t lag, double points, double same_surface) {
+  return {directions, depth, {.lag = lag, .points = points, .same_surface = same_surface}};
+}
+
+// A wall in the plane x = 5, |y| < 10, |z| < 10, in a scene whose origin is (100, 0, 0).
+Scene wall() {
+  Scene scene;
+  scene.origin_m = {100, 0, 0};
+  scene.vertices = {{5, -10, -10}, {5, 10, -10}, {5, 10, 10}, {5, -10, 10}};
+  scene.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("the drive goes as the transmitter's velocity says, else at 50 km/h along +x") {
+  Config config;
+  config.transmitters.push_back({});
+  config.transmitters[0].position_m = {1, 2, 3};
+  CHECK(plan_drive(config).place_m(100).x == doctest::Approx(1 + 13.9));
+  CHECK(plan_drive(config).moved_m(1) == doctest::Approx(0.139));
+  config.transmitters[0].velocity_m_s = {0, -3, 4};
+  const Drive drive = plan_drive(config);
+  CHECK(drive.place_m(200).y == doctest::Approx(2 - 6));
+  CHECK(drive.place_m(200).z == doctest::Approx(3 + 8));
+  CHECK(drive.moved_m(200) == doctest::Approx(10));
+  CHECK(drive.time_s(drive.frames - 1) == doctest::Approx(2));
+}
+
+TEST_CASE("a drive through the scene is an error, one that ends before a wall or passes it is not") {
+  Drive drive{.start_m = {100, 0, 0}, .velocity_m_s = {10, 0, 0}};  // 20 m, the wall is 5 m away
+  CHECK_THROWS_WITH_AS(check_way(drive, wall(), "ego"),
+                       doctest::Contains("transmitter \"ego\": its way of 20.0 m leads through the scene"),
+                       ConfigError);
+  drive.frames = 41;  // 4 m
+  CHECK_NOTHROW(check_way(drive, wall(), "ego"));
+  drive = {.start_m = {100, 11, 0}, .velocity_m_s = {10, 0, 0}};
+  CHECK_NOTHROW(check_way(drive, wall(), "ego"));
+}
+
+TEST_CASE("coherence-frames: means of subsequent frames, the last frame with the first, the claim") {
+  const std::vector<FramePair> rows = {
+      frame_pair("first", 1, 1, 0.9, 0.5, 0.8),     frame_pair("first", 1, 2, 0.7, 0.1, 0.8),
+      frame_pair("previous", 1, 1, 0.9, 0.5, 0.8),  frame_pair("previous", 1, 2, 0.2, 0.1, 0.8),
+      frame_pair("first", 2, 1, 0.61, 0.5, 0.4),    frame_pair("first", 2, 2, study::undefined, 0.1, 0.4),
+      frame_pair("previous", 2, 1, 0.7, 0.3, 0.72), frame_pair("previous", 2, 2, 0.26, study::undefined, 0.8)};
+  const Drive drive{.start_m = {0, 0, 0}, .velocity_m_s = {10, 0, 0}};
+  const std::string text =
+      squeezed(words_text(frame_words(find_experiment("coherence-frames"), rows, drive, "the device")));
+  CAPTURE(text);
+  CHECK(contains(text, "Measured on the device, 49,000 rays of a transmitter that drives 0.2 m"));
+  CHECK(contains(text, "subsequent ones are 0.100 m apart"));
+  CHECK(contains(text, "| depth 1 | depth 2 |\n"));
+  CHECK(contains(text, "| subsequent frames, points paired by ray and bounce | 0.80 | 0.23 |"));
+  CHECK(contains(text, "| last frame with the first, points paired by ray and bounce | 0.61 | undefined |"));
+  CHECK(contains(text, "| subsequent frames, points paired by place | 0.40 | 0.10 |"));
+  CHECK(contains(text, "| at depth 1 if paired by ray and bounce, at depth 1 if paired by place |"));
+  CHECK(contains(text, "| subsequent frames: rays that hit in both of those that hit in one | 0.76 | 0.80 |"));
+  CHECK(contains(text, "| subsequent frames: of these, on the same surface | 0.38 | 0.40 |"));
+  CHECK(contains(text, "| subsequent frames: of these, after the same surfaces | 0.19 | 0.20 |"));
+  CHECK(contains(text, "| last frame and first: rays that hit in both of those that hit in one | 0.40 | 0.40 |"));
+  CHECK(contains(text, "| last frame and first: of these, on the same surface | 0.20 | 0.20 |"));
+  CHECK(contains(text, "| last frame and first: of these, after the same surfaces | 0.10 | 0.10 |"));
+  CHECK(contains(text, "0.02 s old"));
+  const std::string table = encode(frame_columns(drive), rows);
+  CHECK(table.starts_with("against,frame,time_s,moved_m,depth,"));
+  CHECK(std::count(table.begin(), table.end(), '\n') == 9);
+  CHECK(contains(table, "\nfirst,2,0.02,0.2,2,0,0,0.4,0.2,0.1,nan,nan,nan,nan,nan,0.1\n"));
+}
+
+TEST_CASE("coherence-frames: pairing by ray or by place") {
+  // Ray i at depth 1 hits (i, i, i); in the second frame ray 0 misses.
+  study::FrameHits a = {std::vector<study::Hit>(7)}, b;
+  for (uint32_t i = 0; i < 7; ++i) {
+    const double x = i % 2 == 0 ? 0 : 1;  // alternates, so that a shift by one ray reverses it
+    a[0][i] = {{x, x, x}, 1, 0, 0};
+  }
+  b = a;
+  b[0][0] = study::Hit{};
+  b[0][1].point_m = {1.5, 1, 1};
+  const auto pairs = compare_pair(a, b, "first", 3);
+  REQUIRE(pairs.size() == 1);
+  CHECK(pairs[0].frame == 3);
+  CHECK(pairs[0].found.points.component.y == doctest::Approx(1));
+  CHECK(pairs[0].found.pairs == 6);
+  // By place: 0 1 0 1 0 1 with 1 0 1 0 1 0.
+  CHECK(pairs[0].by_place > 0.9);  // a length, which hides that they are opposite
+  CHECK(pairs[0].found.points.pooled > 0.9);
+}
+
+TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares") {
+  const std::vector<LagRow> rows = {lag("hilbert", 1, 1, 0.9, 0.95),   lag("hilbert", 1, 2, 0.4, 0.9),
+                                    lag("hilbert", 2, 1, 0.8, 0.7),    lag("hilbert", 2, 2, 0.6, 0.6),
+                                    lag("fibonacci", 1, 1, -0.4, 0.5), lag("fibonacci", 1, 2, 0.93, 0.8),
+                                    lag("fibonacci", 2, 1, -0.3, 0.1), lag("fibonacci", 2, 2, 0.95, 0.1),
+                                    lag("random", 1, 1, -0.001, 0.3),  lag("random", 2, 1, 0.02, 0.2)};
+  const std::string text = squeezed(words_text(lag_words(find_experiment("coherence-rays"), rows, "the device")));
+  CAPTURE(text);
+  CHECK(contains(text,
+                 "| hit points correlate, hilbert | 0.90 | 0.80 |\n| hit points correlate, fibonacci | -0.40 | "
+                 "-0.30 |\n| hit points correlate, random | 0.00 | 0.02 |"));
+  CHECK(contains(text, "| lag at which that falls below a half, hilbert | 2 | none measured |"));
+  CHECK(contains(text, "first hits correlate most, by 0.93 at lag 2"));
+  CHECK(contains(text, "surface, hilbert | 0.95 | 0.70 |"));
+  CHECK(contains(text, "surface, fibonacci | 0.50 | 0.10 |"));
+  CHECK(contains(text, "surface, random | 0.30 | 0.20 |"));
+  CHECK(contains(text, "| the wrong surface, hilbert | 0.05 | 0.30 |"));
+  CHECK(contains(encode(lag_columns(), rows), "\nhilbert,1,2,0,0.4,nan,0.9,nan\n"));
+}
+
+TEST_CASE("depth plots: a line a depth and panel, columns by number") {
+  DepthPlot plot{.name = "a",
+                 .title = "A device's",
+                 .columns = {"kind", "depth", "lag", "value"},
+                 .max_depth = 3,
+                 .x_label = "lag",
+                 .panels = {{"one", "lag", "value", "kind", "k"}}};
+  const std::string script = depth_script(plot);
+  CHECK(contains(script, "using 3:(strcol(1) eq 'k' && column(2) == 3 ? column(4) : NaN)"));
+  CHECK(contains(script, "'A device''s'"));
+  CHECK_FALSE(contains(script, "== 4"));
+  plot.panels[0].y = "values";
+  CHECK_THROWS_AS(depth_script(plot), std::logic_error);
+}

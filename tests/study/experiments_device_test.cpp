@@ -1,0 +1,294 @@
+// `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Small ranges only.
+// What needs a device is skipped, saying so, where there is none.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+#include "app/program.hpp"
+#include "study/squeezed.hpp"
+
+namespace {
+
+const std::string street =
+    "scene.generate = \"--blocks 2\"\ntrace.max_depth = 2\n"
+    "[[transmitter]]\nname = \"mast\"\nposition_m = [0, 0, 6]\n"
+    "[[receiver]]\nname = \"car\"\nposition_m = [50, 0, 2]\n";
+
+std::string contents(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+// The lines of a table as cells by column.
+std::vector<std::map<std::string, std::string>> table(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<std::string> columns;
+  std::vector<std::map<std::string, std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(cells, word, ',');) words.push_back(word);
+    if (columns.empty()) {
+      columns = words;
+      continue;
+    }
+    REQUIRE(words.size() == columns.size());
+    rows.emplace_back();
+    for (size_t i = 0; i < words.size(); ++i) rows.back()[columns[i]] = words[i];
+  }
+  return rows;
+}
+
+double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+size_t occurrences(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
+// Exit code, a part of the message, nothing on stdout.
+void check_error(const std::vector<std::string>& words, int code, const std::string& message) {
+  const Outcome outcome = run_program(words);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == code);
+  CHECK(contains(outcome.err, message));
+  CHECK(outcome.out.empty());
+}
+
+}  // namespace
+
+TEST_CASE("bench: errors say what is wrong before anything is measured") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street), out = folder.path("out");
+  check_error({"bench"}, 2, "no experiment given; there are\n  figure-6.1 ");
+  check_error({"bench", "figure-6.0", "-o", out}, 2, "no experiment \"figure-6.0\" among figure-6.1, figure-6.2, ");
+  check_error({"bench", "figure-6.1", "-o", out, "--rays", "2000:1000"}, 2, "--rays 2000:1000: not a range");
+  check_error({"bench", "figure-6.1", "-o", out, "--rays", "3000:4000"}, 2, "no ray count of the figure");
+  check_error({"bench", "figure-6.1", "-o", out, "--repeat", "0"}, 2, "--repeat");
+  check_error({"bench", "figure-6.1", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
+  check_error({"bench", "figure-6.1", "-o", out, "-c", file, "--set", "trace.ray=7"}, 2,
+              "did you mean \"trace.rays\"?");
+  check_error({"bench", "figure-6.1", "-o", out, "-c", folder.path("absent.toml")}, 2, "absent.toml: cannot be read");
+  check_error({"bench", "coherence-rays", "-o", out, "--rays", "1000:2000"}, 2,
+              "launches 49,000 rays; leave --rays out");
+  check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.rays=7"}, 2, "leave it out");
+  check_error({"bench", "figure-6.5", "-o", out, "--set", "cache.division=7"}, 2, "leave it out");
+  check_error({"bench", "thesis", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
+  check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.max_depth=0"}, 2, "give 1 or more");
+  check_error({"bench", "figure-6.1", "-o", file + "/out"}, 1, "cannot write there");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("bench: a device that is not there exits 4") {
+  if (!device_present()) return;
+  const Folder folder;
+  check_error({"bench", "figure-6.18", "-o", folder.path("out"), "--device", "no such device"}, 4, "no such device");
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("figure-6.1: table, plot and paragraph agree") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const Outcome run = run_program(
+      {"bench", "figure-6.1", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000", "--repeat", "2"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  const auto rows = table(folder.path("out/figure-6.1.csv"));
+  REQUIRE(rows.size() == 2 * 12);
+  const std::string report = contents(folder.path("out/figure-6.1.md"));
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
+    const auto& base = rows[i - i % 12];
+    CAPTURE(row.at("mnemonic"));
+    CHECK(row.at("rays") == (i < 12 ? "1000" : "2000"));
+    CHECK(base.at("mnemonic") == "WS");
+    CHECK(number(row.at("trace_s")) > 0);
+    CHECK(number(row.at("unpaid_s")) > number(row.at("trace_s")));
+    CHECK(number(row.at("frame_s")) > 0);
+    CHECK((number(row.at("order_s")) > 0) == (row.at("method") != "none"));
+    if (row.at("mnemonic") != "born ordered") {
+      CHECK(row.at("paths") == base.at("paths"));
+      CHECK(row.at("sequences") == base.at("sequences"));
+    }
+    for (const std::string which : {"unpaid", "paid"})
+      CHECK(number(row.at("gain_" + which)) ==
+            doctest::Approx(number(base.at(which + "_s")) / number(row.at(which + "_s"))).epsilon(1e-4));
+    if (row.at("mnemonic") == "H3DH" && row.at("shape") == "1d") {
+      const std::string cell =
+          fmt::format("{:.2f} ({:.2f}) |", number(row.at("gain_unpaid")), number(row.at("gain_paid")));
+      CHECK(contains(squeezed(report), i < 12 ? "| H3DH | " + cell : cell + "\n"));
+    }
+  }
+  CHECK(contains(report, "bench figure-6.1 -c "));
+  CHECK(contains(report, "- device: "));
+  CHECK(contains(squeezed(report), "2.5 times as fast as WS at 49,000 rays | not measured |"));
+  // Standard output is the words and tables of the report, then the files.
+  CHECK(contains(report, run.out.substr(0, run.out.find("\n\nwritten"))));
+  if (contains(run.err, "gnuplot is not installed")) return;
+  const std::string plot = contents(folder.path("out/figure-6.1.svg"));
+  CHECK(contains(run.out, folder.path("out/figure-6.1.svg")));
+  CHECK(contains(plot, "<svg "));
+  CHECK(contains(plot, "</svg>"));
+  CHECK(occurrences(plot, "id=\"gnuplot_plot_") == 2 * 12);  // a line a series, sort not paid and paid
+}
+
+TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to install") {
+  if (!device_present()) return;
+  const Folder folder;
+  const Outcome run = run_program({"bench", "figure-6.18", "-o", folder.path("out"), "--rays", "1000:1000", "--repeat",
+                                   "2", "--set", "trace.max_depth=2"},
+                                  {"PATH=" + folder.path()});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(contains(run.err, "apt-get install gnuplot-nox"));
+  CHECK_FALSE(std::filesystem::exists(folder.path("out/figure-6.18.svg")));
+  CHECK(std::filesystem::exists(folder.path("out/figure-6.18.gp")));
+  const auto rows = table(folder.path("out/figure-6.18.csv"));
+  REQUIRE(rows.size() == 3);
+  for (const auto& row : rows) {
+    CHECK(row.at("frames") == "20");
+    CHECK(number(row.at("reduction_paid_percent")) ==
+          doctest::Approx(100 * (1 - 1 / number(row.at("gain_paid")))).epsilon(1e-3));
+  }
+  CHECK(rows[0].at("paths") == rows[1].at("paths"));
+  CHECK(contains(squeezed(run.out), fmt::format("| H3DH | {:.2f} (", number(rows[1].at("gain_unpaid")))));
+}
+
+TEST_CASE("coherence-rays and coherence-frames: table, plot and paragraph agree") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  for (const std::string name : {"coherence-rays", "coherence-frames"}) {
+    CAPTURE(name);
+    const bool frames = name == "coherence-frames";
+    const Outcome run = run_program({"bench", name, "-c", file, "-o", folder.path("out")});
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    const auto rows = table(folder.path("out/" + name + ".csv"));
+    REQUIRE(rows.size() == (frames ? 2 * 200 * 2 : 3 * 2 * 1000));  // two depths
+    const std::string report = contents(folder.path("out/" + name + ".md"));
+    std::map<std::string, std::string> first_of_last;  // of coherence-frames, by depth
+    for (const auto& row : rows) {
+      CHECK(number(row.at("same_surface")) >= 0);
+      CHECK(number(row.at("same_surface")) <= 1);
+      CHECK(number(row.at("pairs")) > 0);
+      if (frames && row.at("frame") == "200" && row.at("against") == "first")
+        first_of_last[row.at("depth")] = row.at("total");
+    }
+    if (frames)
+      CHECK(contains(squeezed(report),
+                     fmt::format("| last frame with the first, points paired by ray and bounce | {:.2f} | {:.2f} |",
+                                 number(first_of_last.at("1")), number(first_of_last.at("2")))));
+    else
+      CHECK(contains(squeezed(report), fmt::format("| hit points correlate, hilbert | {:.2f} | {:.2f} |",
+                                                   number(rows[0].at("points")), number(rows[1000].at("points")))));
+    CHECK(contains(report, run.out.substr(0, run.out.find("\n\nwritten"))));
+    if (contains(run.err, "gnuplot is not installed")) continue;
+    const std::string plot = contents(folder.path("out/" + name + ".svg"));
+    CHECK(contains(plot, "</svg>"));
+    CHECK(occurrences(plot, "id=\"gnuplot_plot_") == (frames ? 4 : 6) * 2);  // a line a panel and depth
+  }
+}
+
+TEST_CASE("an interrupt ends the measuring after the point in progress, with whole files and exit code 130") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  Program run({"bench", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"});
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 3000 && !contains(run.messages(), "2,000 rays, tracing"); ++i) std::this_thread::sleep_for(20ms);
+  run.signal(SIGINT);
+  const Outcome outcome = run.wait();
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(contains(outcome.err, "interrupted; what is written is whole, after "));
+  const auto rows = table(folder.path("out/figure-6.18.csv"));
+  CHECK(rows.size() >= 2 * 3);
+  CHECK(rows.size() < 14 * 3);
+  CHECK(rows.size() % 3 == 0);
+  CHECK(contains(contents(folder.path("out/figure-6.18.md")), "- command: `"));
+}
+
+TEST_CASE("figure-6.2: a row a depth and setting; times, counts and the paragraph agree") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const Outcome run = run_program({"bench", "figure-6.2", "-c", file, "-o", folder.path("out"), "--repeat", "1"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  const auto rows = table(folder.path("out/figure-6.2.csv"));
+  REQUIRE(rows.size() == 4 * 3);  // all depths together, depth 1 and depth 2
+  for (const auto& row : rows) {
+    CAPTURE(row.at("setting"));
+    CHECK(row.at("rays") == "50000");
+    CHECK(row.at("drive") == "still");
+    const bool cached = row.at("setting") != "no cache";
+    if (row.at("depth") == "1") CHECK(row.at("segments") == "50000");
+    if (!cached || row.at("depth") != "0") continue;
+    CHECK(row.at("entries") == "50000");
+    CHECK(number(row.at("lookups")) == number(row.at("segments")));
+    CHECK(number(row.at("write_ns")) > 0);
+    CHECK(number(row.at("read_ns")) > 0);
+    const std::string text = squeezed(run.out);
+    const size_t at = text.find("| " + row.at("setting") + " | ");
+    REQUIRE(at != std::string::npos);
+    const std::string cells = text.substr(at + row.at("setting").size() + 5);
+    CHECK(number(cells) == doctest::Approx(number(row.at("write_ns"))).epsilon(0.006));
+    CHECK(number(cells.substr(cells.find('|') + 1)) == doctest::Approx(number(row.at("read_ns"))).epsilon(0.006));
+  }
+  check_error({"bench", "figure-6.2", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000"}, 2,
+              "launches 50,000 rays; leave --rays out");
+}
+
+TEST_CASE("figure-6.12: the first setting has no error, and so has a cache with exact keys") {
+  if (!device_present()) return;
+  const Folder folder;
+  const Outcome run = run_program({"bench", "figure-6.12", "-o", folder.path("out"), "--rays", "1000:1000", "--frames",
+                                   "2", "--set", "trace.max_depth=2"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  const auto rows = table(folder.path("out/figure-6.12.csv"));
+  REQUIRE(rows.size() == 3 * 7);
+  for (const auto& row : rows) {
+    CAPTURE(row.at("drive"));
+    CAPTURE(row.at("setting"));
+    CHECK(row.at("frames") == "2");
+    CHECK(number(row.at("warm_s")) > 0);
+    if (row.at("setting") == "no cache") CHECK(number(row.at("saved_percent")) == 0);
+    if (row.at("setting") != "no cache" && row.at("setting") != "concurrent exact") continue;
+    CHECK(number(row.at("lost_share")) == 0);
+    CHECK(number(row.at("spurious_share")) == 0);
+  }
+  CHECK_FALSE(contains(run.err, "gnuplot failed"));
+}
+
+TEST_CASE("thesis: every figure on one page without links to elsewhere, also what failed") {
+  if (!device_present()) return;
+  const Folder folder;
+  const Outcome run =
+      run_program({"bench", "thesis", "-c", folder.file("b.toml", street), "-o", folder.path("out"), "--rays",
+                   "1000:1000", "--repeat", "1", "--frames", "2", "--set", "trace.max_depth=1"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 5);  // some figures failed
+  const std::string page = contents(folder.path("out/thesis.html"));
+  for (int figure = 1; figure <= 18; ++figure)
+    CHECK(contains(page, fmt::format("<section id=\"figure-6.{}\">", figure)));
+  CHECK(contains(page, "<section id=\"cache-division\">"));
+  CHECK_FALSE(contains(page, "http:"));
+  // cache-division and cache-step have no point at so few rays: a page says what failed, and holds the rest.
+  // Each is said in the table of verdicts and in its section.
+  CHECK(occurrences(page, "failed: --rays 1000:1000: ") == 2 * 2);
+  CHECK(occurrences(page, "failed: ") == 2 * 2);
+  CHECK(contains(run.out, "18 of 20 figures are whole"));
+  if (contains(run.err, "gnuplot is not installed")) return;
+  CHECK(occurrences(page, "<svg") == 19);  // one of speed against error
+  CHECK_FALSE(contains(run.err, "Warning"));
+}

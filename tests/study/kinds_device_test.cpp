@@ -1,0 +1,154 @@
+// Every experiment with every kind of configuration: a figure without holes, or a message that names the experiment or
+// the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is asked about what it refuses alone.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+#include "app/program.hpp"
+#include "study/experiment.hpp"
+#include "study/thesis.hpp"
+
+using namespace wavetracer::study;
+
+namespace {
+
+const std::string scene = "scene.generate = \"--blocks 1\"\ntrace.max_depth = 1\n";
+const std::string mast = "[[transmitter]]\nname = \"mast\"\nposition_m = [0, -50, 6]\n";
+const std::string receiver = "[[receiver]]\nname = \"car\"\nposition_m = [30, -50, 2]\n";
+const std::string traffic =
+    "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -53, 0], [1, 20, -53, 0]]\n"
+    "[[track]]\nid = \"b\"\nwaypoints = [[0, 30, -53, 0], [1, 40, -53, 0]]\n[time]\nstep_s = 0.5\n";
+const std::string mount = "[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n";
+
+struct Kind {
+  std::string name, text;
+  // What is answered instead of a figure; empty: a figure.
+  std::string of_experiments, of_series, of_drives, of_caches;
+};
+
+const std::string no_mast = "launches rays from the first [[transmitter]], and there is none";
+const std::string no_link = "no transmitter launches rays in the frames that are measured, because no link is wanted";
+const std::string late_cache = "cache.first_depth = 2 is beyond trace.max_depth = 1";
+
+const std::vector<Kind> kinds = {
+    {"a mast and a receiver", mast + receiver, "", "", "", ""},
+    {"vehicles alone", traffic + mount, no_mast, "", no_mast, ""},
+    {"a mast and vehicles with antennas", mast + receiver + traffic + mount, "", "", "", ""},
+    {"links one way, by name", "links.transmitters = [\"mast\"]\nlinks.i2i = false\n" + mast + traffic + mount, "", "",
+     "", ""},
+    {"diffraction", "trace.diffraction = true\n" + mast + receiver, "", "", "", ""},
+    {"spheres", "trace.reception = \"sphere\"\n" + mast + receiver, "", "", "", ""},
+    {"no link", "links.i2i = false\n" + mast + receiver, "", no_link, no_link, no_link},
+    {"a cache from later on", "cache.first_depth = 2\n" + mast + receiver, "", "", "", late_cache},
+    {"no bounce", "trace.max_depth = 0\n" + mast + receiver, "trace.max_depth = 0", "trace.max_depth = 0",
+     "trace.max_depth = 0", "trace.max_depth = 0"},
+};
+
+const std::string& answer(const Kind& kind, const Experiment& experiment) {
+  if (experiment.study()) return kind.of_caches;
+  if (!experiment.as<OrderFigure>()) return kind.of_experiments;
+  return experiment.needs_transmitter() ? kind.of_drives : kind.of_series;
+}
+
+std::string contents(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+Outcome bench(const Experiment& experiment, const Folder& folder, const std::string& config) {
+  std::vector<std::string> words = {"bench", experiment.name, "-c", config, "-o", folder.path("out"), "--repeat", "1"};
+  const bool series = experiment.as<OrderFigure>() != nullptr;
+  if (series || (experiment.study() && experiment.study()->rays.front() == 1000))
+    words.insert(words.end(), {"--rays", "1000:1000"});
+  words.insert(words.end(), {"--frames", "1"});
+  return run_program(words);
+}
+
+// In which kinds a experiment draws its figure here: caches and experiments launch many rays, so in one each, and
+// figure-6.1 has a dozen series.
+bool drawn(const Kind& kind, const Experiment& experiment) {
+  if (experiment.name == "figure-6.1") return contains(kind.name, "vehicles");
+  if (experiment.as<OrderFigure>()) return true;
+  return experiment.name != "cache-division" && experiment.name != "coherence-frames" &&
+         kind.name == "a mast and vehicles with antennas";
+}
+
+std::string config_of(const Kind& kind) {
+  const bool own_depth = kind.text.starts_with("trace.max_depth");
+  return (own_depth ? "scene.generate = \"--blocks 1\"\n" : scene) + kind.text;
+}
+
+}  // namespace
+
+TEST_CASE("every experiment with every kind of configuration: a figure, or a message and exit code 2") {
+  if (!device_present()) return;
+  for (const Kind& kind : kinds) {
+    CAPTURE(kind.name);
+    const Folder folder;
+    const std::string config = folder.file("a.toml", config_of(kind));
+    for (const Experiment& experiment : wavetracer::study::experiments()) {
+      CAPTURE(experiment.name);
+      const std::string& refused = answer(kind, experiment);
+      // What is refused is refused by one rule for all experiments with a study: one of them stands for the others.
+      if (experiment.study() && !refused.empty() && experiment.name != "figure-6.5") continue;
+      if (refused.empty() && !drawn(kind, experiment)) continue;
+      const Outcome run = bench(experiment, folder, config);
+      CAPTURE(run.err);
+      const std::string table = contents(folder.path("out/" + experiment.name + ".csv"));
+      if (!refused.empty()) {
+        CHECK(run.code == 2);
+        CHECK(contains(run.err, "a.toml: "));
+        CHECK(contains(run.err, refused));
+        CHECK(table.empty());
+        continue;
+      }
+      CHECK(run.code == 0);
+      CHECK(table.size() > 100);
+      // Depths of a cache that nobody asked have no time a look-up: the tables of operations say nan there.
+      if (!experiment.study()) CHECK_FALSE(contains(table, "nan"));
+    }
+  }
+}
+
+TEST_CASE("figure-6.18 counts the frames of its transmitter alone: vehicles with antennas send nothing") {
+  if (!device_present()) return;
+  const Folder folder;
+  const auto sequences = [&](const std::string& text) {
+    const std::string config = folder.file("a.toml", scene + mast + receiver + text);
+    const Outcome run = bench(find_experiment("figure-6.18"), folder, config);
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    std::istringstream lines(contents(folder.path("out/figure-6.18.csv")));
+    std::string cells, first;
+    std::getline(lines, cells);
+    std::getline(lines, first);
+    std::istringstream in(first);
+    std::string cell;
+    for (int i = 0; i < 12; ++i) std::getline(in, cell, ',');
+    return cell;
+  };
+  // Vehicles without a body: what rays meet is the same, whoever is there to receive.
+  const std::string bodiless = "[[vehicle_type]]\nname = \"passenger\"\nmodel = \"none\"\n";
+  CHECK(sequences(bodiless + traffic + mount) == sequences(""));
+}
+
+TEST_CASE("thesis: a configuration of vehicles alone has a page, which names the figures that need a mast") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string config = folder.file("a.toml", scene + traffic + mount);
+  const Outcome wrong =
+      run_program({"bench", "thesis", "-c", config, "-o", folder.path("out"), "--set", "cache.division=7"});
+  CHECK(wrong.code == 2);  // before the first figure, which would accept it, is measured
+  CHECK(contains(wrong.err, "figure-6.2 gives cache.division its values itself"));
+  const Outcome outcome = run_program({"bench", "thesis", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
+                                       "--repeat", "1", "--frames", "1"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 5);
+  const std::string page = contents(folder.path("out/thesis.html"));
+  for (const Experiment* experiment : thesis_experiments())
+    CHECK(contains(page, "<section id=\"" + experiment->name + "\">"));
+  CHECK(contains(page, "failed: " + config + ": figure-6.13 launches rays from the first [[transmitter]]"));
+  CHECK(contains(page, "failed: " + config + ": figure-6.18 launches rays from the first [[transmitter]]"));
+  CHECK(contains(outcome.out, "16 of 20 figures are whole"));
+}

@@ -1,0 +1,117 @@
+// The paragraphs against rows whose gains are known in advance.
+// Factors are chosen so that what is reached, and in which order, can be said by hand.
+#include "study/order_claims.hpp"
+#include <doctest/doctest.h>
+#include <cmath>
+#include "study/made_order_rows.hpp"
+#include "study/run.hpp"
+#include "study/squeezed.hpp"
+
+using namespace wavetracer::study;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string text_of(const Words& words) { return squeezed(words_text(words)); }
+
+// A million times the seconds: WS 300 whatever its shape, born ordered 60, the others by the factors given; the
+// sort 25.
+Cost costs(double h3dh, double z) {
+  return [h3dh, z](const Series& s, uint64_t) {
+    if (s.directions == "hilbert") return std::pair{60e-6, 0.0};
+    if (s.method == "none") return std::pair{s.shape == "3d" ? 240e-6 : 300e-6, 0.0};
+    const double factor = s.method == "morton" ? z : s.method == "morton-histogram" ? h3dh * 0.99 : h3dh * 0.9;
+    return std::pair{300e-6 / (s.method == "hilbert3d-histogram" && s.shape == "1d" ? h3dh : factor), 25e-6};
+  };
+}
+
+}  // namespace
+
+TEST_CASE("figure-6.1: claims reached and the expected ranks") {
+  const Experiment& experiment = find_experiment("figure-6.1");
+  const auto rows = made_rows(experiment, {1000, 49000, 1000000}, costs(3, 2));
+  const std::string text = text_of(order_words(experiment, rows, "the device"));
+  CAPTURE(text);
+  // 300 / 100 = 3; 300 / 125 = 2.4
+  CHECK(contains(text, "| order | 1,000 rays | 49,000 rays | 1,000,000 rays |"));
+  CHECK(contains(text, "| H3DH | 3.00 (2.40) | 3.00 (2.40) | 3.00 (2.40) |"));
+  CHECK(contains(text,
+                 "| H3DH takes 23% less time than WS at 1,000 rays | reached with the sort not paid, reached with it "
+                 "paid |"));
+  CHECK(contains(text,
+                 "| H3DH is 2.5 times as fast as WS at 49,000 rays | reached with the sort not paid, not reached with "
+                 "it paid |"));
+  // The fastest first, those without a sort without brackets.
+  const size_t born = text.find("| born ordered | 5.00 | 5.00 | 5.00 |\n"), h3dh = text.find("| H3DH | 3.00"),
+               hz = text.find("| HZ | 2.97");
+  CHECK(born < h3dh);
+  CHECK(h3dh < hz);
+  CHECK(hz != std::string::npos);
+  CHECK(contains(text,
+                 "| H3DH and HZ are the fastest of the six orders, at 1,000,000 rays | yes with the sort not paid, yes "
+                 "with it paid |"));
+  CHECK(contains(text, "| WS is the slowest, at 1,000,000 rays | yes with the sort not paid, yes with it paid |"));
+  CHECK(contains(text, "| a factor of 1.25 at most |"));  // WS in three dimensions: 300 / 240
+}
+
+TEST_CASE("figure-6.1: claims not reached, other ranks, counts not measured") {
+  const Experiment& experiment = find_experiment("figure-6.1");
+  const auto rows = made_rows(experiment, {1000, 2000}, costs(1.01, 1.2));
+  const std::string text = text_of(order_words(experiment, rows, "the device"));
+  CAPTURE(text);
+  // 300 / (300 / 1.01 + 25) = 0.9316
+  CHECK(contains(text, "| order | 1,000 rays | 2,000 rays |\n"));
+  CHECK(contains(text, "| H3DH | 1.01 (0.93) | 1.01 (0.93) |"));
+  CHECK(contains(text, "at 1,000 rays | not reached with the sort not paid, not reached with it paid |"));
+  CHECK(contains(text, "| H3DH is 2.5 times as fast as WS at 49,000 rays | not measured |"));
+  CHECK(contains(text, "six orders, at 2,000 rays | no with the sort not paid, no with it paid |"));
+  CHECK(contains(text, "| WS is the slowest, at 2,000 rays | no with the sort not paid, no with it paid |"));
+}
+
+TEST_CASE("figure-6.18: averages over frames") {
+  const Experiment& experiment = find_experiment("figure-6.18");
+  const std::string text =
+      text_of(order_words(experiment, made_rows(experiment, {49000}, costs(2.5, 1)), "the device"));
+  CAPTURE(text);
+  CHECK(contains(text, "Measured on the device, averaged over 20 frames of a moving transmitter."));
+  CHECK(contains(text, "| H3DH | 2.50 (2.07) |"));
+  CHECK(contains(text, "at 49,000 rays | reached with the sort not paid, not reached with it paid |"));
+  CHECK(contains(text, "| H3DH takes 23% less time than WS at 1,000 rays | not measured |"));
+}
+
+TEST_CASE("numbers have no exponents, tables are aligned") {
+  CHECK(plain(0) == "0");
+  CHECK(plain(2.3e-6) == "less than 0.001");
+  CHECK(plain(-2.3e-6) == "-0.001 to 0");
+  CHECK(plain(0.0123456) == "0.0123");
+  CHECK(plain(1.23456) == "1.23");
+  CHECK(plain(123456.7) == "123457");
+  CHECK(plain(12.3456, 2) == "12");
+  CHECK(plain(std::nan("")) == "undefined");
+  CHECK(plain(INFINITY) == "infinite");
+  CHECK(markdown({"Numbers:", {"a", "b"}, {{"long cell", "1"}, {"x|y", "22"}}}) ==
+        "Numbers:\n\n| a         | b   |\n| --------- | --- |\n| long cell | 1   |\n| x\\|y      | 22  |");
+  CHECK(words_text({"A sentence.", {}, {}}) == "A sentence.");
+}
+
+TEST_CASE("a row that is not there is not found") {
+  const Experiment& experiment = find_experiment("figure-6.18");
+  const auto rows = made_rows(experiment, {1000}, costs(2, 2));
+  CHECK(find_row(rows, unordered(), 1000) == &rows[0]);
+  CHECK(find_row(rows, unordered(), 2000) == nullptr);
+  CHECK(find_row(rows, ordered("morton"), 1000) == nullptr);
+}
+
+TEST_CASE("the reason: what the device takes for a few rays already") {
+  const Experiment& experiment = find_experiment("figure-6.18");
+  const auto with = [&](double few, double many) {
+    const auto rows = made_rows(experiment, {1000, 49000}, [&](const Series&, uint64_t rays) {
+      return std::pair{rays == 1000 ? few : many, 0.0};
+    });
+    return text_of(order_words(experiment, rows, "the device"));
+  };
+  CHECK(contains(with(220e-6, 245e-6), "WS takes 90% of its time at 49,000 rays at 1,000 already, which is what"));
+  CHECK(contains(with(30e-6, 300e-6), "WS takes 10% of its time at 49,000 rays at 1,000 already, so most"));
+  CHECK(order_fields(made_rows(experiment, {1000, 2000}, costs(2, 2)), "a").at("reason").empty());
+}
