@@ -103,6 +103,20 @@ TEST_CASE("live poses give the channels of a drive of the same poses") {
   }
 }
 
+TEST_CASE("a live frame that is given up leaves nothing of its rays: the next one is cold") {
+  Simulation live(live_city(true));
+  LiveTraffic traffic;
+  const std::vector poses{pose("x", 0, -50)};
+  const LiveFrame cold = live.run_poses(traffic, 0, poses), warm = live.run_poses(traffic, 0.1, poses);
+  CHECK(5 * warm.result.counts.rays < cold.result.counts.rays);
+  live.observe([](const FrameProgress& at) { return at.stage != "paths"; });
+  CHECK_THROWS_AS(live.run_poses(traffic, 0.2, poses), FrameStopped);
+  live.observe({});
+  const LiveFrame next = live.run_poses(traffic, 0.3, poses);
+  CHECK(next.result.counts.rays == cold.result.counts.rays);
+  CHECK(next.result.paths.delay_s == cold.result.paths.delay_s);
+}
+
 TEST_CASE("places: kept while a vehicle stays, given to others after it; names are those of the ids") {
   Simulation live(live_city(true));
   LiveTraffic traffic;
