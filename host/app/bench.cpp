@@ -25,7 +25,8 @@ struct BenchOptions {
 
 constexpr const char* all_figures = "thesis";
 
-study::Request request(const BenchOptions& options, const study::Experiment& experiment, const std::string& command_line) {
+study::Request request(const BenchOptions& options, const study::Experiment& experiment,
+                       const std::string& command_line) {
   study::Request out{.config = study::experiment_config(experiment, options.file, options.sets),
                      .device = options.device,
                      .rays = {},

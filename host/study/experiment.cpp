@@ -31,7 +31,7 @@ position_m = [10.0, -3.0, 1.5]
 velocity_m_s = [13.9, 0.0, 0.0]
 )";
 
-constexpr double step_m = 0.5;  // between frames: 54 km/h at 30 frames a second
+constexpr double frame_step_m = 0.5;  // between frames: 54 km/h at 30 frames a second
 
 void reject_varied_keys(const Experiment& experiment, const std::vector<std::string>& sets) {
   std::vector<std::string> varied = series_keys();
@@ -131,7 +131,7 @@ Config point_config(const OrderFigure& figure, const Config& config, uint64_t ra
   for (uint32_t frame = 0; frame < figure.frames; ++frame) {
     RadioEnd place = config.transmitters.front();
     place.name += fmt::format(" at frame {}", frame);
-    place.position_m[0] += step_m * frame;
+    place.position_m[0] += frame_step_m * frame;
     out.transmitters.push_back(place);
   }
   // As many rays as the device is given at once by default (choose_batch in host/simulation/discovery.cpp).
