@@ -33,7 +33,7 @@ struct TableCase {
   CacheConfig config;
 };
 
-TableCase table_case(const std::string& name, const char* kind, const char* locking = "readers",
+TableCase table_case(const std::string& name, CacheKind kind, CacheLocking locking = "readers",
                      uint32_t hash_method = 3) {
   CacheConfig config;
   config.kind = kind;

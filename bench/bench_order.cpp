@@ -80,9 +80,9 @@ Config config_of(const Place& place, const Variant& variant, uint64_t rays) {
   config.scene.generate = place.generate;
   config.trace.rays = rays;
   config.trace.max_depth = max_depth;
-  config.trace.directions = variant.directions;
-  config.order = {variant.method, variant.each_depth, variant.bins};
-  config.launch.shape = variant.shape;
+  config.trace.directions = Directions::named(variant.directions);
+  config.order = {OrderMethod::named(variant.method), variant.each_depth, variant.bins};
+  config.launch.shape = LaunchDimensions::named(variant.shape);
   config.transmitters = {{.name = "tx", .position_m = place.transmitter_m}};
   config.receivers = {{.name = "rx", .position_m = place.receiver_m}};
   return config;
@@ -159,7 +159,7 @@ double median_ratio(const std::vector<double>& baseline, const std::vector<doubl
 void print_place(const Place& place, uint64_t rays, const std::vector<Subject>& subjects, const std::string& command) {
   const Subject& unordered = subjects.front();
   for (const Subject& s : subjects) {
-    const bool same_rays = s.variant.directions == unordered.variant.directions;
+    const bool same_rays = s.variant.directions == unordered.Directions::named(variant.directions);
     const size_t missed = missing(unordered.paths, s.paths), added = missing(s.paths, unordered.paths);
     Result result;
     result.bench = "order";

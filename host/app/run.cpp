@@ -19,11 +19,11 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/solve_frame.hpp"
-#include "config/config_file.hpp"
 #include "config/input_files.hpp"
 #include "gpu/hash.hpp"
 #include "output/earlier_run.hpp"
-#include "output/output.hpp"
+#include "wavetracer/config_file.hpp"
+#include "wavetracer/output.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::app {

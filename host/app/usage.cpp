@@ -9,8 +9,8 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "config/config_file.hpp"
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
+#include "config/reference.hpp"
 #include "config/spelling.hpp"
 
 namespace wavetracer::app {

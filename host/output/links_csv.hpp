@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 #include <vector>
-#include "output/output.hpp"
 #include "output/pending_file.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -11,8 +11,8 @@
 #include "output/frame_files.hpp"
 #include "output/manifest.hpp"
 #include "output/merge_parts.hpp"
-#include "output/output.hpp"
 #include "output/pending_file.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -11,7 +11,7 @@ namespace {
 // Entries for all segments of a frame, of which a ray has few.
 uint64_t ample_buffer(uint64_t rays) { return std::max<uint64_t>(uint64_t{1} << 20, 8 * rays); }
 
-CacheConfig thesis_cache(const std::string& kind, uint32_t hash_method, uint64_t buffer_size) {
+CacheConfig thesis_cache(CacheKind kind, uint32_t hash_method, uint64_t buffer_size) {
   CacheConfig cache;
   cache.kind = kind;
   cache.key = "quantised";
@@ -39,12 +39,12 @@ Setting cached(const std::string& name, CacheConfig cache) {
           }};
 }
 
-Setting ours_with(const std::string& name, const std::string& key) {
+Setting ours_with(const std::string& name, CacheKey key) {
   return {name, [key](Config& config) {
             config.cache.kind = "concurrent";
             config.cache.key = key;
             config.cache.division = thesis_division;
-            config.cache.buffer_size = ample_buffer(config.trace.rays);
+            config.cache.buffer_size = ample_buffer(*config.trace.rays);
             config.cache.purge = "position";
             config.cache.position_step_m = thesis_position_step_m;
             config.cache.scope = "static";

@@ -15,7 +15,7 @@ Setting varied(const std::string& name, const Setting& base, const std::function
   return {name, [apply = base.apply, change](Config& config) {
             apply(config);
             config.trace.directions = "hilbert";
-            config.cache.buffer_size = std::max<uint64_t>(uint64_t{1} << 20, 8 * config.trace.rays);
+            config.cache.buffer_size = std::max<uint64_t>(uint64_t{1} << 20, 8 * *config.trace.rays);
             change(config.cache);
           }};
 }

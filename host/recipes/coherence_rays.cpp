@@ -32,7 +32,7 @@ Findings run(const Recipe& recipe, const Request& request, const Host& host) {
     if (host.interrupted()) return found;
     TraceConfig trace = request.config.trace;
     trace.rays = experiment_rays;
-    trace.directions = directions;
+    trace.directions = Directions::named(directions);
     const report::FrameHits hits = HitRecorder(traced, trace)(transmitter_m);
     for (uint32_t i = 0; i < hits.size(); ++i)
       for (const report::LagCoherence& at : report::coherence_along(hits[i], lags))

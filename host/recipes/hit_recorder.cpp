@@ -45,9 +45,9 @@ TracedScene::TracedScene(const Config& config, const std::string& device_text,
 
 HitRecorder::HitRecorder(TracedScene& traced, const TraceConfig& trace)
     : traced_(traced),
-      ray_count_(static_cast<uint32_t>(trace.rays)),
+      ray_count_(static_cast<uint32_t>(*trace.rays)),
       max_depth_(trace.max_depth),
-      generate_(traced.context, LaunchDirections(trace.directions, trace.rays, trace.seed)),
+      generate_(traced.context, LaunchDirections(trace.directions, *trace.rays, trace.seed)),
       trace_(traced.context, traced.on_device, traced.context.info().cpu ? TraceShape::bvh8 : TraceShape::bvh2),
       scan_(traced.context),
       interact_(traced.context),

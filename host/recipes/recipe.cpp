@@ -3,8 +3,8 @@
 #include "recipes/recipe.hpp"
 #include <fmt/format.h>
 #include <algorithm>
-#include "config/config_file.hpp"
 #include "config/spelling.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::recipes {

@@ -3,11 +3,11 @@
 #include "results/saved_world.hpp"
 #include <fmt/format.h>
 #include <map>
-#include "config/config_file.hpp"
 #include "config/retired_keys.hpp"
 #include "gpu/hash.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

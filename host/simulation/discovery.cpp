@@ -34,7 +34,7 @@ uint32_t ray_transmissions(const TraceConfig& config, uint32_t depth) {
 uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& config, uint64_t waiting) {
   const uint64_t bytes_a_ray = 4 * ((2 + waiting) * WT_RAY_PLANES + WT_HIT_PLANES) + 4;
   const uint64_t most = std::min(device.max_buffer / (8 * WT_RAY_PLANES), device.global_memory / (4 * bytes_a_ray));
-  const uint64_t wanted = config.batch_rays ? config.batch_rays : device.cpu ? uint64_t{1} << 18 : uint64_t{1} << 25;
+  const uint64_t wanted = config.batch_rays.value_or(uint64_t{1} << (device.cpu ? 18 : 25));
   return std::clamp<uint64_t>(wanted, 256, std::max<uint64_t>(most, 256));
 }
 
@@ -47,7 +47,7 @@ TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& config
 
 // Refined launches have no number of rays, but directions are made for one.
 TraceConfig with_rays(TraceConfig config) {
-  if (config.rays == 0) config.rays = 1;
+  if (!config.rays) config.rays = 1;
   return config;
 }
 
@@ -70,14 +70,14 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
       batch_rays_(choose_batch(context.info(), config, transmissions_ > 0 ? depth_ - 1 : 0)),
       keep_ages_(keep_ages),
       shape_(choose_shape(context.info(), config, order)),
-      directions_(config.directions, config_.rays, config.seed),
+      directions_(config.directions, *config_.rays, config.seed),
       heights_(std::make_shared<LaunchHeights>(context)),
       generate_(context, directions_, heights_),
       trace_(context, scene, shape_, order.launch),
       scan_(context),
       interact_(context, keep_ages, false, false, transmissions_ > 0),
       sequences_(context, initial_slots, keep_ages) {
-  if (config.rays == 0) {
+  if (!config.rays) {
     plan_ = {};  // refined launches go along their curve
     refinement_.emplace(context, config, heights_);
     interact_samples_.emplace(context, keep_ages, true, false, transmissions_ > 0);

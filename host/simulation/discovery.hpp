@@ -64,7 +64,7 @@ class Discovery {
   DiscoveryCounts operator()(const DeviceScene& scene, const std::vector<Launcher>& ends, DirectionShare share = {},
                              LaunchedBy by = LaunchedBy::transmitters);
   // The same with as many rays as trace.recall asks for, at most trace.max_rays a transmitter: a launch that is refined
-  // where it still finds something. Needs trace.rays = 0 ("auto").
+  // where it still finds something. Needs trace.rays = "auto".
   // frame: since the last cold one, see Refinement.
   DiscoveryCounts refined(const DeviceScene& scene, const std::vector<Launcher>& transmitters, uint64_t frame);
   Sequences& sequences() { return sequences_; }
@@ -81,7 +81,7 @@ class Discovery {
   void launch(const std::vector<Launcher>& transmitters, DirectionShare share, Batch batch);
   // Rays of an end in this launch.
   uint64_t rays_of(DirectionShare share) const {
-    const uint64_t rays = by_ == LaunchedBy::listeners ? listener_rays_ : config_.rays;
+    const uint64_t rays = by_ == LaunchedBy::listeners ? listener_rays_ : *config_.rays;
     return (rays - share.phase + share.stride - 1) / share.stride;
   }
   void tell(uint64_t done, uint64_t total) const {

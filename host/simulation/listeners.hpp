@@ -7,7 +7,7 @@
 #include "passes/launch_directions.hpp"
 #include "simulation/discovery.hpp"
 #include "wavetracer/device/moving.h"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -9,7 +9,7 @@
 #include "radio/surface_table.hpp"
 #include "simulation/sphere_reception.hpp"
 #include "wavetracer/config.hpp"
-#include "wavetracer/waypoints.hpp"
+#include "wavetracer/ray_waypoints.hpp"
 
 namespace wavetracer {
 

@@ -14,7 +14,7 @@
 #include "simulation/discovery.hpp"
 #include "simulation/distinct_paths.hpp"
 #include "simulation/exact_paths.hpp"
-#include "simulation/features.hpp"
+#include "simulation/feature_choice.hpp"
 #include "simulation/frame_watch.hpp"
 #include "simulation/launch_sides.hpp"
 #include "simulation/launch_slopes.hpp"
@@ -46,9 +46,9 @@ std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
 
 // All directions in a cold frame; after it every stride-th, another set each time: `stride` frames together launch all.
 // Steps of the golden ratio, so that a few frames spread evenly.
-DirectionShare share_of(uint64_t rays, uint64_t refresh_rays, uint64_t warm_frames) {
+DirectionShare share_of(uint64_t rays, std::optional<uint64_t> refresh_rays, uint64_t warm_frames) {
   if (warm_frames == 0) return {};
-  const uint64_t wanted = refresh_rays ? refresh_rays : std::max<uint64_t>(rays / refreshed_share, 1);
+  const uint64_t wanted = std::max<uint64_t>(refresh_rays.value_or(rays / refreshed_share), 1);
   const uint64_t stride = std::max<uint64_t>(rays / wanted, 1);
   auto step = static_cast<uint64_t>(0.6180339887498949 * static_cast<double>(stride)) + 1;
   while (std::gcd(step, stride) != 1) ++step;
@@ -57,8 +57,8 @@ DirectionShare share_of(uint64_t rays, uint64_t refresh_rays, uint64_t warm_fram
 
 // Rays of a listener: edges are met by many rays.
 uint64_t listener_rays(const TraceConfig& config) {
-  const uint64_t unasked = std::max<uint64_t>(config.rays / 10, 100000);
-  return std::min(config.diffraction_rays ? config.diffraction_rays : unasked, config.rays);
+  const uint64_t unasked = std::max<uint64_t>(*config.rays / 10, 100000);
+  return std::min(config.diffraction_rays.value_or(unasked), *config.rays);
 }
 
 void add(const DiscoveryCounts& more, DiscoveryCounts& sum) {
@@ -182,17 +182,17 @@ DiscoveryCounts Simulation::State::discover(const WorldState& state, const LinkB
       for (Launcher& launcher : *launchers) launcher.heights = tables.of_origin[launcher.transmitter];
     discovery->set_heights(tables.values);
   }
-  if (trace.rays == 0) {
+  if (!trace.rays) {
     first.insert(first.end(), then.begin(), then.end());
     return discovery->refined(device_scene, first, warm_frames);
   }
-  const auto share = [this](uint64_t rays, uint64_t refresh_rays) {
+  const auto share = [this](uint64_t rays, std::optional<uint64_t> refresh_rays) {
     return compiling ? DirectionShare{0, std::max<uint64_t>(rays / compiling_rays, 1)}
                      : share_of(rays, refresh_rays, warm_frames);
   };
-  DiscoveryCounts counts = (*discovery)(device_scene, first, share(trace.rays, trace.refresh_rays));
+  DiscoveryCounts counts = (*discovery)(device_scene, first, share(*trace.rays, trace.refresh_rays));
   if (!then.empty())
-    add((*discovery)(device_scene, then, share(listener_rays(trace), 0), LaunchedBy::listeners), counts);
+    add((*discovery)(device_scene, then, share(listener_rays(trace), {}), LaunchedBy::listeners), counts);
   return counts;
 }
 
@@ -269,7 +269,7 @@ Simulation::Simulation(const Config& config, const std::string& device) : state_
   s.reuse = config.trace.reuse && !sphere && (s.world->frame_count() > 1 || s.world->live());
   if (s.trace.directions == "horizon") s.slopes.emplace(*s.around, s.world->reach_m());
   s.discovery.emplace(*s.context, s.device_scene, s.trace, order.plan, s.reuse);
-  if (s.trace.diffraction && s.trace.rays > 0) s.discovery->listen(listener_rays(s.trace));
+  if (s.trace.diffraction && s.trace.rays) s.discovery->listen(listener_rays(s.trace));
   if (sphere || config.output.waypoints > 0) {
     s.trails.emplace(*s.context, s.trace, config.output.waypoints, s.trace.reflection ? s.trace.max_depth : 0,
                      SurfaceTable(s.scene, s.world->models(), s.world->instances()));
@@ -335,8 +335,8 @@ FrameResult Simulation::run_frame(uint32_t frame) {
 }
 
 std::string block_obstacle(const Config& config) {
-  if (config.trace.rays == 0) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
-  if (config.trace.reception != "exact") return "trace.reception = \"" + config.trace.reception + "\"";
+  if (!config.trace.rays) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
+  if (config.trace.reception != "exact") return "trace.reception = \"" + config.trace.reception.text() + "\"";
   if (config.cache.kind != "none") return "all transmitters share one ray cache (cache.kind)";
   if (config.output.waypoints > 0) return "output.waypoints follows the rays of all transmitters";
   return {};

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include "output/output.hpp"
 #include "output/pending_file.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/output.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;

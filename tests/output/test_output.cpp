@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include "output/output.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
+#include "wavetracer/output.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;

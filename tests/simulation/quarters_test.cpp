@@ -5,7 +5,7 @@
 #include "scene/load.hpp"
 #include "simulation/drive.hpp"
 #include "simulation/exact_paths.hpp"
-#include "simulation/features.hpp"
+#include "simulation/feature_choice.hpp"
 #include "simulation/tree_choice.hpp"
 
 using namespace wavetracer;
@@ -13,7 +13,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-Config town(uint64_t rays, uint32_t max_depth = 4) {
+Config town(std::optional<uint64_t> rays, uint32_t max_depth = 4) {
   Config config = config_of("", {{0, 0, 12}, {100, 3, 2}},
                             {{60, -2, 1.5}, {-97, 4, 1.5}, {40, 7, 1.5}, {-3, -50, 5}, {103, 50, 2}}, rays, max_depth);
   config.scene.generate = "--blocks 4x4";
@@ -47,7 +47,7 @@ PathGeometry found(const Config& config, DirectionShare share) {
   const RadioEnds ends = make_radio_ends(context, state.transmitters, state.receivers, state.links, origins.listeners);
   discovery(device, sending(state), share);
   if (const std::vector<Launcher> listeners = listening(state, origins); !listeners.empty()) {
-    discovery.listen(trace.rays / 3);
+    discovery.listen(*trace.rays / 3);
     discovery(device, listeners, share, LaunchedBy::listeners);
   }
   FrameCounts counts;
@@ -141,7 +141,7 @@ TEST_CASE("of a launch of few rays the interval holds what a large one finds mor
 }
 
 TEST_CASE("batches, orders of rays and shapes of launches change no quarter, fixed or refined") {
-  for (const uint64_t rays : {uint64_t{20000}, uint64_t{0}}) {
+  for (const std::optional<uint64_t> rays : {std::optional<uint64_t>{20000}, {}}) {
     Config config = town(rays);
     const FrameResult whole = run(config);
     REQUIRE(whole.missed.frames == 1);
@@ -151,7 +151,7 @@ TEST_CASE("batches, orders of rays and shapes of launches change no quarter, fix
     CHECK(run(config).paths.quarters == whole.paths.quarters);
     config.launch.shape = "2d";
     CHECK(run(config).paths.quarters == whole.paths.quarters);
-    if (rays == 0) continue;
+    if (!rays) continue;
     config.order.method = "morton";
     config.order.each_depth = true;
     CHECK(run(config).paths.quarters == whole.paths.quarters);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 
@@ -20,7 +21,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-TraceConfig transmitting(uint32_t max_depth, uint32_t max_transmissions, uint64_t rays) {
+TraceConfig transmitting(uint32_t max_depth, uint32_t max_transmissions, std::optional<uint64_t> rays) {
   TraceConfig config;
   config.rays = rays;
   config.max_depth = max_depth;
@@ -175,12 +176,12 @@ TEST_CASE("batches, orders before each depth, and an exact cache change no seque
     config.batch_rays = batch;
     CHECK(discover(scene, config, at) == plain);
   }
-  config.batch_rays = 0;
+  config.batch_rays = {};
   OrderConfig order{.method = "direction-origin", .each_depth = true};
   CHECK(discover(scene, config, at, plan_order(order, {})) == plain);
   CacheConfig cache;
   cache.key = "exact";
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     cache.kind = kind;
     CHECK(discover(scene, config, at, {}, cache) == plain);
   }
@@ -190,7 +191,7 @@ TEST_CASE("batches, orders before each depth, and an exact cache change no seque
 
 TEST_CASE("a launch that is refined goes where it goes without transmission, and finds more") {
   const Scene scene = reference::scene_of_quads(furnished_box());
-  TraceConfig config = transmitting(3, 2, 0);
+  TraceConfig config = transmitting(3, 2, {});
   config.max_rays = 300000;
   const Found with = discover(scene, config, {2, 0.5, 2});
   config.transmission = false;
