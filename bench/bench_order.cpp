@@ -159,7 +159,7 @@ double median_ratio(const std::vector<double>& baseline, const std::vector<doubl
 void print_place(const Place& place, uint64_t rays, const std::vector<Subject>& subjects, const std::string& command) {
   const Subject& unordered = subjects.front();
   for (const Subject& s : subjects) {
-    const bool same_rays = s.variant.directions == unordered.Directions::named(variant.directions);
+    const bool same_rays = s.variant.directions == unordered.variant.directions;
     const size_t missed = missing(unordered.paths, s.paths), added = missing(s.paths, unordered.paths);
     Result result;
     result.bench = "order";

@@ -31,7 +31,7 @@ class Choice : ChoiceIndex {
   static constexpr std::array<std::string_view, sizeof...(Words)> words{Words.text...};
 
   constexpr Choice() = default;  // the first word
-  // A literal that is none of the words does not compile.
+  // A literal that is none of the words does not compile: it has no number.
   consteval Choice(const char* word) : ChoiceIndex(*parse(word)) {}
 
   static constexpr std::optional<Choice> parse(std::string_view word) {
@@ -52,7 +52,7 @@ class Choice : ChoiceIndex {
   constexpr size_t index() const { return value; }
   constexpr std::string_view word() const { return words[value]; }
   std::string text() const { return std::string(word()); }
-  ChoiceIndex& stored() { return *this; }
+  ChoiceIndex& stored() { return *this; }  // for the field table, which has checked the number
 
   friend constexpr bool operator==(const Choice& a, const Choice& b) { return a.value == b.value; }
   template <class Stream>

@@ -1,6 +1,6 @@
 // The configuration of a run, one struct a table of the TOML file. Defaults live here, each with its reason
-// in the field table (host/config/fields.cpp), which is what parsing, `validate`, `init` and `--help` are driven by.
-// Where the file says 0 or "auto" for "choose yourself" or "no limit", the member is an optional that is not set.
+// in the field table (host/config/field_table.cpp), which is what parsing, `validate`, `init` and `--help` are driven
+// by. Where the file says 0 or "auto" for "choose yourself" or "no limit", the member is an optional that is not set.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -88,8 +88,9 @@ using NamedBody = Choice<"auto", "car", "van", "truck", "none">;
 struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories looks like
   std::string name;
   std::string model = "auto";  // a NamedBody, or a mesh file (x ahead, z up, origin on the ground)
-  std::optional<double> length_m, width_m, height_m;  // not given: the mesh file's, else of SUMO's class of this name
-  std::string material = "metal";                     // of a mesh without one
+  // Not given: that of the mesh file, else of SUMO's class of this name.
+  std::optional<double> length_m = {}, width_m = {}, height_m = {};
+  std::string material = "metal";  // of a mesh without one
 };
 
 using MountRole = Choice<"transmitter", "receiver", "both">;
@@ -113,7 +114,7 @@ struct LinksConfig {  // [links]: which pairs are computed
 
 struct TimeConfig {                      // [time]: frames of a drive
   std::optional<double> start_s, end_s;  // not given: those of the trajectories
-  std::optional<double> step_s;          // not given: that of the trajectories
+  std::optional<double> step_s = {};     // not given: that of the trajectories
 };
 
 using Directions = Choice<"horizon", "hilbert", "fibonacci", "random">;
@@ -124,20 +125,20 @@ struct TraceConfig {
   double recall = 0.99;                   // of rays = "auto": wanted share of the paths
   uint64_t max_rays = 10000000;           // of rays = "auto"
   bool reuse = true;                      // sequences of earlier frames of a drive are kept and solved again
-  std::optional<uint64_t> refresh_rays;   // a transmitter, of a frame that reuses; not given: a tenth of rays
-  uint32_t forget_frames = 50;            // a sequence that no ray has met for so many frames is dropped
+  std::optional<uint64_t> refresh_rays = {};  // a transmitter, of a frame that reuses; not given: a tenth of rays
+  uint32_t forget_frames = 50;                // a sequence that no ray has met for so many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
-  uint32_t max_diffractions = 1;             // a path, 1 or 2
-  bool free_edges = true;                    // edges of one face diffract as half planes
-  std::optional<uint64_t> diffraction_rays;  // of a receiver; not given: a tenth of rays, at least 100,000
-  uint32_t max_transmissions = 2;            // a path
-  double tile_m = 5;                         // of scattering: no tile is longer
+  uint32_t max_diffractions = 1;                  // a path, 1 or 2
+  bool free_edges = true;                         // edges of one face diffract as half planes
+  std::optional<uint64_t> diffraction_rays = {};  // of a receiver; not given: a tenth of rays, at least 100,000
+  uint32_t max_transmissions = 2;                 // a path
+  double tile_m = 5;                              // of scattering: no tile is longer
   Directions directions = "horizon";
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
-  std::optional<uint64_t> batch_rays;  // in flight at once; not given: chosen from the device
+  std::optional<uint64_t> batch_rays = {};  // in flight at once; not given: chosen from the device
 };
 
 // Those of the thesis have two words each, the plain name and the mnemonic; a configuration is echoed as it was given.
@@ -155,7 +156,7 @@ using LaunchDimensions = Choice<"auto", "1d", "2d", "3d">;
 
 struct LaunchConfig {
   LaunchDimensions shape = "auto";
-  std::optional<uint32_t> local_size;  // work-items of a group; not given: chosen from the device
+  std::optional<uint32_t> local_size = {};  // work-items of a group; not given: chosen from the device
 };
 
 using CacheKind = Choice<"none", "chained", "open", "concurrent">;
@@ -189,7 +190,7 @@ struct OutputConfig {
   uint64_t waypoints = 0;       // samples a transmitter whose waypoints are written, spread evenly; 0: none
   // Paths that are not written to paths.h5, see output/path_limits.hpp; not given: all are.
   std::optional<double> min_gain_db, dynamic_range_db;
-  std::optional<uint32_t> max_paths_per_link;
+  std::optional<uint32_t> max_paths_per_link = {};
   bool keep_shards = true;  // of a drive that is whole and merged
 };
 
