@@ -33,7 +33,7 @@ struct TableCase {
   CacheConfig config;
 };
 
-TableCase table_case(const std::string& name, const char* kind, const char* locking = "readers",
+TableCase table_case(const std::string& name, CacheKind kind, CacheLocking locking = "readers",
                      uint32_t hash_method = 3) {
   CacheConfig config;
   config.kind = kind;
@@ -159,7 +159,7 @@ class Bench {
   // What the hash costs and how many keys find a place by it, on the concurrent table.
   void hashes(Questions& questions, uint32_t mb) {
     for (uint32_t method = 1; method <= 3; ++method) {
-      OurTable table(context_, table_case("", "concurrent", "", method).config, uint64_t{mb} << 20);
+      OurTable table(context_, table_case("", "concurrent", "readers", method).config, uint64_t{mb} << 20);
       table.put(questions);
       const Rate found = table.find(questions, spread_keys);
       Result r = result(fmt::format("{}: concurrent, hash {}", size_name(mb), method), found.right * 1e-9, "G right/s");

@@ -108,7 +108,7 @@ std::vector<Setting> settings(const Options& options, uint64_t rays) {
     cache.purge = "precision";
     cache.division = 10000;
   }));
-  const auto thesis = [](const std::string& purge, uint32_t division) {
+  const auto thesis = [](CachePurging purge, uint32_t division) {
     return [=](CacheConfig& cache) {
       cache.kind = "open";
       cache.scope = "all";

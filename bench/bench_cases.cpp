@@ -58,7 +58,7 @@ class Bench {
     for (const char* directions : {"horizon", "hilbert"}) {
       Config config = study.config;
       config.trace.rays = options_.truth_rays;
-      config.trace.directions = directions;
+      config.trace.directions = Directions::named(directions);
       Simulation simulation(config, options_.device);
       device_ = simulation.device().name;
       known.add(simulation.run_frame(0).paths);
@@ -84,7 +84,7 @@ class Bench {
   }
 
   Config with_rays(Config config, uint64_t rays) const {
-    config.trace.directions = options_.directions;
+    config.trace.directions = Directions::named(options_.directions);
     config.trace.rays = rays;
     config.trace.recall = options_.recall;
     return config;

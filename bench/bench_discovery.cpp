@@ -114,7 +114,7 @@ class Bench {
 
   void run_auto(double recall, uint64_t plain) {
     Config config = standing();
-    config.trace.rays = 0;
+    config.trace.rays = {};
     config.trace.recall = recall;
     print_line(solve_standing(config), fmt::format("auto, recall {}", recall), plain, "");
   }

@@ -90,8 +90,8 @@ void run_drive(const Options& options, const std::string& command) {
     }
     for (const uint64_t refresh : options.refresh)
       run({true, most_rays, refresh, fmt::format("cold, {:.0e} rays", static_cast<double>(most_rays)), cold_s});
-    const double cold_auto_s = run({.rays = 0});
-    run({true, 0, 0, "cold, auto rays", cold_auto_s});
+    const double cold_auto_s = run({});
+    run({true, {}, {}, "cold, auto rays", cold_auto_s});
   }
 }
 

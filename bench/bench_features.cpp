@@ -13,6 +13,7 @@
 #include "scene/load.hpp"
 #include "turns.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer::bench {
 namespace {
@@ -80,10 +81,8 @@ std::map<std::string, size_t> paths_with(const Paths& paths) {
   for (size_t i = 0; i < paths.size(); i++) {
     uint32_t bits = 0;
     for (uint64_t k = paths.vertex_offset[i]; k < paths.vertex_offset[i + 1]; k++) bits |= paths.vertex_interaction[k];
-    for (const auto& [bit, name] : {std::pair{Interaction::diffuse, "scattering"},
-                                    {Interaction::transmission, "transmission"},
-                                    {Interaction::diffraction, "diffraction"}})
-      if (bits & bit) counts[name]++;
+    for (const InteractionKind& kind : interaction_kinds)
+      if (kind.code != reflection && (bits & kind.code)) counts[std::string(kind.word)]++;
   }
   return counts;
 }
@@ -91,7 +90,7 @@ std::map<std::string, size_t> paths_with(const Paths& paths) {
 double scattered_power(const Paths& paths) {
   double sum = 0;
   for (size_t i = 0; i < paths.size(); i++)  // a scattered path is transmitter - tile - receiver
-    if (paths.depth[i] == 1 && paths.vertex_interaction[paths.vertex_offset[i]] == diffuse)
+    if (paths.depth[i] == 1 && paths.vertex_interaction[paths.vertex_offset[i]] == scattering)
       sum += std::norm(paths.a[i][0]);
   return sum;
 }

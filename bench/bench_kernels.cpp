@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <bit>
 #include <execution>
 #include <functional>
@@ -73,7 +74,7 @@ class Suite {
   void run() {
     for (const char* name : {"morton2", "morton3", "morton5", "hilbert2", "hilbert3"}) curves(name);
     for (const bool shuffled : {false, true}) gather(shuffled);
-    for (const char* map : {"horizon", "hilbert", "fibonacci", "random"}) generate(map);
+    for (const Directions map : std::to_array<Directions>({"horizon", "hilbert", "fibonacci", "random"})) generate(map);
     for (const auto& [key, name] : {std::pair{OrderKey::morton, "morton"},
                                     {OrderKey::morton_bins, "morton-histogram"},
                                     {OrderKey::hilbert_bins, "hilbert3d-histogram"},
@@ -155,7 +156,7 @@ class Suite {
     measure({name + " decode", bytes, [&] { curve.decode(codes, n_, decoded, n_); }, wrong});
   }
 
-  RayQueue launch(const std::string& map) {
+  RayQueue launch(Directions map) {
     RayQueue rays = make_ray_queue(context_, n_, "rays");
     GenerateRays(context_, LaunchDirections(map, n_, seed))(rays, {0, {0, 0, 0}}, 0, n_);
     return rays;
@@ -199,7 +200,7 @@ class Suite {
     return count;
   }
 
-  void generate(const std::string& map) {
+  void generate(Directions map) {
     const LaunchDirections directions(map, n_, seed);
     GenerateRays generate(context_, directions);
     RayQueue rays = make_ray_queue(context_, n_, "rays");
@@ -214,8 +215,8 @@ class Suite {
         else
           generate(rays, {0, {0, 0, 0}}, 0, n_);
       };
-      measure({fmt::format("generate_rays {}, {}", map, listed ? "random list" : "in order"), bytes + (listed ? 4 : 0),
-               run, [&] { return wrong_directions(rays, order, directions); }});
+      measure({fmt::format("generate_rays {}, {}", map.word(), listed ? "random list" : "in order"),
+               bytes + (listed ? 4 : 0), run, [&] { return wrong_directions(rays, order, directions); }});
     }
   }
 

@@ -80,9 +80,9 @@ Config config_of(const Place& place, const Variant& variant, uint64_t rays) {
   config.scene.generate = place.generate;
   config.trace.rays = rays;
   config.trace.max_depth = max_depth;
-  config.trace.directions = variant.directions;
-  config.order = {variant.method, variant.each_depth, variant.bins};
-  config.launch.shape = variant.shape;
+  config.trace.directions = Directions::named(variant.directions);
+  config.order = {OrderMethod::named(variant.method), variant.each_depth, variant.bins};
+  config.launch.shape = LaunchDimensions::named(variant.shape);
   config.transmitters = {{.name = "tx", .position_m = place.transmitter_m}};
   config.receivers = {{.name = "rx", .position_m = place.receiver_m}};
   return config;

@@ -52,7 +52,7 @@ void run(const Options& options, const std::string& command) {
     config.transmitters = ends("tx", reference.transmitters_m);
     config.receivers = ends("rx", reference.receivers_m);
     for (const std::string& directions : options.directions) {
-      config.trace.directions = directions;
+      config.trace.directions = Directions::named(directions);
       for (const uint64_t rays : {10'000, 30'000, 100'000, 300'000, 1'000'000, 3'000'000, 10'000'000}) {
         if (rays > options.most_rays) break;
         config.trace.rays = rays;

@@ -3,6 +3,7 @@
 // distance differs from that of Embree's robust mode (of our first shape, where Embree is missing) by more than a
 // millimetre and 1e-4 of it.
 #include <fmt/format.h>
+#include <array>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -43,8 +44,7 @@ using Segments = std::vector<std::vector<Ray>>;
 using Truth = std::vector<std::vector<Hit>>;
 
 // The program's own launch rays: "random", or "hilbert", its default, in which neighbours go the same way.
-std::vector<Ray> launch(gpu::Context& context, const std::string& directions, std::array<float, 3> origin,
-                        size_t count) {
+std::vector<Ray> launch(gpu::Context& context, Directions directions, std::array<float, 3> origin, size_t count) {
   RayQueue queue = make_ray_queue(context, count, "launch rays");
   GenerateRays(context, LaunchDirections(directions, count, 1))(queue, {0, {origin[0], origin[1], origin[2]}}, 0,
                                                                 static_cast<uint32_t>(count));
@@ -172,8 +172,8 @@ void run(const Options& options, const std::string& command) {
 #endif
   const std::string host_device = info.cpu ? info.name : "host CPU";
 
-  for (const std::string directions : {"random", "hilbert"}) {
-    const std::string label = fmt::format("{}, {} rays, {}", place.name, options.rays, directions);
+  for (const Directions directions : std::to_array<Directions>({"random", "hilbert"})) {
+    const std::string label = fmt::format("{}, {} rays, {}", place.name, options.rays, directions.word());
     const auto [segments, expected] =
         make_segments(launch(context, directions, origin, options.rays), *truth, triangles);
     double ray_count = 0;

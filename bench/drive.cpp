@@ -31,8 +31,8 @@ double percentile_95(std::vector<double> values) {
 
 std::string name_of(const Setting& s) {
   std::string name = s.reuse ? "reuse, " : "cold, ";
-  name += s.rays ? fmt::format("{:.0e} rays", static_cast<double>(s.rays)) : "auto rays";
-  if (s.reuse && s.refresh_rays) name += fmt::format(", {:.0e} anew", static_cast<double>(s.refresh_rays));
+  name += s.rays ? fmt::format("{:.0e} rays", static_cast<double>(*s.rays)) : "auto rays";
+  if (s.reuse && s.refresh_rays) name += fmt::format(", {:.0e} anew", static_cast<double>(*s.refresh_rays));
   return name;
 }
 

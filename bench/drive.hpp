@@ -20,7 +20,8 @@ struct Drive {
 
 struct Setting {
   bool reuse = false;
-  uint64_t rays = 0, refresh_rays = 0;  // a transmitter; 0: "auto", and what the simulation chooses
+  std::optional<uint64_t> rays = {},
+                          refresh_rays = {};  // a transmitter; not given: "auto", and what the simulation chooses
   std::string baseline = {};
   std::optional<double> baseline_s = {};
 };

@@ -1,5 +1,5 @@
 // The axes, cheapest setting first.
-// Assumes the keys of the field table (host/config/fields.cpp), which checks them when a setting is read.
+// Assumes the keys of the field table (host/config/field_table.cpp), which checks them when a setting is read.
 #include "accuracy/axes.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -19,12 +19,12 @@ Setting of_depth(uint32_t depth) {
 }
 
 // Once and three times every power of ten of the range, its ends, and the user's own number.
-std::set<uint64_t> ray_steps(uint64_t own, study::RayRange range) {
+std::set<uint64_t> ray_steps(std::optional<uint64_t> own, study::RayRange range) {
   std::set<uint64_t> steps = {range.first, range.last};
   for (uint64_t decade = 1000; decade <= range.last; decade *= 10)
     for (const uint64_t rays : {decade, 3 * decade})
       if (range.first <= rays && rays <= range.last) steps.insert(rays);
-  if (own > 0) steps.insert(own);
+  if (own) steps.insert(*own);
   return steps;
 }
 
@@ -33,7 +33,7 @@ Axis ray_axis(const Config& own, bool drive, study::RayRange range) {
   Axis axis{of_rays(10 * *steps.rbegin()), {}};
   for (const uint64_t rays : steps) axis.settings.push_back(of_rays(rays));
   std::set<double> recalls = {0.9, 0.99, 0.999};
-  if (own.trace.rays == 0) recalls.insert(own.trace.recall);
+  if (!own.trace.rays) recalls.insert(own.trace.recall);
   for (const double recall : recalls) axis.settings.push_back(of_recall(recall));
   if (drive) {
     axis.settings.push_back({"reuse", "on", {"trace.reuse=true"}, {}, true});

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <new>
-#include "config/config_file.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::accuracy {

@@ -9,7 +9,7 @@
 #include "app/inputs.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "config/config_file.hpp"
+#include "wavetracer/config_file.hpp"
 
 namespace wavetracer::app {
 namespace {

@@ -6,10 +6,10 @@
 #include "app/commands.hpp"
 #include "app/first_configs.hpp"
 #include "app/inputs.hpp"
-#include "config/config_file.hpp"
 #include "scene/load.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/world.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::app {

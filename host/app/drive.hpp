@@ -6,8 +6,8 @@
 #include "app/ranks.hpp"
 #include "app/report.hpp"
 #include "output/manifest.hpp"
-#include "output/output.hpp"
 #include "output/process_files.hpp"
+#include "wavetracer/output.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::app {

@@ -54,7 +54,7 @@ void check_inputs(const Config& config) {
   if (!config.scene.generate.empty() && !config.trajectories.generate.empty()) check_streets(config);
 }
 
-std::string rays_in_words(const TraceConfig& trace) { return trace.rays == 0 ? "auto" : std::to_string(trace.rays); }
+std::string rays_in_words(const TraceConfig& trace) { return trace.rays ? std::to_string(*trace.rays) : "auto"; }
 
 void check_output_folder(const fs::path& folder) {
   fs::path there = fs::absolute(folder).lexically_normal();

@@ -1,8 +1,7 @@
 // Words that options take without CLI11 knowing them: what is listed elsewhere, and would fill the screen in --help.
 #include <algorithm>
 #include "app/command_text.hpp"
-#include "config/config_file.hpp"
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
 #include "convert/convert.hpp"
 #include "plots/plots.hpp"
 #include "scene/materials.hpp"

@@ -10,6 +10,7 @@
 #include <utility>
 #include "app/digits.hpp"
 #include "output/advice.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -67,12 +68,12 @@ std::string spaced(std::string_view key) {
 // What was computed, and of what the configuration asks for beyond that, why not.
 std::string feature_line(const Run& run) {
   const TraceConfig& trace = run.config.trace;
-  const std::pair<const char*, bool> features[] = {
-      {"reflection", trace.reflection},
-      {"diffraction", trace.diffraction},
-      {"double_diffraction", trace.diffraction && trace.max_diffractions > 1},
-      {"transmission", trace.transmission},
-      {"scattering", trace.scattering}};
+  std::vector<std::pair<std::string, bool>> features;
+  for (const InteractionKind& kind : interaction_kinds) {
+    features.emplace_back(kind.word, trace.*kind.asked_for);
+    if (kind.code == diffraction)
+      features.emplace_back("double_diffraction", trace.diffraction && trace.max_diffractions > 1);
+  }
   std::string on, off;
   for (const auto& [key, asked] : features) {
     const auto found = run.summary.features.find(key);
@@ -90,7 +91,8 @@ std::string path_line(const Totals& totals) {
   std::string kinds;
   for (size_t i = 0; i < path_kinds.size(); ++i)
     if (totals.kinds[i] > 0)
-      kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", grouped(totals.kinds[i]), spaced(path_kinds[i]));
+      kinds +=
+          fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", grouped(totals.kinds[i]), spaced(path_kinds[i].word));
   return fmt::format("paths      {}{}\n", grouped(totals.counts.paths), kinds);
 }
 
@@ -105,9 +107,9 @@ std::string missed_line(const Run& run, const Totals& totals) {
                      grouped(totals.counts.paths), grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.low))),
                      grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
                      missed.power_share.low, missed.power_share.high,
-                     none                         ? ""
-                     : run.config.trace.rays == 0 ? ": a higher trace.recall finds more"
-                                                  : ": more trace.rays find more");
+                     none                    ? ""
+                     : run.config.trace.rays ? ": more trace.rays find more"
+                                             : ": a higher trace.recall finds more");
 }
 
 // What tracing did, for whoever tunes it.

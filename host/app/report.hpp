@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 #include "app/link_statistics.hpp"
-#include "output/output.hpp"
 #include "output/totals.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer::app {
 

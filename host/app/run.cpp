@@ -20,10 +20,10 @@
 #include "app/report.hpp"
 #include "app/solve_frame.hpp"
 #include "base/hash.hpp"
-#include "config/config_file.hpp"
 #include "config/input_files.hpp"
 #include "output/earlier_run.hpp"
-#include "output/output.hpp"
+#include "wavetracer/config_file.hpp"
+#include "wavetracer/output.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::app {

@@ -7,12 +7,12 @@
 #include "app/commands.hpp"
 #include "app/inputs.hpp"
 #include "base/file.hpp"
-#include "config/config_file.hpp"
 #include "motion/fcd_writer.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
 #include "scene/info.hpp"
 #include "scene/load.hpp"
+#include "wavetracer/config_file.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -27,14 +27,15 @@ void add_info(CLI::App& scene) {
   const auto options = std::make_shared<Options>();
   command->add_option("file", options->file, "Scene file (XML, OBJ, GLB, glTF, PLY)")->required();
   command->add_option("--scale", options->scale, "As scene.scale: metres a file unit")->check(CLI::PositiveNumber);
-  command->add_option("--up", options->up, "As scene.up")->check(CLI::IsMember({"auto", "y", "z"}));
+  command->add_option("--up", options->up, "As scene.up")
+      ->check(CLI::IsMember(std::vector<std::string>(UpAxis::words.begin(), UpAxis::words.end())));
   command->add_option("--default-material", options->default_material, "As scene.default_material");
   command->add_flag("--edges", options->edges, "List the edges that can diffract instead");
   command->callback([options] {
     SceneConfig config;
     config.file = options->file;
     config.scale = options->scale;
-    config.up = options->up;
+    config.up = UpAxis::named(options->up);
     config.default_material = options->default_material;
     const Scene loaded = load_scene_file(options->file, config);
     std::cout << (options->edges ? describe_edges(loaded) : describe_scene(loaded));

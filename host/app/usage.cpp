@@ -10,8 +10,9 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "base/spelling.hpp"
-#include "config/config_file.hpp"
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
+#include "config/reference.hpp"
+#include "wavetracer/config_file.hpp"
 
 namespace wavetracer::app {
 namespace {

@@ -14,14 +14,12 @@ Table cache_table() {
       .fields = {
           {.name = "kind",
            .slot = c(&CacheConfig::kind),
-           .choices = {"none", "chained", "open", "concurrent"},
            .doc = "The table. chained: buckets of binary trees, keeps every segment until it is full. open: one place "
                   "a key, under locks, where the last segment wins. concurrent: buckets of 8, which rays read without "
                   "locks and which fill evenly. none: a cache pays only where many rays meet what others have traced, "
                   "and an order of the rays speeds up tracing by itself."},
           {.name = "key",
            .slot = c(&CacheConfig::key),
-           .choices = {"quantised", "exact"},
            .doc = "Which rays share an entry. quantised: those that leave one primitive into one cell of directions, "
                   "wherever they leave it, so results are approximate, and chance decides which of two like rays "
                   "answers for both. exact: the same ray alone, bit for bit, so the paths are those of no cache, but "
@@ -55,7 +53,6 @@ Table cache_table() {
                   "trees. 3, as in the thesis."},
           {.name = "locking",
            .slot = c(&CacheConfig::locking),
-           .choices = {"mutex", "readers"},
            .doc = "Of kind = \"open\". mutex: one ray at a time has an entry; who comes meanwhile misses. readers: "
                   "the thesis' locks for reading and writing in one, and an entry wears out after readers_number "
                   "reads."},
@@ -67,7 +64,6 @@ Table cache_table() {
                   "anew. More reads save more, and keep an older result longer. 5, as in the thesis."},
           {.name = "purge",
            .slot = c(&CacheConfig::purge),
-           .choices = {"position", "precision"},
            .doc = "What a moving transmitter makes stale, of key = \"quantised\". position: all its entries, when it "
                   "enters another cell of position_step_m. precision: an entry whose ray was farther than "
                   "residual_value from the one that asks; keeps more of a drive and tests every answer."},
@@ -87,13 +83,11 @@ Table cache_table() {
                   "more. 0.0125, as in the thesis."},
           {.name = "scope",
            .slot = c(&CacheConfig::scope),
-           .choices = {"static", "all"},
            .doc = "What an entry decides. static: what the static scene does; vehicles and receivers are tested "
                   "against every segment, so none that moves is missed. all: vehicles and receivers too, as in the "
                   "thesis; saves those tests, and overlooks who has moved into a segment since it was traced."},
           {.name = "hit_point",
            .slot = c(&CacheConfig::hit_point),
-           .choices = {"own", "cached"},
            .doc = "Where an answered ray of key = \"quantised\" goes on. own: where its line meets the plane of the "
                   "cached surface, and it is traced if that is beside the surface. cached: in the point of the other "
                   "ray, as in the thesis; saves a few operations and adds up errors along the path."},

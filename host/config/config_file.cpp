@@ -1,6 +1,6 @@
 // Parsing: the TOML tree is flattened into assignments to fields, those of --set replace earlier ones, and only
 // then is each checked and stored, so that a value overridden on the command line cannot fail.
-#include "config/config_file.hpp"
+#include "wavetracer/config_file.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <deque>
@@ -11,7 +11,7 @@
 #include "base/input_file.hpp"
 #include "base/spelling.hpp"
 #include "config/contradictions.hpp"
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
 #include "config/retired_keys.hpp"
 #include "config/values.hpp"
 #include "wavetracer/error.hpp"

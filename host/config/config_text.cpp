@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include "config/config_file.hpp"
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
+#include "config/reference.hpp"
+#include "wavetracer/config_file.hpp"
 
 namespace wavetracer {
 namespace {

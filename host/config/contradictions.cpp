@@ -9,6 +9,7 @@
 #include <set>
 
 #include "config/values.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer::config {
 namespace {
@@ -26,41 +27,42 @@ void check_scene(const SceneConfig& scene, Found& out) {
 }
 
 void check_launch(const Config& config, Found& out) {
-  const uint32_t local = config.launch.local_size;
+  const uint32_t local = config.launch.local_size.value_or(1);
   if ((local & (local - 1)) != 0)
     out.push_back({{"launch.local_size"},
                    fmt::format("launch.local_size = {} is no power of two: give {}, or 0 for what suits the device",
                                local, std::bit_floor(local))});
-  const std::string &method = config.order.method, &shape = config.launch.shape;
+  const OrderMethod method = config.order.method;
+  const LaunchDimensions shape = config.launch.shape;
   const bool plane = method == "H3DH2DH" || method == "hilbert3d-histogram-hilbert2d";
   const bool space = method == "H3DH3DH" || method == "hilbert3d-histogram-hilbert3d";
   if ((plane && shape != "auto" && shape != "2d") || (space && shape != "auto" && shape != "3d"))
     out.push_back({{"launch.shape", "order.method"},
                    fmt::format("order.method = \"{}\" is a launch of {} dimensions, launch.shape = \"{}\" is not: "
                                "leave launch.shape out",
-                               method, plane ? 2 : 3, shape)});
+                               method.word(), plane ? 2 : 3, shape.word())});
 }
 
 // A refined launch splits cells of the hilbert map and goes along its curve, level by level.
 void check_rays(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
-  if (trace.rays == 0) {
+  if (!trace.rays) {
     if (trace.directions != "hilbert" && trace.directions != "horizon")
       out.push_back(
           {{"trace.rays", "trace.directions"},
            fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"{}\": leave "
                        "trace.directions out, or give trace.rays a number",
-                       trace.directions)});
-    if (const std::string& method = config.order.method; method != "none" && method != "WS")
+                       trace.directions.word())});
+    if (const OrderMethod method = config.order.method; method != "none" && method != "WS")
       out.push_back({{"trace.rays", "order.method"},
                      fmt::format("trace.rays = \"auto\" launches rays in an order of its own, order.method = \"{}\" "
                                  "another: leave order.method out, or give trace.rays a number",
-                                 method)});
-  } else if (trace.refresh_rays > trace.rays) {
+                                 method.word())});
+  } else if (trace.refresh_rays && *trace.refresh_rays > *trace.rays) {
     out.push_back({{"trace.rays", "trace.refresh_rays"},
                    fmt::format("trace.refresh_rays = {} is more than trace.rays = {}, those of a frame that reuses "
                                "nothing: give at most as many, or 0 for a tenth",
-                               trace.refresh_rays, trace.rays)});
+                               *trace.refresh_rays, *trace.rays)});
   }
 }
 
@@ -68,7 +70,7 @@ void check_rays(const Config& config, Found& out) {
 void check_reception(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (trace.reception != "sphere") return;
-  if (trace.rays == 0)
+  if (!trace.rays)
     out.push_back({{"trace.reception", "trace.rays"},
                    "trace.reception = \"sphere\" needs rays that are spread evenly, trace.rays = \"auto\" refines "
                    "where sequences are rare: give trace.rays a number, or use trace.reception = \"exact\""});
@@ -77,12 +79,9 @@ void check_reception(const Config& config, Found& out) {
 // What needs more of rays than that they tell which surfaces they met.
 void check_features(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
-  const std::pair<const char*, bool> features[] = {{"trace.diffraction", trace.diffraction},
-                                                   {"trace.transmission", trace.transmission},
-                                                   {"trace.scattering", trace.scattering}};
-  for (const auto& [key, on] : features) {
-    if (!on) continue;
-    if (trace.reception == "sphere")
+  for (const InteractionKind& kind : interaction_kinds) {
+    const std::string key = fmt::format("trace.{}", kind.word);
+    if (trace.*kind.asked_for && kind.code != reflection && trace.reception == "sphere")
       out.push_back({{key, "trace.reception"},
                      fmt::format("trace.reception = \"sphere\" receives reflected rays alone, {} = true asks for "
                                  "more: set it to false, or use trace.reception = \"exact\"",
@@ -110,7 +109,7 @@ void check_link_budget(const RadioConfig& radio, Found& out) {
 }
 
 void check_waypoints(const Config& config, Found& out) {
-  if (config.output.waypoints > 0 && config.trace.rays == 0)
+  if (config.output.waypoints > 0 && !config.trace.rays)
     out.push_back({{"output.waypoints", "trace.rays"},
                    fmt::format("output.waypoints = {} picks evenly from a known number of rays, which trace.rays = "
                                "\"auto\" is not: give trace.rays a number, or leave output.waypoints out",
@@ -155,13 +154,13 @@ void check_materials(const std::vector<MaterialConfig>& materials, Found& out) {
 }
 
 void check_ends(const Config& config, Found& out) {
-  const auto check = [&](const std::string& role, bool none) {
+  const auto check = [&](MountRole role, bool none) {
     const auto has_role = [&](const MountConfig& m) { return m.role == role || m.role == "both"; };
     if (none && std::none_of(config.mounts.begin(), config.mounts.end(), has_role))
       out.push_back({{},
                      fmt::format("no [[{0}]]: add one with name and position_m, or a [[mount]] with name and role = "
                                  "\"{0}\" or \"both\" for vehicles",
-                                 role)});
+                                 role.word())});
   };
   check("transmitter", config.transmitters.empty());
   check("receiver", config.receivers.empty() && config.receiver_grids.empty());

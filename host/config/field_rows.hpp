@@ -1,24 +1,32 @@
-// What the rows of the field table are written with, and the tables that are not in fields.cpp itself.
+// What the rows of the field table are written with, and the tables that are not in field_table.cpp itself.
 // Included by the files that hold rows, and by nothing else.
 #pragma once
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
 
 namespace wavetracer::config {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
+template <class M>
+Slot slot_of(M& member) {
+  if constexpr (requires { member.stored(); })
+    return ChoiceSlot{&member.stored(), M::words};
+  else
+    return &member;
+}
+
 // Accessors: a member, a member of a sub-struct of Config, a member of an element of a vector of Config.
 template <class M>
 auto at(M Config::*member) {
-  return [member](Config& c, size_t) -> Slot { return &(c.*member); };
+  return [member](Config& c, size_t) -> Slot { return slot_of(c.*member); };
 }
 template <class S, class M>
 auto at(S Config::*part, M S::*member) {
-  return [part, member](Config& c, size_t) -> Slot { return &(c.*part.*member); };
+  return [part, member](Config& c, size_t) -> Slot { return slot_of(c.*part.*member); };
 }
 template <class E, class M>
 auto at(std::vector<E> Config::*list, M E::*member) {
-  return [list, member](Config& c, size_t i) -> Slot { return &((c.*list)[i].*member); };
+  return [list, member](Config& c, size_t i) -> Slot { return slot_of((c.*list)[i].*member); };
 }
 template <auto List>
 size_t append(Config& c) {
@@ -35,7 +43,7 @@ template <class Member>
 Field antenna_field(const Member& member, auto antenna) {
   return {.name = "antenna",
           .slot = member(antenna),
-          .choices = {"isotropic", "short-dipole", "dipole", "tr38901"},
+          .choices = {NamedAntenna::words.begin(), NamedAntenna::words.end()},
           .form = Form::choice_or_file,
           .doc =
               "Named, or a pattern file (CSV: theta_deg,phi_deg,v_re,v_im,h_re,h_im). isotropic leaves gains "
@@ -46,7 +54,6 @@ template <class Member>
 Field polarization_field(const Member& member, auto polarization) {
   return {.name = "polarization",
           .slot = member(polarization),
-          .choices = {"V", "H", "VH", "cross"},
           .doc = "VH (V and H) and cross (+45 and -45 degrees) have two ports. V, as vehicle antennas are."};
 }
 

@@ -44,7 +44,6 @@ Table receiver_grid_table() {
                .doc = "Of the receivers. 1.5 m is that of a phone, and of an antenna on a car's roof."},
               {.name = "above",
                .slot = g(&ReceiverGridConfig::above),
-               .choices = {"zero", "ground"},
                .doc = "zero: height_m is z in the scene file. ground: it is counted from the lowest surface at that "
                       "place, as in hilly terrain; where there is none, from the lowest point of the scene."},
               antenna_field(g, &ReceiverGridConfig::antenna),

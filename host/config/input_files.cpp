@@ -1,7 +1,7 @@
 // By the field table, so that a new key of a file is among them.
 #include "config/input_files.hpp"
 #include <algorithm>
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
 
 namespace wavetracer::config {
 

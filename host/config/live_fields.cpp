@@ -60,6 +60,7 @@ Table live_table() {
            .slot = l(&LiveConfig::idle_timeout_s),
            .unit = "s",
            .range = {0, 1e6},
+           .none = "0",
            .doc = "Between messages of a client that owes the next one. 0: no end, for simulators that may pause."},
           {.name = "send_timeout_s",
            .slot = l(&LiveConfig::send_timeout_s),

@@ -3,7 +3,7 @@
 #include "config/reference.hpp"
 #include <fmt/format.h>
 #include <cctype>
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
 
 namespace wavetracer::config {
 namespace {

@@ -63,7 +63,6 @@ Table scene_table() {
                .doc = "For OBJ, GLB and PLY. OBJ and PLY state no unit; 1 reads them as metres, as glTF is."},
               {.name = "up",
                .slot = s(&SceneConfig::up),
-               .choices = {"auto", "y", "z"},
                .doc = "The axis of the file that points to the sky; auto is z, but y for glTF as its standard says."},
               {.name = "default_material",
                .slot = s(&SceneConfig::default_material),

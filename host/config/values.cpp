@@ -12,9 +12,17 @@ namespace wavetracer::config {
 namespace {
 
 template <class T>
-constexpr bool is_integer = std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>;
+struct Number {
+  using Type = T;
+  static constexpr bool optional = false;
+};
 template <class T>
-constexpr bool is_real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
+struct Number<std::optional<T>> {
+  using Type = T;
+  static constexpr bool optional = true;
+};
+template <class T>
+constexpr bool is_integer = std::is_integral_v<typename Number<T>::Type>;
 
 template <class... F>
 struct Overload : F... {
@@ -69,15 +77,18 @@ std::string out_of_range(const Field& field, const std::string& key, const toml:
   return fmt::format("{} = {} is out of range: it must be {}", key, unquoted(value), accepted(field));
 }
 
+// Whether the value says that an optional is not set.
+bool says_none(const Field& field, const toml::node& value) {
+  if (field.none == "0") return value.is_number() && *value.value<double>() == 0;
+  const auto* word = value.as_string();
+  return word && !field.none.empty() && word->get() == field.none;
+}
+
 template <class T>
 std::string assign_integer(const Field& field, const std::string& key, T& to, const toml::node& value) {
-  if (const auto* word = value.as_string(); word && field.choices == std::vector{word->get()}) {
-    to = 0;
-    return {};
-  }
   if (const auto* i = value.as_integer()) {
     if (!inside(static_cast<double>(i->get()), field.range)) return out_of_range(field, key, value);
-    to = static_cast<T>(i->get());
+    to = static_cast<typename Number<T>::Type>(i->get());
     return {};
   }
   const auto* x = value.as_floating_point();
@@ -85,7 +96,7 @@ std::string assign_integer(const Field& field, const std::string& key, T& to, co
   if (!inside(x->get(), field.range)) return out_of_range(field, key, value);
   // Up to 2^53 a double holds every integer, so the text said exactly this one.
   if (x->get() != std::floor(x->get()) || x->get() > 9007199254740992.0) return wrong_type(field, key, value);
-  to = static_cast<T>(x->get());
+  to = static_cast<typename Number<T>::Type>(x->get());
   return {};
 }
 
@@ -95,6 +106,20 @@ std::string assign_real(const Field& field, const std::string& key, T& to, const
   const double x = *value.value<double>();
   if (!inside(x, field.range)) return out_of_range(field, key, value);
   to = x;
+  return {};
+}
+
+std::string unknown_word(const Field& field, const std::string& key, const std::string& given) {
+  return fmt::format("{} = {} is not known: it must be {}{}", key, toml_string(given), accepted(field),
+                     spelling_hint(given, field.choices));
+}
+
+std::string assign_choice(const Field& field, const std::string& key, const ChoiceSlot& to, const toml::node& value) {
+  const auto* text = value.as_string();
+  if (!text) return wrong_type(field, key, value);
+  const auto word = std::ranges::find(to.words, std::string_view(text->get()));
+  if (word == to.words.end()) return unknown_word(field, key, text->get());
+  to.chosen->value = static_cast<uint8_t>(word - to.words.begin());
   return {};
 }
 
@@ -117,8 +142,7 @@ std::string assign_text(const Field& field, const std::string& key, std::string&
     to = resolved_path(folder, given);
     return {};
   }
-  return fmt::format("{} = {} is not known: it must be {}{}", key, toml_string(given), accepted(field),
-                     spelling_hint(given, field.choices));
+  return unknown_word(field, key, given);
 }
 
 template <size_t N>
@@ -207,7 +231,13 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
             (*to)[key.substr(dot + 1)] = value.as_string()->get();
             return std::string();
           },
+          [&](const ChoiceSlot& to) { return assign_choice(field, key, to, value); },
           [&]<class T>(T* to) {
+            if constexpr (Number<T>::optional)
+              if (says_none(field, value)) {
+                to->reset();
+                return std::string();
+              }
             if constexpr (is_integer<T>)
               return assign_integer(field, key, *to, value);
             else
@@ -218,8 +248,8 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
 }
 
 std::string literal(const Field& field, const Slot& slot) {
-  const auto integer = [&](uint64_t i) {
-    return i == 0 && !field.choices.empty() ? toml_string(field.choices.front()) : fmt::format("{}", i);
+  const auto none = [&](const char* zero) {
+    return field.none.empty() ? "" : field.none == "0" ? zero : toml_string(field.none);
   };
   const auto list = [](const auto& elements, const auto& text) {
     std::string out = "[";
@@ -229,10 +259,9 @@ std::string literal(const Field& field, const Slot& slot) {
   return std::visit(Overload{
                         [](const std::string* s) { return toml_string(*s); },
                         [](const bool* b) { return std::string(*b ? "true" : "false"); },
-                        [&](const uint32_t* i) { return integer(*i); },
-                        [&](const uint64_t* i) { return integer(*i); },
                         [](const double* x) { return number(*x); },
-                        [](const std::optional<double>* x) { return *x ? number(**x) : std::string(); },
+                        [&](const std::optional<double>* x) { return *x ? number(**x) : none("0.0"); },
+                        [](const ChoiceSlot& choice) { return toml_string(choice.words[choice.chosen->value]); },
                         [&](const std::array<double, 3>* v) { return list(*v, number); },
                         [&](const std::vector<std::string>* words) { return list(*words, toml_string); },
                         [&](const std::vector<std::array<double, 4>>* rows) {
@@ -244,6 +273,12 @@ std::string literal(const Field& field, const Slot& slot) {
                             out +=
                                 fmt::format("{}{} = {}", out.empty() ? "{ " : ", ", toml_string(from), toml_string(to));
                           return out.empty() ? "{}" : out + " }";
+                        },
+                        [&]<class T>(const T* i) {
+                          if constexpr (Number<T>::optional)
+                            return *i ? fmt::format("{}", **i) : none("0");
+                          else
+                            return fmt::format("{}", *i);
                         },
                     },
                     slot);
@@ -266,10 +301,10 @@ std::string accepted(const Field& field) {
       Overload{
           [&](const std::string*) -> std::string {
             if (field.form == Form::choice_or_file) return choices + " or the path of a file";
-            if (!choices.empty()) return (field.choices.size() > 1 ? "one of " : "") + choices;
             if (field.form == Form::input_file) return "the path of a file";
             return field.form == Form::output_folder ? "the path of a folder" : "a string";
           },
+          [&](const ChoiceSlot&) -> std::string { return "one of " + choices; },
           [&](const bool*) -> std::string { return "true or false"; },
           [&](const std::array<double, 3>*) -> std::string { return "three numbers" + unit; },
           [&](const Aliases*) -> std::string { return "a table of strings"; },

@@ -1,11 +1,11 @@
 // Values of the field table: from a TOML node into a member, checked.
-// The only header of this folder that names toml++; the way back, to TOML text, is literal() in fields.hpp.
+// The only header of this folder that names toml++; the way back, to TOML text, is literal() in field_table.hpp.
 #pragma once
 #include <toml++/toml.h>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
 
 namespace wavetracer::config {
 

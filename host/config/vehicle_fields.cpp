@@ -62,6 +62,7 @@ Table time_table() {
                .slot = t(&TimeConfig::step_s),
                .unit = "s",
                .range = {0, 1e9},
+               .none = "0",
                .doc = "Between frames; poses between samples are interpolated smoothly. 0: the step of the "
                       "trajectories."},
           }};
@@ -94,37 +95,35 @@ Table links_table() {
 
 Table mount_table() {
   const auto m = [](auto member) { return at(&Config::mounts, member); };
-  return {.name = "mount",
-          .doc = "An antenna on every vehicle of a kind; one table each.",
-          .fields =
-              {
-                  {.name = "name",
-                   .slot = m(&MountConfig::name),
-                   .required = true,
-                   .doc = "Unique among mounts. The radio end is called VEHICLE/NAME.",
-                   .example = "\"roof\""},
-                  {.name = "on",
-                   .slot = m(&MountConfig::on),
-                   .doc = "Id or type of the vehicles that have it, with * for any text and ? for any character."},
-                  {.name = "role",
-                   .slot = m(&MountConfig::role),
-                   .choices = {"transmitter", "receiver", "both"},
-                   .doc = "What it is; both, as radios of vehicles are."},
-                  {.name = "offset_m",
-                   .slot = m(&MountConfig::offset_m),
-                   .unit = "m",
-                   .doc = "Ahead, left, up from the centre of the vehicle's footprint.",
-                   .example = "[0.0, 0.0, 1.6]"},
-                  antenna_field(m, &MountConfig::antenna),
-                  polarization_field(m, &MountConfig::polarization),
-                  {.name = "orientation_deg",
-                   .slot = m(&MountConfig::orientation_deg),
-                   .unit = "degrees",
-                   .doc = "Yaw, pitch, roll in the axes of the vehicle: intrinsic rotations about z, y, x."},
-              },
-          .append = append<&Config::mounts>,
-          .count = count<&Config::mounts>,
-          .optional = true};
+  return {
+      .name = "mount",
+      .doc = "An antenna on every vehicle of a kind; one table each.",
+      .fields =
+          {
+              {.name = "name",
+               .slot = m(&MountConfig::name),
+               .required = true,
+               .doc = "Unique among mounts. The radio end is called VEHICLE/NAME.",
+               .example = "\"roof\""},
+              {.name = "on",
+               .slot = m(&MountConfig::on),
+               .doc = "Id or type of the vehicles that have it, with * for any text and ? for any character."},
+              {.name = "role", .slot = m(&MountConfig::role), .doc = "What it is; both, as radios of vehicles are."},
+              {.name = "offset_m",
+               .slot = m(&MountConfig::offset_m),
+               .unit = "m",
+               .doc = "Ahead, left, up from the centre of the vehicle's footprint.",
+               .example = "[0.0, 0.0, 1.6]"},
+              antenna_field(m, &MountConfig::antenna),
+              polarization_field(m, &MountConfig::polarization),
+              {.name = "orientation_deg",
+               .slot = m(&MountConfig::orientation_deg),
+               .unit = "degrees",
+               .doc = "Yaw, pitch, roll in the axes of the vehicle: intrinsic rotations about z, y, x."},
+          },
+      .append = append<&Config::mounts>,
+      .count = count<&Config::mounts>,
+      .optional = true};
 }
 
 Table vehicle_type_table() {
@@ -134,6 +133,7 @@ Table vehicle_type_table() {
             .slot = v(member),
             .unit = "m",
             .range = {0, 1000},
+            .none = "0",
             .doc = std::move(along) + ". 0: that of the mesh file, else that of SUMO's vehicle class of this name."};
   };
   return {.name = "vehicle_type",
@@ -149,7 +149,7 @@ Table vehicle_type_table() {
                    .example = "\"passenger\""},
                   {.name = "model",
                    .slot = v(&VehicleTypeConfig::model),
-                   .choices = {"auto", "car", "van", "truck", "none"},
+                   .choices = {NamedBody::words.begin(), NamedBody::words.end()},
                    .form = Form::choice_or_file,
                    .doc = "Its body, or a mesh file in metres (x ahead, z up, origin on the ground below the centre), "
                           "stretched to the sizes that are given. auto: by the name of the type; none for two-wheelers "

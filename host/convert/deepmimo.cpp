@@ -2,6 +2,7 @@
 // Its phase is that of the channel at the carrier, arg(a) - 2 pi f delay; its channels are h(f), subcarrier 0 at f.
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,12 +27,18 @@ struct Sizes {
 
 double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
-// A digit an interaction, from the transmitter on: 1 reflection, 2 diffraction, 3 scattering, 4 transmission.
+// DeepMIMO's digits of interactions, from 1 on.
+constexpr std::array<uint8_t, 4> interaction_digits{reflection, diffraction, scattering, transmission};
+
+// A digit an interaction, from the transmitter on.
 double interaction_code(const Paths& paths, size_t row) {
   double code = 0;
   for (uint64_t v = paths.vertex_offset[row]; v < paths.vertex_offset[row + 1]; ++v) {
-    const uint8_t kind = paths.vertex_interaction[v];
-    code = 10 * code + (kind == reflection ? 1 : kind == diffraction ? 2 : kind == diffuse ? 3 : 4);
+    const auto digit = std::ranges::find(interaction_digits, paths.vertex_interaction[v]);
+    if (digit == interaction_digits.end())
+      throw RuntimeError(fmt::format("path {} has an interaction of kind {}, which DeepMIMO has no number for", row,
+                                     paths.vertex_interaction[v]));
+    code = 10 * code + static_cast<double>(digit - interaction_digits.begin() + 1);
   }
   return code;
 }
@@ -195,7 +202,7 @@ nlohmann::ordered_json ray_tracing(const SavedRun& run, const Config& config, co
           {"terrain_reflection", trace.reflection},
           {"terrain_diffraction", trace.diffraction},
           {"terrain_scattering", trace.scattering},
-          {"num_rays", trace.rays},
+          {"num_rays", trace.rays.value_or(0)},
           {"ray_casting_method", "uniform"},
           {"synthetic_array", true},
           {"ray_casting_range_az", 360.0},

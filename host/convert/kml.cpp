@@ -211,7 +211,7 @@ void KmlWriter::put_paths(const SavedFrame& frame, const std::string& span) {
                   data_of("gain_db", fmt::format("{:.2f}", paths.gain_db[i])) +
                       data_of("delay_ns", fmt::format("{:.3f}", paths.delay_s[i] * 1e9)) +
                       data_of("doppler_hz", fmt::format("{:.3f}", paths.doppler_hz[i])) +
-                      data_of("kind", std::string(path_kinds[path_kind(paths, i)])),
+                      data_of("kind", std::string(path_kinds[path_kind(paths, i)].word)),
                   "<LineString><altitudeMode>relativeToGround</altitudeMode><coordinates>" + line +
                       "</coordinates></LineString>");
   }

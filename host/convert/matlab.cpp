@@ -1,8 +1,10 @@
 // A run as one MATLAB struct of arrays, with the groups and names of paths.h5; complex coefficients.
 // Rows count from 1, as MATLAB's do: tx, rx, instance, first_path and first_vertex can be used as indices.
+#include <functional>
 #include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/matlab_file.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
 namespace {
@@ -11,8 +13,11 @@ constexpr const char* conventions =
     "h(f) = sum over paths of a exp(-j 2 pi f delay_s). a is (path, rx port, tx port). Angles are those of the global "
     "frame: theta from +z, phi from +x towards +y. tx, rx and instance are rows of transmitters, receivers and "
     "instances, counted from 1; instance 0 is the static scene. The vertices of path i are rows first_vertex(i) to "
-    "first_vertex(i + 1) - 1, the paths of frame i rows first_path(i) to first_path(i + 1) - 1. interaction: "
-    "1 reflection, 2 diffuse scattering, 4 transmission, 8 diffraction. surface counts as wavetracer scene info does.";
+    "first_vertex(i + 1) - 1, the paths of frame i rows first_path(i) to first_path(i + 1) - 1. interaction: ";
+
+std::string conventions_text() {
+  return conventions + interaction_legend() + ". surface counts as wavetracer scene info does.";
+}
 
 // rows x width values in MATLAB's order.
 template <typename T, typename Value>
@@ -122,9 +127,9 @@ void add_frames(MatlabFile& file, const std::vector<SavedFrame>& frames) {
 
 void add_ends(MatlabFile& file, const std::string& path, const std::vector<RadioEnd>& ends) {
   file.add_struct(path);
-  const auto texts = [&](const char* name, std::string RadioEnd::*member) {
+  const auto texts = [&](const char* name, const auto& member) {
     std::vector<std::string> values;
-    for (const RadioEnd& end : ends) values.push_back(end.*member);
+    for (const RadioEnd& end : ends) values.emplace_back(std::invoke(member, end));
     file.add_texts(path + "/" + name, values);
   };
   const auto triples = [&](const char* name, std::array<double, 3> RadioEnd::*member) {
@@ -133,7 +138,7 @@ void add_ends(MatlabFile& file, const std::string& path, const std::vector<Radio
   };
   texts("name", &RadioEnd::name);
   texts("antenna", &RadioEnd::antenna);
-  texts("polarization", &RadioEnd::polarization);
+  texts("polarization", [](const RadioEnd& end) { return end.polarization.word(); });
   triples("position_m", &RadioEnd::position_m);
   triples("orientation_deg", &RadioEnd::orientation_deg);
   triples("velocity_m_s", &RadioEnd::velocity_m_s);
@@ -202,7 +207,7 @@ Written export_matlab(const SavedRun& run, const ExportOptions& options, Warning
   file.add_text("/run/version", run.version());
   file.add_text("/run/device", run.device());
   file.add_text("/run/config", run.config_text());
-  file.add_text("/run/conventions", conventions);
+  file.add_text("/run/conventions", conventions_text());
   const double frequency_hz = run.frequency_hz();
   file.add("/run/frequency_hz", {1, 1}, std::span(&frequency_hz, 1));
   add_frames(file, frames);

@@ -198,7 +198,9 @@ VtkFile paths_file(const SavedRun& run, const SavedFrame& frame, size_t& left_ou
   file.add(VtkFile::point_data, "interaction", interaction);
   file.add(VtkFile::point_data, "surface", surface);
   file.add(VtkFile::point_data, "vehicle", vehicle);
-  file.add(VtkFile::field_data, "kind_names", std::vector<std::string>(path_kinds.begin(), path_kinds.end()));
+  std::vector<std::string> kind_names;
+  for (const PathKind& each : path_kinds) kind_names.emplace_back(each.word);
+  file.add(VtkFile::field_data, "kind_names", kind_names);
   file.add(VtkFile::field_data, "tx_names", names_of(run.transmitters(), &RadioEnd::name));
   file.add(VtkFile::field_data, "rx_names", names_of(run.receivers(), &RadioEnd::name));
   add_time(file, frame);

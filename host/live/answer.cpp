@@ -138,7 +138,7 @@ std::string world_line(const Simulation& simulation) {
     Json mounts = Json::array();
     for (const MountConfig& mount : type.mounts)
       mounts.push_back({{"name", mount.name},
-                        {"role", mount.role},
+                        {"role", mount.role.word()},
                         {"offset_m", {mount.offset_m[0], mount.offset_m[1], mount.offset_m[2]}}});
     types.push_back({{"type", type.name},
                      {"places", type.count},
@@ -150,7 +150,7 @@ std::string world_line(const Simulation& simulation) {
   }
   out["types"] = std::move(types);
   // Those that stand come first, before the mounted ones of the first place.
-  const auto standing = [&](const std::vector<RadioEnd>& ends, const char* role) {
+  const auto standing = [&](const std::vector<RadioEnd>& ends, MountRole role) {
     size_t mounted = 0;
     for (const LiveType& type : simulation.live_types())
       for (const MountConfig& mount : type.mounts)
@@ -165,7 +165,7 @@ std::string world_line(const Simulation& simulation) {
                    {"max_vehicles", places},
                    {"max_pending_frames", config.live.max_pending_frames},
                    {"max_rate_hz", config.live.max_rate_hz},
-                   {"idle_timeout_s", config.live.idle_timeout_s}};
+                   {"idle_timeout_s", config.live.idle_timeout_s.value_or(0)}};
   return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -143,8 +143,8 @@ void Client::check_time(Clock::time_point now) {
     drop(fmt::format("no hello within {} s", limits_.hello_timeout_s));
   else if (!in_.empty() && late(line_began_, limits_.message_timeout_s))
     drop(fmt::format("a line was not complete within {} s", limits_.message_timeout_s));
-  else if (limits_.idle_timeout_s > 0 && owes() && !unread && late(spoke_, limits_.idle_timeout_s))
-    drop(fmt::format("no message within {} s", limits_.idle_timeout_s));
+  else if (limits_.idle_timeout_s && owes() && !unread && late(spoke_, *limits_.idle_timeout_s))
+    drop(fmt::format("no message within {} s", *limits_.idle_timeout_s));
 }
 
 }  // namespace wavetracer::live

@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 #include <vector>
-#include "output/output.hpp"
 #include "output/totals.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include "output/frame_tables.hpp"
 #include "output/hdf5.hpp"
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 #include "output/hdf5.hpp"
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 #include "base/pending_file.hpp"
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

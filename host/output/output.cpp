@@ -1,5 +1,5 @@
 // Writes the files frame by frame, then lets all of them appear together.
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 #include <chrono>
 #include <string>
 #include "base/pending_file.hpp"

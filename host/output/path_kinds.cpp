@@ -1,5 +1,4 @@
-// A path's interactions are joined as bits; the most special bit decides.
-// Assumes the values of Interaction, which are single bits.
+// A path's interactions are joined as bits; the last row of interaction_kinds that has one of them decides.
 #include "output/path_kinds.hpp"
 
 namespace wavetracer {
@@ -7,10 +6,9 @@ namespace wavetracer {
 size_t path_kind(const Paths& paths, size_t path) {
   uint32_t met = 0;
   for (size_t k = paths.vertex_offset[path]; k < paths.vertex_offset[path + 1]; ++k) met |= paths.vertex_interaction[k];
-  if (met & diffuse) return 4;
-  if (met & diffraction) return 3;
-  if (met & transmission) return 2;
-  return met & reflection ? 1 : 0;
+  size_t kind = interaction_kinds.size();
+  while (kind > 0 && !(met & interaction_kinds[kind - 1].code)) --kind;
+  return kind;
 }
 
 PathKindCounts count_path_kinds(const Paths& paths) {

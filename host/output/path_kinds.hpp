@@ -4,14 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
-#include "wavetracer/paths.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
-
-// Names as files spell them, the least special first.
-constexpr std::array<std::string_view, 5> path_kinds{"line_of_sight", "reflected", "transmitted", "diffracted",
-                                                     "scattered"};
 
 // Of each of path_kinds; they add up to the number of paths.
 using PathKindCounts = std::array<uint64_t, path_kinds.size()>;

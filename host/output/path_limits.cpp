@@ -14,8 +14,8 @@ void mark_link(const Paths& paths, const OutputConfig& output, size_t first, siz
   std::vector<size_t> strongest_first(end - first);
   std::iota(strongest_first.begin(), strongest_first.end(), first);
   std::ranges::stable_sort(strongest_first, [&](size_t a, size_t b) { return paths.gain_db[a] > paths.gain_db[b]; });
-  if (output.max_paths_per_link > 0 && strongest_first.size() > output.max_paths_per_link)
-    strongest_first.resize(output.max_paths_per_link);
+  if (output.max_paths_per_link && strongest_first.size() > *output.max_paths_per_link)
+    strongest_first.resize(*output.max_paths_per_link);
   const double strongest_db = paths.gain_db[strongest_first.front()];
   for (const size_t row : strongest_first) {
     const double gain_db = paths.gain_db[row];
@@ -47,7 +47,7 @@ void append_vertices(const Paths& from, size_t row, Paths& to) {
 }  // namespace
 
 bool limits_paths(const OutputConfig& output) {
-  return output.min_gain_db || output.dynamic_range_db || output.max_paths_per_link > 0;
+  return output.min_gain_db || output.dynamic_range_db || output.max_paths_per_link;
 }
 
 std::vector<uint8_t> written_rows(const Paths& paths, const OutputConfig& output) {

@@ -8,6 +8,7 @@
 #include "output/inputs.hpp"
 #include "output/world_h5.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
 namespace {
@@ -101,7 +102,7 @@ void append_vertices(const Paths& paths, FrameTables& tables) {
   const auto column = [&](const char* name, const char* description, const auto& values) {
     tables.append(name, {"1", description}, std::span(values));
   };
-  column("interaction", "1 reflection, 2 diffuse scattering, 4 transmission, 8 diffraction", paths.vertex_interaction);
+  column("interaction", interaction_legend().c_str(), paths.vertex_interaction);
   column("surface",
          "surface of the scene, or of the model of the instance that was hit; of a diffraction the edge, as "
          "`wavetracer scene info --edges` numbers them; numbers hold for one file",

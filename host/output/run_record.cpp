@@ -25,9 +25,9 @@ std::string encode_run_record(const Run& run) {
                     {"driver", s.device.driver},
                     {"opencl_c", s.device.opencl_c},
                     {"gpu", s.device.gpu}};
-  json["order"] = {{"asked", run.config.order.method}, {"method", s.order.method},
-                   {"each_depth", s.order.each_depth}, {"launch_shape", s.order.launch_shape},
-                   {"local_size", s.order.local_size}, {"reason", s.order.reason}};
+  json["order"] = {{"asked", run.config.order.method.word()}, {"method", s.order.method},
+                   {"each_depth", s.order.each_depth},        {"launch_shape", s.order.launch_shape},
+                   {"local_size", s.order.local_size},        {"reason", s.order.reason}};
   json["features"] = Json::object();
   for (const auto& [name, feature] : s.features)
     json["features"][name] = {{"on", feature.on}, {"reason", feature.reason}};
@@ -40,7 +40,7 @@ std::string encode_run_record(const Run& run) {
   json["config"] = run.config.text;
   json["reuse"] = run.config.trace.reuse;
   json["waypoints"] = run.config.output.waypoints;
-  json["cache"] = {{"kind", run.config.cache.kind}, {"key", run.config.cache.key}};
+  json["cache"] = {{"kind", run.config.cache.kind.word()}, {"key", run.config.cache.key.word()}};
   json["scene_file"] = run.scene.file;
   json["scene_warnings"] = run.scene.report.warnings;
   json["vehicles"] = run.instances.size();
@@ -59,7 +59,7 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   const Json& device = json.at("device");
   s.device = {device.at("platform"), device.at("name"), device.at("driver"), device.at("opencl_c"), device.at("gpu")};
   const Json& order = json.at("order");
-  out.config.order.method = order.at("asked");
+  out.config.order.method = OrderMethod::named(order.at("asked").get<std::string>());
   s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"),
              whole<uint32_t>(order.at("local_size")), order.at("reason")};
   for (const auto& [feature, value] : json.at("features").items())
@@ -73,8 +73,8 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   if (json.contains("config")) out.config.text = json.at("config");
   out.config.trace.reuse = json.at("reuse");
   out.config.output.waypoints = whole<uint64_t>(json.at("waypoints"));
-  out.config.cache.kind = json.at("cache").at("kind");
-  out.config.cache.key = json.at("cache").at("key");
+  out.config.cache.kind = CacheKind::named(json.at("cache").at("kind").get<std::string>());
+  out.config.cache.key = CacheKey::named(json.at("cache").at("key").get<std::string>());
   out.scene.file = json.at("scene_file");
   out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
   const auto vehicles = whole<uint64_t>(json.at("vehicles"));
@@ -85,6 +85,8 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
         {input.at("name"), input.at("file"), whole<uint64_t>(input.at("bytes")), whole<uint64_t>(input.at("hash"))});
   return out;
 } catch (const Json::exception& error) {
+  throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
+} catch (const ConfigError& error) {  // a word that this version does not have
   throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
 }
 

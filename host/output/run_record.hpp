@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -12,7 +12,7 @@
 #include "output/frame_files.hpp"
 #include "output/manifest.hpp"
 #include "output/merge_parts.hpp"
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

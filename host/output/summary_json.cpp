@@ -45,7 +45,7 @@ Json counts(const Totals& totals) {
 
 Json path_counts(const PathKindCounts& kinds) {
   Json json;
-  for (size_t i = 0; i < kinds.size(); ++i) json[std::string(path_kinds[i])] = kinds[i];
+  for (size_t i = 0; i < kinds.size(); ++i) json[std::string(path_kinds[i].word)] = kinds[i];
   return json;
 }
 
@@ -81,9 +81,9 @@ Json features(const Features& all) {
 
 // hit_rate: the share of the look-ups that were answered.
 Json cache(const CacheConfig& asked, const CacheSummary& done) {
-  Json json = {{"kind", asked.kind}};
+  Json json = {{"kind", asked.kind.word()}};
   if (!done.on) return json;
-  json["key"] = asked.key;
+  json["key"] = asked.key.word();
   json["hit_rate"] = rate(done.hits, static_cast<double>(done.lookups));
   json.update(encode_cache(done));
   return json;
@@ -148,9 +148,9 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["rays_per_second"] = rate(traced_segments(totals), sum_seconds(totals, "trace"));
   json["frames_per_second"] = rate(totals.frames, sum_seconds(totals, "frame"));
   json["peak_memory_bytes"] = peak_memory_bytes();
-  json["order"] = {{"asked", run.config.order.method},       {"method", summary.order.method},
-                   {"each_depth", summary.order.each_depth}, {"launch_shape", summary.order.launch_shape},
-                   {"local_size", summary.order.local_size}, {"reason", summary.order.reason}};
+  json["order"] = {{"asked", run.config.order.method.word()}, {"method", summary.order.method},
+                   {"each_depth", summary.order.each_depth},  {"launch_shape", summary.order.launch_shape},
+                   {"local_size", summary.order.local_size},  {"reason", summary.order.reason}};
   json["cache"] = cache(run.config.cache, totals.cache);
   json["warnings"] = warnings(run, totals);
   // Names of files and devices need not be UTF-8; what is not is replaced rather than refused.

@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 #include <vector>
-#include "output/output.hpp"
 #include "output/path_kinds.hpp"
 #include "output/path_limits.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

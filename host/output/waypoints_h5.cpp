@@ -2,9 +2,9 @@
 // Kinds are the numbers of WaypointKind; positions are those of the scene file.
 #include "output/waypoints_h5.hpp"
 #include <fmt/format.h>
-#include <algorithm>
+#include <map>
 #include "wavetracer/error.hpp"
-#include "wavetracer/waypoints.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
 namespace {
@@ -14,6 +14,16 @@ bool is_rectangular(const WaypointRows& rows) {
   return rows.frame.size() == count && rows.sample.size() == count && rows.depth.size() == count &&
          rows.kind.size() == count && rows.position_m.size() == count && rows.surface.size() == count &&
          rows.instance.size() == count;
+}
+
+// What the numbers of WaypointKind mean, in their order.
+std::string kind_legend() {
+  std::map<int, std::string_view> interactions;
+  for (const InteractionKind& kind : interaction_kinds)
+    if (kind.waypoint != WaypointKind::launch) interactions[static_cast<int>(kind.waypoint)] = kind.legend;
+  std::string legend = "0 launch";
+  for (const auto& [number, word] : interactions) legend += fmt::format(", {} {}", number, word);
+  return legend + ", 3 hit (a receiver, trace.reception = \"sphere\"), 4 miss (the ray met nothing more)";
 }
 
 }  // namespace
@@ -47,10 +57,7 @@ void append_waypoints_h5(const Run&, const FrameResult& frame, FrameTables& tabl
   column("sample", "launch index of the ray, counted for its transmitter", rows.sample);
   column("depth", "segments of the ray up to here, 0 at the transmitter", rows.depth);
   static_assert(sizeof(WaypointKind) == sizeof(uint8_t) && sizeof(glm::dvec3) == 3 * sizeof(double));
-  tables.append<uint8_t>("kind",
-                         {"1",
-                          "0 launch, 1 reflection, 2 diffraction, 3 hit (a receiver, trace.reception = "
-                          "\"sphere\"), 4 miss (the ray met nothing more)"},
+  tables.append<uint8_t>("kind", {"1", kind_legend().c_str()},
                          {reinterpret_cast<const uint8_t*>(rows.kind.data()), rows.size()});
   tables.append<double>("position_m",
                         {"m",

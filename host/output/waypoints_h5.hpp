@@ -3,7 +3,7 @@
 #pragma once
 #include <array>
 #include "output/frame_tables.hpp"
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

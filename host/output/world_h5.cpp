@@ -2,6 +2,7 @@
 // Assumes that every frame knows all ends and instances of the run.
 #include "output/world_h5.hpp"
 #include <array>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -16,9 +17,9 @@ void append(std::vector<double>& values, const glm::dvec3& v) { values.insert(va
 void write_configured(hdf5::File& file, const std::string& path, const std::string& description,
                       const std::vector<RadioEnd>& ends) {
   const auto group = file.make_group(path, description);
-  const auto text = [&](const char* name, const char* meaning, std::string RadioEnd::*field) {
+  const auto text = [&](const char* name, const char* meaning, const auto& field) {
     std::vector<std::string> values;
-    for (const RadioEnd& end : ends) values.push_back(end.*field);
+    for (const RadioEnd& end : ends) values.emplace_back(std::invoke(field, end));
     file.write_strings(path + "/" + name, {"1", meaning}, values);
   };
   const auto triple = [&](const char* name, const Meaning& meaning, std::array<double, 3> RadioEnd::*field) {
@@ -30,7 +31,8 @@ void write_configured(hdf5::File& file, const std::string& path, const std::stri
          {"m", "position in the coordinates of the scene file, (x, y, z); of an end on a vehicle see /frames"},
          &RadioEnd::position_m);
   text("antenna", "antenna pattern, or the file that holds it", &RadioEnd::antenna);
-  text("polarization", "V, H, VH (two ports: V, H) or cross (two ports: +45 deg, -45 deg)", &RadioEnd::polarization);
+  text("polarization", "V, H, VH (two ports: V, H) or cross (two ports: +45 deg, -45 deg)",
+       [](const RadioEnd& end) { return end.polarization.word(); });
   triple("orientation_deg",
          {"deg", "(yaw, pitch, roll), intrinsic rotations about z, y, x; in the vehicle's axes where it is on one"},
          &RadioEnd::orientation_deg);

@@ -2,7 +2,7 @@
 // Positions are in file coordinates.
 #pragma once
 #include "output/frame_tables.hpp"
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -4,15 +4,14 @@
 #include <cstdint>
 #include <string>
 
-#include "gpu/gpu.hpp"
+#include "wavetracer/config.hpp"
 
 namespace wavetracer {
 
 struct LaunchDirections {
-  // directions: hilbert (equal-area cells in the order of a Hilbert curve), fibonacci, random. rays: launch rays a
-  // transmitter, 1 .. 2^31.
-  LaunchDirections(const std::string& directions, uint64_t rays, uint64_t seed)
-      : map("wt_direction_" + directions), parameter(directions == "random" ? seed : ~uint64_t{0} / rays) {
+  // rays: of a launch, for each transmitter, 1 .. 2^31.
+  LaunchDirections(Directions directions, uint64_t rays, uint64_t seed)
+      : map("wt_direction_" + directions.text()), parameter(directions == "random" ? seed : ~uint64_t{0} / rays) {
     // The fewest cells that suffice: faces of 120 degrees are about square at the horizon, and up to eleven fill the
     // gap to the next level.
     while (uint64_t{12} << (2 * level) < rays) ++level;

@@ -8,7 +8,7 @@
 
 #include "accel/box.hpp"
 #include "passes/device_scene.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -7,7 +7,7 @@
 #include "passes/device_scene.hpp"
 #include "wavetracer/device/records.h"
 #include "wavetracer/scene.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -13,8 +13,6 @@ namespace wavetracer::plots {
 namespace {
 
 constexpr double shown_span_db = 80;  // below the strongest path
-// Of path_kinds, out of `colours`: black, blue, sky blue, vermilion, green.
-constexpr std::array<size_t, path_kinds.size()> kind_colours = {0, 5, 2, 6, 3};
 
 std::string first_link(const SavedRun& run, const LinkSeries& series) { return link_name(run, series.links.front()); }
 
@@ -43,8 +41,8 @@ std::string path_table(const std::vector<PathPoint>& paths) {
       "arrival_azimuth_deg,arrival_elevation_deg\n";
   const auto azimuth = [](double phi_rad) { return std::remainder(phi_rad, 2 * std::numbers::pi) / degree; };
   for (const PathPoint& p : paths)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", p.frame, p.time_s, p.kind, path_kinds[p.kind], p.delay_s,
-                        p.gain_db, p.doppler_hz, azimuth(p.aod_phi_rad), 90 - p.aod_theta_rad / degree,
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", p.frame, p.time_s, p.kind, path_kinds[p.kind].word,
+                        p.delay_s, p.gain_db, p.doppler_hz, azimuth(p.aod_phi_rad), 90 - p.aod_theta_rad / degree,
                         azimuth(p.aoa_phi_rad), 90 - p.aoa_theta_rad / degree);
   return text;
 }
@@ -121,9 +119,9 @@ Figure delay_figure(const SavedRun& run, const LinkSeries& series) {
   std::string plot;
   for (size_t kind = 0; kind < path_kinds.size(); ++kind) {
     if (std::none_of(paths.begin(), paths.end(), [&](const auto& p) { return p.kind == kind; })) continue;
-    std::string name(path_kinds[kind]);
+    std::string name(path_kinds[kind].word);
     std::replace(name.begin(), name.end(), '_', ' ');
-    const std::string_view colour = colours[kind_colours[kind]];
+    const std::string_view colour = colours[path_kinds[kind].plot];
     plot += fmt::format(
         "{0}'pdp.csv' using ($3 == {1} && $6 > floor_db ? 1e9 * $5 : NaN):(floor_db):(0):($6 - floor_db) "
         "with vectors nohead linecolor '{2}' linewidth 1.5 notitle, \\\n"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <glm/matrix.hpp>
@@ -17,10 +18,9 @@ namespace {
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
 Pattern pattern_of(const RadioEnd& end) {
-  if (end.antenna == "isotropic") return isotropic_pattern;
-  if (end.antenna == "short-dipole") return short_dipole_pattern;
-  if (end.antenna == "dipole") return half_wave_dipole_pattern;
-  if (end.antenna == "tr38901") return tr38901_pattern;
+  constexpr std::array named = {isotropic_pattern, short_dipole_pattern, half_wave_dipole_pattern, tr38901_pattern};
+  static_assert(named.size() == NamedAntenna::words.size());
+  if (const auto antenna = NamedAntenna::parse(end.antenna)) return named[antenna->index()];
   std::error_code unnameable;
   if (std::filesystem::is_regular_file(end.antenna, unnameable)) return load_pattern(end.antenna);
   throw ConfigError(
@@ -34,9 +34,7 @@ std::vector<double> slants_of(const RadioEnd& end) {
   if (end.polarization == "V") return {0};
   if (end.polarization == "H") return {quarter};
   if (end.polarization == "VH") return {0, quarter};
-  if (end.polarization == "cross") return {eighth, -eighth};
-  throw ConfigError(
-      fmt::format("\"{}\": polarization = \"{}\" is none of V, H, VH, cross", end.name, end.polarization));
+  return {eighth, -eighth};  // cross
 }
 
 }  // namespace

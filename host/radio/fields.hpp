@@ -14,7 +14,7 @@
 #include "wavetracer/path_geometry.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/scene.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

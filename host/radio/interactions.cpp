@@ -77,7 +77,7 @@ VertexPlace Interactions::place(const PathGeometry& geometry, uint64_t i) const 
     const WedgePlace place = wedges_.at(geometry.surface[i]);
     return {place.wedge, place.instance};
   }
-  const bool tile = geometry.interaction[i] == diffuse;
+  const bool tile = geometry.interaction[i] == scattering;
   if (tile && !tiles_) throw RuntimeError("a path scatters from a tile, but there are none without trace.scattering");
   const uint32_t number = geometry.surface[i];
   const SurfacePlace place = surfaces_.at(tile ? tiles_->surface(tiles_->at(number)) : number);
@@ -225,7 +225,7 @@ Matrix2 Interactions::carried(const PathGeometry& geometry, size_t path, const W
         diffract_at(edge, edges.size() == 1 ? lit_sides(geometry, path, edge, sibling) : LitSides{}, transfer);
         break;
       }
-      case diffuse:
+      case scattering:
         scatter_at(geometry, vertex, state, k_in, k_out, transfer);
         spread = 1 / (since_m * (legs.length_m() - since_m));
         break;

@@ -17,7 +17,7 @@
 #include "wavetracer/config.hpp"
 #include "wavetracer/path_geometry.hpp"
 #include "wavetracer/scene.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

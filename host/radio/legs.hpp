@@ -7,7 +7,7 @@
 
 #include "radio/surface_table.hpp"
 #include "wavetracer/path_geometry.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

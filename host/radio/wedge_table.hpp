@@ -7,7 +7,7 @@
 
 #include "radio/utd.hpp"
 #include "wavetracer/scene.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -61,10 +61,10 @@ fs::path paths_file(const fs::path& path) {
 std::vector<RadioEnd> read_ends(const ForeignFile& file, const std::string& group) {
   const std::vector<std::string> names = file.strings(group + "/name");
   std::vector<RadioEnd> ends(names.size());
-  const auto texts = [&](const char* name, std::string RadioEnd::*field) {
+  const auto texts = [&](const char* name, const auto& assign) {
     const std::vector<std::string> values = file.strings(group + "/" + name);
     if (values.size() != ends.size()) throw RuntimeError(group + "/" + name + " is not as long as name");
-    for (size_t i = 0; i < ends.size(); ++i) ends[i].*field = values[i];
+    for (size_t i = 0; i < ends.size(); ++i) assign(ends[i], values[i]);
   };
   const auto triples = [&](const char* name, std::array<double, 3> RadioEnd::*field) {
     const std::vector<glm::dvec3> values = vectors(file.all_rows<double>(group + "/" + name, {3}));
@@ -72,8 +72,13 @@ std::vector<RadioEnd> read_ends(const ForeignFile& file, const std::string& grou
     for (size_t i = 0; i < ends.size(); ++i) ends[i].*field = {values[i].x, values[i].y, values[i].z};
   };
   for (size_t i = 0; i < ends.size(); ++i) ends[i].name = names[i];
-  texts("antenna", &RadioEnd::antenna);
-  texts("polarization", &RadioEnd::polarization);
+  texts("antenna", [](RadioEnd& end, const std::string& text) { end.antenna = text; });
+  texts("polarization", [&](RadioEnd& end, const std::string& text) {
+    const std::optional<Polarization> known = Polarization::parse(text);
+    if (!known)
+      throw RuntimeError(fmt::format("{}/polarization has \"{}\", which this version does not know", group, text));
+    end.polarization = *known;
+  });
   triples("position_m", &RadioEnd::position_m);
   triples("orientation_deg", &RadioEnd::orientation_deg);
   triples("velocity_m_s", &RadioEnd::velocity_m_s);

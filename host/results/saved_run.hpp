@@ -13,7 +13,7 @@
 #include "wavetracer/missed.hpp"
 #include "wavetracer/output.hpp"
 #include "wavetracer/paths.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

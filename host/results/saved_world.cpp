@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <map>
 #include "base/hash.hpp"
-#include "config/config_file.hpp"
 #include "config/retired_keys.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

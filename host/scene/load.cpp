@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "base/input_file.hpp"
-#include "scene/build.hpp"
+#include "scene/build_scene.hpp"
 #include "scene/city.hpp"
 #include "scene/mitsuba.hpp"
 #include "scene/model.hpp"
@@ -77,9 +77,6 @@ RawScene read_raw(const std::filesystem::path& path) {
 void apply_units(RawScene& raw, const SceneConfig& config) {
   if (!(config.scale > 0) || !std::isfinite(config.scale)) {
     throw ConfigError(fmt::format("scene.scale = {}: must be a positive number of metres a file unit", config.scale));
-  }
-  if (config.up != "auto" && config.up != "y" && config.up != "z") {
-    throw ConfigError(fmt::format("scene.up = \"{}\": known are \"auto\", \"y\" and \"z\"", config.up));
   }
   const bool y_up = config.up == "y" || (config.up == "auto" && raw.y_up);
   for (RawMesh& mesh : raw.meshes) {

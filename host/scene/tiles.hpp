@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "wavetracer/scene.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "scene/build.hpp"
+#include "scene/build_scene.hpp"
 #include "scene/materials.hpp"
 #include "scene/polygon.hpp"
 #include "wavetracer/error.hpp"
@@ -48,11 +48,11 @@ const Body truck{{{-0.5, 0},    // tail
                   {0.5, 0}},
                  {{0, 1, 2, 3, 4, 5, 6, 7, 8}}};
 
-const Body& body_of(const std::string& kind) {
+const Body& body_of(NamedBody kind) {
   if (kind == "car") return car;
   if (kind == "van") return van;
   if (kind == "truck") return truck;
-  throw ConfigError(fmt::format("there is no vehicle model '{}'; known: car, van, truck", kind));
+  throw ConfigError(fmt::format("there is no vehicle model '{}'; known: car, van, truck", kind.word()));
 }
 
 // Left corners first, then right ones. The right side mirrors the triangles of the left one.
@@ -81,18 +81,18 @@ RawMesh mesh_of(const Body& body, double length_m, double width_m, double height
 
 }  // namespace
 
-Scene vehicle_model(const std::string& kind, double length_m, double width_m, double height_m) {
+Scene vehicle_model(NamedBody kind, double length_m, double width_m, double height_m) {
   const Body& body = body_of(kind);
   for (const double size_m : {length_m, width_m, height_m}) {
     if (size_m > 0 && size_m < std::numeric_limits<double>::infinity()) continue;
-    throw ConfigError(
-        fmt::format("vehicle model '{}': {} m is no size; length, width and height must be positive", kind, size_m));
+    throw ConfigError(fmt::format("vehicle model '{}': {} m is no size; length, width and height must be positive",
+                                  kind.word(), size_m));
   }
   RawScene raw;
-  raw.file = fmt::format("vehicle model '{}'", kind);
+  raw.file = fmt::format("vehicle model '{}'", kind.word());
   raw.materials.push_back({"metal", raw.file, {}, {}, {}, {}});
   RawMesh mesh = mesh_of(body, length_m, width_m, height_m);
-  mesh.name = kind;
+  mesh.name = kind.text();
   mesh.where = raw.file;
   mesh.material = 0;
   raw.meshes.push_back(std::move(mesh));

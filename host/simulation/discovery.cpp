@@ -16,7 +16,7 @@ uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& trace, c
   const uint64_t waiting = depth.transmissions > 0 ? depth.interactions - 1 : 0;  // queues beside the two of the loop
   const uint64_t bytes_per_ray = 4 * ((2 + waiting) * WT_RAY_PLANES + WT_HIT_PLANES) + 4;
   const uint64_t most = std::min(device.max_buffer / (8 * WT_RAY_PLANES), device.global_memory / (4 * bytes_per_ray));
-  const uint64_t wanted = trace.batch_rays ? trace.batch_rays : device.cpu ? uint64_t{1} << 18 : uint64_t{1} << 25;
+  const uint64_t wanted = trace.batch_rays.value_or(uint64_t{1} << (device.cpu ? 18 : 25));
   const uint64_t rays = std::clamp<uint64_t>(wanted, room_step, std::max<uint64_t>(most, room_step));
   const uint64_t followed = follower.bytes_per_sample();
   if (followed == 0) return rays;
@@ -25,14 +25,14 @@ uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& trace, c
 }
 
 // Refined launches go along their curve.
-OrderPlan order_of(const TraceConfig& trace, const OrderPlan& plan) { return trace.rays == 0 ? OrderPlan{} : plan; }
+OrderPlan order_of(const TraceConfig& trace, const OrderPlan& plan) { return trace.rays ? plan : OrderPlan{}; }
 
 // Queues say whose rays they hold where a cache or a follower must know.
 bool needs_labels(const DiscoveryOptions& options) { return options.finder || options.follower; }
 
 InteractOptions interact_options(const TraceConfig& trace, const TracingDepth& depth, const DiscoveryOptions& options) {
   return {.ages = options.keep_ages,
-          .samples = trace.rays == 0,
+          .samples = !trace.rays,
           .labels = needs_labels(options),
           .transmission = depth.transmissions > 0};
 }
@@ -51,7 +51,7 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
                                                options.order.launch)),
       sequences_(context, initial_slots, options.keep_ages),
       wavefront_(context, depth_, interact_options(trace, depth_, options), source_, finder_, sequences_) {
-  if (trace.rays == 0) refinement_.emplace(context, trace, source_.heights());
+  if (!trace.rays) refinement_.emplace(context, trace, source_.heights());
 }
 
 DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) {

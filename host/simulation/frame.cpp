@@ -111,7 +111,7 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
     if (!slopes) continue;
     for (Launcher& launcher : *ends) launcher.heights = slopes->of_origin[launcher.transmitter];
   }
-  if (s_.trace.rays == 0) {
+  if (!s_.trace.rays) {
     transmitters.insert(transmitters.end(), listeners.begin(), listeners.end());
     return s_.discovery.find_refined(s_.device_scene, transmitters, warm_frames_);
   }

@@ -2,6 +2,7 @@
 // listeners than from transmitters.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "simulation/launch.hpp"
@@ -11,8 +12,8 @@ namespace wavetracer {
 
 // All directions in a cold frame (warm_frames = 0); after it every stride-th, another set each time: `stride` frames
 // together launch all. Steps of the golden ratio, so that a few frames spread evenly. refresh_rays: of each launcher in
-// such a frame; 0 takes a tenth.
-DirectionShare share_of(uint64_t rays, uint64_t refresh_rays, uint64_t warm_frames);
+// such a frame; where none is given, a tenth.
+DirectionShare share_of(uint64_t rays, std::optional<uint64_t> refresh_rays, uint64_t warm_frames);
 
 // Rays of each listener. Edges are met by many rays, so a tenth of trace.rays suffices, but not less than 100,000.
 uint64_t listener_rays(const TraceConfig& trace);

@@ -14,7 +14,7 @@
 #include "passes/launch_heights.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/surroundings.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

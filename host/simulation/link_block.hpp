@@ -8,7 +8,7 @@
 #include "simulation/listeners.hpp"
 #include "wavetracer/path_geometry.hpp"
 #include "wavetracer/simulation.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -6,7 +6,7 @@
 
 #include "passes/generate_rays.hpp"
 #include "wavetracer/device/moving.h"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -29,8 +29,8 @@ struct Candidate {
 
 std::vector<Candidate> candidates(const Config& config) {
   std::vector<Candidate> all{{{"none", false, config.order.bin_num}}};
-  const std::string& shape = config.launch.shape;
-  for (const std::string& method : order_methods()) {
+  const LaunchDimensions shape = config.launch.shape;
+  for (const OrderMethod method : order_methods()) {
     if (method == "hilbert3d-histogram-hilbert2d" && shape != "auto" && shape != "2d") continue;
     if (method == "hilbert3d-histogram-hilbert3d" && shape != "auto" && shape != "3d") continue;
     all.push_back({{method, false, config.order.bin_num}});
@@ -56,14 +56,17 @@ std::string subject_of(const Scene& scene, const Config& config, const TraceConf
   };
   std::string subject = fmt::format(
       "order of rays, version 1\nrays 2^{} depth {} directions {} seed {} batch {} bins {} shape {} local {}\n",
-      std::bit_width(sample.rays), sample.max_depth, sample.directions, sample.seed, sample.batch_rays,
-      config.order.bin_num, config.launch.shape, config.launch.local_size);
+      std::bit_width(*sample.rays), sample.max_depth, sample.directions.word(), sample.seed,
+      sample.batch_rays.value_or(0), config.order.bin_num, config.launch.shape.word(),
+      config.launch.local_size.value_or(0));
   for (const char* program : {"trace", "order_keys", "radix_sort", "radix_sort_cpu", "bitonic_sort", "interact"})
     subject += gpu::program_source(program);
   return subject + std::string(bytes(scene.vertices)) + std::string(bytes(scene.triangles));
 }
 
-std::string name_of(const OrderConfig& order) { return order.method + (order.each_depth ? " at each depth" : ""); }
+std::string name_of(const OrderConfig& order) {
+  return order.method.text() + (order.each_depth ? " at each depth" : "");
+}
 
 std::string reason_of(std::vector<Candidate> measured, const Candidate& best, uint64_t rays) {
   std::sort(measured.begin(), measured.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
@@ -83,9 +86,9 @@ OrderChoice choose_order(gpu::Context& context, const Scene& scene, const Device
                          const Config& config, const std::vector<glm::dvec3>& transmitters) {
   if (transmitters.empty()) return {plan_order({}, config.launch), "there is nothing to measure: no transmitter"};
   TraceConfig sample = config.trace;
-  sample.rays = std::min(sample.rays, most_sample_rays);
+  sample.rays = std::min(sample.rays.value_or(most_sample_rays), most_sample_rays);
   const std::string subject = subject_of(scene, config, sample);
-  const auto choice_of = [&](const std::string& method, bool each_depth, const std::string& reason) {
+  const auto choice_of = [&](OrderMethod method, bool each_depth, const std::string& reason) {
     OrderConfig order = config.order;
     order.method = method;
     order.each_depth = each_depth;
@@ -96,7 +99,7 @@ OrderChoice choose_order(gpu::Context& context, const Scene& scene, const Device
     std::istringstream lines(*kept);
     std::string method, each_depth, reason;
     if (std::getline(lines, method) && std::getline(lines, each_depth) && std::getline(lines, reason))
-      return choice_of(method, each_depth == "1", reason + " (kept from an earlier run)");
+      return choice_of(OrderMethod::named(method), each_depth == "1", reason + " (kept from an earlier run)");
   }
   std::vector<Candidate> all = candidates(config);
   for (Candidate& c : all)
@@ -104,8 +107,8 @@ OrderChoice choose_order(gpu::Context& context, const Scene& scene, const Device
   const auto fastest =
       std::min_element(all.begin() + 1, all.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
   const Candidate& best = fastest->seconds * least_gain < all.front().seconds ? *fastest : all.front();
-  const std::string reason = reason_of(all, best, sample.rays);
-  context.keep(subject, fmt::format("{}\n{}\n{}\n", best.order.method, int{best.order.each_depth}, reason));
+  const std::string reason = reason_of(all, best, *sample.rays);
+  context.keep(subject, fmt::format("{}\n{}\n{}\n", best.order.method.word(), int{best.order.each_depth}, reason));
   return choice_of(best.order.method, best.order.each_depth, reason);
 }
 

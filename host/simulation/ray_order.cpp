@@ -15,7 +15,7 @@ namespace wavetracer {
 namespace {
 
 struct Method {
-  const char *name, *mnemonic;
+  OrderMethod name, mnemonic;
   std::optional<OrderKey> key;
   unsigned curve_dimensions;  // of the launch that belongs to it; 0: any
 };
@@ -28,16 +28,16 @@ const std::vector<Method>& known_methods() {
       {"morton-histogram", "HZ", OrderKey::morton_bins, 0},
       {"hilbert3d-histogram-hilbert2d", "H3DH2DH", OrderKey::hilbert_bins, 2},
       {"hilbert3d-histogram-hilbert3d", "H3DH3DH", OrderKey::hilbert_bins, 3},
-      {"direction-origin", "", OrderKey::direction_origin, 0},
+      {"direction-origin", "direction-origin", OrderKey::direction_origin, 0},
   };
   return methods;
 }
 
 }  // namespace
 
-const std::vector<std::string>& order_methods() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
+const std::vector<OrderMethod>& order_methods() {
+  static const std::vector<OrderMethod> names = [] {
+    std::vector<OrderMethod> all;
     for (const Method& method : known_methods())
       if (method.key) all.push_back(method.name);
     return all;
@@ -48,24 +48,22 @@ const std::vector<std::string>& order_methods() {
 OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch) {
   const auto& methods = known_methods();
   const auto method = std::find_if(methods.begin(), methods.end(), [&](const Method& m) {
-    return order.method == m.name || (order.method == m.mnemonic && *m.mnemonic);
+    return order.method == m.name || order.method == m.mnemonic;
   });
-  if (method == methods.end()) throw ConfigError(fmt::format("order.method = \"{}\" is not known", order.method));
-  const std::vector<std::string> shapes{"auto", "1d", "2d", "3d"};
-  const auto shape = std::find(shapes.begin(), shapes.end(), launch.shape);
-  if (shape == shapes.end()) throw ConfigError(fmt::format("launch.shape = \"{}\" is not known", launch.shape));
-  auto dimensions = static_cast<unsigned>(shape - shapes.begin());
+  if (method == methods.end()) throw std::logic_error("plan_order: order.method = \"auto\" is chosen by choose_order");
+  auto dimensions = static_cast<unsigned>(launch.shape.index());  // 0: auto
   if (dimensions == 0) dimensions = std::max(method->curve_dimensions, 1u);
   if (method->curve_dimensions > 0 && dimensions != method->curve_dimensions)
-    throw ConfigError(
-        fmt::format("order.method = \"{}\" does not go with launch.shape = \"{}\"", order.method, launch.shape));
-  if (launch.local_size > 1024 || (launch.local_size & (launch.local_size - 1)) != 0)
-    throw ConfigError(fmt::format("launch.local_size = {} is no power of two up to 1024", launch.local_size));
-  return {method->name,
+    throw ConfigError(fmt::format("order.method = \"{}\" does not go with launch.shape = \"{}\"", order.method.word(),
+                                  launch.shape.word()));
+  const uint32_t local_size = launch.local_size.value_or(0);
+  if (local_size > 1024 || (local_size & (local_size - 1)) != 0)
+    throw ConfigError(fmt::format("launch.local_size = {} is no power of two up to 1024", local_size));
+  return {method->name.text(),
           method->key,
           order.each_depth && method->key,
           order.bin_num,
-          {dimensions, method->curve_dimensions > 0, launch.local_size}};
+          {dimensions, method->curve_dimensions > 0, local_size}};
 }
 
 RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions,

@@ -23,9 +23,9 @@ struct OrderPlan {
 };
 
 // The plain names of order.method that sort, in the order of the thesis, then ours.
-const std::vector<std::string>& order_methods();
+const std::vector<OrderMethod>& order_methods();
 
-// Throws ConfigError for a method or a shape that is not known; "auto" is not a plan (see order_choice.hpp).
+// Throws ConfigError for a method that does not go with the shape; "auto" is not a plan (see order_choice.hpp).
 OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch);
 
 class RayOrder {

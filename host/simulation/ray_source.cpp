@@ -20,7 +20,7 @@ RaySource::RaySource(gpu::Context& context, const TraceConfig& trace, const Orde
       sort_each_depth_(plan.each_depth),
       heights_(std::make_shared<LaunchHeights>(context)) {
   if (labels) label_.emplace(context);
-  if (plan.key) order_.emplace(context, *plan.key, plan.bins, directions_of(trace, trace.rays), extent_m, heights_);
+  if (plan.key) order_.emplace(context, *plan.key, plan.bins, directions_of(trace, *trace.rays), extent_m, heights_);
 }
 
 void RaySource::reserve(uint64_t rays) {

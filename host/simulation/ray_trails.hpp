@@ -10,7 +10,7 @@
 #include "simulation/ray_follower.hpp"
 #include "simulation/sphere_reception.hpp"
 #include "wavetracer/config.hpp"
-#include "wavetracer/waypoints.hpp"
+#include "wavetracer/ray_waypoints.hpp"
 
 namespace wavetracer {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "wavetracer/path_geometry.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

@@ -16,7 +16,7 @@ constexpr uint32_t first_level = 7, first_level_again = 5;
 // more than 0.998, 8 all that are known (bench_discovery).
 uint32_t rare(double recall) { return recall <= 0.99 ? 2 : recall <= 0.999 ? 4 : 8; }
 
-LaunchDirections directions_of(const std::string& directions, uint32_t level) {
+LaunchDirections directions_of(Directions directions, uint32_t level) {
   return LaunchDirections(directions, uint64_t{sample_faces} << (2 * level), 0);
 }
 

@@ -3,7 +3,7 @@
 
 #include "radio/opacity.hpp"
 #include "scene/load.hpp"
-#include "simulation/features.hpp"
+#include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/tracing_depth.hpp"
 #include "simulation/tree_choice.hpp"

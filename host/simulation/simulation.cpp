@@ -65,8 +65,8 @@ const StageSeconds& Simulation::setup_seconds() const { return state_->setup.sec
 FrameResult Simulation::run_frame(uint32_t frame) { return state_->frames.run(state_->task(frame)); }
 
 std::string block_obstacle(const Config& config) {
-  if (config.trace.rays == 0) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
-  if (config.trace.reception != "exact") return "trace.reception = \"" + config.trace.reception + "\"";
+  if (!config.trace.rays) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
+  if (config.trace.reception != "exact") return "trace.reception = \"" + config.trace.reception.text() + "\"";
   if (config.cache.kind != "none") return "all transmitters share one ray cache (cache.kind)";
   if (config.output.waypoints > 0) return "output.waypoints follows the rays of all transmitters";
   return {};

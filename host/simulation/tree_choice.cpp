@@ -24,7 +24,7 @@ double sample_seconds(gpu::Context& context, const DeviceScene& scene, const Tra
 DeviceScene choose_tree(gpu::Context& context, const Scene& scene, const TraceConfig& config,
                         const std::vector<glm::dvec3>& transmitters, double reach_m) {
   DeviceScene plain = make_device_scene(context, scene, false, reach_m);
-  if (config.rays * transmitters.size() < tree_choice_rays) return plain;
+  if (config.rays.value_or(0) * transmitters.size() < tree_choice_rays) return plain;
   DeviceScene split = make_device_scene(context, scene, true, reach_m);
   TraceConfig sample = config;
   sample.rays = std::max<uint64_t>(tree_choice_rays / 32 / transmitters.size(), 1);

@@ -5,8 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
-#include "wavetracer/paths.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
 
@@ -14,18 +15,16 @@ namespace {
 
 constexpr size_t piece_rows = 1 << 14;
 
-Interaction interaction_of(uint32_t step) {
-  switch (step & WT_STEP_KIND) {
-    case WT_STEP_REFLECTION:
-      return Interaction::reflection;
-    case WT_STEP_TRANSMISSION:
-      return Interaction::transmission;
-    case WT_STEP_DIFFRACTION:
-      return Interaction::diffraction;
-    default:
-      return Interaction::diffuse;
-  }
-}
+// By the kind that stands in a step; a new one needs a line in records.h too.
+constexpr auto codes = [] {
+  std::array<Interaction, (WT_STEP_KIND >> WT_STEP_SHIFT) + 1> all{};  // 0: none, which fields refuse
+  for (const InteractionKind& kind : interaction_kinds) all[kind.step] = kind.code;
+  return all;
+}();
+static_assert(codes[WT_STEP_REFLECTION >> WT_STEP_SHIFT] == reflection &&
+              codes[WT_STEP_TRANSMISSION >> WT_STEP_SHIFT] == transmission &&
+              codes[WT_STEP_DIFFRACTION >> WT_STEP_SHIFT] == diffraction &&
+              codes[WT_STEP_SCATTERING >> WT_STEP_SHIFT] == scattering);
 
 }  // namespace
 
@@ -56,7 +55,7 @@ void append_visible(const SolvedList& solved, PathGeometry& out) {
       for (size_t k = 0; k < headers[visible[i]].depth; ++k) {
         const double* p = &vertices[3 * (from + k)];
         out.surface[to + k] = steps[from + k] & ~WT_STEP_KIND;
-        out.interaction[to + k] = interaction_of(steps[from + k]);
+        out.interaction[to + k] = codes[steps[from + k] >> WT_STEP_SHIFT];
         out.vertex[to + k] = {p[0], p[1], p[2]};
       }
     });

@@ -17,7 +17,7 @@ double warm_seconds(gpu::Context& context, const DeviceScene& scene, const Trace
   for (int run = 0; run < 3; ++run) {
     context.reset_profile();
     discovery.sequences().clear();
-    discovery.find(scene, {.who = launchers(transmitters), .rays = sample.rays});
+    discovery.find(scene, {.who = launchers(transmitters), .rays = *sample.rays});
     const double seconds = seconds_of(context.profile());
     if (run == 1 || (run > 1 && seconds < best)) best = seconds;  // the first is cold
   }

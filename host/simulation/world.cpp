@@ -118,7 +118,7 @@ void World::State::add_instances(VehicleModels& vehicles, const Scene& scene) {
     next_wedge += vehicles.models()[*model].wedges.size();
     if (next_surface > ~WT_STEP_KIND || next_wedge >= 1u << 27)
       throw RuntimeError(
-          fmt::format("the scene and {} vehicles have more than 2^30 surfaces or 2^27 edges: use models "
+          fmt::format("the scene and {} vehicles have more than 2^29 surfaces or 2^27 edges: use models "
                       "with fewer faces, or shorter trajectories",
                       instances.size()));
   }
@@ -213,7 +213,7 @@ void World::State::set_clock(const TimeConfig& config) {
         fmt::format("[time] {}, and the trajectories go from {:g} to {:g} s: no frame would have a vehicle; "
                     "give a time.start_s and a time.end_s among them, or leave both out",
                     range_in_words(config), first_s, last_s));
-  const double step_s = config.step_s > 0 ? config.step_s : trajectories.step_s;
+  const double step_s = config.step_s.value_or(trajectories.step_s);
   if (!(step_s > 0) && start_s != end_s)
     throw ConfigError("time.step_s is not given, and no vehicle has two samples to tell a step: give it");
   clock.emplace(start_s, end_s, step_s > 0 ? step_s : 1);

@@ -11,7 +11,7 @@
 #include "wavetracer/config.hpp"
 #include "wavetracer/live.hpp"
 #include "wavetracer/scene.hpp"
-#include "wavetracer/world.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 

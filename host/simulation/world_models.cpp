@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <glm/geometric.hpp>
 
 #include "base/spelling.hpp"
@@ -21,14 +20,15 @@ namespace {
 
 std::string_view base_of(std::string_view type) { return type.substr(0, type.find('@')); }
 
-bool is_mesh(const VehicleTypeConfig& row) {
-  constexpr std::array<std::string_view, 5> names{"auto", "car", "van", "truck", "none"};
-  return std::find(names.begin(), names.end(), row.model) == names.end();
-}
+bool is_mesh(const VehicleTypeConfig& row) { return !NamedBody::parse(row.model); }
 
 // By the first word of the name that is a vehicle class, which is how sumo_type() finds its size.
-std::string kind_of(std::string_view type) {
-  static const std::map<std::string_view, std::string> kinds = {
+NamedBody kind_of(std::string_view type) {
+  struct ClassBody {
+    std::string_view word;
+    NamedBody body;
+  };
+  constexpr ClassBody classes[] = {
       {"truck", "truck"},     {"lorry", "truck"},         {"trailer", "truck"},   {"bus", "truck"},
       {"coach", "truck"},     {"tram", "truck"},          {"rail", "truck"},      {"railtype", "truck"},
       {"ship", "truck"},      {"containertype", "truck"}, {"container", "truck"}, {"delivery", "van"},
@@ -40,7 +40,8 @@ std::string kind_of(std::string_view type) {
   for (size_t at = name.find_first_of(letters); at != name.npos; at = name.find_first_of(letters, at)) {
     const size_t end = std::min(name.find_first_not_of(letters, at), name.size());
     const std::string word = name.substr(at, end - at);
-    if (const auto found = kinds.find(word); found != kinds.end()) return found->second;
+    if (const auto found = std::ranges::find(classes, word, &ClassBody::word); found != std::end(classes))
+      return found->body;
     if (sumo_type(word)) break;
     at = end;
   }
@@ -103,7 +104,7 @@ const Scene& VehicleModels::mesh_of(const VehicleTypeConfig& row) {
 
 // The sizes given; for the others those of the mesh, or of SUMO's class.
 VehicleType VehicleModels::sized(const VehicleTypeConfig& row) {
-  VehicleType out{row.name, row.length_m, row.width_m, row.height_m};
+  VehicleType out{row.name, row.length_m.value_or(0), row.width_m.value_or(0), row.height_m.value_or(0)};
   std::optional<VehicleType> known = sumo_type(row.name);
   if (is_mesh(row)) {
     const Scene& mesh = mesh_of(row);
@@ -134,7 +135,7 @@ std::optional<uint32_t> VehicleModels::model_of(const VehicleType& type, std::st
   if (!row_of(name) && !sumo_type(base_of(name))) name = config_.trajectories.default_type;
   const VehicleTypeConfig* row = row_of(name);
   std::string body = row ? row->model : "auto";
-  if (body == "auto") body = vehicle_id.starts_with("person:") ? "none" : kind_of(base_of(name));
+  if (body == "auto") body = vehicle_id.starts_with("person:") ? "none" : kind_of(base_of(name)).text();
   if (body == "none") return std::nullopt;
   const bool mesh = row && is_mesh(*row);
   const auto next = static_cast<uint32_t>(models_.size());
@@ -148,7 +149,7 @@ std::optional<uint32_t> VehicleModels::model_of(const VehicleType& type, std::st
       if (extent_m[axis] > 0) scale[axis] = size_of(type)[axis] / extent_m[axis];
     models_.push_back(stretched(scene, scale));
   } else if (is_new) {
-    models_.push_back(vehicle_model(body, type.length_m, type.width_m, type.height_m));
+    models_.push_back(vehicle_model(NamedBody::named(body), type.length_m, type.width_m, type.height_m));
   }
   return found->second;
 }

@@ -50,7 +50,7 @@ void nothing_else(CacheConfig&) {}
 
 }  // namespace
 
-uint64_t ample_buffer(const Config& config) { return std::max<uint64_t>(uint64_t{1} << 20, 8 * config.trace.rays); }
+uint64_t ample_buffer(const Config& config) { return std::max<uint64_t>(uint64_t{1} << 20, 8 * *config.trace.rays); }
 
 void uncached(Config& config) {
   config.trace.directions = "random";

@@ -44,7 +44,7 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
     if (host.interrupted()) return found;
     TraceConfig trace = request.config.trace;
     trace.rays = experiment_rays;
-    trace.directions = directions;
+    trace.directions = Directions::named(directions);
     const FrameHits hits = HitRecorder(traced, trace)(transmitter_m);
     for (uint32_t i = 0; i < hits.size(); ++i)
       for (const LagCoherence& at : coherence_along(hits[i], lags))

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include "base/spelling.hpp"
-#include "config/config_file.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::study {

@@ -54,10 +54,11 @@ HitRecorder::HitRecorder(TracedScene& traced, const TraceConfig& trace)
       discovery_(traced.context, traced.on_device, trace_, {.follower = this}) {}
 
 FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
-  found_.assign(trace_.max_depth, std::vector<Hit>(trace_.rays));
+  found_.assign(trace_.max_depth, std::vector<Hit>(*trace_.rays));
   discovery_.sequences().clear();
   discovery_.sequences().begin_frame();
-  discovery_.find(traced_.on_device, {.who = launchers({transmitter_m - traced_.scene.origin_m}), .rays = trace_.rays});
+  discovery_.find(traced_.on_device,
+                  {.who = launchers({transmitter_m - traced_.scene.origin_m}), .rays = *trace_.rays});
   return std::move(found_);
 }
 

@@ -1,5 +1,5 @@
 // The methods and their mnemonics.
-// Assumes the method names of the field table (host/config/fields.cpp).
+// Assumes the method names of the field table (host/config/field_table.cpp).
 #include "study/series.hpp"
 #include <stdexcept>
 
@@ -57,10 +57,10 @@ const std::vector<std::string>& series_keys() {
 
 void apply(Config& config, const Series& series, uint64_t rays) {
   config.trace.rays = rays;
-  config.trace.directions = series.directions;
-  config.order.method = series.method;
+  config.trace.directions = Directions::named(series.directions);
+  config.order.method = OrderMethod::named(series.method);
   config.order.each_depth = series.each_depth;
-  config.launch.shape = series.shape;
+  config.launch.shape = LaunchDimensions::named(series.shape);
 }
 
 }  // namespace wavetracer::study

@@ -63,7 +63,7 @@ nlohmann::json add_grid_blocks(const std::vector<GridMap>& grids, const std::vec
                    {"first_m", {first.x, first.y}},
                    {"step_m", {step_x != 0 ? step_x : step_y, step_y}},
                    {"antenna", cell.antenna},
-                   {"polarization", cell.polarization}});
+                   {"polarization", cell.polarization.word()}});
   }
   return out;
 }

@@ -12,6 +12,7 @@
 #include "viewer/page_files.hpp"
 #include "viewer/scene_blocks.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
 namespace {
@@ -47,7 +48,7 @@ glm::dvec3 centre_of(const SavedRun& run, const Scene& scene, size_t row) {
   return finite(centre) ? centre : glm::dvec3{0};
 }
 
-json end_row(const RadioEnd& end) { return {end.name, end.antenna, end.polarization}; }
+json end_row(const RadioEnd& end) { return {end.name, end.antenna, end.polarization.word()}; }
 
 json transmitter_rows(const SavedRun& run) {
   json rows = json::array();
@@ -63,17 +64,22 @@ json receiver_rows(const SavedRun& run, const std::vector<bool>& own) {
   return rows;
 }
 
-// Indices into Kinds of data.js: those that the run has computed, or holds.
-json kinds(const Config& config, uint32_t interactions) {
-  json out = {0};
-  const auto add = [&](int kind, bool asked, uint32_t bit) {
-    if (asked || (interactions & bit)) out.push_back(kind);
+// A row a kind of path, the least special first: the code of its interaction, 0 of line of sight; the words of the
+// interaction and of the path; its colours; whether the run has computed it, or holds one.
+json path_kind_rows(const Config& config, uint32_t interactions) {
+  json rows = json::array();
+  const auto add = [&](unsigned code, std::string_view interaction, const PathKind& kind, bool shown) {
+    rows.push_back({{"code", code},
+                    {"interaction", interaction},
+                    {"word", kind.word},
+                    {"dark", kind.dark},
+                    {"light", kind.light},
+                    {"shown", shown}});
   };
-  add(1, config.trace.reflection, reflection);
-  add(2, config.trace.transmission, transmission);
-  add(3, config.trace.diffraction, diffraction);
-  add(4, config.trace.scattering, diffuse);
-  return out;
+  add(0, "", path_kinds.front(), true);
+  for (const InteractionKind& kind : interaction_kinds)
+    add(kind.code, kind.word, kind.paths, config.trace.*kind.asked_for || (interactions & kind.code));
+  return rows;
 }
 
 json missed_ranges(const Missed& missed) {
@@ -191,7 +197,7 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   meta["frames"] = blocks.frames;
   meta["gain_range_db"] = {blocks.lowest_db, blocks.highest_db};
   meta["highest_order"] = blocks.highest_order;
-  meta["kinds"] = kinds(world.config, blocks.interactions);
+  meta["path_kinds"] = path_kind_rows(world.config, blocks.interactions);
   if (blocks.ends_m) meta["ends_m"] = box(*blocks.ends_m, centre);
   meta["links"] = blocks.shown_links;
   meta["paths"] = {blocks.shown_paths, blocks.paths};

@@ -1,5 +1,6 @@
 // The configuration of a run, one struct a table of the TOML file. Defaults live here, each with its reason
-// in the field table (host/config/fields.cpp), which is what parsing, `validate`, `init` and `--help` are driven by.
+// in the field table (host/config/field_table.cpp), which is what parsing, `validate`, `init` and `--help` are driven
+// by. Where the file says 0 or "auto" for "choose yourself" or "no limit", the member is an optional that is not set.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,6 +9,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "wavetracer/choice.hpp"
 
 namespace wavetracer {
 
@@ -19,11 +22,13 @@ struct MaterialConfig {  // [[material]]: overrides or adds a radio material by 
   std::optional<double> scattering, scattering_lobe, scattering_cross_polar;  // see Material
 };
 
+using UpAxis = Choice<"auto", "y", "z">;
+
 struct SceneConfig {
   std::string file;                                   // absolute after parsing (given relative to the config file)
   std::string generate;                               // arguments of `wavetracer scene city`, instead of a file
   double scale = 1;                                   // metres a file unit (OBJ, GLB, PLY)
-  std::string up = "auto";                            // "auto" (z, but y for glTF), "y" or "z"
+  UpAxis up = "auto";                                 // auto: z, but y for glTF
   std::map<std::string, std::string> material_alias;  // [scene.material_alias]: name in the file -> radio material
   std::string default_material;                       // for meshes without one; empty: a missing material is an error
 };
@@ -35,23 +40,29 @@ struct RadioConfig {
   double noise_figure_db = 0;
 };
 
+// The patterns that an antenna may be instead of a file, and its ports.
+using NamedAntenna = Choice<"isotropic", "short-dipole", "dipole", "tr38901">;
+using Polarization = Choice<"V", "H", "VH", "cross">;
+
 struct RadioEnd {  // [[transmitter]] or [[receiver]]
   std::string name;
-  std::array<double, 3> position_m{0, 0, 0};       // file coordinates
-  std::string antenna = "isotropic";               // isotropic, short-dipole, dipole, tr38901, or a pattern file
-  std::string polarization = "V";                  // V, H, VH, cross
+  std::array<double, 3> position_m{0, 0, 0};  // file coordinates
+  std::string antenna = "isotropic";          // a NamedAntenna, or a pattern file
+  Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
   std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; shifts frequencies, moves nothing
 };
+
+using HeightAbove = Choice<"zero", "ground">;
 
 struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the middles of square cells, for coverage
   std::string name;
   std::optional<double> x_min_m, x_max_m, y_min_m, y_max_m;  // file coordinates; not given: those of the scene
   double step_m = 5;                                         // side of a cell
   double height_m = 1.5;
-  std::string above = "zero";  // zero: height_m is z; ground: above the lowest surface there
+  HeightAbove above = "zero";  // zero: height_m is z; ground: above the lowest surface there
   std::string antenna = "isotropic";
-  std::string polarization = "V";
+  Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};
 };
 
@@ -71,20 +82,26 @@ struct TrackConfig {  // [[track]]: a vehicle on waypoints
   std::vector<std::array<double, 4>> waypoints;  // time_s, x, y, z; file coordinates of the scene
 };
 
+// The bodies that a vehicle may have instead of a mesh file.
+using NamedBody = Choice<"auto", "car", "van", "truck", "none">;
+
 struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories looks like
   std::string name;
-  std::string model = "auto";  // auto, car, van, truck, none, or a mesh file (x ahead, z up, origin on the ground)
-  double length_m = 0, width_m = 0, height_m = 0;  // 0: that of the mesh file, else of SUMO's class of this name
-  std::string material = "metal";                  // of a mesh without one
+  std::string model = "auto";  // a NamedBody, or a mesh file (x ahead, z up, origin on the ground)
+  // Not given: that of the mesh file, else of SUMO's class of this name.
+  std::optional<double> length_m = {}, width_m = {}, height_m = {};
+  std::string material = "metal";  // of a mesh without one
 };
 
-struct MountConfig {                        // [[mount]]: an antenna on vehicles
-  std::string name;                         // the end is called VEHICLE/NAME
-  std::string on = "*";                     // ids or types of vehicles, * and ? as in shells
-  std::string role = "both";                // transmitter, receiver, both
+using MountRole = Choice<"transmitter", "receiver", "both">;
+
+struct MountConfig {     // [[mount]]: an antenna on vehicles
+  std::string name;      // the end is called VEHICLE/NAME
+  std::string on = "*";  // ids or types of vehicles, * and ? as in shells
+  MountRole role = "both";
   std::array<double, 3> offset_m{0, 0, 0};  // from the centre of the footprint: ahead, left, up
   std::string antenna = "isotropic";
-  std::string polarization = "V";
+  Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // in the vehicle's axes
 };
 
@@ -97,55 +114,72 @@ struct LinksConfig {  // [links]: which pairs are computed
 
 struct TimeConfig {                      // [time]: frames of a drive
   std::optional<double> start_s, end_s;  // not given: those of the trajectories
-  double step_s = 0;                     // 0: that of the trajectories
+  std::optional<double> step_s = {};     // not given: that of the trajectories
 };
+
+using Directions = Choice<"horizon", "hilbert", "fibonacci", "random">;
+using Reception = Choice<"exact", "sphere">;
 
 struct TraceConfig {
-  uint64_t rays = 200000;        // a transmitter; 0 ("auto"): as many as recall asks for, at most max_rays
-  double recall = 0.99;          // of rays = "auto": wanted share of the paths
-  uint64_t max_rays = 10000000;  // of rays = "auto"
-  bool reuse = true;             // sequences of earlier frames of a drive are kept and solved again
-  uint64_t refresh_rays = 0;     // rays a transmitter of a frame that reuses; 0: a tenth of rays
-  uint32_t forget_frames = 50;   // a sequence that no ray has met for so many frames is dropped
+  std::optional<uint64_t> rays = 200000;  // a transmitter; not set ("auto"): as many as recall asks for, up to max_rays
+  double recall = 0.99;                   // of rays = "auto": wanted share of the paths
+  uint64_t max_rays = 10000000;           // of rays = "auto"
+  bool reuse = true;                      // sequences of earlier frames of a drive are kept and solved again
+  std::optional<uint64_t> refresh_rays = {};  // a transmitter, of a frame that reuses; not given: a tenth of rays
+  uint32_t forget_frames = 50;                // a sequence that no ray has met for so many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
-  uint32_t max_diffractions = 1;       // a path, 1 or 2
-  bool free_edges = true;              // edges of one face diffract as half planes
-  uint64_t diffraction_rays = 0;       // of a receiver, with diffraction; 0: a tenth of rays, at least 100,000
-  uint32_t max_transmissions = 2;      // a path
-  double tile_m = 5;                   // of scattering: no tile is longer
-  std::string directions = "horizon";  // horizon, hilbert, fibonacci, random
-  std::string reception = "exact";
+  uint32_t max_diffractions = 1;                  // a path, 1 or 2
+  bool free_edges = true;                         // edges of one face diffract as half planes
+  std::optional<uint64_t> diffraction_rays = {};  // of a receiver; not given: a tenth of rays, at least 100,000
+  uint32_t max_transmissions = 2;                 // a path
+  double tile_m = 5;                              // of scattering: no tile is longer
+  Directions directions = "horizon";
+  Reception reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
-  uint64_t batch_rays = 0;  // rays in flight at once; 0: chosen from the device
+  std::optional<uint64_t> batch_rays = {};  // in flight at once; not given: chosen from the device
 };
 
+// Those of the thesis have two words each, the plain name and the mnemonic; a configuration is echoed as it was given.
+using OrderMethod = Choice<"none", "WS", "morton", "Z", "hilbert3d-histogram", "H3DH", "morton-histogram", "HZ",
+                           "hilbert3d-histogram-hilbert2d", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "H3DH3DH",
+                           "direction-origin", "auto">;
+
 struct OrderConfig {
-  std::string method = "none";
+  OrderMethod method = "none";
   bool each_depth = false;
   uint32_t bin_num = 16;  // bins a direction component, histogram methods
 };
 
+using LaunchDimensions = Choice<"auto", "1d", "2d", "3d">;
+
 struct LaunchConfig {
-  std::string shape = "auto";  // auto, 1d, 2d, 3d
-  uint32_t local_size = 0;     // work-items a group; 0: chosen from the device
+  LaunchDimensions shape = "auto";
+  std::optional<uint32_t> local_size = {};  // work-items of a group; not given: chosen from the device
 };
 
+using CacheKind = Choice<"none", "chained", "open", "concurrent">;
+using CacheKey = Choice<"quantised", "exact">;
+using CacheLocking = Choice<"mutex", "readers">;
+using CachePurging = Choice<"position", "precision">;
+using CacheScope = Choice<"static", "all">;
+using CacheHitPoint = Choice<"own", "cached">;
+
 struct CacheConfig {
-  std::string kind = "none";        // none, chained, open, concurrent
-  std::string key = "quantised";    // quantised: primitive and cells of directions; exact: the ray itself
-  uint32_t hash_method = 3;         // 1 uniform, 2 Morton, 3 mixed
-  uint32_t division = 200000;       // cells a direction component, of a quantised key
-  uint64_t buffer_size = 1048576;   // entries, shared evenly by the transmitters
-  double load_factor = 3;           // chained: entries a bucket, on average
-  std::string locking = "readers";  // open: mutex, readers
-  uint32_t readers_number = 5;      // open, readers: reads of an entry after which it is written anew
-  std::string purge = "position";   // position, precision
+  CacheKind kind = "none";
+  CacheKey key = "quantised";        // quantised: primitive and cells of directions; exact: the ray itself
+  uint32_t hash_method = 3;          // 1 uniform, 2 Morton, 3 mixed
+  uint32_t division = 200000;        // cells a direction component, of a quantised key
+  uint64_t buffer_size = 1048576;    // entries, shared evenly by the transmitters
+  double load_factor = 3;            // chained: entries a bucket, on average
+  CacheLocking locking = "readers";  // of an open table
+  uint32_t readers_number = 5;       // open, readers: reads of an entry after which it is written anew
+  CachePurging purge = "position";
   double position_step_m = 0.1;     // of the transmitter's position key
   double residual_value = 0.0125;   // precision: largest L1 distance of origins and directions
-  std::string scope = "static";     // static: what vehicles and receivers decide is tested every time; all: it is kept
-  std::string hit_point = "own";    // of an answered ray: own (its line on the surface), cached (the other ray's)
+  CacheScope scope = "static";      // static: what vehicles and receivers decide is tested every time; all: it is kept
+  CacheHitPoint hit_point = "own";  // of an answered ray: own (its line on the surface), cached (the other ray's)
   uint32_t first_depth = 1;         // segments before this one of a ray, counted from 1, are always traced
   bool statistics = false;          // hits an entry, and entries linked along paths
 };
@@ -154,9 +188,9 @@ struct OutputConfig {
   std::string directory = "out";
   uint32_t shard_frames = 100;  // frames a file of a drive; the first of each is cold where frames reuse sequences
   uint64_t waypoints = 0;       // samples a transmitter whose waypoints are written, spread evenly; 0: none
-  // Paths that are not written to paths.h5, see output/path_limits.hpp; not given, and 0: all are.
+  // Paths that are not written to paths.h5, see output/path_limits.hpp; not given: all are.
   std::optional<double> min_gain_db, dynamic_range_db;
-  uint32_t max_paths_per_link = 0;
+  std::optional<uint32_t> max_paths_per_link = {};
   bool keep_shards = true;  // of a drive that is whole and merged
 };
 
@@ -176,8 +210,8 @@ struct LiveConfig {                      // [live]: what `wavetracer serve` acce
   double max_rate_hz = 1000;             // messages of a client
   double hello_timeout_s = 3;            // from connecting to the end of hello
   double message_timeout_s = 5;          // from the first byte of a line to its end
-  double idle_timeout_s = 300;           // 0: none
-  double send_timeout_s = 10;            // answers unread
+  std::optional<double> idle_timeout_s = 300;
+  double send_timeout_s = 10;  // answers unread
 };
 
 struct Config {

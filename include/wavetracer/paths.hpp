@@ -8,7 +8,8 @@
 
 namespace wavetracer {
 
-enum Interaction : uint8_t { reflection = 1, diffuse = 2, transmission = 4, diffraction = 8 };
+// What happens to a wave at a vertex of its path, as files have it; interaction_kinds.hpp says more of each.
+enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, diffraction = 8 };
 
 constexpr uint32_t no_instance = 0xFFFFFFFFu;
 

@@ -120,8 +120,7 @@ typedef struct wavetracer_column {
    Rows vertex_offset[i] to vertex_offset[i + 1] of these are the interactions of path i, from the transmitter on:
      vertex_offset                                           uint64     one row more than there are paths
      vertex_position_m                                       float64 x 3, file coordinates
-     vertex_interaction                                      uint8      1 reflection, 2 scattering, 4 transmission,
-                                                             8 diffraction
+     vertex_interaction                                      uint8      its kind: 1, 2, 4, ... as in docs/formats.md
      vertex_surface                                          uint32     in its scene or model; of a diffraction the edge
      vertex_instance                                         uint32     the vehicle; 0xFFFFFFFF: the static scene
    One row a pair of ends between which paths were wanted:

@@ -37,7 +37,7 @@ SceneFile screen() {
   return SceneFile({Quad{{4, 0, 0}, {0, 4.5, 0}, {0, 0, 4}}, Quad{{-5, 9, -2}, {20, 0, 0}, {0, 0, 8}}});
 }
 
-accuracy::Study study(const std::string& file, study::RayRange rays) {
+accuracy::Study studied(const std::string& file, study::RayRange rays) {
   const accuracy::Request request{
       .file = file, .sets = {}, .rays = rays, .device = "", .repeats = 1, .command_line = ""};
   return accuracy::study(request, {[](const std::string&) {}, [] { return false; }});
@@ -79,7 +79,7 @@ TEST_CASE("a box: a million rays lose nothing, and a depth loses what its images
   const Folder folder;
   const SceneFile scene(reference::box_walls({0, 0, 0}, size));
   const std::string file = folder.file("box.toml", config_text(scene, "max_depth = 1\nrays = 1000000\n", {rx}));
-  const accuracy::Study box = study(file, {1000000, 1000000});
+  const accuracy::Study box = studied(file, {1000000, 1000000});
   const accuracy::Row& million = row(box, "rays", "1,000,000");
   CHECK(million.own);
   CHECK(million.paths == 7);
@@ -110,7 +110,7 @@ TEST_CASE("what a mechanism adds is the difference of two runs, and a recommenda
   const SceneFile scene = screen();
   const std::string file =
       folder.file("screen.toml", config_text(scene, "max_depth = 2\nrays = 3000\n", {rx, {2, 4, 1}}));
-  const accuracy::Study edges = study(file, {1000, 30000});
+  const accuracy::Study edges = studied(file, {1000, 30000});
   const auto frame = [&](const std::vector<std::string>& keys) { return run(load_config(file, keys)).paths; };
   const Paths on = frame({"trace.diffraction=true"}), off = frame({"trace.diffraction=false"});
   const accuracy::Row& without = row(edges, "diffraction", "off");
@@ -137,7 +137,7 @@ TEST_CASE("a setting that the configuration excludes has a row that says why") {
   const SceneFile scene = screen();
   const std::string file = folder.file(
       "join.toml", config_text(scene, "max_depth = 1\nrays = 1000\nreception = \"sphere\"\n", {rx, {2, 4, 1}}));
-  const accuracy::Study spheres = study(file, {1000, 1000});
+  const accuracy::Study spheres = studied(file, {1000, 1000});
   CHECK(row(spheres, "auto", "recall 0.9").refusal.find("trace.rays = \"auto\" refines") != std::string::npos);
   CHECK(row(spheres, "diffraction", "on").refusal.find("receives reflected rays alone") != std::string::npos);
   CHECK(row(spheres, "rays", "1,000").measured());

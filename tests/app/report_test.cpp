@@ -96,7 +96,7 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
                  "\nmissed     about 4 of 5 paths (0 to 23), 5e-06 of the power (0 to 3e-05): more trace.rays "
                  "find more\n"));
   results.totals.missed = {.frames = 1, .paths = {0, 0, 0, 9}, .powers = {0, 0, 0, 0.4}, .amplitude = 0.9, .power = 1};
-  sample.config.trace.rays = 0;
+  sample.config.trace.rays = {};
   CHECK(contains(report(), "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.03)\n"));
   results.totals.missed.paths = {6, 3, 2, 9};
   CHECK(contains(report(), ": a higher trace.recall finds more\n"));

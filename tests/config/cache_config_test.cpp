@@ -38,19 +38,19 @@ waypoints = 1e9
 )" + ends,
                                 "/data/a.toml");
   const auto check = [](const CacheConfig& cache) {
-    CHECK(cache.kind == "open");
-    CHECK(cache.key == "quantised");
+    CHECK(cache.kind.word() == "open");
+    CHECK(cache.key.word() == "quantised");
     CHECK(cache.hash_method == 2);
     CHECK(cache.division == 2097151);
     CHECK(cache.buffer_size == 2147483648u);
     CHECK(cache.load_factor == 1.5);
-    CHECK(cache.locking == "mutex");
+    CHECK(cache.locking.word() == "mutex");
     CHECK(cache.readers_number == 65535);
-    CHECK(cache.purge == "precision");
+    CHECK(cache.purge.word() == "precision");
     CHECK(cache.position_step_m == 0.25);
     CHECK(cache.residual_value == 0.093);
-    CHECK(cache.scope == "all");
-    CHECK(cache.hit_point == "cached");
+    CHECK(cache.scope.word() == "all");
+    CHECK(cache.hit_point.word() == "cached");
     CHECK(cache.first_depth == 2);
     CHECK(cache.statistics);
   };
@@ -151,7 +151,7 @@ TEST_CASE("a cache that would never be asked is refused") {
 TEST_CASE("reception spheres take whole rays that are spread evenly") {
   const std::string sphere = "trace.reception = \"sphere\"\n";
   const Config c = parse_config(scene + sphere + "trace.sphere_radius_m = 0.5\n" + ends, "a.toml");
-  CHECK(c.trace.reception == "sphere");
+  CHECK(c.trace.reception.word() == "sphere");
   CHECK(c.trace.sphere_radius_m == 0.5);
   CHECK(of(sphere + "trace.reuse = true") == "no error");
   CHECK(of("trace.rays = \"auto\"\ntrace.reception = \"exact\"") == "no error");

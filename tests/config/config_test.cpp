@@ -45,12 +45,12 @@ TEST_CASE("every kind of value is read, dotted keys at the top and tables alike"
       "/data/a.toml");
   CHECK(c.scene.file == "/data/s.xml");
   CHECK(c.scene.scale == 2.0);
-  CHECK(c.scene.up == "y");
+  CHECK(c.scene.up.word() == "y");
   CHECK(c.radio.frequency_hz == 28e9);
   CHECK(c.trace.rays == 1000000);
   CHECK(c.trace.seed == 9223372036854775807u);
   CHECK(c.scene.material_alias == std::map<std::string, std::string>{{"my wall", "concrete"}, {"door", "wood"}});
-  CHECK(c.order.method == "WS");
+  CHECK(c.order.method.word() == "WS");
   CHECK(c.output.directory == "/abs/out");
   REQUIRE(c.materials.size() == 1);
   CHECK(*c.materials[0].permittivity == 4.0);
@@ -65,7 +65,7 @@ TEST_CASE("the form that dotted keys before arrays of tables give is accepted") 
       "[[transmitter]]\nname = \"tx0\"\nposition_m = [8.5, 21, 27]\nantenna = \"isotropic\"\npolarization = \"VH\"\n"
       "[[receiver]]\nname = \"rx0\"\nposition_m = [45, 90, 1.5]\nantenna = \"isotropic\"\npolarization = \"VH\"\n",
       "case.toml");
-  CHECK(c.transmitters[0].polarization == "VH");
+  CHECK(c.transmitters[0].polarization.word() == "VH");
   CHECK(c.radio.frequency_hz == 3.5e9);
 }
 
@@ -236,7 +236,7 @@ TEST_CASE("--set overrides the file, as TOML or as a bare word") {
                     "receiver.0.position_m=[1, 2, 3]", "output.directory=\"/o\""});
   CHECK(c.trace.rays == 1000);
   CHECK_FALSE(c.trace.diffraction);
-  CHECK(c.trace.directions == "fibonacci");
+  CHECK(c.trace.directions.word() == "fibonacci");
   CHECK(c.scene.file.empty());
   CHECK(c.scene.generate == "--seed 3");
   CHECK(c.scene.material_alias.at("door") == "wood");

@@ -32,12 +32,12 @@ TEST_CASE("every key of a grid is read, and its defaults are those of the struct
   CHECK(*g.y_max_m == 1000);
   CHECK(g.step_m == 2.5);
   CHECK(g.height_m == 1);
-  CHECK(g.above == "ground");
+  CHECK(g.above.word() == "ground");
   CHECK(g.antenna == "dipole");
-  CHECK(g.polarization == "VH");
+  CHECK(g.polarization.word() == "VH");
   CHECK(g.orientation_deg == std::array<double, 3>{90, 0, 0});
   CHECK_FALSE((plain.x_min_m || plain.x_max_m || plain.y_min_m || plain.y_max_m));
-  CHECK(plain.above == "zero");
+  CHECK(plain.above.word() == "zero");
   CHECK(plain.step_m == ReceiverGridConfig{}.step_m);
 }
 

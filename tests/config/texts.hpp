@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <string>
 #include <vector>
-#include "config/config_file.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::test {

@@ -92,7 +92,7 @@ TEST_CASE("every key of a moving world is read") {
   CHECK(c.links.receivers == std::vector<std::string>{"*/roof", "r"});
   CHECK_FALSE((c.links.v2v || c.links.v2i || c.links.i2i));
   CHECK(c.links.same_vehicle);
-  CHECK(c.trace.rays == 0);
+  CHECK_FALSE(c.trace.rays);
   CHECK(c.trace.recall == 0.95);
   CHECK(c.trace.max_rays == 2000000);
   CHECK_FALSE(c.trace.reuse);
@@ -101,10 +101,10 @@ TEST_CASE("every key of a moving world is read") {
   CHECK(c.output.shard_frames == 10);
   REQUIRE(c.mounts.size() == 2);
   CHECK(c.mounts[0].on == "veh?");
-  CHECK(c.mounts[0].role == "receiver");
+  CHECK(c.mounts[0].role.word() == "receiver");
   CHECK(c.mounts[0].offset_m == std::array<double, 3>{0.5, 0, 1.6});
   CHECK(c.mounts[0].antenna == "/data/patterns/roof.csv");
-  CHECK(c.mounts[0].polarization == "VH");
+  CHECK(c.mounts[0].polarization.word() == "VH");
   CHECK(c.mounts[0].orientation_deg == std::array<double, 3>{180, 0, 5});
   CHECK(c.mounts[1].on == "*");
   REQUIRE(c.vehicle_types.size() == 1);
@@ -123,7 +123,7 @@ TEST_CASE("the resolved config of a moving world reads back the same") {
   CHECK(d.text == c.text);
   CHECK(d.tracks[0].waypoints == c.tracks[0].waypoints);
   CHECK(d.links.receivers == c.links.receivers);
-  CHECK(d.trace.rays == 0);
+  CHECK_FALSE(d.trace.rays);
   check_contains(c.text, "rays = \"auto\"\n");
   const Config plain = parse_config(parse_config(scene + ends, "a.toml").text, "a.toml");
   CHECK(std::isinf(plain.links.max_distance_m));
@@ -145,7 +145,7 @@ TEST_CASE("--set reaches the new keys") {
   CHECK(c.tracks[0].waypoints == std::vector<std::array<double, 4>>{{0, 1, 2, 3}});
   CHECK(std::isinf(c.links.max_distance_m));
   CHECK(c.vehicle_types[0].model == "none");
-  CHECK(parse_config(scene + ends, "a.toml", {"trace.rays=auto"}).trace.rays == 0);
+  CHECK_FALSE(parse_config(scene + ends, "a.toml", {"trace.rays=auto"}).trace.rays);
   check_contains(error_of(scene + ends, {"mount.0.on=x"}), "the file has 0 [[mount]]");
 }
 

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 #include "app/program.hpp"
-#include "output/output.hpp"
 #include "output/sample_run.hpp"
+#include "wavetracer/output.hpp"
 
 using namespace wavetracer;
 

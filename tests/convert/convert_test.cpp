@@ -6,10 +6,10 @@
 #include <fstream>
 #include "convert/pending_folder.hpp"
 #include "convert/unicode.hpp"
-#include "output/output.hpp"
 #include "output/sample_run.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/output.hpp"
 
 using namespace wavetracer;
 namespace fs = std::filesystem;

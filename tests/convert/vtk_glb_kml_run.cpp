@@ -2,10 +2,10 @@
 #include "vtk_glb_kml_run.hpp"
 #include <cmath>
 #include <limits>
-#include "config/config_file.hpp"
-#include "output/output.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
+#include "wavetracer/config_file.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer::test {
 namespace {

@@ -1,7 +1,7 @@
 // Fuzz target: configurations, from TOML text to checked values and back to text.
 // What is accepted must be accepted again as it is written out.
-#include "config/config_file.hpp"
 #include "fuzz/fuzz.hpp"
+#include "wavetracer/config_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;

@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -12,6 +13,7 @@
 
 #include "hard/cases.hpp"
 #include "simulation/run.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer::test {
 
@@ -43,8 +45,8 @@ inline double decibels(double amplitude) { return 20 * std::log10(amplitude); }
 inline std::string kinds_of(const Paths& paths, size_t i) {
   std::string out;
   for (size_t k = paths.vertex_offset[i]; k < paths.vertex_offset[i + 1]; ++k) {
-    const uint8_t kind = paths.vertex_interaction[k];
-    out += kind == reflection ? 'R' : kind == diffuse ? 'S' : kind == transmission ? 'T' : 'D';
+    const InteractionKind* kind = find_interaction(paths.vertex_interaction[k]);
+    out += kind ? static_cast<char>(std::toupper(kind->word.front())) : '?';
   }
   return out;
 }

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <span>
 #include "base/pending_file.hpp"
-#include "output/output.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/output.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;

@@ -1,6 +1,6 @@
 // What write_outputs() writes is what a reader finds: paths.h5 through the C library, links.csv and summary.json.
 // Leaves its sample under tests/output/sample of the build folder, for the tests that read it from Python.
-#include "output/output.hpp"
+#include "wavetracer/output.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <sstream>
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
+#include "wavetracer/output.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;

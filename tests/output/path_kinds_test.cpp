@@ -19,7 +19,7 @@ std::string kind_of(const std::vector<uint8_t>& interactions) {
   paths.delay_s = {0};
   paths.vertex_interaction = interactions;
   paths.vertex_offset = {0, interactions.size()};
-  return std::string(path_kinds[path_kind(paths, 0)]);
+  return std::string(path_kinds[path_kind(paths, 0)].word);
 }
 
 // A drive whose even frames diffract at every vertex, and whose odd ones scatter.
@@ -29,7 +29,7 @@ std::vector<FrameResult> mixed_drive(const SampleRun& sample, uint32_t first, ui
     Paths& paths = frame.paths;
     for (size_t i = 0; i < paths.size(); ++i)
       for (size_t k = paths.vertex_offset[i]; k < paths.vertex_offset[i + 1]; ++k)
-        paths.vertex_interaction[k] = frame.frame % 2 == 0 ? diffraction : diffuse;
+        paths.vertex_interaction[k] = frame.frame % 2 == 0 ? diffraction : scattering;
   }
   return frames;
 }
@@ -44,8 +44,8 @@ TEST_CASE("a path counts by its most special interaction, wherever in the path t
   CHECK(kind_of({diffraction}) == "diffracted");
   CHECK(kind_of({transmission, reflection, diffraction}) == "diffracted");
   CHECK(kind_of({diffraction, transmission}) == "diffracted");
-  CHECK(kind_of({diffuse}) == "scattered");
-  CHECK(kind_of({diffraction, diffuse, transmission}) == "scattered");
+  CHECK(kind_of({scattering}) == "scattered");
+  CHECK(kind_of({diffraction, scattering, transmission}) == "scattered");
 }
 
 TEST_CASE("paths by kind add up over frames, whether written at once, in shards or resumed") {
@@ -71,8 +71,8 @@ TEST_CASE("paths by kind add up over frames, whether written at once, in shards 
   for (const auto& written : {drive, whole}) {
     const Json summary = Json::parse(slurp(written[2]));
     for (size_t i = 0; i < path_kinds.size(); ++i) {
-      CAPTURE(path_kinds[i]);
-      CHECK(summary["paths_by_kind"][std::string(path_kinds[i])] == expected[i]);
+      CAPTURE(path_kinds[i].word);
+      CHECK(summary["paths_by_kind"][std::string(path_kinds[i].word)] == expected[i]);
     }
     CHECK(summary["counts"]["paths"] == paths);
   }

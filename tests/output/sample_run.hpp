@@ -2,8 +2,8 @@
 // Its values are simple functions of the row, which read_paths.py computes again.
 #pragma once
 #include <vector>
-#include "output/output.hpp"
 #include "output/shards.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer {
 

@@ -2,6 +2,7 @@
 // Small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,7 +14,7 @@ using namespace wavetracer::test;
 
 TEST_CASE("chained cache: a key put by many work-items at once is in its tree once, whole, and found") {
   for (const uint32_t method : {1u, 2u, 3u})
-    for (const char* key : {"quantised", "exact"}) {
+    for (const CacheKey key : std::to_array<CacheKey>({"quantised", "exact"})) {
       CAPTURE(method);
       CAPTURE(key);
       CacheConfig config = chained(3 * 2048, 3, method);

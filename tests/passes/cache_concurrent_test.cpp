@@ -13,7 +13,7 @@ size_t count_none(const std::vector<uint32_t>& slots) {
   return static_cast<size_t>(std::count(slots.begin(), slots.end(), WT_NONE));
 }
 
-const TableKind quantised{"concurrent", "", "quantised"}, exact{"concurrent", "", "exact"};
+const TableKind quantised{"concurrent", "readers", "quantised"}, exact{"concurrent", "readers", "exact"};
 
 }  // namespace
 

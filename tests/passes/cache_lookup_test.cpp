@@ -3,6 +3,7 @@
 // device's choice; that every slot that is wanted gets one of them is not.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -79,7 +80,7 @@ TEST_CASE("what was stored answers rays of its key, at their own points, and not
   triangles.resize(6);
   const Scene scene = scene_by_loader(triangles);
   const DeviceScene uploaded = make_device_scene(context(), scene, false);
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     CacheConfig config = small_cache(kind);
     config.division = 8;
@@ -138,7 +139,7 @@ TEST_CASE("what was stored answers rays of its key, at their own points, and not
 }
 
 TEST_CASE("exact keys answer the very same rays alone, with the very same hits") {
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     CacheConfig config = small_cache(kind, "exact");
     config.buffer_size = 1 << 16;
@@ -162,9 +163,9 @@ TEST_CASE("exact keys answer the very same rays alone, with the very same hits")
 TEST_CASE("two rays that leave one wall in one direction share a result with a quantised key, not with an exact one") {
   const CachedRay first{{0, 0, 0}, {1, 0, 0}, 3, 7, 0}, second{{0, 5, 0}, {1, 0, 0}, 3, 7, 0};
   const Hit of_first{10, 100, 50}, of_second{4, 200, 60};
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
-    for (const std::string key : {"quantised", "exact"}) {
+    for (const CacheKey key : std::to_array<CacheKey>({"quantised", "exact"})) {
       CAPTURE(key);
       CacheConfig config = small_cache(kind, key);
       config.hit_point = "cached";
@@ -190,7 +191,7 @@ TEST_CASE("rays that left a vehicle are neither answered nor stored with a quant
   const std::vector<CachedRay> rays{
       {{0, 0, 0}, {1, 0, 0}, 5, 30, 0}, {{0, 0, 0}, {1, 0, 0}, 12, 70, 0}, {{0, 0, 0}, {1, 0, 0}, own, WT_NONE, 0}};
   const std::vector<Hit> hits{{1, 1, 1}, {2, 2, 2}, {3, 3, 3}};
-  for (const std::string key : {"quantised", "exact"}) {
+  for (const CacheKey key : std::to_array<CacheKey>({"quantised", "exact"})) {
     CAPTURE(key);
     CacheConfig config = small_cache("chained", key);
     config.hit_point = "cached";

@@ -7,7 +7,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-CacheConfig open_config(const std::string& locking, uint64_t entries) {
+CacheConfig open_config(CacheLocking locking, uint64_t entries) {
   return TableKind{"open", locking, "quantised"}.config(entries);
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("open cache: mixed operations leave what some order of them leaves") {
 }
 
 TEST_CASE("open cache: the last writer has the slot") {
-  for (const char* locking : {"mutex", "readers"}) {
+  for (const CacheLocking locking : std::to_array<CacheLocking>({"mutex", "readers"})) {
     CAPTURE(locking);
     CacheProbe probe(open_config(locking, 16), 1);
     const auto [a, b] = rays_of_one_slot(probe.table, 5);

@@ -1,6 +1,7 @@
 // A table of the ray cache with the kernels of probe_cache.cl, for tests and bench_cache.
 // Keys are numbers; what is stored under one follows from it, so that kernels see for themselves whether it is right.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,10 @@ using device::wt_cache_entry;
 using device::wt_cache_region;
 
 struct TableKind {
-  std::string kind, locking, key;
-  std::string name() const { return kind + (kind == "open" ? ", " + locking : "") + ", " + key; }
+  CacheKind kind;
+  CacheLocking locking;
+  CacheKey key;
+  std::string name() const { return kind.text() + (kind == "open" ? ", " + locking.text() : "") + ", " + key.text(); }
   CacheConfig config(uint64_t entries) const {
     CacheConfig config;
     config.kind = kind;
@@ -26,9 +29,9 @@ struct TableKind {
   }
 };
 
-inline std::vector<TableKind> table_kinds(const std::string& kind) {
+inline std::vector<TableKind> table_kinds(CacheKind kind) {
   std::vector<TableKind> kinds;
-  for (const char* key : {"quantised", "exact"}) {
+  for (const CacheKey key : std::to_array<CacheKey>({"quantised", "exact"})) {
     kinds.push_back({kind, "readers", key});
     if (kind == "open") kinds.push_back({kind, "mutex", key});
   }

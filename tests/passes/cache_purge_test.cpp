@@ -2,6 +2,7 @@
 // and cache_purge by age. Assumes hits that are given, not traced.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <vector>
 
 #include "passes/cache_forest.hpp"
@@ -19,7 +20,7 @@ std::vector<wt_exact_surface> of_the_environment(size_t count) {
   return surfaces;
 }
 
-CacheConfig all_config(const std::string& kind) {
+CacheConfig all_config(CacheKind kind) {
   CacheConfig config = small_cache(kind);
   config.scope = "all";
   config.hit_point = "cached";
@@ -32,7 +33,7 @@ CacheConfig all_config(const std::string& kind) {
 }  // namespace
 
 TEST_CASE("precision: an entry answers while origin and direction are within the residual, by the L1 distance") {
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     CacheConfig config = small_cache(kind);
     config.purge = "precision";
@@ -60,7 +61,7 @@ TEST_CASE("scope all: a receiver must be within its radius of the cached segment
   const std::vector<Float3> now{{5, 0, 0},  {5, 0.99f, 0}, {5, 5, 0},  {5, 0.9f, 0.9f}, {9.5f, 0, 0},
                                 {12, 0, 0}, {-0.9f, 0, 0}, {5, 0, -3}, {-2, 0, 0},      {5, 0.7f, 0.7f}};
   const std::vector<bool> within{true, true, false, false, true, false, true, false, false, true};
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     Cache cache(all_config(kind));
     std::vector<CachedRay> rays;
@@ -99,7 +100,7 @@ TEST_CASE("scope all: a receiver must be within its radius of the cached segment
 }
 
 TEST_CASE("scope all: what was left or met must not have moved since") {
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     Cache cache(all_config(kind));
     std::vector<wt_exact_surface> surfaces = of_the_environment(6);
@@ -124,7 +125,7 @@ TEST_CASE("scope all: what was left or met must not have moved since") {
 }
 
 TEST_CASE("entries that answer are touched where that is asked for, and purge goes by it") {
-  for (const std::string kind : {"open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"open", "concurrent"})) {
     CAPTURE(kind);
     CacheConfig config = small_cache(kind);
     config.hit_point = "cached";

@@ -13,7 +13,7 @@
 namespace wavetracer::test {
 
 // A small table, in which no entry wears out.
-inline CacheConfig small_cache(const std::string& kind, const std::string& key = "quantised") {
+inline CacheConfig small_cache(CacheKind kind, CacheKey key = "quantised") {
   CacheConfig config;
   config.kind = kind;
   config.key = key;

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -21,7 +22,7 @@ using namespace wavetracer::test;
 namespace {
 
 constexpr uint64_t seed = 42;
-const char* const maps[] = {"horizon", "hilbert", "fibonacci", "random"};
+constexpr Directions maps[] = {"horizon", "hilbert", "fibonacci", "random"};
 
 // Two tables of heights; launches here take the second.
 const std::vector<float>& height_tables() {
@@ -49,7 +50,7 @@ uint32_t numbered(uint32_t root, uint64_t number) {
   return root | static_cast<uint32_t>(number & 3) << WT_QUARTER_SHIFT;
 }
 
-GenerateRays generator(const std::string& map, uint64_t n) {
+GenerateRays generator(Directions map, uint64_t n) {
   return GenerateRays(context(), LaunchDirections(map, n, seed), launch_heights());
 }
 
@@ -58,12 +59,12 @@ struct Launch {
   uint64_t parameter;
   unsigned level = 0, faces = 3;
 
-  Launch(const std::string& map, uint64_t n) : parameter(map == "random" ? seed : ~uint64_t{0} / n) {
+  Launch(Directions map, uint64_t n) : parameter(map == "random" ? seed : ~uint64_t{0} / n) {
     while ((uint64_t{12} << (2 * level)) < n) ++level;
     while ((uint64_t{faces} << (2 * level)) < n) ++faces;
   }
 
-  Float3 direction(const std::string& map, uint64_t i) const {
+  Float3 direction(Directions map, uint64_t i) const {
     const auto function = map == "horizon"     ? device::wt_direction_horizon
                           : map == "hilbert"   ? device::wt_direction_hilbert
                           : map == "fibonacci" ? device::wt_direction_fibonacci
@@ -73,7 +74,7 @@ struct Launch {
   }
 };
 
-std::vector<Float3> host_directions(const std::string& map, uint64_t n) {
+std::vector<Float3> host_directions(Directions map, uint64_t n) {
   const Launch launch(map, n);
   std::vector<Float3> out;
   for (uint64_t i = 0; i < n; ++i) out.push_back(launch.direction(map, i));
@@ -112,7 +113,7 @@ double chi_square(const std::vector<Float3>& directions, size_t bands, size_t tu
 }  // namespace
 
 TEST_CASE("device directions are the host's, bit for bit") {
-  for (const std::string map : maps)
+  for (const Directions map : maps)
     for (const uint32_t n : {1u, 15u, 16u, 17u, 1000u}) {
       CAPTURE(map);
       CAPTURE(n);
@@ -160,7 +161,7 @@ TEST_CASE("a ray's quarter is its number in the launch: of every index, of a sha
 
 TEST_CASE("large launch indices: the last of 2^31 rays are the host's") {
   constexpr uint64_t n = uint64_t{1} << 31;
-  for (const std::string map : maps) {
+  for (const Directions map : maps) {
     CAPTURE(map);
     GenerateRays generate = generator(map, n);
     RayQueue queue = make_ray_queue(context(), 100, "rays");
@@ -175,7 +176,7 @@ TEST_CASE("large launch indices: the last of 2^31 rays are the host's") {
 
 TEST_CASE("a launch in parts, and of several transmitters, gives the same rays") {
   constexpr uint32_t n = 300;
-  for (const std::string map : maps) {
+  for (const Directions map : maps) {
     CAPTURE(map);
     GenerateRays generate = generator(map, n);
     RayQueue whole = make_ray_queue(context(), 2 * n, "whole"), parts = make_ray_queue(context(), 2 * n, "parts");
@@ -192,7 +193,7 @@ TEST_CASE("a launch in parts, and of several transmitters, gives the same rays")
 TEST_CASE("a share of the directions: every stride-th launch index, with the surface that the rays leave") {
   constexpr uint64_t n = 100000;
   constexpr uint32_t count = 100, source = WT_OWN | 5;
-  for (const std::string map : maps)
+  for (const Directions map : maps)
     for (const uint64_t stride : {uint64_t{1}, uint64_t{10}, uint64_t{997}}) {
       CAPTURE(map);
       CAPTURE(stride);
@@ -245,7 +246,7 @@ TEST_CASE("an order is followed, and its rays leave what they should") {
 }
 
 TEST_CASE("samples: the ray of a cell and a launcher, with its number, and an end that is a root") {
-  std::string map;
+  Directions map;
   SUBCASE("horizon") { map = "horizon"; }
   SUBCASE("hilbert") { map = "hilbert"; }
   constexpr uint32_t level = 7, cells = sample_faces << (2 * level), count = 300;
@@ -303,7 +304,7 @@ TEST_CASE("more rays than the queue holds are refused") {
 }
 
 TEST_CASE("directions have unit length") {
-  for (const std::string map : maps) {
+  for (const Directions map : maps) {
     CAPTURE(map);
     double worst = 0;
     for (const Float3& d : host_directions(map, 100000))
@@ -335,7 +336,7 @@ TEST_CASE("hilbert: each of 3 x 32 x 32 cells of equal area has one of 3,072 ray
 
 TEST_CASE("hilbert and fibonacci: heights are evenly spread, and no two rays are the same") {
   constexpr uint64_t n = 10240;  // ten faces of 1,024 cells, whose heights are steps of 1 / 1,024
-  for (const std::string map : {"hilbert", "fibonacci"}) {
+  for (const Directions map : std::to_array<Directions>({"hilbert", "fibonacci"})) {
     CAPTURE(map);
     std::vector<Float3> directions = host_directions(map, n);
     std::vector<double> heights;

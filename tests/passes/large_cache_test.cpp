@@ -1,6 +1,7 @@
 // Millions of operations at once on every table of the ray cache, each answer checked where it is given.
 // 10^8 a table on GPUs; CPUs take as many as WAVETRACER_CACHE_OPERATIONS says, or what a few seconds allow. The small
 // cases are in cache_open_test.cpp, cache_concurrent_test.cpp and cache_chained_test.cpp.
+#include <array>
 #include <cstdlib>
 
 #include "passes/cache_mixed_check.hpp"
@@ -19,12 +20,12 @@ uint64_t operation_count() {
 
 TEST_CASE("ray cache: millions of mixed operations on every table") {
   const uint64_t operations = operation_count();
-  for (const char* name : {"chained", "open", "concurrent"})
+  for (const CacheKind name : std::to_array<CacheKind>({"chained", "open", "concurrent"}))
     for (const TableKind& kind : table_kinds(name)) check_mixed(kind, operations, operations / 8, 0.8);
 }
 
 // Five keys, so that readers and writers of one entry meet all the time.
 TEST_CASE("ray cache: few keys that all work-items want") {
-  for (const char* name : {"chained", "open", "concurrent"})
+  for (const CacheKind name : std::to_array<CacheKind>({"chained", "open", "concurrent"}))
     for (const TableKind& kind : table_kinds(name)) check_mixed(kind, operation_count(), 96, 0.06, true);
 }

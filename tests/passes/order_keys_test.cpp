@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -118,7 +119,7 @@ TEST_CASE("rays of a sorted queue are those that it had, each once, their direct
 }
 
 TEST_CASE("keys of launch indices are those of the launched rays") {
-  for (const std::string map : {"hilbert", "fibonacci", "random"})
+  for (const Directions map : std::to_array<Directions>({"hilbert", "fibonacci", "random"}))
     for (const OrderKey key : {OrderKey::morton, OrderKey::morton_bins, OrderKey::hilbert_bins}) {
       CAPTURE(map);
       const LaunchDirections directions(map, 500, 5);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "passes/on_device.hpp"
-#include "scene/build.hpp"
+#include "scene/build_scene.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer::test {

@@ -16,7 +16,7 @@ namespace {
 
 double friis(const World& world, double length_m) { return world.wavelength_m() / (4 * std::numbers::pi * length_m); }
 
-World two_ray(const Material& ground, const std::string& polarization, double distance_m) {
+World two_ray(const Material& ground, Polarization polarization, double distance_m) {
   World world;
   const uint32_t plane = world.add_plane({0, 0, 1}, {0, 0, 0}, ground);
   world.config.transmitters = {World::end({0, 0, 1.5}, "isotropic", polarization)};
@@ -207,7 +207,7 @@ TEST_CASE("what cannot be computed is an error") {
   const uint32_t plane = scattered.add_plane({0, 0, 1}, {0, 0, 0}, test::concrete(0.1));
   scattered.config.transmitters = {World::end({0, 0, 1})};
   scattered.config.receivers = {World::end({1, 0, 1})};
-  scattered.add_path(0, 0, {plane}, {diffuse}, {{0.5, 0, 0}});
+  scattered.add_path(0, 0, {plane}, {scattering}, {{0.5, 0, 0}});
   CHECK_THROWS_AS(scattered.paths(), RuntimeError);
 
   World low(0.5e9);

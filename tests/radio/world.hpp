@@ -68,7 +68,7 @@ struct World {
   }
 
   static RadioEnd end(const glm::dvec3& position, const std::string& antenna = "isotropic",
-                      const std::string& polarization = "V", const std::array<double, 3>& orientation_deg = {0, 0, 0}) {
+                      Polarization polarization = "V", const std::array<double, 3>& orientation_deg = {0, 0, 0}) {
     return {"end", {position.x, position.y, position.z}, antenna, polarization, orientation_deg};
   }
 

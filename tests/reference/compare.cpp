@@ -13,6 +13,7 @@
 #include <span>
 #include <tuple>
 #include "wavetracer/error.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer::reference {
 namespace {
@@ -111,11 +112,8 @@ std::optional<double> distance(const Paths& mine, size_t i, const Paths& theirs,
 // The names of interactions whose bits are set, joined by " + ".
 std::string names_of(uint32_t bits) {
   std::string names;
-  for (const auto& [bit, name] : {std::pair{reflection, "reflection"},
-                                  {diffuse, "scattering"},
-                                  {transmission, "transmission"},
-                                  {diffraction, "diffraction"}})
-    if (bits & bit) names += (names.empty() ? "" : " + ") + std::string(name);
+  for (const InteractionKind& kind : interaction_kinds)
+    if (bits & kind.code) names += (names.empty() ? "" : " + ") + std::string(kind.word);
   return names;
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/build.hpp"
+#include "scene/build_scene.hpp"
 #include "scene/info.hpp"
 #include "scene/topology.hpp"
 #include "scene/weld.hpp"

@@ -21,11 +21,11 @@ struct Size {
   double length_m, width_m, height_m;
 };
 constexpr Size sizes[] = {{5, 1.8, 1.5}, {6.5, 2.16, 2.86}, {7.1, 2.4, 2.4}, {12, 2.5, 3.4}, {3.9, 1.7, 1.45}};
-constexpr const char* kinds[] = {"car", "van", "truck"};
+constexpr NamedBody kinds[] = {"car", "van", "truck"};
 
 template <class Check>
 void for_each_model(const Check& check) {
-  for (const char* kind : kinds) {
+  for (const NamedBody kind : kinds) {
     for (const Size& size : sizes) {
       CAPTURE(kind);
       CAPTURE(size.length_m);
@@ -135,7 +135,7 @@ TEST_CASE("the mirror image of a model is the model") {
 }
 
 TEST_CASE("an unknown kind and an impossible size are errors") {
-  CHECK_THROWS_WITH_AS(vehicle_model("bike", 2, 1, 1), Contains("'bike'; known: car, van, truck"), ConfigError);
+  CHECK_THROWS_WITH_AS(vehicle_model("none", 2, 1, 1), Contains("'none'; known: car, van, truck"), ConfigError);
   CHECK_THROWS_WITH_AS(vehicle_model("car", 5, 0, 1.5), Contains("0 m is no size"), ConfigError);
   CHECK_THROWS_WITH_AS(vehicle_model("car", std::nan(""), 1.8, 1.5), Contains("nan m"), ConfigError);
 }

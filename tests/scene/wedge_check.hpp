@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scene/build.hpp"
+#include "scene/build_scene.hpp"
 
 namespace wavetracer::test {
 

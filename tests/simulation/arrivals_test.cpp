@@ -58,7 +58,7 @@ struct Mode {
 
 const Mode modes[] = {
     {"plain", true, [](Config&) {}},
-    {"auto", false, [](Config& c) { c.trace.rays = 0; }},
+    {"auto", false, [](Config& c) { c.trace.rays = {}; }},
     {"ordered", true, [](Config& c) { c.order = {.method = "H3DH"}; }},
     {"each depth", true, [](Config& c) { c.order = {.method = "direction-origin", .each_depth = true}; }},
     {"small batches", true, [](Config& c) { c.trace.batch_rays = 1000; }},
@@ -131,7 +131,7 @@ TEST_CASE("launches of few rays that grow: the same bytes in every order") {
 
 TEST_CASE("from 1 to 4 launchers and back, live, with a client that forgets: \"auto\" finds what a plain launch does") {
   const SceneFile file(street());
-  Config config = config_of(file.path(), {}, {{27.1, 5.21, 1.9}}, 0, 2);
+  Config config = config_of(file.path(), {}, {{27.1, 5.21, 1.9}}, {}, 2);
   config.vehicle_types = {{.name = "antenna", .model = "none", .length_m = 4, .width_m = 2, .height_m = 1}};
   config.live_vehicles = {{"antenna", 16}};
   config.mounts = {{.name = "roof", .on = "antenna", .role = "both", .offset_m = {0, 0, 1.7}}};

@@ -6,7 +6,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-Config city(uint64_t rays, uint32_t max_depth) {
+Config city(std::optional<uint64_t> rays, uint32_t max_depth) {
   const Points receivers{{60, -2, 1.5}, {-97, 4, 1.5}, {40, 7, 1.5}, {103, 50, 2}, {-3, -80, 1.5}};
   Config config = config_of("", {{0, 0, 12}, {100, 3, 2}}, receivers, rays, max_depth);
   config.scene.generate = "--blocks 4x4";
@@ -16,7 +16,7 @@ Config city(uint64_t rays, uint32_t max_depth) {
 }  // namespace
 
 TEST_CASE("what four million rays find, for a fraction of the rays") {
-  const FrameResult plain = run(city(4000000, 4)), refined = run(city(0, 4));
+  const FrameResult plain = run(city(4000000, 4)), refined = run(city({}, 4));
   REQUIRE(plain.paths.size() > 100);
   CAPTURE(plain.paths.size());
   CAPTURE(refined.paths.size());
@@ -26,7 +26,7 @@ TEST_CASE("what four million rays find, for a fraction of the rays") {
 
 TEST_CASE("a launch that ends before its recall says so, and why, once a drive") {
   const auto warnings_of = [](double recall) {
-    Config config = city(0, 4);
+    Config config = city({}, 4);
     config.trace.recall = recall;
     return run(config).warnings;
   };
@@ -41,7 +41,7 @@ TEST_CASE("a launch that ends before its recall says so, and why, once a drive")
       "% of the sequences found were met by one ray alone, and its rays are as close to each other "
       "as they get; give trace.rays a number to find more"));
   // A frame that knows what earlier ones met does not tell by its own rays what is missed.
-  Config config = city(0, 4);
+  Config config = city({}, 4);
   config.trace.recall = 1;
   config.tracks = {{"a", "passenger", {{0, -60, -3.1, 0}, {2, -40, -3.1, 0}}}};
   config.time.step_s = 1;
@@ -53,7 +53,7 @@ TEST_CASE("a launch that ends before its recall says so, and why, once a drive")
 TEST_CASE("max_rays is never exceeded, and what it cuts short is told") {
   for (const uint64_t max_rays : {uint64_t{1000}, uint64_t{20000}, uint64_t{40000}}) {
     CAPTURE(max_rays);
-    Config config = city(0, 4);
+    Config config = city({}, 4);
     config.trace.recall = 0.9999;
     config.trace.max_rays = max_rays;
     const FrameResult result = run(config);
@@ -65,7 +65,7 @@ TEST_CASE("max_rays is never exceeded, and what it cuts short is told") {
 }
 
 TEST_CASE("a launch that begins again, because its set of sequences had to grow, counts its rays once") {
-  Config config = city(0, 12);
+  Config config = city({}, 12);
   for (const auto& [x, y] : {std::pair{-50.0, 2.0}, {3, 45}, {-3, -60}, {60, -4}, {102, 50}, {-97, -50}})
     config.transmitters.push_back({.name = fmt::format("tx at {} {}", x, y), .position_m = {x, y, 3}});
   config.trace.recall = 0.9999;
@@ -77,7 +77,7 @@ TEST_CASE("a launch that begins again, because its set of sequences had to grow,
 }
 
 TEST_CASE("more recall takes more rays and loses no path") {
-  Config config = city(0, 4);
+  Config config = city({}, 4);
   config.trace.recall = 0.9;
   const FrameResult low = run(config);
   config.trace.recall = 0.9995;
@@ -87,7 +87,7 @@ TEST_CASE("more recall takes more rays and loses no path") {
 }
 
 TEST_CASE("batches, orders and launch shapes change nothing") {
-  Config config = city(0, 4);
+  Config config = city({}, 4);
   const FrameResult whole = run(config);
   const auto check_same = [&](const FrameResult& other) {
     CHECK(identical(other.paths, whole.paths));
@@ -106,8 +106,8 @@ TEST_CASE("batches, orders and launch shapes change nothing") {
 }
 
 TEST_CASE("each transmitter finds what it would alone") {
-  const FrameResult both = run(city(0, 3));
-  Config config = city(0, 3);
+  const FrameResult both = run(city({}, 3));
+  Config config = city({}, 3);
   config.transmitters.erase(config.transmitters.begin());
   const FrameResult alone = run(config);
   size_t of_second = 0;
@@ -130,14 +130,14 @@ TEST_CASE("no reflections, no depth, nothing in sight: lines of sight alone, and
   }
   // A plate that no ray of the first launch meets, far behind both.
   const SceneFile file({Quad{{-5000, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}}});
-  const FrameResult alone = run(config_of(file.path(), {{10, 0, 0}}, {{20, 0, 5}}, 0, 3));
+  const FrameResult alone = run(config_of(file.path(), {{10, 0, 0}}, {{20, 0, 5}}, {}, 3));
   CHECK(alone.paths.size() == 1);
   CHECK(alone.counts.hits == 0);
   CHECK(alone.warnings.empty());
 }
 
 TEST_CASE("a drive begins with a refined launch and goes on with shares of a plain one") {
-  Config config = city(0, 3);
+  Config config = city({}, 3);
   add_vehicles(config,
                {{"a", "passenger", {-60, -3.1, 0}, {11.3, 0.02, 0}, 0, 2},
                 {"lorry", "truck", {64, 3.2, 0}, {-8.7, -0.03, 0}, 0, 2}},

@@ -1,5 +1,6 @@
 // Ray caches in a frame: with exact keys paths are those of no cache, byte for byte, whatever else is chosen; with
 // quantised keys they lose some, and more the coarser the key. The scene is a street with cars, some of them senders.
+#include <array>
 #include <string>
 
 #include "simulation/drive.hpp"
@@ -30,7 +31,8 @@ std::vector<FrameResult> frames_of(const Config& config, uint32_t count) {
 }
 
 struct Kind {
-  std::string kind, locking;
+  CacheKind kind;
+  CacheLocking locking;
 };
 const std::vector<Kind> kinds = {
     {"chained", "readers"}, {"open", "mutex"}, {"open", "readers"}, {"concurrent", "readers"}};
@@ -69,7 +71,7 @@ TEST_CASE("exact keys: the paths of no cache, for every table, hash and order, w
   REQUIRE(paths_by_vehicles(plain[1].paths) > 0);
   CHECK_FALSE(plain[0].cache.on);
   for (const Kind& kind : kinds)
-    for (const std::string order : {"none", "H3DH"})
+    for (const OrderMethod order : std::to_array<OrderMethod>({"none", "H3DH"}))
       for (const uint32_t hash : {1u, 2u, 3u}) {
         if (hash != 3 && (kind.kind != "concurrent" || order == "none")) continue;  // each is a program to compile
         CAPTURE(kind.kind);
@@ -87,9 +89,9 @@ TEST_CASE("exact keys: the paths of no cache, for every table, hash and order, w
         CHECK(second.lookups == cached[1].counts.segments);
         // The mast's rays come again, those of the car do not.
         CHECK(second.hits_per_depth[0] > 0);
-        CHECK(second.hits_per_depth[0] <= config.trace.rays);
+        CHECK(second.hits_per_depth[0] <= *config.trace.rays);
         // Like rays crowd together with Morton codes, and not all of them find a place.
-        if (kind.kind == "concurrent" && hash != 2) CHECK(second.hits_per_depth[0] == config.trace.rays);
+        if (kind.kind == "concurrent" && hash != 2) CHECK(second.hits_per_depth[0] == *config.trace.rays);
       }
 }
 
@@ -128,7 +130,7 @@ TEST_CASE("exact keys: batches, tables too small, launches that reuse or refine,
       check_same(frames_of(other, 3), frames_of(config, 3));
     }
     SUBCASE("a refined launch") {
-      config.trace.rays = other.trace.rays = 0;
+      config.trace.rays = other.trace.rays = {};
       check_same(frames_of(other, 3), frames_of(config, 3));
     }
   }
@@ -137,7 +139,7 @@ TEST_CASE("exact keys: batches, tables too small, launches that reuse or refine,
 TEST_CASE("exact keys: a scene that stands still is traced once") {
   const SceneFile file(street());
   Config config = config_of(file.path(), {{-40, 2, 6}}, {{40, 3, 1.5}}, 20000, 3);
-  config.cache = exact({"concurrent", ""});
+  config.cache = exact({"concurrent", "readers"});
   Simulation simulation(config);
   const FrameResult first = simulation.run_frame(0), second = simulation.run_frame(0);
   CHECK(identical(first.paths, second.paths));
@@ -171,11 +173,11 @@ TEST_CASE("position purging: entries stand while the transmitter stays in its ce
   Config config = drive(file, true);
   config.cache.kind = "concurrent";
   config.cache.position_step_m = 1000;  // 4 s of 12 m/s stay in it
-  CHECK(frames_of(config, 2)[1].cache.hits_per_depth[0] > config.trace.rays * 3 / 2);
+  CHECK(frames_of(config, 2)[1].cache.hits_per_depth[0] > *config.trace.rays * 3 / 2);
   config.cache.position_step_m = 0.1;  // the mast alone
   const uint64_t hits = frames_of(config, 2)[1].cache.hits_per_depth[0];
-  CHECK(hits <= config.trace.rays * 11 / 10);
-  CHECK(hits > config.trace.rays / 2);
+  CHECK(hits <= *config.trace.rays * 11 / 10);
+  CHECK(hits > *config.trace.rays / 2);
 }
 
 TEST_CASE("precision purging: a residual of nothing answers the same ray alone") {

@@ -191,13 +191,13 @@ TEST_CASE("batches, orders and exact caches: the same bytes") {
     other.trace.batch_rays = batch;
     CHECK(identical(paths_of(other), plain));
   }
-  for (const std::string method : {"Z", "H3DH2DH", "direction-origin"}) {
+  for (const OrderMethod method : std::to_array<OrderMethod>({"Z", "H3DH2DH", "direction-origin"})) {
     CAPTURE(method);
     Config other = config;
     other.order = {.method = method, .each_depth = true};
     CHECK(identical(paths_of(other), plain));
   }
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     Config other = config;
     other.cache.kind = kind;
@@ -211,7 +211,7 @@ TEST_CASE("refined launches find no path that a large launch does not, and nearl
   Config config = drive(file.path(), 1, 4000000);
   config.trace.max_diffractions = 2;
   const Paths all = Simulation(config).run_frame(2).paths;
-  config.trace.rays = 0;
+  config.trace.rays = {};
   config.trace.recall = 0.999;
   const Paths refined = Simulation(config).run_frame(2).paths;
   CAPTURE(all.size());

@@ -117,7 +117,8 @@ inline Mesh mesh_of(const Part& part) {
 inline Mesh mesh_of(const Straight& vehicle, double time_s) {
   const bool truck = vehicle.type == "truck";
   const Size size = truck ? truck_size : car_size;
-  const Scene model = vehicle_model(truck ? "truck" : "car", size.length_m, size.width_m, size.height_m);
+  const Scene model =
+      vehicle_model(truck ? NamedBody("truck") : NamedBody("car"), size.length_m, size.width_m, size.height_m);
   const glm::dvec3 ahead = glm::normalize(vehicle.velocity_m_s), up{0, 0, 1};
   const glm::dmat3 axes(ahead, glm::cross(up, ahead), up);
   Mesh mesh{{}, model.triangles, "metal"};

@@ -81,7 +81,7 @@ TEST_CASE("in a box all maps of directions find the same paths, and so do more r
   Config config = config_of(file.path(), {{1.37, 2.21, 1.55}}, {{6.13, 3.42, 0.87}, {2.9, 0.61, 2.6}}, 300000, 4);
   const Paths hilbert = run(config).paths;
   CHECK(hilbert.size() == 2 * 129);
-  for (const std::string map : {"fibonacci", "random"}) {
+  for (const Directions map : std::to_array<Directions>({"fibonacci", "random"})) {
     CAPTURE(map);
     config.trace.directions = map;
     CHECK(identical(run(config).paths, hilbert));

@@ -132,7 +132,7 @@ struct Option {
 };
 
 void reuse(Config& config) { config.trace.reuse = true; }
-void automatic(Config& config) { config.trace.rays = 0; }
+void automatic(Config& config) { config.trace.rays = {}; }
 void exact_cache(Config& config) { config.cache = {.kind = "concurrent", .key = "exact"}; }
 
 const Option options[] = {

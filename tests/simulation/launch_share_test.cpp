@@ -24,10 +24,13 @@ std::vector<uint64_t> directions(const Launch& launch) {
 
 TEST_CASE("a cold frame launches all directions, and as many warm ones as the stride launch each of them once") {
   for (const uint64_t rays : {1, 7, 1000, 12345})
-    for (const uint64_t refresh : {0, 1, 300, 20000}) {
+    for (const std::optional<uint64_t> refresh : {std::optional<uint64_t>(), {1}, {300}, {20000}}) {
       CAPTURE(rays);
-      CAPTURE(refresh);
-      CHECK(directions({.rays = rays, .share = share_of(rays, refresh, 0)}).size() == rays);
+      CAPTURE(refresh.value_or(0));
+      Launch cold;
+      cold.rays = rays;
+      cold.share = share_of(rays, refresh, 0);
+      CHECK(directions(cold).size() == rays);
       const uint64_t stride = share_of(rays, refresh, 1).stride;
       std::multiset<uint64_t> launched;
       for (uint64_t frame = 1; frame <= stride; ++frame) {
@@ -54,14 +57,14 @@ TEST_CASE("a few warm frames in a row spread evenly over the directions that the
 
 TEST_CASE("listeners launch fewer rays, and nobody follows or sorts them") {
   TraceConfig trace;
-  const auto rays = [&](uint64_t all, uint64_t asked) {
+  const auto rays = [&](uint64_t all, std::optional<uint64_t> asked) {
     trace.rays = all;
     trace.diffraction_rays = asked;
     return listener_rays(trace);
   };
-  CHECK(rays(50000, 0) == 50000);
-  CHECK(rays(500000, 0) == 100000);
-  CHECK(rays(5000000, 0) == 500000);
+  CHECK(rays(50000, {}) == 50000);
+  CHECK(rays(500000, {}) == 100000);
+  CHECK(rays(5000000, {}) == 500000);
   CHECK(rays(5000000, 70) == 70);
   CHECK(rays(5000, 70000) == 5000);
   trace = {};

@@ -2,7 +2,7 @@
 #include "simulation/missing_paths.hpp"
 
 #include "scene/load.hpp"
-#include "simulation/features.hpp"
+#include "simulation/feature_choice.hpp"
 #include "simulation/run.hpp"
 
 using namespace wavetracer;

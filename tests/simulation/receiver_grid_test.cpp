@@ -86,7 +86,7 @@ TEST_CASE("cells fill the borders from their middle, row by row, x first") {
     CHECK(ends[i].name == names[i]);
     CHECK(ends[i].position_m == std::array<double, 3>{2.0 + 3.0 * static_cast<double>(i % 3), i < 3 ? -1.5 : 1.5, 1.5});
     CHECK(ends[i].antenna == "dipole");
-    CHECK(ends[i].polarization == "VH");
+    CHECK(ends[i].polarization.word() == "VH");
   }
   CHECK(grid_shape(grid_of(0, 0.3, 0, 0.1, 0.1), box_scene()).columns == 3);  // not 2 for want of a last bit
   CHECK(grid_shape(grid_of(0, 100, 7, 7, 1), box_scene()).rows == 1);

@@ -108,7 +108,7 @@ TEST_CASE("the same frames in the same order give the same bits: again, in other
   config.trace.batch_rays = 7000;
   Simulation batched(config);
   const std::vector<FrameResult> small = frames(batched, order);
-  config.trace.batch_rays = 0;
+  config.trace.batch_rays = {};
   config.order = {.method = "H3DH", .each_depth = true};
   Simulation ordered(config);
   const std::vector<FrameResult> sorted = frames(ordered, order);

@@ -69,7 +69,7 @@ using Points = std::vector<glm::dvec3>;
 
 // Ends with both polarizations, as the reference lists have them. Positions in file coordinates.
 inline Config config_of(const std::filesystem::path& scene, const Points& transmitters, const Points& receivers,
-                        uint64_t rays, uint32_t max_depth) {
+                        std::optional<uint64_t> rays, uint32_t max_depth) {
   Config config;
   config.scene.file = scene.string();
   const auto ends = [](const Points& points, const char* name) {

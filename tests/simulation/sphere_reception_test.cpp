@@ -1,6 +1,7 @@
 // trace.reception = "sphere" against closed forms: how many rays a sphere catches, how long its paths are, which paths
 // it loses and which it makes up. Directions are independent, so that what is caught is binomial. With a ray cache,
 // against what is received without one.
+#include <array>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -34,7 +35,7 @@ double density(uint64_t rays, double distance_m) {
   return static_cast<double>(rays) / (4 * std::numbers::pi * distance_m * distance_m);
 }
 
-CacheConfig cache_of(const std::string& kind, const std::string& scope, const std::string& key) {
+CacheConfig cache_of(CacheKind kind, CacheScope scope, CacheKey key) {
   CacheConfig cache;
   cache.kind = kind;
   cache.scope = scope;
@@ -216,7 +217,7 @@ TEST_CASE("spheres hear the same, whatever the order and the batches of the rays
 TEST_CASE("cache.scope = \"all\", nothing moves: a second frame receives from the cache what the first one did") {
   const SceneFile file(reference::box_walls({0, 0, 0}, {8, 5, 3}));
   for (const uint32_t max_depth : {2u, 3u})
-    for (const char* kind : {"chained", "concurrent"}) {
+    for (const CacheKind kind : std::to_array<CacheKind>({"chained", "concurrent"})) {
       CAPTURE(max_depth);
       CAPTURE(kind);
       Config config = sphere_config(file, {{1.37, 2.21, 1.55}, {5, 1, 2}}, {{6.13, 3.42, 0.87}}, 10000, max_depth, 0.5);
@@ -241,7 +242,7 @@ TEST_CASE("cache.scope = \"all\", nothing moves: a second frame receives from th
 TEST_CASE("cache.scope = \"all\": an entry keeps one receiver of those that its segment passes") {
   const SceneFile file(reference::box_walls({0, 0, 0}, {8, 5, 3}));
   Config config = sphere_config(file, {{1.37, 2.21, 1.55}}, {{6.13, 3.42, 0.87}, {6.13, 3.92, 0.87}}, 5000, 2, 0.5);
-  config.output.waypoints = config.trace.rays;
+  config.output.waypoints = *config.trace.rays;
   config.cache = cache_of("concurrent", "all", "quantised");
   Simulation simulation(config);
   const FrameResult first = simulation.run_frame(0), second = simulation.run_frame(0);
@@ -254,13 +255,13 @@ TEST_CASE("cache.scope = \"all\": an entry keeps one receiver of those that its 
 TEST_CASE("a receiver that moves: what a cache of everything goes on to receive, and one of the static scene does") {
   const SceneFile file({pebble});
   Config config = sphere_config(file, {{0, 0, 5}}, {}, 50000, 0, 2);
-  config.output.waypoints = config.trace.rays;
+  config.output.waypoints = *config.trace.rays;
   config.vehicle_types = {{"passenger", "none"}};
   config.tracks = {{"walker", "passenger", {{0, 20, 0, 5}, {4, 20, 6, 5}}}};  // 1.5 m a frame
   config.mounts = {{.name = "ear", .role = "receiver"}};
   config.time.step_s = 1;
   const std::vector<uint32_t> frames{0, 1, 4};
-  const auto heard = [&](const std::string& kind, const std::string& scope, const std::string& key) {
+  const auto heard = [&](CacheKind kind, CacheScope scope, CacheKey key) {
     config.cache = cache_of(kind, scope, key);
     Simulation simulation(config);
     std::vector<FrameResult> out;
@@ -274,22 +275,22 @@ TEST_CASE("a receiver that moves: what a cache of everything goes on to receive,
   REQUIRE(there[2].size() > 50);
   REQUIRE(common(there[0], there[1]).size() > 20);
   REQUIRE(common(there[0], there[2]).empty());
-  for (const char* kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     const std::vector<FrameResult> fixed = heard(kind, "static", "exact");
     for (size_t i = 0; i < frames.size(); ++i) {
       CHECK(received(fixed[i].waypoints) == there[i]);
       CHECK(identical(fixed[i].paths, plain[i].paths));
     }
-    CHECK(fixed[2].cache.hits > config.trace.rays / 2);
-    if (kind == std::string("open")) continue;  // rays that share a slot replace each other
+    CHECK(fixed[2].cache.hits > *config.trace.rays / 2);
+    if (kind == "open") continue;  // rays that share a slot replace each other
     // Segments that still pass the receiver stand; those that it has left are traced again; those that it has come
     // into are answered by what was so before (fault 11), so that it is not heard where it has gone.
     const std::vector<FrameResult> all = heard(kind, "all", "quantised");
     CHECK(received(all[0].waypoints) == there[0]);
     CHECK(received(all[1].waypoints) == common(there[0], there[1]));
     CHECK(all[1].cache.stale == there[0].size() - common(there[0], there[1]).size());
-    CHECK(all[1].cache.hits == config.trace.rays - all[1].cache.stale);
+    CHECK(all[1].cache.hits == *config.trace.rays - all[1].cache.stale);
     CHECK(received(all[2].waypoints).empty());
     CHECK(all[2].paths.size() == 0);
     CHECK(plain[2].paths.size() == 1);

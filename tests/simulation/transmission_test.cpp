@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 
@@ -21,7 +22,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-TraceConfig transmitting(uint32_t max_depth, uint32_t max_transmissions, uint64_t rays) {
+TraceConfig transmitting(uint32_t max_depth, uint32_t max_transmissions, std::optional<uint64_t> rays) {
   TraceConfig config;
   config.rays = rays;
   config.max_depth = max_depth;
@@ -55,7 +56,7 @@ Found discover(const Scene& scene, const TraceConfig& config, const glm::dvec3& 
   Discovery discovery(context(), uploaded, config, options);
   discovery.sequences().clear();
   Found out;
-  out.counts = config.rays ? discovery.find(uploaded, {.who = launchers({transmitter}), .rays = config.rays})
+  out.counts = config.rays ? discovery.find(uploaded, {.who = launchers({transmitter}), .rays = *config.rays})
                            : discovery.find_refined(uploaded, launchers({transmitter}), 0);
   const auto contained = contents(discovery.sequences(), 1);
   REQUIRE(contained.has_value());
@@ -94,7 +95,7 @@ std::vector<PathRow> paths(const Scene& scene, const TraceConfig& config, const 
   Discovery discovery(context(), uploaded, config);
   Sequences& set = discovery.sequences();
   set.clear();
-  discovery.find(uploaded, {.who = launchers({at.transmitter}), .rays = config.rays});
+  discovery.find(uploaded, {.who = launchers({at.transmitter}), .rays = *config.rays});
   const RadioEnds ends = standing_ends({at.transmitter}, {at.receiver});
   const uint32_t nodes = set.collect(1);
   Candidates candidates(context());
@@ -181,12 +182,12 @@ TEST_CASE("batches, orders before each depth, and an exact cache change no seque
     config.batch_rays = batch;
     CHECK(discover(scene, config, at) == plain);
   }
-  config.batch_rays = 0;
+  config.batch_rays = {};
   OrderConfig order{.method = "direction-origin", .each_depth = true};
   CHECK(discover(scene, config, at, plan_order(order, {})) == plain);
   CacheConfig cache;
   cache.key = "exact";
-  for (const std::string kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     cache.kind = kind;
     CHECK(discover(scene, config, at, {}, cache) == plain);
   }
@@ -196,7 +197,7 @@ TEST_CASE("batches, orders before each depth, and an exact cache change no seque
 
 TEST_CASE("a launch that is refined goes where it goes without transmission, and finds more") {
   const Scene scene = reference::scene_of_quads(furnished_box());
-  TraceConfig config = transmitting(3, 2, 0);
+  TraceConfig config = transmitting(3, 2, {});
   config.max_rays = 300000;
   const Found with = discover(scene, config, {2, 0.5, 2});
   config.transmission = false;

@@ -1,6 +1,7 @@
 // output.waypoints: which rays are sampled, where they go, and what they hear, whatever order rays are traced in.
 // In a box, where every ray goes on to the last depth, and over a ground, which half of them miss.
 #include <algorithm>
+#include <array>
 
 #include "simulation/drive.hpp"
 
@@ -150,7 +151,7 @@ TEST_CASE("spheres in traffic: a cache of the static scene with exact keys chang
   const std::vector<FrameResult> plain = frames();
   REQUIRE(paths_by_vehicles(plain[1].paths) > 0);
   REQUIRE(std::ranges::count_if(plain[1].waypoints.instance, [](uint32_t i) { return i != no_instance; }) > 0);
-  for (const char* kind : {"chained", "open", "concurrent"}) {
+  for (const CacheKind kind : std::to_array<CacheKind>({"chained", "open", "concurrent"})) {
     CAPTURE(kind);
     config.cache.kind = kind;
     config.cache.key = "exact";

@@ -80,7 +80,7 @@ inline std::string two_vehicles(const std::string& truck_type = "truck") {
   return out + "</fcd-export>\n";
 }
 
-inline MountConfig mount(const std::string& name, const std::string& on, const std::string& role,
+inline MountConfig mount(const std::string& name, const std::string& on, MountRole role,
                          std::array<double, 3> offset_m) {
   MountConfig out;
   out.name = name;

@@ -103,7 +103,7 @@ TEST_CASE("types, names and steps that are not known") {
   config.transmitters[0].name = "turner/roof";
   check_contains(error_of<ConfigError>(config), "\"turner/roof\" is there already");
   config = drive(folder);
-  config.time = {.start_s = 5, .end_s = std::nullopt, .step_s = 0};
+  config.time = {.start_s = 5, .end_s = std::nullopt, .step_s = std::nullopt};
   check_contains(error_of<ConfigError>(config), "[time] begins at 5 s, and the trajectories go from 0 to 2 s");
   Config still;
   still.transmitters = {end("rsu", {0, 0, 6})};

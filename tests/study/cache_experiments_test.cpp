@@ -7,13 +7,13 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
-#include "config/config_file.hpp"
 #include "study/cache_claims.hpp"
 #include "study/cache_rows.hpp"
 #include "study/experiment.hpp"
 #include "study/made_cache_rows.hpp"
 #include "study/run.hpp"
 #include "study/squeezed.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -61,13 +61,13 @@ TEST_CASE("figures 6.2 to 6.5: chained, 50,000 entries, load factor 3, division 
     for (const auto& [name, hash] :
          std::map<std::string, uint32_t>{{"chained uniform", 1}, {"chained Morton", 2}, {"chained mixed", 3}}) {
       const CacheConfig cache = config_of(figure, name).cache;
-      CHECK(cache.kind == "chained");
+      CHECK(cache.kind.word() == "chained");
       CHECK(cache.hash_method == hash);
       CHECK(cache.buffer_size == 50000);
       CHECK(cache.load_factor == 3);
       CHECK(cache.division == 200000);
-      CHECK(cache.scope == "all");
-      CHECK(cache.hit_point == "cached");
+      CHECK(cache.scope.word() == "all");
+      CHECK(cache.hit_point.word() == "cached");
       CHECK_FALSE(cache.statistics);
     }
   CHECK(config_of("figure-6.5", "chained mixed 500000 entries").cache.buffer_size == 500000);
@@ -82,49 +82,49 @@ TEST_CASE("figures 6.6 to 6.9: open, 300,000 entries, mutex or 5 readers, the la
   const Config mutex = config_of("figure-6.6", "mutex mixed"), readers = config_of("figure-6.8", "readers Morton"),
                ordered = config_of("figure-6.9", "mutex uniform"), plain = config_of("figure-6.9", "no cache");
   for (const Config& config : {mutex, readers, ordered}) {
-    CHECK(config.cache.kind == "open");
+    CHECK(config.cache.kind.word() == "open");
     CHECK(config.cache.buffer_size == 300000);
     CHECK(config.cache.division == 200000);
-    CHECK(config.trace.directions == "random");
+    CHECK(config.trace.directions.word() == "random");
   }
-  CHECK(mutex.cache.locking == "mutex");
-  CHECK(ordered.cache.locking == "mutex");
-  CHECK(readers.cache.locking == "readers");
+  CHECK(mutex.cache.locking.word() == "mutex");
+  CHECK(ordered.cache.locking.word() == "mutex");
+  CHECK(readers.cache.locking.word() == "readers");
   CHECK(readers.cache.readers_number == 5);
-  CHECK(mutex.order.method == "none");
-  CHECK(ordered.order.method == "hilbert3d-histogram");
-  CHECK(plain.order.method == "hilbert3d-histogram");
-  CHECK(plain.cache.kind == "none");
+  CHECK(mutex.order.method.word() == "none");
+  CHECK(ordered.order.method.word() == "hilbert3d-histogram");
+  CHECK(plain.order.method.word() == "hilbert3d-histogram");
+  CHECK(plain.cache.kind.word() == "none");
 }
 
 TEST_CASE("figures 6.11 to 6.17: position 200,000, precision 10,000 with 0.0125 and 0.093, no sequences reused") {
   const Config by_position = config_of("figure-6.11", "position mixed"),
                by_precision = config_of("figure-6.11", "precision 0.0125 mixed"),
                of_errors = config_of("figure-6.12", "precision 0.093 mixed");
-  CHECK(by_position.cache.purge == "position");
+  CHECK(by_position.cache.purge.word() == "position");
   CHECK(by_position.cache.division == 200000);
   for (const Config& config : {by_precision, of_errors}) {
-    CHECK(config.cache.purge == "precision");
+    CHECK(config.cache.purge.word() == "precision");
     CHECK(config.cache.division == 10000);
   }
   CHECK(by_precision.cache.residual_value == 0.0125);
   CHECK(of_errors.cache.residual_value == 0.093);
   for (const Config& config : {by_position, by_precision, of_errors}) {
-    CHECK(config.cache.kind == "open");
-    CHECK(config.cache.locking == "readers");
-    CHECK(config.cache.scope == "all");
-    CHECK(config.cache.hit_point == "cached");
+    CHECK(config.cache.kind.word() == "open");
+    CHECK(config.cache.locking.word() == "readers");
+    CHECK(config.cache.scope.word() == "all");
+    CHECK(config.cache.hit_point.word() == "cached");
     CHECK_FALSE(config.trace.reuse);
   }
   CHECK(config_of("figure-6.11", "no cache with reuse").trace.reuse);
-  CHECK(config_of("figure-6.11", "concurrent exact").cache.key == "exact");
-  CHECK(config_of("figure-6.11", "concurrent").cache.scope == "static");
+  CHECK(config_of("figure-6.11", "concurrent exact").cache.key.word() == "exact");
+  CHECK(config_of("figure-6.11", "concurrent").cache.scope.word() == "static");
   CHECK(find_experiment("figure-6.11").study()->rays.front() == 1000);
   CHECK(find_experiment("figure-6.11").study()->rays.back() == 900000);  // ten times the thesis' range
   CHECK(find_experiment("figure-6.14").study()->rays.back() == 490000);
   CHECK(find_experiment("figure-6.16").study()->rays.back() == 610000);
   CHECK(config_of("figure-6.16", "precision 0.0125 Morton").cache.hash_method == 2);
-  CHECK(config_of("figure-6.16", "precision 0.0125 Morton").order.method == "hilbert3d-histogram");
+  CHECK(config_of("figure-6.16", "precision 0.0125 Morton").order.method.word() == "hilbert3d-histogram");
 }
 
 TEST_CASE("every setting of every study is a config that reads back") {
@@ -155,8 +155,8 @@ TEST_CASE("traffic: the cold frame and those that count, by a mast, by a vehicle
   CHECK(moving.transmitters.empty());
   CHECK(std::count_if(moving.mounts.begin(), moving.mounts.end(),
                       [](const MountConfig& mount) { return mount.role == "transmitter"; }) == 1);
-  CHECK(fixed.trace.reception == "exact");
-  CHECK(with_traffic(city(), "spheres", 500).trace.reception == "sphere");
+  CHECK(fixed.trace.reception.word() == "exact");
+  CHECK(with_traffic(city(), "spheres", 500).trace.reception.word() == "sphere");
 }
 
 TEST_CASE("numbers of rays and frames: by device, by request") {

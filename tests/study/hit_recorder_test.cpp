@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include "config/config_file.hpp"
+#include "wavetracer/config_file.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::study;

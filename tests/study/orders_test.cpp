@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <set>
 #include <sstream>
-#include "config/config_file.hpp"
 #include "study/made_order_rows.hpp"
 #include "study/ray_counts.hpp"
 #include "study/scripts.hpp"
+#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -128,7 +128,7 @@ TEST_CASE("frames of figure-6.18 are transmitters half a metre apart, whose rays
         CHECK(point.transmitters[i].position_m == std::array<double, 3>{8.0 + 0.5 * static_cast<double>(i), 8.0, 6.0});
       }
       CHECK(names.size() == 20);
-      CHECK(rays % point.trace.batch_rays == 0);
+      CHECK(rays % *point.trace.batch_rays == 0);
       CHECK(point.trace.batch_rays >= std::min<uint64_t>(rays, 200000));
     }
   CHECK(point_config(*find_experiment("figure-6.1").as<OrderFigure>(), config, 1000, false).transmitters.size() == 1);
@@ -146,12 +146,12 @@ TEST_CASE("a series launches all rays of its transmitters, every frame, and noth
     const Config point = point_config(*find_experiment(name).as<OrderFigure>(), config, 1000, false);
     CHECK_FALSE(point.trace.reuse);
     CHECK_FALSE(point.trace.diffraction);
-    CHECK(point.cache.kind == "none");
+    CHECK(point.cache.kind.word() == "none");
   }
   const Config moving = point_config(*find_experiment("figure-6.18").as<OrderFigure>(), config, 1000, false);
   REQUIRE(moving.mounts.size() == 1);
   CHECK(moving.mounts[0].name == "roof");
-  CHECK(moving.mounts[0].role == "receiver");
+  CHECK(moving.mounts[0].role.word() == "receiver");
   CHECK(moving.links.transmitters == std::vector<std::string>{"*"});
   CHECK(point_config(*find_experiment("figure-6.1").as<OrderFigure>(), config, 1000, false).mounts.size() == 2);
 }

@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include "output/output.hpp"
 #include "radio/constants.hpp"
+#include "wavetracer/output.hpp"
 
 namespace wavetracer::test {
 namespace {
 
 constexpr double frequency_hz = 5.9e9;
-const Interaction interactions[] = {reflection, diffraction, transmission, diffuse};
+const Interaction interactions[] = {reflection, diffraction, transmission, scattering};
 
 glm::dvec3 vehicle_position(uint32_t vehicle, double time_s) {
   return {-60.0 + 12.0 * (vehicle % 10) + 5 * time_s, -4.5 + 3.0 * (vehicle / 10), 0};

@@ -2,21 +2,14 @@
 // Usage: example [FOLDER]. Exits with the code that the program would exit with.
 #include <cstdio>
 #include <exception>
+#include <string>
 #include "wavetracer/wavetracer.hpp"
 
 namespace {
 
-const char* name_of(uint8_t interaction) {
-  switch (interaction) {
-    case wavetracer::reflection:
-      return "reflection";
-    case wavetracer::diffuse:
-      return "scattering";
-    case wavetracer::transmission:
-      return "transmission";
-    default:
-      return "diffraction";
-  }
+std::string name_of(uint8_t interaction) {
+  const wavetracer::InteractionKind* kind = wavetracer::find_interaction(interaction);
+  return kind ? std::string(kind->word) : "unknown";
 }
 
 void print(const wavetracer::Paths& paths) {
@@ -24,7 +17,7 @@ void print(const wavetracer::Paths& paths) {
     std::printf("%9.2f ns %8.2f dB", paths.delay_s[i] * 1e9, paths.gain_db[i]);
     for (uint64_t v = paths.vertex_offset[i]; v < paths.vertex_offset[i + 1]; ++v) {
       const glm::dvec3& p = paths.vertex_position_m[v];
-      std::printf("  %s (%.2f, %.2f, %.2f)", name_of(paths.vertex_interaction[v]), p.x, p.y, p.z);
+      std::printf("  %s (%.2f, %.2f, %.2f)", name_of(paths.vertex_interaction[v]).c_str(), p.x, p.y, p.z);
     }
     std::puts(paths.depth[i] == 0 ? "  line of sight" : "");
   }

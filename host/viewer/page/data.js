@@ -5,13 +5,12 @@
 const meta = JSON.parse(document.getElementById("meta").textContent);
 const no_instance = 0xFFFFFFFF;
 const speed_of_light_m_s = 299792458;
-const Kinds = [
-  ["line_of_sight", "line of sight"], ["reflected", "reflected"], ["transmitted", "transmitted"],
-  ["diffracted", "diffracted"], ["scattered", "scattered"],
-];
-// Of indices of Kinds: what the run computed, or holds.
-const computed_kinds = meta.kinds;
-const Interactions = {1: "reflection", 2: "scattering", 4: "transmission", 8: "diffraction"};
+// Kinds of paths, the least special first (wavetracer/interaction_kinds.hpp), and those of them that the run computed,
+// or holds.
+const path_kinds = meta.path_kinds;
+const shown_kinds = [...path_kinds.keys()].filter((kind) => path_kinds[kind].shown);
+const code_of = (interaction) => path_kinds.find((kind) => kind.interaction === interaction).code;
+const words_of_kind = (kind) => path_kinds[kind].word.replace(/_/g, " ");
 
 function block(name) {
   const element = document.getElementById("block_" + name);
@@ -96,11 +95,13 @@ const order_of = (frame, i) => frame.vertex_end[i] - first_vertex(frame, i);
 // Of a column of angles, in degrees.
 const degrees = (column, i) => column[i] * 180 / 32767;
 
-// An index into Kinds, by the most special interaction.
+// An index into path_kinds, by the most special interaction.
 function path_kind(frame, i) {
   let met = 0;
   for (let k = first_vertex(frame, i); k < frame.vertex_end[i]; ++k) met |= frame.vertex_interaction[k];
-  return met & 2 ? 4 : met & 8 ? 3 : met & 4 ? 2 : met & 1 ? 1 : 0;
+  let kind = path_kinds.length - 1;
+  while (kind > 0 && !(met & path_kinds[kind].code)) --kind;
+  return kind;
 }
 
 // The last few frames that were asked for.
@@ -170,7 +171,7 @@ function place_of(frame, k) {
   const [id, , model] = instance === no_instance ? ["", "", -1] : meta.instances[instance];
   const scene = instance === no_instance ? city : models[model];
   const on = instance === no_instance ? "" : ", vehicle " + id;
-  const edge = frame.vertex_interaction[k] === 8;
+  const edge = frame.vertex_interaction[k] === code_of("diffraction");
   const surfaces = edge ? (scene ? Array.from(scene.wedge_surface.subarray(2 * number, 2 * number + 2)) : []) : [number];
   const names = [];
   for (const surface of surfaces) {

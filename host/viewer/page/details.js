@@ -70,7 +70,7 @@ function show_path(parent, frame, i) {
   const theta_phi = (theta, phi) => `zenith ${fixed(degrees(theta, i), 2)}\u00b0, azimuth ${fixed(degrees(phi, i), 2)}\u00b0`;
   const rows = [
     ["From", meta.transmitters[frame.tx[i]][0]], ["To", meta.receivers[frame.rx[i]][0]],
-    ["Kind", `${Kinds[frame.kind[i]][1]}, order ${order}`],
+    ["Kind", `${words_of_kind(frame.kind[i])}, order ${order}`],
     ["Length", `${fixed(frame.delay_s[i] * speed_of_light_m_s, 3)} m`],
     ["Delay", `${fixed(frame.delay_s[i] * 1e9, 3)} ns`],
     ["Gain", `${fixed(frame.gain_db[i], 2)} dB`],
@@ -81,7 +81,8 @@ function show_path(parent, frame, i) {
   ];
   const list = element("ol");
   for (let k = first; k < frame.vertex_end[i]; ++k) {
-    const what = Interactions[frame.vertex_interaction[k]] || `interaction ${frame.vertex_interaction[k]}`;
+    const code = frame.vertex_interaction[k], known = path_kinds.find((kind) => kind.code === code);
+    const what = known ? known.interaction : `interaction ${code}`;
     list.append(element("li", `${what} at ${position_text(frame.vertex_m, k)} m; ${place_of(frame, k)}`));
   }
   parent.replaceChildren(element("h2", "Path"), rows_table(rows));

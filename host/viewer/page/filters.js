@@ -32,12 +32,12 @@ class Filters {
   constructor(changed) {
     fill_select(control("transmitter"), meta.transmitters, meta.transmitters.keys());
     fill_select(control("receiver"), meta.receivers, own_receivers);
-    for (const kind of computed_kinds) {
-      const [key, words] = Kinds[kind], label = document.createElement("label"), box = document.createElement("input");
+    for (const kind of shown_kinds) {
+      const label = document.createElement("label"), box = document.createElement("input");
       box.type = "checkbox";
-      box.id = "kind_" + key;
+      box.id = "kind_" + path_kinds[kind].word;
       box.value = String(kind);
-      label.append(box, " " + words);
+      label.append(box, " " + words_of_kind(kind));
       control("kinds").append(label);
     }
     for (const id of ["least_order", "most_order"]) control(id).max = String(meta.highest_order);
@@ -84,7 +84,7 @@ class Filters {
     const power = control("power"), all = power.value === power.min;
     this.power_db = all ? -Infinity : Number(power.value);
     control("power_text").textContent = all ? "any" : `${power.value} dB`.replace("-", "\u2212");
-    this.kinds = new Array(Kinds.length).fill(true);
+    this.kinds = new Array(path_kinds.length).fill(true);
     for (const box of control("kinds").querySelectorAll("input")) this.kinds[Number(box.value)] = box.checked;
   }
 

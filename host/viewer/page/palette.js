@@ -16,16 +16,16 @@ const Themes = {
     tx: "#ff5d73", rx: "#5ad1ff", both: "#ffd166", outline: "#0b0e13", wedge: "#3ee08f", vehicle: "#9fb0c6", selected: "#ffffff",
     city_light: 0.42,
     stops: viridis.slice(0, 8).reverse(), los: ["#5ab4ff", "#e69f00"],
-    kinds: ["#ffffff", "#6db0f2", "#f23091", "#00f279", "#a67c00"],
   },
   light: {
     sky: "#eceff2", text: "#22262c", faint: "#5f666f", halo: "#ffffff", grid: "#d8d6d0", accent: "#0b6fa8",
     tx: "#d4213d", rx: "#0b6fa8", both: "#8a5a00", outline: "#8d877a", wedge: "#00804a", vehicle: "#46505c", selected: "#000000",
     city_light: 1,
     stops: viridis, los: ["#0072b2", "#e69f00"],
-    kinds: ["#111111", "#002080", "#f230f2", "#21a685", "#804000"],
   },
 };
+
+for (const [name, scheme] of Object.entries(Themes)) scheme.kinds = path_kinds.map((kind) => kind[name]);
 
 const theme = () => (dark_scheme.matches ? Themes.dark : Themes.light);
 
@@ -131,6 +131,6 @@ function draw_legend(parent, by) {
     colours.forEach((colour, order) =>
       parent.append(legend_entry(css(colour), more && order === colours.length - 1 ? `${order} and more` : String(order))));
   } else {
-    for (const kind of computed_kinds) parent.append(legend_entry(theme().kinds[kind], Kinds[kind][1]));
+    for (const kind of shown_kinds) parent.append(legend_entry(theme().kinds[kind], words_of_kind(kind)));
   }
 }

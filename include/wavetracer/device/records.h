@@ -92,12 +92,14 @@ typedef struct {
   wt_uint padding;
 } wt_exact_instance;
 
-// What a vertex of a solved path is: a kind, and the number of a surface (reflection, transmission), wedge or tile.
-#define WT_STEP_KIND 0xC0000000u
-#define WT_STEP_REFLECTION 0u
-#define WT_STEP_TRANSMISSION 0x40000000u
-#define WT_STEP_DIFFRACTION 0x80000000u
-#define WT_STEP_SCATTERING 0xC0000000u
+// What a vertex of a solved path is: one of up to eight kinds (wavetracer/interaction_kinds.hpp), and the number of a
+// surface (reflection, transmission), wedge or tile.
+#define WT_STEP_SHIFT 29u
+#define WT_STEP_KIND (7u << WT_STEP_SHIFT)
+#define WT_STEP_REFLECTION (0u << WT_STEP_SHIFT)
+#define WT_STEP_TRANSMISSION (1u << WT_STEP_SHIFT)
+#define WT_STEP_DIFFRACTION (2u << WT_STEP_SHIFT)
+#define WT_STEP_SCATTERING (3u << WT_STEP_SHIFT)
 
 // A wedge of the world (double, recentred), see Wedge in wavetracer/scene.hpp.
 typedef struct {

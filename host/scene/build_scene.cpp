@@ -1,6 +1,6 @@
 // Building a Scene in steps: gather, recentre, weld, clean, connect, find wedges.
 // Every step is deterministic and sequential; a million triangles take a few seconds.
-#include "scene/build.hpp"
+#include "scene/build_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // The rows of the field table, one a key of the config file, in the order in which `init` writes them.
 // The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
-#include "config/fields.hpp"
+#include "config/field_table.hpp"
 
 #include "config/field_rows.hpp"
 
@@ -17,7 +17,7 @@ Table trace_table() {
            .slot = t(&TraceConfig::rays),
            .unit = "rays a transmitter",
            .range = {1, 2147483648.0},
-           .choices = {"auto"},
+           .none = "auto",
            .doc = "More rays find more of the weak paths; those found are exact in any case. The default finds more "
                   "than 99% of the paths of a city quarter at depth 5. auto: as many as recall asks for, along the "
                   "Hilbert curve."},
@@ -39,6 +39,7 @@ Table trace_table() {
            .slot = t(&TraceConfig::refresh_rays),
            .unit = "rays a transmitter",
            .range = {0, 2147483648.0},
+           .none = "0",
            .doc = "Of a frame that reuses, at most rays; each such frame launches other ones of their directions. 0: a "
                   "tenth of rays, since little is new from one frame to the next. rays = \"auto\" decides by itself."},
           {.name = "forget_frames",
@@ -71,6 +72,7 @@ Table trace_table() {
            .slot = t(&TraceConfig::diffraction_rays),
            .unit = "rays a receiver",
            .range = {0, 2147483648.0},
+           .none = "0",
            .doc = "With diffraction, of a receiver that does not send, at most rays. 0: a tenth of rays, but 100,000 "
                   "at least: edges are met by many rays."},
           {.name = "transmission",
@@ -94,7 +96,6 @@ Table trace_table() {
                   "the error."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
-           .choices = {"horizon", "hilbert", "fibonacci", "random"},
            .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, by their "
                   "heights above the ground and the size of the scene, with a quarter of the rays spread evenly. "
                   "hilbert: even over the sphere. Both go along a Hilbert curve, so that neighbours in memory are "
@@ -105,7 +106,6 @@ Table trace_table() {
            .doc = "Of directions = \"random\"."},
           {.name = "reception",
            .slot = t(&TraceConfig::reception),
-           .choices = {"exact", "sphere"},
            .doc = "exact: rays only find surfaces, paths are solved by the image method. sphere: a ray that passes "
                   "within sphere_radius_m of a receiver is its path, as in the thesis: lengths are a little wrong, "
                   "some paths lost and some none at all. Frames then reuse no sequences, each is traced whole."},
@@ -118,6 +118,7 @@ Table trace_table() {
            .slot = t(&TraceConfig::batch_rays),
            .unit = "rays",
            .range = {0, 2147483648.0},
+           .none = "0",
            .doc = "Rays in flight at once, which bounds the device memory; results do not depend on it. 0: chosen "
                   "from the device."},
       }};
@@ -131,9 +132,6 @@ Table order_table() {
       .fields = {
           {.name = "method",
            .slot = o(&OrderConfig::method),
-           .choices = {"none", "WS", "morton", "Z", "hilbert3d-histogram", "H3DH", "morton-histogram", "HZ",
-                       "hilbert3d-histogram-hilbert2d", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "H3DH3DH",
-                       "direction-origin", "auto"},
            .doc = "The plain name or the mnemonic of the method. none: with trace.directions = \"hilbert\" rays are "
                   "born in order and need no sort. direction-origin: by direction first, then by where the ray starts, "
                   "for each_depth. auto: the fastest, by a short measurement that is kept for the next run."},
@@ -157,21 +155,37 @@ Table launch_table() {
       .fields = {
           {.name = "shape",
            .slot = l(&LaunchConfig::shape),
-           .choices = {"auto", "1d", "2d", "3d"},
            .doc = "auto: 1d, but 2d and 3d for the two methods that map the sorted rays along a curve of that "
                   "dimension, and those accept nothing else."},
           {.name = "local_size",
            .slot = l(&LaunchConfig::local_size),
            .unit = "work-items a group",
            .range = {0, 1024},
+           .none = "0",
            .doc = "A power of two, spread evenly over the dimensions. 0: what suits the device."},
       }};
+}
+
+// With the words of each Choice, and that of an optional that is not set, as choices.
+std::vector<Table> with_words(std::vector<Table> tables) {
+  Config sample;
+  for (Table& table : tables) {
+    if (table.append) table.append(sample);
+    for (Field& field : table.fields) {
+      const Slot slot = field.slot(sample, 0);
+      if (const auto* choice = std::get_if<ChoiceSlot>(&slot))
+        field.choices.assign(choice->words.begin(), choice->words.end());
+      else if (!field.none.empty() && field.none != "0")
+        field.choices = {field.none};
+    }
+  }
+  return tables;
 }
 
 }  // namespace
 
 const std::vector<Table>& tables() {
-  static const std::vector<Table> all = {
+  static const std::vector<Table> all = with_words({
       scene_table(),
       trajectories_table(),
       time_table(),
@@ -245,6 +259,7 @@ const std::vector<Table>& tables() {
                    .slot = at(&Config::output, &OutputConfig::max_paths_per_link),
                    .unit = "paths a link and frame",
                    .range = {0, 4294967295.0},
+                   .none = "0",
                    .doc = "Only so many, the strongest, are written to paths.h5. 0: all."},
                   {.name = "keep_shards",
                    .slot = at(&Config::output, &OutputConfig::keep_shards),
@@ -259,7 +274,7 @@ const std::vector<Table>& tables() {
       vehicle_type_table(),
       track_table(),
       live_vehicle_table(),
-  };
+  });
   return all;
 }
 

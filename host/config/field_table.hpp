@@ -7,7 +7,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 #include "wavetracer/config.hpp"
@@ -15,10 +17,15 @@
 namespace wavetracer::config {
 
 using Aliases = std::map<std::string, std::string>;
+// A Choice of these words.
+struct ChoiceSlot {
+  ChoiceIndex* chosen;
+  std::span<const std::string_view> words;
+};
 // Where the value of a field lives. The alternative held is the type of the field.
-using Slot =
-    std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<double>*, std::array<double, 3>*,
-                 Aliases*, std::vector<std::string>*, std::vector<std::array<double, 4>>*>;
+using Slot = std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<uint32_t>*,
+                          std::optional<uint64_t>*, std::optional<double>*, std::array<double, 3>*, Aliases*,
+                          std::vector<std::string>*, std::vector<std::array<double, 4>>*, ChoiceSlot>;
 
 // Numbers allowed, both ends included unless lower_open.
 struct Range {
@@ -39,7 +46,8 @@ struct Field {
   std::function<Slot(Config&, size_t)> slot;  // the index is that of the element of an array of tables
   std::string unit = {};
   Range range = {};
-  std::vector<std::string> choices = {};  // of a string; or one word that stands for the integer 0
+  std::string none = {};                  // of an optional: "0" or the word by which the file says that it is not set
+  std::vector<std::string> choices = {};  // of a string; those of a Choice, and `none`, come by themselves
   Form form = Form::plain;
   bool required = false;
   std::string doc = {};
@@ -62,7 +70,7 @@ const std::vector<Table>& tables();
 // A Config of defaults with one element in each array of tables, so that every slot exists at index 0.
 Config prototype();
 
-// The value of the field as TOML; empty for an optional number that is not set.
+// The value of the field as TOML; empty for an optional number that is not set, unless the field has a word for that.
 std::string literal(const Field& field, const Slot& slot);
 // What a field accepts, in words: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
 std::string accepted(const Field& field);

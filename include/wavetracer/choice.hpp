@@ -1,0 +1,65 @@
+// One of a few words, such as "exact" or "sphere", held as its number: what keys of the configuration with choices are.
+// In code a word is checked where it is compiled, and compared as a number; text that comes at run time goes through
+// parse() or named(), once.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+
+template <size_t N>
+struct Word {
+  char text[N];
+  consteval Word(const char (&literal)[N]) { std::copy_n(literal, N, text); }
+};
+
+// What fields of the configuration are handled by, whatever their words are.
+struct ChoiceIndex {
+  uint8_t value = 0;
+};
+
+template <Word... Words>
+class Choice : ChoiceIndex {
+ public:
+  static constexpr std::array<std::string_view, sizeof...(Words)> words{Words.text...};
+
+  constexpr Choice() = default;  // the first word
+  // A literal that is none of the words does not compile: it has no number.
+  consteval Choice(const char* word) : ChoiceIndex(*parse(word)) {}
+
+  static constexpr std::optional<Choice> parse(std::string_view word) {
+    const auto at = std::find(words.begin(), words.end(), word);
+    if (at == words.end()) return std::nullopt;
+    Choice out;
+    out.value = static_cast<uint8_t>(at - words.begin());
+    return out;
+  }
+  // Throws ConfigError, which lists the words, for any other.
+  static Choice named(std::string_view word) {
+    if (const std::optional<Choice> known = parse(word)) return *known;
+    std::string list;
+    for (const std::string_view each : words) list += (list.empty() ? "" : ", ") + std::string(each);
+    throw ConfigError("\"" + std::string(word) + "\" is none of " + list);
+  }
+
+  constexpr size_t index() const { return value; }
+  constexpr std::string_view word() const { return words[value]; }
+  std::string text() const { return std::string(word()); }
+  ChoiceIndex& stored() { return *this; }  // for the field table, which has checked the number
+
+  friend constexpr bool operator==(const Choice& a, const Choice& b) { return a.value == b.value; }
+  template <class Stream>
+  friend Stream& operator<<(Stream& stream, const Choice& choice) {
+    stream << choice.word();
+    return stream;
+  }
+};
+
+}  // namespace wavetracer
