@@ -117,6 +117,17 @@ TEST_CASE("config errors exit 2 with file, line and column, and write nothing") 
   CHECK(folder.entries() == 2);
 }
 
+TEST_CASE("validate refuses what only the radio part of a run reads: materials and antenna patterns") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + ends);
+  check(run_program({"validate", "-c", file, "--set", "radio.frequency_hz=2e8"}), 2,
+        "the material \"concrete\" is only known from 1 to 100 GHz");
+  const std::string pattern = folder.file("broken.csv", "theta_deg,phi_deg\n0,0\n");
+  check(run_program({"validate", "-c", file, "--set", "transmitter.0.antenna=" + pattern}), 3,
+        pattern + ":1: an antenna pattern begins with the header");
+  CHECK(run_program({"validate", "-c", file}).code == 0);
+}
+
 TEST_CASE("pipes and devices are no input files, and are not waited for") {
   const Folder folder;
   const std::string pipe = folder.path("pipe"), file = folder.file("a.toml", city + ends), out = folder.path("out");
