@@ -128,6 +128,19 @@ TEST_CASE("validate refuses what only the radio part of a run reads: materials a
   CHECK(run_program({"validate", "-c", file}).code == 0);
 }
 
+TEST_CASE("a vehicle type without a body needs no sizes, whatever its name is") {
+  const Folder folder;
+  folder.file(
+      "a.fcd.xml",
+      "<fcd-export><timestep time=\"0\"><vehicle id=\"a\" x=\"0\" y=\"0\" angle=\"0\" type=\"ped\" speed=\"1\"/>"
+      "</timestep></fcd-export>");
+  const std::string file = folder.file("a.toml", city + ends +
+                                                     "[trajectories]\nfile = \"a.fcd.xml\"\n[[vehicle_type]]\n"
+                                                     "name = \"ped\"\nmodel = \"none\"\n");
+  CHECK(run_program({"validate", "-c", file}).code == 0);
+  check(run_program({"validate", "-c", file, "--set", "vehicle_type.0.model=car"}), 2, "give length_m, width_m");
+}
+
 TEST_CASE("pipes and devices are no input files, and are not waited for") {
   const Folder folder;
   const std::string pipe = folder.path("pipe"), file = folder.file("a.toml", city + ends), out = folder.path("out");
