@@ -8,7 +8,7 @@
 namespace wavetracer::accuracy {
 namespace {
 
-Setting of_rays(uint64_t rays) { return {"rays", study::grouped(rays), {fmt::format("trace.rays={}", rays)}}; }
+Setting of_rays(uint64_t rays) { return {"rays", grouped(rays), {fmt::format("trace.rays={}", rays)}}; }
 
 Setting of_recall(double recall) {
   return {"auto", fmt::format("recall {:g}", recall), {"trace.rays=auto", fmt::format("trace.recall={:g}", recall)}};

@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
+#include "base/digits.hpp"
 #include "base/input_file.hpp"
 #include "config/input_files.hpp"
 #include "scene/city.hpp"
@@ -54,7 +55,7 @@ void check_inputs(const Config& config) {
   if (!config.scene.generate.empty() && !config.trajectories.generate.empty()) check_streets(config);
 }
 
-std::string rays_in_words(const TraceConfig& trace) { return trace.rays ? std::to_string(*trace.rays) : "auto"; }
+std::string rays_in_words(const TraceConfig& trace) { return trace.rays ? grouped(*trace.rays) : "auto"; }
 
 void check_output_folder(const fs::path& folder) {
   fs::path there = fs::absolute(folder).lexically_normal();

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <utility>
-#include "app/digits.hpp"
+#include "base/digits.hpp"
 
 namespace wavetracer::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include "app/digits.hpp"
+#include "base/digits.hpp"
 #include "output/advice.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 

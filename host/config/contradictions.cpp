@@ -8,7 +8,7 @@
 #include <bit>
 #include <set>
 
-#include "config/values.hpp"
+#include "config/value_text.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer::config {

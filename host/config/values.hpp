@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include "config/field_table.hpp"
 
 namespace wavetracer::config {
@@ -16,8 +15,5 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
 
 // An absolute path without . and .. parts; a relative one starts at `folder`. Empty stays empty.
 std::string resolved_path(const std::filesystem::path& folder, const std::string& path);
-
-// A TOML basic string: quotes, backslashes and control characters escaped.
-std::string toml_string(std::string_view text);
 
 }  // namespace wavetracer::config

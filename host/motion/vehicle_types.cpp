@@ -85,6 +85,8 @@ std::optional<VehicleType> sumo_type(std::string_view name) {
 }
 
 void check_type(const VehicleType& type) {
+  if (type.length_m == 0 && type.width_m == 0 && type.height_m == 0)
+    return;  // no body: [[vehicle_type]] model = "none"
   for (const double size_m : {type.length_m, type.width_m, type.height_m}) {
     if (size_m > 0 && size_m < std::numeric_limits<double>::infinity()) continue;
     throw ConfigError(fmt::format("vehicle type '{}': {} m is no size; length, width and height must be positive",

@@ -2,6 +2,7 @@
 #include "output/advice.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include "base/digits.hpp"
 
 namespace wavetracer {
 namespace {
@@ -26,7 +27,7 @@ std::vector<std::string> advice(const Run& run, const Totals& totals) {
   return {fmt::format(
       "line of sight on {} of {} links, and trace.diffraction = false leaves out all that comes around edges: "
       "set it to true, or ask `wavetracer accuracy -c FILE` what it would add",
-      sight, totals.links)};
+      grouped(sight), grouped(totals.links))};
 }
 
 }  // namespace wavetracer

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <numeric>
+#include "base/digits.hpp"
 #include "output/cache_counts.hpp"
 #include "output/median.hpp"
 
@@ -130,11 +131,11 @@ std::vector<std::string> missing_words(const Totals& totals) {
   if (none && totals.links == 0)
     out.push_back("no path was found, because no frame has a link: look at [links], and at when vehicles are there");
   else if (none)
-    out.push_back(fmt::format("no path was found, of {} links in {} frame{}", totals.links, totals.frames,
-                              totals.frames == 1 ? "" : "s"));
+    out.push_back(fmt::format("no path was found, of {} links in {} frame{}", grouped(totals.links),
+                              grouped(totals.frames), totals.frames == 1 ? "" : "s"));
   const auto say = [&](const std::vector<std::string>& why, uint64_t links) {
     out.insert(out.end(), why.begin(), why.end());
-    if (links > why.size()) out.push_back(fmt::format("{} more links have no path", links - why.size()));
+    if (links > why.size()) out.push_back(fmt::format("{} more links have no path", grouped(links - why.size())));
   };
   say(missing.why, missing.links);
   if (none) say(missing.why_in_grids, missing.in_grids);

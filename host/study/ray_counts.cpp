@@ -50,10 +50,4 @@ std::vector<uint64_t> ray_counts(RayRange range) {
   return counts;
 }
 
-std::string grouped(uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
-  return digits;
-}
-
 }  // namespace wavetracer::study

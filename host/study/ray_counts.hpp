@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/digits.hpp"
+
 namespace wavetracer::study {
 
 // The ray counts at which the thesis states what reordering gains.
@@ -21,8 +23,5 @@ RayRange parse_ray_range(const std::string& text);
 
 // Ascending. Throws ConfigError where the range holds none.
 std::vector<uint64_t> ray_counts(RayRange range);
-
-// 49000 as people read it: 49,000.
-std::string grouped(uint64_t number);
 
 }  // namespace wavetracer::study

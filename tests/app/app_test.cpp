@@ -117,6 +117,30 @@ TEST_CASE("config errors exit 2 with file, line and column, and write nothing") 
   CHECK(folder.entries() == 2);
 }
 
+TEST_CASE("validate refuses what only the radio part of a run reads: materials and antenna patterns") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + ends);
+  check(run_program({"validate", "-c", file, "--set", "radio.frequency_hz=2e8"}), 2,
+        "the material \"concrete\" is only known from 1 to 100 GHz");
+  const std::string pattern = folder.file("broken.csv", "theta_deg,phi_deg\n0,0\n");
+  check(run_program({"validate", "-c", file, "--set", "transmitter.0.antenna=" + pattern}), 3,
+        pattern + ":1: an antenna pattern begins with the header");
+  CHECK(run_program({"validate", "-c", file}).code == 0);
+}
+
+TEST_CASE("a vehicle type without a body needs no sizes, whatever its name is") {
+  const Folder folder;
+  folder.file(
+      "a.fcd.xml",
+      "<fcd-export><timestep time=\"0\"><vehicle id=\"a\" x=\"0\" y=\"0\" angle=\"0\" type=\"ped\" speed=\"1\"/>"
+      "</timestep></fcd-export>");
+  const std::string file = folder.file("a.toml", city + ends +
+                                                     "[trajectories]\nfile = \"a.fcd.xml\"\n[[vehicle_type]]\n"
+                                                     "name = \"ped\"\nmodel = \"none\"\n");
+  CHECK(run_program({"validate", "-c", file}).code == 0);
+  check(run_program({"validate", "-c", file, "--set", "vehicle_type.0.model=car"}), 2, "give length_m, width_m");
+}
+
 TEST_CASE("pipes and devices are no input files, and are not waited for") {
   const Folder folder;
   const std::string pipe = folder.path("pipe"), file = folder.file("a.toml", city + ends), out = folder.path("out");

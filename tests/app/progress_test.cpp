@@ -1,9 +1,9 @@
 // Elapsed time, rate and time left, against what a clock and a division say.
 #include "app/progress.hpp"
 #include <doctest/doctest.h>
-#include "app/digits.hpp"
+#include "base/digits.hpp"
 
-using wavetracer::app::grouped;
+using wavetracer::grouped;
 using wavetracer::app::progress_words;
 
 TEST_CASE("progress has the elapsed time, and once something is done a rate and the time left") {

@@ -54,6 +54,8 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
   CHECK_FALSE(advised());  // no edge of the sample diffracts
   run.summary.features["diffraction"].reason = "trace.diffraction = false";
   CHECK(advised());
+  results.totals.links = 1745;
+  CHECK(advice(run, results.totals).at(0).starts_with("line of sight on 1 of 1,745 links, "));
   results.totals.warnings = {"a link has no path; trace.diffraction = true may help"};
   CHECK_FALSE(advised());
   results.totals.warnings.clear();

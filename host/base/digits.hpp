@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace wavetracer::app {
+namespace wavetracer {
 
 // 1234567 -> 1,234,567
 inline std::string grouped(uint64_t number) {
@@ -21,4 +21,4 @@ inline std::string short_number(double x) {
   return fmt::format("{:.3g} ", x);
 }
 
-}  // namespace wavetracer::app
+}  // namespace wavetracer

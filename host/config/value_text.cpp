@@ -1,0 +1,111 @@
+// Values of the field table as text: TOML literals, and in words what a field accepts.
+#include "config/value_text.hpp"
+#include <fmt/format.h>
+#include <cmath>
+#include <limits>
+#include "config/field_table.hpp"
+#include "config/slot_types.hpp"
+#include "wavetracer/names.hpp"
+
+namespace wavetracer::config {
+namespace {
+
+std::string short_number(double x) { return std::isinf(x) ? "inf" : fmt::format("{:.10g}", x); }
+
+}  // namespace
+
+std::string number_text(double x) {
+  if (std::isinf(x)) return x < 0 ? "-inf" : "inf";
+  std::string text = fmt::format("{}", x);  // the shortest text that reads back as x
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string literal(const Field& field, const Slot& slot) {
+  const auto none = [&](const char* zero) {
+    return field.none.empty() ? "" : field.none == "0" ? zero : toml_string(field.none);
+  };
+  const auto list = [](const auto& elements, const auto& text) {
+    std::string out = "[";
+    for (const auto& element : elements) out += (out.size() > 1 ? ", " : "") + text(element);
+    return out + "]";
+  };
+  return std::visit(Overload{
+                        [](const std::string* s) { return toml_string(*s); },
+                        [](const bool* b) { return std::string(*b ? "true" : "false"); },
+                        [](const double* x) { return number_text(*x); },
+                        [&](const std::optional<double>* x) { return *x ? number_text(**x) : none("0.0"); },
+                        [](const ChoiceSlot& choice) { return toml_string(choice.words[choice.chosen->value]); },
+                        [&](const std::array<double, 3>* v) { return list(*v, number_text); },
+                        [&](const std::vector<std::string>* words) { return list(*words, toml_string); },
+                        [&](const std::vector<std::array<double, 4>>* rows) {
+                          return list(*rows, [&](const auto& row) { return list(row, number_text); });
+                        },
+                        [](const Aliases* aliases) {
+                          std::string out;
+                          for (const auto& [from, to] : *aliases)
+                            out +=
+                                fmt::format("{}{} = {}", out.empty() ? "{ " : ", ", toml_string(from), toml_string(to));
+                          return out.empty() ? "{}" : out + " }";
+                        },
+                        [&]<class T>(const T* i) {
+                          if constexpr (Number<T>::optional)
+                            return *i ? fmt::format("{}", **i) : none("0");
+                          else
+                            return fmt::format("{}", *i);
+                        },
+                    },
+                    slot);
+}
+
+std::string accepted(const Field& field) {
+  Config sample = prototype();
+  const std::string unit = field.unit.empty() ? "" : " (" + field.unit + ")";
+  const auto range = [&](std::string_view noun) {
+    const Range& r = field.range;
+    std::string out(noun);
+    const double largest = std::numeric_limits<double>::max();
+    if (r.lower > -largest) out += (r.lower_open ? " above " : " from ") + short_number(r.lower);
+    if (r.upper < largest || std::isinf(r.upper)) out += (r.lower_open ? " up to " : " to ") + short_number(r.upper);
+    return out + unit;
+  };
+  std::string choices;
+  for (const std::string& choice : field.choices) choices += (choices.empty() ? "" : ", ") + toml_string(choice);
+  return std::visit(
+      Overload{
+          [&](const std::string*) -> std::string {
+            if (field.form == Form::choice_or_file) return choices + " or the path of a file";
+            if (field.form == Form::input_file) return "the path of a file";
+            return field.form == Form::output_folder ? "the path of a folder" : "a string";
+          },
+          [&](const ChoiceSlot&) -> std::string { return "one of " + choices; },
+          [&](const bool*) -> std::string { return "true or false"; },
+          [&](const std::array<double, 3>*) -> std::string { return "three numbers" + unit; },
+          [&](const Aliases*) -> std::string { return "a table of strings"; },
+          [&](const std::vector<std::string>*) -> std::string { return "a string or an array of strings"; },
+          [&](const std::vector<std::array<double, 4>>*) -> std::string {
+            return "an array of [time, x, y, z]" + unit;
+          },
+          [&]<class T>(const T*) -> std::string {
+            return range(is_integer<T> ? "an integer" : "a number") + (choices.empty() ? "" : " or " + choices);
+          },
+      },
+      field.slot(sample, 0));
+}
+
+}  // namespace wavetracer::config
