@@ -141,7 +141,7 @@ TEST_CASE("a run says which features it had, why not others, and how many paths 
   CHECK(contains(run({}), "\nfeatures   reflection\n"));
   CHECK(summary()["features"]["diffraction"] == nlohmann::json{{"on", false}, {"reason", "trace.diffraction = false"}});
   const std::string out = run({"trace.diffraction=true", "trace.transmission=true", "trace.scattering=true"});
-  CHECK(contains(out, "\nfeatures   reflection, diffraction, transmission; no scattering: no material "));
+  CHECK(contains(out, "\nfeatures   reflection, transmission, diffraction; no scattering: no material "));
   CHECK(contains(out, " diffracted\n"));
   const nlohmann::json after = summary(), kinds = after["paths_by_kind"];
   CHECK(after["features"]["diffraction"] == nlohmann::json{{"on", true}});
