@@ -7,11 +7,11 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
-#include "app/frame_range.hpp"
-#include "app/interrupt.hpp"
 #include "base/pending_file.hpp"
 #include "base/spelling.hpp"
 #include "imports/imports.hpp"
+#include "jobs/frame_range.hpp"
+#include "jobs/interrupt.hpp"
 #include "motion/read.hpp"
 #include "wavetracer/error.hpp"
 

@@ -6,10 +6,10 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "app/folder_hold.hpp"
 #include "app/inputs.hpp"
-#include "app/progress.hpp"
-#include "output/merge_folders.hpp"
+#include "jobs/folder_hold.hpp"
+#include "jobs/merge_folders.hpp"
+#include "jobs/progress.hpp"
 
 namespace wavetracer::app {
 namespace {

@@ -9,19 +9,17 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
-#include "app/devices_option.hpp"
-#include "app/drive.hpp"
-#include "app/folder_hold.hpp"
-#include "app/frame_range.hpp"
 #include "app/inputs.hpp"
-#include "app/interrupt.hpp"
-#include "app/launch.hpp"
-#include "app/progress.hpp"
 #include "app/report.hpp"
-#include "app/solve_frame.hpp"
-#include "base/hash.hpp"
-#include "config/input_files.hpp"
-#include "output/earlier_run.hpp"
+#include "jobs/devices_option.hpp"
+#include "jobs/drive.hpp"
+#include "jobs/earlier_run.hpp"
+#include "jobs/folder_hold.hpp"
+#include "jobs/frame_range.hpp"
+#include "jobs/identity.hpp"
+#include "jobs/interrupt.hpp"
+#include "jobs/progress.hpp"
+#include "jobs/start.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/output.hpp"
 #include "wavetracer/simulation.hpp"
@@ -36,7 +34,7 @@ struct RunOptions {
   std::vector<std::string> sets;
   uint32_t repeat = 1, processes = 0;
   bool resume = false, verbose = false;
-  bool launches() const { return !devices.empty() || processes > 0; }
+  bool starts_processes() const { return !devices.empty() || processes > 0; }
 };
 
 bool has_vehicles(const Config& config) {
@@ -58,41 +56,6 @@ Config configuration(const RunOptions& options, bool shared) {
   return config;
 }
 
-std::string hash_of(const std::vector<InputFile>& inputs) {
-  std::string text;
-  for (const InputFile& input : inputs) text += fmt::format("{}\n{} {}\n", input.name, input.bytes, input.hash);
-  return fnv1a_128(text);
-}
-
-RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
-  Config elsewhere = config;
-  elsewhere.output.directory.clear();   // a folder that was moved is still that of its run
-  elsewhere.output.keep_shards = true;  // what becomes of shards changes none
-  for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
-  return {summary.version,
-          fnv1a_128(resolved_config(elsewhere)),
-          summary.device.gpu ? "gpu" : "cpu",
-          range.first,
-          range.last,
-          summary.repeat_count,
-          hash_of(summary.inputs)};
-}
-
-// A world where nothing moves: one frame, written as it is.
-Results run_still(Simulation& simulation, Run& run, Progress& progress) {
-  if (interrupted()) return {};
-  std::optional<SolvedFrame> solved = solve_frame(simulation, 0, run.summary.repeat_count, progress);
-  if (!solved) return {};
-  run.summary.repeat_count = solved->repeated;
-  FrameResult& frame = solved->result;
-  frame.missing = simulation.explain_missing(frame);
-  progress.line("writing to " + run.config.output.directory);
-  Results results;
-  results.totals = totals_of({&frame, 1});
-  results.files = write_outputs(run.config.output.directory, run, {&frame, 1});
-  return results;
-}
-
 // What an interrupt left undone, and how to go on.
 std::string unfinished(const Run& run, const Results& results, const RunOptions& options, bool moving) {
   if (results.totals.frames == 0) return "interrupted before the first frame; nothing was written";
@@ -111,7 +74,7 @@ std::string job_of(const ShardChoice& part, const RunIdentity& identity) {
 void check_options(const RunOptions& options, const Ranks& ranks) {
   if (options.shard.empty()) return;
   parse_shard(options.shard);
-  if (options.launches())
+  if (options.starts_processes())
     throw ConfigError("--shard is for processes that are started one by one; leave out --devices and --processes");
   if (ranks.size > 1)
     throw ConfigError(
@@ -121,24 +84,24 @@ void check_options(const RunOptions& options, const Ranks& ranks) {
 }
 
 // Children do the work; their options are these, but for those that made them children.
-void launch_children(const RunOptions& options, const Config& config, Invocation& invocation, Progress& progress) {
-  Launch launch;
-  launch.arguments = {"run", "-c", options.file, "-o", config.output.directory};
-  for (const std::string& set : options.sets) launch.arguments.insert(launch.arguments.end(), {"--set", set});
-  if (!options.frames.empty()) launch.arguments.insert(launch.arguments.end(), {"--frames", options.frames});
-  if (options.resume) launch.arguments.push_back("--resume");
-  if (options.verbose) launch.arguments.push_back("--verbose");
-  launch.arguments.insert(launch.arguments.end(), {"--repeat", std::to_string(options.repeat)});
-  const std::vector<size_t> devices = devices_to_launch(options.devices, options.device);
-  launch.arguments.insert(launch.arguments.end(), {"--devices", fmt::format("{}", fmt::join(devices, ","))});
-  launch.processes = options.processes > 0 ? options.processes : static_cast<uint32_t>(devices.size());
-  if (launch.processes < devices.size())
+void start_children(const RunOptions& options, const Config& config, Invocation& invocation, Progress& progress) {
+  ProcessPlan plan;
+  plan.arguments = {"run", "-c", options.file, "-o", config.output.directory};
+  for (const std::string& set : options.sets) plan.arguments.insert(plan.arguments.end(), {"--set", set});
+  if (!options.frames.empty()) plan.arguments.insert(plan.arguments.end(), {"--frames", options.frames});
+  if (options.resume) plan.arguments.push_back("--resume");
+  if (options.verbose) plan.arguments.push_back("--verbose");
+  plan.arguments.insert(plan.arguments.end(), {"--repeat", std::to_string(options.repeat)});
+  const std::vector<size_t> devices = devices_to_start_on(options.devices, options.device);
+  plan.arguments.insert(plan.arguments.end(), {"--devices", fmt::format("{}", fmt::join(devices, ","))});
+  plan.processes = options.processes > 0 ? options.processes : static_cast<uint32_t>(devices.size());
+  if (plan.processes < devices.size())
     throw ConfigError(
-        fmt::format("--processes {}: there are {} devices, which want one each", launch.processes, devices.size()));
-  launch.command_line = invocation.command_line;
-  progress.line(devices.size() == 1 ? fmt::format("{} processes on device {}", launch.processes, devices[0])
-                                    : fmt::format("{} processes on {} devices", launch.processes, devices.size()));
-  invocation.code = app::launch(launch, progress);
+        fmt::format("--processes {}: there are {} devices, which want one each", plan.processes, devices.size()));
+  plan.command_line = invocation.command_line;
+  progress.line(devices.size() == 1 ? fmt::format("{} processes on device {}", plan.processes, devices[0])
+                                    : fmt::format("{} processes on {} devices", plan.processes, devices.size()));
+  invocation.code = start_processes(plan, progress);
 }
 
 // The device of a rank: ranks of one host take turns.
@@ -174,60 +137,72 @@ std::optional<Results> run_shared(const DriveTask& task, const RunOptions& optio
   return std::nullopt;
 }
 
-void run(const RunOptions& options, Invocation& invocation) {
-  const Ranks ranks = ranks_of_this_process();
-  if (ranks.launched) prctl(PR_SET_PDEATHSIG, SIGTERM);  // who is nobody's child any more stops after its frame
-  check_options(options, ranks);
-  const bool launching = options.launches() && ranks.size == 1, part = !options.shard.empty(),
-             together = ranks.size > 1;
-  const Config config = configuration(options, launching || part || together);
-  check_inputs(config);
-  check_output_folder(config.output.directory);
-  if (!part && !together) check_not_in_use(fs::path(config.output.directory) / "shards");
-  catch_interrupts(!ranks.launched);
-  Progress progress(together ? fmt::format("rank {}: ", ranks.rank) : "");
-  if (launching) return launch_children(options, config, invocation, progress);
-  take_share_of_cores(ranks);
-  std::optional<FolderHold> folder;
-  if (!part) folder.emplace(config.output.directory, this_process(ranks.job, ranks.rank));
-  if (ranks.rank == 0 && !options.resume && !part)
-    if (const std::string earlier = earlier_results(config.output.directory); !earlier.empty())
-      progress.line("replaces " + earlier);
-  if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
-  Simulation simulation(config, device_of(options, ranks));
-  const FrameRange range = parse_frames(options.frames, simulation.frame_count());
-  const char* const launched_as = ranks.launched ? std::getenv("WAVETRACER_COMMAND") : nullptr;
-  Run run = make_run(simulation, range.count(), launched_as ? launched_as : invocation.command_line);
-  run.summary.repeat_count = options.repeat;
+Sharing sharing_of(const RunOptions& options, const Ranks& ranks) {
+  if (!options.shard.empty()) return Sharing::shard;
+  if (ranks.size > 1) return Sharing::ranks;
+  return options.starts_processes() ? Sharing::starter : Sharing::alone;
+}
+
+void say_ready(const Run& run, const TraceConfig& trace, bool warn, Progress& progress) {
   double ready = 0;
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
   progress.line(fmt::format("ready after {:.2f} s on {}; {} rays from each transmitter ({})", ready,
-                            run.summary.device.name, rays_in_words(config.trace), run.config.transmitters.size()));
-  if (ranks.rank == 0)
+                            run.summary.device.name, rays_in_words(trace), run.config.transmitters.size()));
+  if (warn)
     for (const std::string& warning : run.summary.warnings) progress.line("warning: " + warning);
+}
 
-  const bool moving = simulation.frame_count() > 1;
-  if (options.resume && !moving && !part && !together)
-    progress.line("--resume: nothing to go on with, because this drive has one frame");
-  const DriveTask task{simulation, run, identity_of(config, run.summary, range), options.resume,
-                       moving || (!part && !together) ? 1 : block_count(run.config)};
-  Results results;
-  if (part || together) {
-    const auto shared = run_shared(task, options, ranks, folder ? &folder->process() : nullptr, invocation, progress);
-    if (!shared) return;
-    results = *shared;
-  } else {
-    results = moving ? drive(task, progress) : run_still(simulation, run, progress);
-  }
+void say_results(const Run& run, Results& results, bool verbose, Progress& progress) {
   std::vector<std::string> warnings = results.totals.warnings;
   add_warnings(warnings, missing_words(results.totals));
   for (const std::string& warning : warnings) progress.line("warning: " + warning);
-  if (results.totals.frames > 0) {
-    results.links = link_statistics(fs::path(run.config.output.directory) / "links.csv", run.config);
-    std::cout << report(run, results, options.verbose) << std::flush;
+  if (results.totals.frames == 0) return;
+  results.links = link_statistics(fs::path(run.config.output.directory) / "links.csv", run.config);
+  std::cout << report(run, results, verbose) << std::flush;
+}
+
+void run(const RunOptions& options, Invocation& invocation) {
+  const Ranks ranks = ranks_of_this_process();
+  if (ranks.started) prctl(PR_SET_PDEATHSIG, SIGTERM);  // who is nobody's child any more stops after its frame
+  check_options(options, ranks);
+  const Sharing sharing = sharing_of(options, ranks);
+  const Config config = configuration(options, sharing != Sharing::alone);
+  const std::string& directory = config.output.directory;
+  check_inputs(config);
+  check_output_folder(directory);
+  if (sharing == Sharing::alone || sharing == Sharing::starter) check_not_in_use(fs::path(directory) / "shards");
+  catch_interrupts(!ranks.started);
+  Progress progress(sharing == Sharing::ranks ? fmt::format("rank {}: ", ranks.rank) : "");
+  if (sharing == Sharing::starter) return start_children(options, config, invocation, progress);
+  take_share_of_cores(ranks);
+  std::optional<FolderHold> folder;
+  if (sharing != Sharing::shard) folder.emplace(directory, this_process(ranks.job, ranks.rank));
+  if (ranks.rank == 0 && !options.resume && folder)
+    if (const std::string earlier = earlier_results(directory); !earlier.empty()) progress.line("replaces " + earlier);
+  if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
+  Simulation simulation(config, device_of(options, ranks));
+  const FrameRange range = parse_frames(options.frames, simulation.frame_count());
+  const char* const started_as = ranks.started ? std::getenv("WAVETRACER_COMMAND") : nullptr;
+  Run run = make_run(simulation, range.count(), started_as ? started_as : invocation.command_line);
+  run.summary.repeat_count = options.repeat;
+  say_ready(run, config.trace, ranks.rank == 0, progress);
+
+  const bool moving = simulation.frame_count() > 1, alone = sharing == Sharing::alone;
+  if (options.resume && !moving && alone)
+    progress.line("--resume: nothing to go on with, because this drive has one frame");
+  const DriveTask task{simulation, run, identity_of(config, run.summary, range), options.resume,
+                       moving || alone ? 1 : block_count(run.config)};
+  Results results;
+  if (alone) {
+    results = moving ? drive(task, progress) : run_still(simulation, run, progress);
+  } else {
+    const auto shared = run_shared(task, options, ranks, folder ? &folder->process() : nullptr, invocation, progress);
+    if (!shared) return;
+    results = *shared;
   }
+  say_results(run, results, options.verbose, progress);
   const bool whole = results.totals.frames == run.summary.frames_asked && run.summary.repeat_count == options.repeat;
-  if (interrupted() && !whole && !together) {
+  if (interrupted() && !whole && alone) {
     invocation.code = ExitCode::interrupted;
     progress.line(unfinished(run, results, options, moving));
   }

@@ -6,8 +6,8 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "app/inputs.hpp"
-#include "app/interrupt.hpp"
-#include "app/progress.hpp"
+#include "jobs/interrupt.hpp"
+#include "jobs/progress.hpp"
 #include "wavetracer/config_file.hpp"
 
 namespace wavetracer::app {

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "app/frame_range.hpp"
 #include "base/file.hpp"
+#include "jobs/frame_range.hpp"
 
 namespace wavetracer::app {
 

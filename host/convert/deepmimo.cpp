@@ -9,7 +9,7 @@
 #include "convert/convert.hpp"
 #include "convert/deepmimo_scene.hpp"
 #include "convert/npz.hpp"
-#include "convert/pending_folder.hpp"
+#include "base/pending_folder.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include "convert/convert.hpp"
-#include "convert/pending_folder.hpp"
+#include "base/pending_folder.hpp"
 #include "results/saved_world.hpp"
 
 namespace wavetracer {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include "convert/convert.hpp"
 #include "convert/ns3_nodes.hpp"
-#include "convert/pending_folder.hpp"
+#include "base/pending_folder.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 

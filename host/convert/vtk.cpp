@@ -2,7 +2,7 @@
 // up. A frame is in memory at a time. What does not move is one file, which every time of the .pvd names.
 #include <fmt/format.h>
 #include "convert/convert.hpp"
-#include "convert/pending_folder.hpp"
+#include "base/pending_folder.hpp"
 #include "convert/vtk_file.hpp"
 #include "convert/vtk_glb_kml.hpp"
 #include "output/path_kinds.hpp"

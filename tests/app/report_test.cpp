@@ -10,7 +10,7 @@ using namespace wavetracer;
 TEST_CASE("the report says how much a ray cache answered and how full it is; without one, nothing") {
   const SampleRun sample;
   const auto report = [&](const CacheSummary& cache) {
-    app::Results results{totals_of(sample.frames()), {}, {}};
+    Results results{totals_of(sample.frames()), {}, {}};
     results.totals.cache = cache;
     return app::report(sample.run(), results, true);
   };
@@ -28,7 +28,7 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
 
 TEST_CASE("the report names what was computed, and why not what was asked for beyond it") {
   SampleRun sample;
-  const app::Results results{totals_of(sample.frames()), {}, {}};
+  const Results results{totals_of(sample.frames()), {}, {}};
   Run run = sample.run();  // diffraction is off, and by default nobody asks for it
   const auto report = [&] { return app::report(run, results, true); };
   CHECK(contains(report(), "\nfeatures   reflection\n"));
@@ -44,7 +44,7 @@ TEST_CASE("the report names what was computed, and why not what was asked for be
 
 TEST_CASE("without line of sight on most links, diffraction that is off is advised") {
   const SampleRun sample;
-  app::Results results{totals_of(sample.frames()), {}, {}};  // line of sight on 1 of 8 links
+  Results results{totals_of(sample.frames()), {}, {}};  // line of sight on 1 of 8 links
   Run run = sample.run();
   const auto advised = [&] {
     const std::string text = app::report(run, results, true);
@@ -71,7 +71,7 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
 
 TEST_CASE("the report counts paths by kind, those that there are") {
   const SampleRun sample;
-  app::Results results{totals_of(sample.frames()), {}, {}};
+  Results results{totals_of(sample.frames()), {}, {}};
   CHECK(contains(app::report(sample.run(), results, true),
                  "\npaths      5: 1 line of sight, 1 reflected, 3 transmitted\n"));
   results.totals = totals_of(sample.empty());
@@ -80,7 +80,7 @@ TEST_CASE("the report counts paths by kind, those that there are") {
 
 TEST_CASE("the report counts what was solved, or with spheres what was caught, and lists the files") {
   SampleRun sample;
-  const app::Results results{totals_of(sample.frames()), {}, {"out/paths.h5", "out/waypoints.h5"}};
+  const Results results{totals_of(sample.frames()), {}, {"out/paths.h5", "out/waypoints.h5"}};
   CHECK(contains(app::report(sample.run(), results, true), "\nsequences  80 distinct, 24 candidates, 16 solved\n"));
   sample.config.trace.reception = "sphere";
   CHECK(contains(app::report(sample.run(), results, true), "\nsequences  80 distinct, 6 segments passed receivers\n"));
@@ -89,7 +89,7 @@ TEST_CASE("the report counts what was solved, or with spheres what was caught, a
 
 TEST_CASE("the report ends with what may have been missed, where that is known") {
   SampleRun sample;
-  app::Results results{totals_of(sample.frames()), {}, {}};
+  Results results{totals_of(sample.frames()), {}, {}};
   const auto report = [&] { return app::report(sample.run(), results, true); };
   CHECK_FALSE(contains(report(), "missed"));
   results.totals.missed = {

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <fstream>
-#include "convert/pending_folder.hpp"
+#include "base/pending_folder.hpp"
 #include "convert/unicode.hpp"
 #include "output/sample_run.hpp"
 #include "temporary_folder.hpp"

@@ -3,12 +3,10 @@
 set(here ${CMAKE_CURRENT_LIST_DIR})
 wavetracer_test(convert_geometry
   SOURCES ${here}/vtk_glb_kml_run.cpp ${here}/vtk_glb_kml_test.cpp
-  LINKS wavetracer_convert wavetracer_results wavetracer_simulation wavetracer_config LABELS host)
+  LINKS wavetracer_jobs wavetracer_convert wavetracer_results wavetracer_simulation wavetracer_config LABELS host)
 set_tests_properties(convert_geometry PROPERTIES FIXTURES_SETUP convert_geometry_files)
 
-# The system's own Python has the packages of Debian; the venv has those of PyPI besides.
-find_program(WAVETRACER_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
-find_program(WAVETRACER_PYTHON python3)
+# The venv has the packages of PyPI.
 function(geometry_script name python script)
   if(python)
     add_test(NAME ${name} COMMAND ${python} ${here}/${script} ${CMAKE_BINARY_DIR}/tests/convert_geometry)

@@ -1,6 +1,6 @@
 // Fuzz target: manifests of the parts of a run. What is accepted must be accepted again as it is written out.
 #include "fuzz/fuzz.hpp"
-#include "output/manifest.hpp"
+#include "jobs/manifest.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;

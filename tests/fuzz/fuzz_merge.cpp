@@ -3,9 +3,9 @@
 #include <fstream>
 #include "fuzz/children.hpp"
 #include "fuzz/fuzz.hpp"
-#include "output/merge_folders.hpp"
+#include "jobs/merge_folders.hpp"
 #include "output/sample_run.hpp"
-#include "output/shards.hpp"
+#include "jobs/shards.hpp"
 
 namespace {
 

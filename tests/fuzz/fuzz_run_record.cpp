@@ -1,6 +1,6 @@
 // Fuzz target: run.json, what `wavetracer merge` knows of a run.
 #include "fuzz/fuzz.hpp"
-#include "output/run_record.hpp"
+#include "jobs/run_record.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;

@@ -2,9 +2,9 @@
 // The counts of a frame are made up: frame n has (k + 1) n of the k-th.
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include "jobs/shards.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
-#include "output/shards.hpp"
 #include "temporary_folder.hpp"
 
 using namespace wavetracer;

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include "output/manifest.hpp"
+#include "jobs/manifest.hpp"
+#include "jobs/shards.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
-#include "output/shards.hpp"
 #include "output/totals.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"

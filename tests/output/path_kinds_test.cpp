@@ -2,9 +2,9 @@
 #include "output/path_kinds.hpp"
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include "jobs/shards.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
-#include "output/shards.hpp"
 #include "temporary_folder.hpp"
 
 using namespace wavetracer;

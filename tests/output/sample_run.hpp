@@ -2,7 +2,7 @@
 // Its values are simple functions of the row, which read_paths.py computes again.
 #pragma once
 #include <vector>
-#include "output/shards.hpp"
+#include "jobs/shards.hpp"
 #include "wavetracer/output.hpp"
 
 namespace wavetracer {

@@ -1,0 +1,130 @@
+// The loop over units and their frames.
+// Assumes that catch_interrupts() was called, so that an interrupt ends the frame in progress at its next step.
+#include "jobs/drive.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include "jobs/interrupt.hpp"
+#include "jobs/shards.hpp"
+#include "jobs/solve_frame.hpp"
+#include "jobs/team.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr uint32_t most_blocks = 32;
+
+void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std::string& directory,
+                       Progress& progress) {
+  const uint64_t done = shards.totals().frames, all = FrameRange{asked.first, asked.last}.count();
+  if (done == 0)
+    progress.line(fmt::format("--resume: no finished shard in {}, so this starts from the beginning", directory));
+  else if (done == all)
+    progress.line("--resume: all frames are there; the outputs are written again");
+  else
+    progress.line(fmt::format("--resume: {} of {} frames are there", done, all));
+}
+
+}  // namespace
+
+uint32_t block_count(const Config& config) {
+  const auto transmitters = static_cast<uint32_t>(config.transmitters.size());
+  if (const std::string why = block_obstacle(config); !why.empty() && transmitters > 1)
+    throw ConfigError(
+        fmt::format("this run is one frame, which several processes cannot share: {}; run one process "
+                    "alone",
+                    why));
+  return std::clamp(transmitters, 1u, most_blocks);
+}
+
+Results run_still(Simulation& simulation, Run& run, Progress& progress) {
+  if (interrupted()) return {};
+  std::optional<SolvedFrame> solved = solve_frame(simulation, 0, run.summary.repeat_count, progress);
+  if (!solved) return {};
+  run.summary.repeat_count = solved->repeated;
+  FrameResult& frame = solved->result;
+  frame.missing = simulation.explain_missing(frame);
+  progress.line("writing to " + run.config.output.directory);
+  Results results;
+  results.totals = totals_of({&frame, 1});
+  results.files = write_outputs(run.config.output.directory, run, {&frame, 1});
+  return results;
+}
+
+Units units_of(const DriveTask& task) {
+  return {task.identity.first, task.identity.last, task.run.config.output.shard_frames, task.blocks};
+}
+
+bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
+  const RunIdentity& asked = task.identity;
+  std::optional<TransmitterRange> block;
+  if (unit.blocks > 1) {
+    const uint64_t all = task.run.config.transmitters.size();
+    block = {static_cast<uint32_t>(all * unit.block / unit.blocks),
+             static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
+  }
+  task.simulation.forget();
+  writer.begin(unit);
+  bool explained = false;
+  for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
+    if (interrupted()) return false;
+    if (!block)
+      progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count(),
+                   "frames");
+    std::optional<SolvedFrame> solved =
+        solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat, progress, block);
+    if (!solved) return false;  // interrupted
+    FrameResult result = std::move(solved->result);
+    const bool stop = frame == unit.last || interrupted();
+    // Why a drive has no path at all is asked once a unit; where others have found one, nobody will read it.
+    const bool ask = block || asked.first == asked.last || result.paths.size() == 0;
+    if (!explained && !result.world.links.empty() && ask) {
+      result.missing = task.simulation.explain_missing(result);
+      explained = true;
+    }
+    writer.add(std::move(result));
+    if (stop) return frame == unit.last;
+  }
+  return true;
+}
+
+bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
+  const bool whole = solve_unit(task, unit, writer, progress);
+  if (whole)
+    writer.end();
+  else
+    writer.drop();
+  return whole;
+}
+
+Results drive(const DriveTask& task, Progress& progress) {
+  const std::string& directory = task.run.config.output.directory;
+  Shards shards(directory, task.identity, task.run.summary.inputs, task.run.config.text);
+  if (task.resume) {
+    shards.resume();
+    say_what_is_there(shards, task.identity, directory, progress);
+  }
+  Results results;
+  UnitWriter writer(task.run, shards, progress);
+  const Units units = units_of(task);
+  for (uint64_t index = 0; index < units.count() && !interrupted(); ++index) {
+    const Unit unit = units.at(index);
+    if (shards.finished(unit)) continue;
+    if (!solve_unit(task, unit, writer, progress)) break;
+    writer.end();
+  }
+  writer.finish();
+  std::unique_ptr<OpenUnit> unfinished = writer.unfinished();
+  results.totals = shards.totals();
+  if (unfinished) add(results.totals, unfinished->totals());
+  if (results.totals.frames > 0) {
+    progress.line("writing to " + directory);
+    results.files = shards.merge(task.run, std::move(unfinished));
+  }
+  return results;
+}
+
+}  // namespace wavetracer

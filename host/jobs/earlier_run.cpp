@@ -1,0 +1,81 @@
+// Files are known by their names, and temporary ones by OUTPUT.PROCESS.tmp, as PendingFile calls them.
+// Assumes that nobody adds files meanwhile.
+#include "jobs/earlier_run.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+#include "jobs/manifest.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 5> output_names{"paths.h5", "waypoints.h5", "links.csv", "summary.json",
+                                                       "view.html"};
+constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_name = "run.json";
+
+// Files of the folder for which `which` holds of their names.
+template <typename Which>
+void remove_files(const fs::path& folder, const Which& which) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (which(entry.path().filename().string())) found.push_back(entry.path());
+  for (const fs::path& path : found)
+    if (std::error_code error; !fs::remove(path, error) && error)
+      throw RuntimeError(
+          fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
+                      "with -o",
+                      path.string(), error.message()));
+}
+
+bool is_output(const std::string& name) { return std::ranges::find(output_names, name) != output_names.end(); }
+
+bool is_temporary(const std::string& name) {
+  if (!name.ends_with(".tmp")) return false;
+  return name.starts_with(manifest_prefix) || name.starts_with(shard_prefix) || name.starts_with(record_name) ||
+         std::ranges::any_of(output_names, [&](std::string_view output) { return name.starts_with(output); });
+}
+
+}  // namespace
+
+std::string earlier_results(const fs::path& directory) {
+  std::error_code none;
+  std::vector<std::string> names;
+  for (const std::string_view name : output_names)
+    if (fs::exists(directory / name, none)) names.emplace_back(name);
+  if (fs::is_directory(directory / "shards", none) && !manifests_in(directory / "shards").empty())
+    names.emplace_back("the shards");
+  if (names.empty()) return "";
+  return fmt::format("{} of an earlier run in {}", fmt::join(names, ", "), directory.string());
+}
+
+void remove_outputs(const fs::path& directory, std::span<const PendingFile> replaced) {
+  remove_files(directory, [replaced](const std::string& name) {
+    return is_output(name) &&
+           std::ranges::none_of(replaced, [&](const PendingFile& file) { return file.path().filename() == name; });
+  });
+}
+
+void remove_shards(const fs::path& directory, std::span<const PendingFile> except) {
+  const fs::path folder = directory / "shards";
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return;
+  remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_prefix); });
+  sync_folder(folder);  // no manifest may list the files that go now
+  remove_files(folder, [except](const std::string& name) {
+    return (name.starts_with(shard_prefix) || name == record_name) &&
+           std::ranges::none_of(except, [&](const PendingFile& file) { return file.temporary().filename() == name; });
+  });
+  fs::remove(folder, ignored);  // not if there is something else in it
+}
+
+void remove_temporaries(const fs::path& folder) { remove_files(folder, is_temporary); }
+
+}  // namespace wavetracer

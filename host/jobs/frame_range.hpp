@@ -1,0 +1,17 @@
+// --frames: which frames of a run are computed.
+// Frames are numbered from 0; ranges include both ends.
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace wavetracer {
+
+struct FrameRange {
+  uint32_t first = 0, last = 0;
+  uint64_t count() const { return uint64_t{last} - first + 1; }
+};
+
+// text: "A:B", "A:", ":B", "A", or nothing for all of the frame_count frames. Throws ConfigError.
+FrameRange parse_frames(const std::string& text, uint64_t frame_count);
+
+}  // namespace wavetracer

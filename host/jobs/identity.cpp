@@ -1,0 +1,33 @@
+// Hashes of the configuration without its places, and of the contents of its inputs.
+#include "jobs/identity.hpp"
+#include <fmt/format.h>
+#include "base/hash.hpp"
+#include "config/input_files.hpp"
+#include "wavetracer/config_file.hpp"
+
+namespace wavetracer {
+namespace {
+
+std::string hash_of(const std::vector<InputFile>& inputs) {
+  std::string text;
+  for (const InputFile& input : inputs) text += fmt::format("{}\n{} {}\n", input.name, input.bytes, input.hash);
+  return fnv1a_128(text);
+}
+
+}  // namespace
+
+RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
+  Config elsewhere = config;
+  elsewhere.output.directory.clear();   // a folder that was moved is still that of its run
+  elsewhere.output.keep_shards = true;  // what becomes of shards changes none
+  for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
+  return {summary.version,
+          fnv1a_128(resolved_config(elsewhere)),
+          summary.device.gpu ? "gpu" : "cpu",
+          range.first,
+          range.last,
+          summary.repeat_count,
+          hash_of(summary.inputs)};
+}
+
+}  // namespace wavetracer

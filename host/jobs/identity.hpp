@@ -1,0 +1,13 @@
+// Which run the parts in a folder belong to.
+#pragma once
+#include "jobs/frame_range.hpp"
+#include "jobs/manifest.hpp"
+#include "wavetracer/output.hpp"
+
+namespace wavetracer {
+
+// Two runs of one identity write the same frames: version, kind of device, configuration, contents of all input files,
+// frames and repeats. Where the outputs and the inputs lie, and whether shards are kept, does not count.
+RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range);
+
+}  // namespace wavetracer

@@ -1,0 +1,87 @@
+// The signal handler sets a flag and says so by write(), which a handler may call; nothing else.
+// SA_RESETHAND restores the default action, so that a second signal ends the process.
+// RemoveOnInterrupt waits for signals on a thread of its own, which may remove folders as a handler may not.
+#include "jobs/interrupt.hpp"
+#include <fmt/format.h>
+#include <unistd.h>
+#include <csignal>
+#include <iostream>
+#include <string_view>
+#include <vector>
+#include "base/pending_folder.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+
+volatile std::sig_atomic_t raised = 0;
+
+sigset_t ending_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+// The path and the folders above it, the innermost first, as far as they are not there.
+std::vector<fs::path> missing(fs::path path) {
+  std::vector<fs::path> out;
+  std::error_code ignored;
+  for (; !path.empty() && path.has_relative_path() && !fs::exists(path, ignored); path = path.parent_path())
+    out.push_back(path);
+  return out;
+}
+
+void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, const std::vector<fs::path>& folders) {
+  const sigset_t set = ending_signals();
+  const timespec tenth{0, 100'000'000};
+  while (!stop.stop_requested()) {
+    if (sigtimedwait(&set, nullptr, &tenth) < 0) continue;
+    const auto hold = hold_pending_folders();  // to the end of the process
+    std::error_code ignored;
+    fs::remove_all(temporary, ignored);
+    for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty
+    std::cerr << "wavetracer: interrupted; nothing was written" << std::endl;
+    _exit(static_cast<int>(ExitCode::interrupted));
+  }
+}
+
+}  // namespace
+
+void catch_interrupts(bool acknowledge) {
+  struct sigaction action = {};
+  if (acknowledge)
+    action.sa_handler = [](int) {
+      raised = 1;
+      constexpr std::string_view text = "\ninterrupted: stopping after the step in progress; once more ends at once\n";
+      if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody is there to read it
+    };
+  else
+    action.sa_handler = [](int) { raised = 1; };
+  action.sa_flags = SA_RESTART | SA_RESETHAND;  // a write to a file goes on
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output) {
+  fs::path temporary = output.has_filename() ? output : output.parent_path();
+  temporary += fmt::format(".{}.tmp", getpid());  // as output/pending_file.cpp and base/pending_folder.cpp name it
+  const sigset_t set = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &set, &before_);
+  waiting_ = std::jthread([temporary, folders = missing(output)](const std::stop_token& stop) {
+    wait_for_signal(stop, temporary, folders);
+  });
+}
+
+RemoveOnInterrupt::~RemoveOnInterrupt() {
+  waiting_.request_stop();
+  waiting_.join();
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+bool interrupted() { return raised != 0; }
+
+}  // namespace wavetracer

@@ -1,0 +1,27 @@
+// Ctrl-C: the first one asks the run to stop after what it is doing, the second one stops it at once.
+// One process has one such request; it is never taken back.
+#pragma once
+#include <signal.h>
+#include <filesystem>
+#include <thread>
+
+namespace wavetracer {
+
+// From now on SIGINT and SIGTERM only raise the request. acknowledge: and say so on stderr, at once.
+void catch_interrupts(bool acknowledge = true);
+bool interrupted();
+
+// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130, and leave nothing of what is being
+// written to `output` (PendingFile and PendingFolder) behind, nor the folders above it that are not there yet. For
+// commands whose work has no places to stop at.
+class RemoveOnInterrupt {
+ public:
+  explicit RemoveOnInterrupt(const std::filesystem::path& output);
+  ~RemoveOnInterrupt();
+
+ private:
+  sigset_t before_;  // the signals that were blocked
+  std::jthread waiting_;
+};
+
+}  // namespace wavetracer

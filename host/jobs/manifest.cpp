@@ -1,0 +1,191 @@
+// JSON both ways. A line counts once its line end is there.
+// Assumes that only this program writes manifests; what is not understood is an error, not a guess.
+#include "jobs/manifest.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include "base/read_text.hpp"
+#include "output/cache_json.hpp"
+#include "output/json_count.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr uint64_t most_manifest_bytes = uint64_t{1} << 32;
+
+std::vector<uint64_t> whole_numbers(const Json& json) {
+  std::vector<uint64_t> out;
+  for (const Json& value : json) out.push_back(whole<uint64_t>(value));
+  return out;
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw Json::other_error::create(501, what, nullptr); }
+
+// Names lead to files of the folder and nowhere else.
+void check_files(const Shard& shard) {
+  const std::string stem = unit_name(shard.unit) + ".";
+  if (shard.files.size() < 2 || shard.files.size() > 3) refuse("not the files of a shard");
+  for (const ShardFile& file : shard.files)
+    if (!file.name.starts_with(stem) || file.name.find('/') != std::string::npos)
+      refuse("\"" + file.name + "\" is no file of this shard");
+}
+
+Json encode_missed(const MissedCounts& missed) {
+  return {{"frames", missed.frames},
+          {"paths", missed.paths},
+          {"powers", missed.powers},
+          {"amplitude", missed.amplitude},
+          {"power", missed.power}};
+}
+
+MissedCounts decode_missed(const Json& json) {
+  MissedCounts out;
+  out.frames = whole<uint64_t>(json.at("frames"));
+  const std::vector<uint64_t> paths = whole_numbers(json.at("paths"));
+  if (paths.size() != out.paths.size()) refuse("not the four numbers of paths that quarters of a launch found");
+  std::ranges::copy(paths, out.paths.begin());
+  if (json.at("powers").size() != out.powers.size())
+    refuse("not the four powers of paths that quarters of a launch found");
+  out.powers = json.at("powers");
+  out.amplitude = json.at("amplitude");
+  out.power = json.at("power");
+  return out;
+}
+
+Shard decode(const Json& json) {
+  Shard shard;
+  const Json& run = json.at("run");
+  shard.run = {run.at("version"),
+               run.at("config"),
+               run.at("device_kind"),
+               whole<uint32_t>(run.at("first")),
+               whole<uint32_t>(run.at("last")),
+               whole<uint32_t>(run.at("repeat")),
+               run.at("inputs")};
+  Totals& t = shard.totals;
+  t.first = whole<uint32_t>(json.at("first"));
+  t.last = whole<uint32_t>(json.at("last"));
+  if (t.first > t.last || t.first < shard.run.first || t.last > shard.run.last)
+    refuse("frames that are not of its run");
+  shard.unit = {t.first, t.last, 0, 1};
+  if (json.contains("blocks")) {
+    shard.unit.block = whole<uint32_t>(json.at("block"));
+    shard.unit.blocks = whole<uint32_t>(json.at("blocks"));
+    if (shard.unit.block >= shard.unit.blocks || t.first != t.last) refuse("a block that cannot be");
+  }
+  t.frames = uint64_t{t.last} - t.first + 1;
+  t.start_s = json.at("start_s");
+  t.end_s = json.at("end_s");
+  t.vertices = whole<uint64_t>(json.at("vertices"));
+  t.links = whole<uint64_t>(json.at("links"));
+  const Json& counts = json.at("counts");
+  const auto count = [&](const char* name) { return whole<uint64_t>(counts.at(name)); };
+  t.counts = {count("rays"),       count("segments"), count("hits"),  count("sequences"),
+              count("candidates"), count("solved"),   count("paths"), count("receptions")};
+  const std::vector<uint64_t> kinds = whole_numbers(json.at("kinds"));
+  if (kinds.size() != t.kinds.size()) refuse("other kinds of paths than those of this version");
+  std::ranges::copy(kinds, t.kinds.begin());
+  t.segments_per_depth = whole_numbers(json.at("segments_per_depth"));
+  if (json.contains("left_out")) {
+    const Json& gone = json.at("left_out");
+    t.left_out = {whole<uint64_t>(gone.at("paths")), gone.at("power"), gone.at("all")};
+  }
+  if (json.contains("missed")) t.missed = decode_missed(json.at("missed"));
+  if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
+  t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
+  t.warnings = json.at("warnings").get<std::vector<std::string>>();
+  if (json.contains("missing")) {
+    const Json& missing = json.at("missing");
+    t.missing = {whole<uint64_t>(missing.at("links")), whole<uint64_t>(missing.at("in_grids")),
+                 missing.at("why").get<std::vector<std::string>>(),
+                 missing.at("why_in_grids").get<std::vector<std::string>>()};
+  }
+  for (const Json& file : json.at("files")) shard.files.push_back({file.at("name"), whole<uint64_t>(file.at("bytes"))});
+  check_files(shard);
+  return shard;
+}
+
+}  // namespace
+
+std::string encode_manifest_line(const Shard& shard) {
+  const RunIdentity& run = shard.run;
+  const Totals& t = shard.totals;
+  Json files = Json::array();
+  for (const ShardFile& file : shard.files) files.push_back({{"name", file.name}, {"bytes", file.bytes}});
+  Json json;
+  json["first"] = t.first;
+  json["last"] = t.last;
+  if (shard.unit.blocks > 1) {
+    json["block"] = shard.unit.block;
+    json["blocks"] = shard.unit.blocks;
+  }
+  json["start_s"] = t.start_s;
+  json["end_s"] = t.end_s;
+  json["vertices"] = t.vertices;
+  json["links"] = t.links;
+  json["counts"] = {{"rays", t.counts.rays},           {"segments", t.counts.segments},     {"hits", t.counts.hits},
+                    {"sequences", t.counts.sequences}, {"candidates", t.counts.candidates}, {"solved", t.counts.solved},
+                    {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
+  json["kinds"] = t.kinds;  // in the order of path_kinds
+  json["segments_per_depth"] = t.segments_per_depth;
+  if (t.left_out.all > 0)
+    json["left_out"] = {{"paths", t.left_out.paths}, {"power", t.left_out.power}, {"all", t.left_out.all}};
+  if (t.missed.frames > 0) json["missed"] = encode_missed(t.missed);
+  if (t.cache.on) json["cache"] = encode_cache(t.cache);
+  json["seconds"] = t.seconds;
+  json["warnings"] = t.warnings;
+  if (!t.missing.empty())
+    json["missing"] = {{"links", t.missing.links},
+                       {"in_grids", t.missing.in_grids},
+                       {"why", t.missing.why},
+                       {"why_in_grids", t.missing.why_in_grids}};
+  json["files"] = files;
+  json["run"] = {{"version", run.version}, {"config", run.config}, {"device_kind", run.device_kind},
+                 {"first", run.first},     {"last", run.last},     {"repeat", run.repeat},
+                 {"inputs", run.inputs}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<Shard> decode_manifest(std::string_view text, const std::string& name) {
+  std::vector<Shard> shards;
+  for (size_t number = 1; !text.empty(); ++number) {
+    const size_t end = text.find('\n');
+    if (end == std::string_view::npos) break;  // half written
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end + 1);
+    try {
+      shards.push_back(decode(Json::parse(line)));
+    } catch (const Json::exception& error) {
+      if (text.empty()) break;
+      throw RuntimeError(
+          fmt::format("{}:{}: not a line that this version writes ({}); remove the file and run again, "
+                      "or run without --resume",
+                      name, number, error.what()));
+    }
+  }
+  return shards;
+}
+
+std::vector<Shard> read_manifest(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  return decode_manifest(read_text(file, most_manifest_bytes, "check its permissions, or remove it and run again"),
+                         file.string());
+}
+
+std::vector<fs::path> manifests_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("manifest.") && name.ends_with(".jsonl")) out.push_back(entry.path());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,76 @@
+// A bar is one line that is written over with spaces and carriage returns, which every terminal knows.
+// Anything that is no terminal gets whole lines only.
+#include "jobs/progress.hpp"
+#include <fmt/format.h>
+#include <unistd.h>
+#include <cstdlib>
+#include <iostream>
+#include <utility>
+#include "base/digits.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr double bar_interval_s = 0.1, line_interval_s = 10;
+
+// 1:05, 1:02:03
+std::string clock_time(double seconds) {
+  const auto whole = static_cast<uint64_t>(seconds + 0.5);
+  const uint64_t hours = whole / 3600, minutes = whole / 60 % 60;
+  return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60)
+                   : fmt::format("{}:{:02}", minutes, whole % 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::string prefix)
+    : prefix_(std::move(prefix)), terminal_(isatty(STDERR_FILENO) == 1), colour_(false) {
+  const char* no_color = std::getenv("NO_COLOR");
+  colour_ = terminal_ && (no_color == nullptr || *no_color == '\0');
+}
+
+void Progress::clear_bar() {
+  if (bar_width_ > 0) std::cerr << "\r" << std::string(bar_width_, ' ') << "\r" << std::flush;
+  bar_width_ = 0;
+}
+
+void Progress::line(const std::string& text) {
+  clear_bar();
+  std::cerr << (colour_ ? "\x1b[2m" + prefix_ + text + "\x1b[0m\n" : prefix_ + text + "\n") << std::flush;
+}
+
+void Progress::bar(const std::string& what, uint64_t done, uint64_t total, const std::string& unit) {
+  if (total < 2) return;
+  const Clock::time_point now = Clock::now();
+  const bool first = unit != unit_ || total != total_ || done < last_done_;
+  if (first) {
+    unit_ = unit;
+    total_ = total;
+    begun_ = done;
+    start_ = said_ = now;
+  }
+  last_done_ = done;
+  const auto since = [now](Clock::time_point then) { return std::chrono::duration<double>(now - then).count(); };
+  if (!(terminal_ && first) && since(said_) < (terminal_ ? bar_interval_s : line_interval_s)) return;
+  said_ = now;
+  const std::string words = progress_words(since(start_), begun_, done, total, unit);
+  if (!terminal_) return line(fmt::format("{}: {} of {} {}, {}", what, grouped(done), grouped(total), unit, words));
+  clear_bar();
+  constexpr uint64_t width = 30;
+  const size_t filled =
+      static_cast<size_t>(static_cast<double>(width) * static_cast<double>(done) / static_cast<double>(total));
+  const std::string text = fmt::format("{} [{}{}] {}/{}, {}", what, std::string(filled, '#'),
+                                       std::string(width - filled, '.'), grouped(done), grouped(total), words);
+  std::cerr << text << std::flush;
+  bar_width_ = text.size();
+}
+
+std::string progress_words(double seconds, uint64_t begun, uint64_t done, uint64_t total, const std::string& unit) {
+  std::string out = "elapsed " + clock_time(seconds);
+  if (done <= begun || seconds <= 0) return out;
+  const double rate = static_cast<double>(done - begun) / seconds;
+  return out + fmt::format(", {}{}/s, {} left", short_number(rate), unit,
+                           clock_time(static_cast<double>(total - done) / rate));
+}
+
+}  // namespace wavetracer

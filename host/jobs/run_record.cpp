@@ -1,0 +1,99 @@
+// JSON both ways.
+// Of vehicles only the number is kept: that is all that summary.json tells.
+#include "jobs/run_record.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include "base/read_text.hpp"
+#include "output/json_count.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr uint64_t most_vehicles = uint64_t{1} << 24, most_record_bytes = uint64_t{1} << 26;
+
+}  // namespace
+
+std::string encode_run_record(const Run& run) {
+  const RunSummary& s = run.summary;
+  Json json;
+  json["version"] = s.version;
+  json["device"] = {{"platform", s.device.platform},
+                    {"name", s.device.name},
+                    {"driver", s.device.driver},
+                    {"opencl_c", s.device.opencl_c},
+                    {"gpu", s.device.gpu}};
+  json["order"] = {{"asked", run.config.order.method.word()}, {"method", s.order.method},
+                   {"each_depth", s.order.each_depth},        {"launch_shape", s.order.launch_shape},
+                   {"local_size", s.order.local_size},        {"reason", s.order.reason}};
+  json["features"] = Json::object();
+  for (const auto& [name, feature] : s.features)
+    json["features"][name] = {{"on", feature.on}, {"reason", feature.reason}};
+  json["setup_seconds"] = s.setup_seconds;
+  json["command_line"] = s.command_line;
+  json["frames_asked"] = s.frames_asked;
+  json["repeat_count"] = s.repeat_count;
+  json["warnings"] = s.warnings;
+  json["config_file"] = run.config.file;
+  json["config"] = run.config.text;
+  json["reuse"] = run.config.trace.reuse;
+  json["waypoints"] = run.config.output.waypoints;
+  json["cache"] = {{"kind", run.config.cache.kind.word()}, {"key", run.config.cache.key.word()}};
+  json["scene_file"] = run.scene.file;
+  json["scene_warnings"] = run.scene.report.warnings;
+  json["vehicles"] = run.instances.size();
+  json["inputs"] = Json::array();
+  for (const InputFile& input : s.inputs)
+    json["inputs"].push_back(
+        {{"name", input.name}, {"file", input.file}, {"bytes", input.bytes}, {"hash", input.hash}});
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RunRecord decode_run_record(std::string_view text, const std::string& name) try {
+  const Json json = Json::parse(text);
+  RunRecord out;
+  RunSummary& s = out.summary;
+  s.version = json.at("version");
+  const Json& device = json.at("device");
+  s.device = {device.at("platform"), device.at("name"), device.at("driver"), device.at("opencl_c"), device.at("gpu")};
+  const Json& order = json.at("order");
+  out.config.order.method = OrderMethod::named(order.at("asked").get<std::string>());
+  s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"),
+             whole<uint32_t>(order.at("local_size")), order.at("reason")};
+  for (const auto& [feature, value] : json.at("features").items())
+    s.features[feature] = {value.at("on"), value.at("reason")};
+  s.setup_seconds = json.at("setup_seconds").get<StageSeconds>();
+  s.command_line = json.at("command_line");
+  s.frames_asked = whole<uint64_t>(json.at("frames_asked"));
+  s.repeat_count = whole<uint32_t>(json.at("repeat_count"));
+  s.warnings = json.at("warnings").get<std::vector<std::string>>();
+  out.config.file = json.at("config_file");
+  if (json.contains("config")) out.config.text = json.at("config");
+  out.config.trace.reuse = json.at("reuse");
+  out.config.output.waypoints = whole<uint64_t>(json.at("waypoints"));
+  out.config.cache.kind = CacheKind::named(json.at("cache").at("kind").get<std::string>());
+  out.config.cache.key = CacheKey::named(json.at("cache").at("key").get<std::string>());
+  out.scene.file = json.at("scene_file");
+  out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
+  const auto vehicles = whole<uint64_t>(json.at("vehicles"));
+  if (vehicles > most_vehicles) throw RuntimeError(name + ": \"vehicles\" is no number of vehicles");
+  out.instances.resize(vehicles);
+  for (const Json& input : json.at("inputs"))
+    s.inputs.push_back(
+        {input.at("name"), input.at("file"), whole<uint64_t>(input.at("bytes")), whole<uint64_t>(input.at("hash"))});
+  return out;
+} catch (const Json::exception& error) {
+  throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
+} catch (const ConfigError& error) {  // a word that this version does not have
+  throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
+}
+
+RunRecord read_run_record(const std::filesystem::path& file) {
+  return decode_run_record(
+      read_text(file, most_record_bytes, "it is part of every run that was written in shards; run again"),
+      file.string());
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,298 @@
+// Order makes it safe to be killed anywhere: files of a shard first, then its line in the manifest. What no manifest
+// lists is rubbish; what one lists is whole. Where two list a unit, both hold the same.
+#include "jobs/shards.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include "jobs/config_changes.hpp"
+#include "jobs/earlier_run.hpp"
+#include "jobs/merge_outputs.hpp"
+#include "jobs/run_record.hpp"
+#include "output/hdf5_read.hpp"
+#include "output/head_h5.hpp"
+#include "output/inputs.hpp"
+#include "output/summary_json.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+const char* const manifest_name = "manifest.jsonl";
+const char* const record_name = "run.json";
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+// Where the files of a unit go.
+std::vector<fs::path> files_of(const Unit& unit, const Config& config, const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (const H5Output& output : h5_outputs(config)) paths.push_back(folder / (unit_name(unit) + output.part_suffix));
+  paths.push_back(folder / (unit_name(unit) + ".csv"));
+  return paths;
+}
+
+// Frames of two worlds must not come together.
+void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
+                       const std::vector<InputFile>& inputs) {
+  if (there.inputs == asked.inputs) return;
+  std::error_code none;
+  const fs::path record = folder / record_name;
+  std::string which;
+  if (fs::exists(record, none)) which = changed_input(read_run_record(record).summary.inputs, inputs);
+  throw InputError(
+      fmt::format("{} since the shards in {} were written; put the input files back as they were, or choose "
+                  "another folder with -o, or remove the shards",
+                  which.empty() ? "an input file is not what it was" : which, folder.string()));
+}
+
+// The keys that differ, by the record of the run that wrote the shards; empty where that does not tell.
+std::string changed_keys(const fs::path& folder, const std::string& config) {
+  constexpr size_t shown = 5;
+  std::error_code none;
+  const fs::path record = folder / record_name;
+  if (config.empty() || !fs::exists(record, none)) return "";
+  const std::string before = read_run_record(record).config.text;
+  if (before.empty()) return "";
+  const std::vector<std::string> changes = config_changes(before, config);
+  std::string out;
+  for (size_t i = 0; i < std::min(changes.size(), shown); ++i) out += (i ? "; " : "") + changes[i];
+  if (changes.size() > shown) out += fmt::format("; and {} more keys", changes.size() - shown);
+  return out;
+}
+
+void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
+                    const std::string& config) {
+  if (there.version == asked.version && there.config != asked.config)
+    if (const std::string keys = changed_keys(folder, config); !keys.empty())
+      throw ConfigError(
+          fmt::format("the shards in {} were written with another configuration: {}; run it as before, or "
+                      "choose another folder with -o, or remove the shards",
+                      folder.string(), keys));
+  const auto differs = [&](const std::string& what, const auto& was, const auto& is) {
+    if (was != is)
+      throw ConfigError(
+          fmt::format("the shards in {} were written with {} {}, this run has {}; run it as before, or "
+                      "choose another folder with -o, or remove the shards",
+                      folder.string(), what, was, is));
+  };
+  differs("version", there.version, asked.version);
+  differs("a configuration whose hash is", there.config, asked.config);
+  differs("a device of kind", there.device_kind, asked.device_kind);
+  differs("--frames", fmt::format("{}:{}", there.first, there.last), fmt::format("{}:{}", asked.first, asked.last));
+  differs("--repeat", there.repeat, asked.repeat);
+}
+
+// That the merged file holds all that the shards held, as far as its rows tell.
+void check_merged(const fs::path& directory, const Run& run, const Totals& totals) {
+  for (const H5Output& output : h5_outputs(run.config)) {
+    if (std::string_view(output.name) != "paths.h5") continue;
+    const hdf5::File file = hdf5::File::open_to_read(directory / output.name);
+    const auto check = [&](const char* table, uint64_t wanted) {
+      const hdf5::Column column(file, table);
+      if (const uint64_t rows = column.extent().rows; rows != wanted)
+        throw RuntimeError(
+            fmt::format("{}: {} has {} rows, the shards have {}; the shards are kept: run again with --resume",
+                        (directory / output.name).string(), table, rows, wanted));
+    };
+    check("/frames/frame", totals.frames);
+    check("/paths/delay_s", totals.counts.paths - totals.left_out.paths);
+  }
+}
+
+std::vector<Shard> all_lines(const fs::path& folder) {
+  std::vector<Shard> out;
+  for (const fs::path& file : manifests_in(folder)) {
+    std::vector<Shard> lines = read_manifest(file);
+    std::ranges::move(lines, std::back_inserter(out));
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_whole(const Shard& shard, const fs::path& folder) {
+  return std::all_of(shard.files.begin(), shard.files.end(), [&](const ShardFile& file) {
+    std::error_code error;
+    return fs::file_size(folder / file.name, error) == file.bytes && !error;
+  });
+}
+
+Totals totals_of(const ShardMap& shards) {
+  Totals sum;
+  for (const auto& [key, shard] : shards)
+    if (shard.unit.blocks > 1)
+      add_block(sum, shard.totals);
+    else
+      add(sum, shard.totals);
+  return sum;
+}
+
+MergeParts parts_of(const ShardMap& shards, const std::function<fs::path(const Shard&)>& folder_of) {
+  MergeParts parts;
+  for (const auto& [key, shard] : shards) {
+    parts.of_one_frame = shard.unit.blocks > 1;
+    parts.files.resize(shard.files.size());
+    for (size_t i = 0; i < shard.files.size(); ++i) parts.files[i].push_back(folder_of(shard) / shard.files[i].name);
+  }
+  return parts;
+}
+
+Shards::Shards(fs::path directory, RunIdentity run, std::vector<InputFile> inputs, std::string config)
+    : directory_(std::move(directory)),
+      folder_(directory_ / "shards"),
+      manifest_(folder_ / manifest_name),
+      run_(std::move(run)),
+      inputs_(std::move(inputs)),
+      config_(std::move(config)) {}
+
+void Shards::take(std::vector<Shard> lines) {
+  for (const Shard& shard : lines) {
+    check_same_run(shard.run, run_, folder_, config_);
+    check_same_inputs(shard.run, run_, folder_, inputs_);
+  }
+  for (Shard& shard : lines)
+    if (!finished(shard.unit) && is_whole(shard, folder_)) shards_.emplace(key(shard.unit), std::move(shard));
+}
+
+size_t Shards::resume() {
+  std::vector<Shard> lines = all_lines(folder_);
+  if (lines.empty()) return 0;
+  take(std::move(lines));
+  fresh_ = false;
+  std::vector<Shard> whole;
+  for (const auto& [key, shard] : shards_) whole.push_back(shard);
+  save(whole);  // without a torn line, after which nothing can be appended
+  for (const fs::path& file : manifests_in(folder_))
+    if (file != manifest_) fs::remove(file);
+  remove_temporaries(folder_);
+  remove_temporaries(directory_);
+  return shards_.size();
+}
+
+void Shards::clear() {
+  remove_shards(directory_);
+  remove_outputs(directory_);
+  remove_temporaries(directory_);
+}
+
+void Shards::share(const std::string& name, bool keep) {
+  manifest_ = folder_ / fmt::format("manifest.{}.jsonl", name);
+  shared_ = true;
+  fresh_ = false;
+  own_ = read_manifest(manifest_);
+  if (!keep) own_.clear();
+  std::error_code none;
+  if (fs::exists(manifest_, none)) save(own_);
+  look();
+}
+
+void Shards::write_record(const Run& run) const {
+  const std::string record = encode_run_record(run);
+  PendingFile(folder_ / record_name, bytes(record)).commit();
+}
+
+void Shards::note_empty(const Run& run) const {
+  write_record(run);
+  save({});
+}
+
+void Shards::look() { take(all_lines(folder_)); }
+
+Totals Shards::totals() const { return totals_of(shards_); }
+
+void Shards::save(const std::vector<Shard>& lines) const {
+  std::string text;
+  for (const Shard& shard : lines) text += encode_manifest_line(shard);
+  PendingFile(manifest_, bytes(text)).commit();
+}
+
+void Shards::note(const Shard& shard) {
+  std::error_code none;
+  if (fresh_ || !fs::exists(manifest_, none))
+    save({shard});
+  else
+    append_to_file(manifest_, bytes(encode_manifest_line(shard)));
+  fresh_ = false;
+}
+
+OpenUnit::OpenUnit(const Run& run, const Unit& unit, const fs::path& directory, const fs::path& folder)
+    : run_(run), unit_(unit), directory_(directory), folder_(folder), files_(run, files_of(unit, run.config, folder)) {}
+
+void OpenUnit::add(const FrameResult& frame) {
+  const Clock::time_point start = Clock::now();
+  files_.add(frame);
+  seconds_ += since(start);
+}
+
+std::unique_ptr<OpenUnit> Shards::open(const Run& run, const Unit& unit) const {
+  return std::make_unique<OpenUnit>(run, unit, directory_, folder_);
+}
+
+Shard Shards::close(OpenUnit& unit) {
+  const Clock::time_point start = Clock::now();
+  std::vector<PendingFile> files = unit.files_.finish();
+  Shard shard{run_, unit.unit_, unit.totals(), {}};
+  for (const PendingFile& file : files)
+    shard.files.push_back({file.path().filename().string(), fs::file_size(file.temporary())});
+  const std::string record = encode_run_record(unit.run_);
+  if (!recorded_) files.emplace_back(folder_ / record_name, bytes(record));
+  if (fresh_) {
+    remove_shards(directory_, files);
+    remove_temporaries(directory_);
+  }
+  if (fresh_ || shared_) remove_outputs(directory_);
+  commit_together(files);
+  recorded_ = true;
+  unit.directory_.keep();
+  unit.folder_.keep();
+  note(shard);
+  write_seconds_ += unit.seconds_ + since(start);
+  return shard;
+}
+
+void Shards::write(const Run& run, Frames frames, uint32_t block, uint32_t blocks) {
+  const auto unit = open(run, {frames.front().frame, frames.back().frame, block, blocks});
+  for (const FrameResult& frame : frames) unit->add(frame);
+  finish(close(*unit));
+}
+
+void Shards::finish(Shard shard) {
+  const ShardMap::key_type unit = key(shard.unit);
+  shards_.insert_or_assign(unit, std::move(shard));
+}
+
+std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> unfinished) {
+  const Clock::time_point start = Clock::now();
+  PendingDirectory directory(directory_);
+  MergeParts parts = parts_of(shards_, [this](const Shard&) { return folder_; });
+  std::vector<PendingFile> parts_on_the_way;
+  Totals totals = this->totals();
+  if (unfinished && unfinished->totals().frames > 0) {
+    parts_on_the_way = unfinished->files_.finish();
+    parts.files.resize(parts_on_the_way.size());
+    for (size_t i = 0; i < parts_on_the_way.size(); ++i) parts.files[i].push_back(parts_on_the_way[i].temporary());
+    add(totals, unfinished->totals());
+  }
+  std::vector<PendingFile> files =
+      merge_outputs(run.config, parts, Parts::own, directory_,
+                    [&run](const H5Output& output, hdf5::File& head) { make_head(output, run, head); });
+  const std::string summary = encode_summary_json(run, totals, write_seconds_ + since(start), shards_.size());
+  files.emplace_back(directory_ / "summary.json", bytes(summary));
+  if (fresh_) remove_shards(directory_);
+  remove_outputs(directory_, files);
+  commit_together(files);
+  directory.keep();
+  if (!run.config.output.keep_shards && !shared_ && totals.frames == run.summary.frames_asked) {
+    check_merged(directory_, run, totals);
+    remove_shards(directory_);
+  }
+  std::vector<fs::path> written;
+  for (const PendingFile& file : files) written.push_back(file.path());
+  return written;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,111 @@
+// A run on disk, unit by unit: shards of frames (or blocks of transmitters) as it goes, and at the end the same outputs
+// as those of a run that is written at once. DIR/shards holds UNIT.h5, .csv and with output.waypoints .waypoints.h5,
+// each a paths.h5, links.csv or waypoints.h5 of its frames, run.json, and the manifests of who wrote them.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+#include "base/pending_file.hpp"
+#include "jobs/manifest.hpp"
+#include "jobs/merge_parts.hpp"
+#include "output/frame_files.hpp"
+#include "wavetracer/output.hpp"
+
+namespace wavetracer {
+
+// By first frame and block.
+using ShardMap = std::map<std::pair<uint32_t, uint32_t>, Shard>;
+
+Totals totals_of(const ShardMap& shards);
+// Their files, in the order of their units.
+MergeParts parts_of(const ShardMap& shards, const std::function<std::filesystem::path(const Shard&)>& folder_of);
+// All files of the shard are in the folder, in full length.
+bool is_whole(const Shard& shard, const std::filesystem::path& folder);
+
+// The files of a unit, under temporary names until it is closed.
+class OpenUnit {
+ public:
+  OpenUnit(const Run& run, const Unit& unit, const std::filesystem::path& directory,
+           const std::filesystem::path& folder);
+  // Throws RuntimeError.
+  void add(const FrameResult& frame);
+  const Totals& totals() const { return files_.totals(); }
+
+ private:
+  const Run& run_;
+  Unit unit_;
+  PendingDirectory directory_, folder_;
+  FrameFiles files_;
+  double seconds_ = 0;  // of writing
+
+  friend class Shards;
+};
+
+class Shards {
+ public:
+  // Nothing is touched yet. inputs: those of the run, for messages.
+  // config: the text of the run's configuration (Config::text), so that a message can name the keys that differ.
+  Shards(std::filesystem::path directory, RunIdentity run, std::vector<InputFile> inputs = {}, std::string config = {});
+
+  // Takes over the finished shards of the run that was interrupted in this folder; 0 where there is none. A shard whose
+  // files are gone or cut short is not finished. Throws ConfigError where they are of another run, InputError where an
+  // input file has changed since. No other process may
+  // be writing there.
+  size_t resume();
+  // Removes what any run left in the folder. No other process may be writing there.
+  void clear();
+  // From now on other processes write there, too: what they have finished is looked at, and this one notes what it
+  // writes in a manifest of its own, manifest.NAME.jsonl. keep: what an earlier process of this name wrote counts.
+  // Throws as resume() does where something there is of another run.
+  void share(const std::string& name, bool keep);
+  // Writes run.json, which else the first unit does.
+  void write_record(const Run& run) const;
+  // That this process, which shares, has nothing to do: its manifest is there, and empty, so that merge knows of it.
+  void note_empty(const Run& run) const;
+  // Reads again what other processes have finished.
+  void look();
+
+  bool finished(const Unit& unit) const { return shards_.contains(key(unit)); }
+  // Of the finished shards.
+  Totals totals() const;
+  size_t count() const { return shards_.size(); }
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // A unit on its way into the folder, frame by frame. The first one of a run that neither resumes nor shares takes the
+  // place of all that an earlier run left in the folder, once it is closed.
+  std::unique_ptr<OpenUnit> open(const Run& run, const Unit& unit) const;
+  // Puts the files of a whole unit in place and notes them in the manifest. It counts as finished after finish(). While
+  // another thread opens, fills and closes units, finished() alone may be asked here.
+  Shard close(OpenUnit& unit);
+  void finish(Shard shard);
+  // All of it for frames in memory.
+  void write(const Run& run, Frames frames, uint32_t block = 0, uint32_t blocks = 1);
+
+  // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
+  // the first frames of the one that was interrupted, if any. At least one frame is needed. Of finished shards, memory
+  // holds a block of rows at most.
+  std::vector<std::filesystem::path> merge(const Run& run, std::unique_ptr<OpenUnit> unfinished);
+
+ private:
+  static ShardMap::key_type key(const Unit& unit) { return {unit.first, unit.block}; }
+
+  std::filesystem::path directory_, folder_, manifest_;
+  RunIdentity run_;
+  std::vector<InputFile> inputs_;
+  std::string config_;
+  bool fresh_ = true;  // nothing in the folder is of this run
+  bool shared_ = false;
+  bool recorded_ = false;  // run.json is of this run
+  ShardMap shards_;
+  std::vector<Shard> own_;  // lines of manifest_, where it is shared
+  double write_seconds_ = 0;
+
+  void take(std::vector<Shard> shards);
+  void save(const std::vector<Shard>& lines) const;
+  void note(const Shard& shard);
+};
+
+}  // namespace wavetracer

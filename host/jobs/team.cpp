@@ -1,0 +1,200 @@
+// Processes that share a folder. One of them prepares it, all take units, one of them merges: each is a claim
+// (jobs/claims.hpp). DIR/shards/job.json says which job the folder was prepared for, and whether it is merged.
+#include "jobs/team.hpp"
+#include <fmt/format.h>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include "base/hash.hpp"
+#include "base/pending_file.hpp"
+#include "base/read_text.hpp"
+#include "jobs/claims.hpp"
+#include "jobs/interrupt.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto poll_interval = 100ms;
+
+class Team {
+ public:
+  Team(const DriveTask& task, const Ranks& ranks, const ProcessInfo& me, Progress& progress)
+      : task_(task),
+        ranks_(ranks),
+        progress_(progress),
+        shards_(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text),
+        claims_(shards_.folder(), me),
+        writer_(task.run, shards_, progress),
+        units_(units_of(task)),
+        name_(me.name) {}
+
+  Shared run() {
+    if (prepared() && merged()) return {};
+    if (!wait_until_prepared()) return {{}, units_.count()};
+    claims_.look();  // before the manifests: who is gone by now has written its last line
+    shards_.share(name_, true);
+    say_if_idle();
+    first_pass();
+    Shared shared{{}, last_passes()};
+    if (!take_merge(shared.missing == 0)) return shared;
+    if (shared.missing > 0) return say_missing(shared);
+    shared.results.totals = shards_.totals();
+    progress_.line("writing to " + task_.run.config.output.directory);
+    shared.results.files = shards_.merge(task_.run, {});
+    mark(true);
+    remove_claims(shards_.folder());
+    return shared;
+  }
+
+ private:
+  const DriveTask& task_;
+  const Ranks& ranks_;
+  Progress& progress_;
+  Shards shards_;
+  Claims claims_;
+  UnitWriter writer_;
+  Units units_;
+  std::string name_;
+
+  fs::path job_file() const { return shards_.folder() / "job.json"; }
+
+  nlohmann::json job() const {
+    std::error_code none;
+    if (!fs::exists(job_file(), none)) return nlohmann::json::object();
+    const std::string text = read_text(job_file(), 1 << 16, "remove it and run again");
+    nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    return json.is_object() ? json : nlohmann::json::object();
+  }
+  bool prepared() const { return job().value("job", nlohmann::json()) == ranks_.job; }
+  bool merged() const { return prepared() && job().value("merged", nlohmann::json()) == true; }
+
+  void mark(bool merged) const {
+    const std::string text = nlohmann::json{{"job", ranks_.job}, {"merged", merged}}.dump() + "\n";
+    PendingFile(job_file(), std::as_bytes(std::span(text))).commit();
+  }
+
+  // One process makes the folder ready; false where an interrupt came first.
+  bool wait_until_prepared() {
+    const std::string claim = "prepare_" + fnv1a_128(ranks_.job);
+    for (; !interrupted(); std::this_thread::sleep_for(poll_interval)) {
+      if (prepared()) return true;
+      claims_.look();
+      if (claims_.state(claim) == ClaimState::failed)
+        throw RuntimeError("the processes that made " + shards_.folder().string() + " ready were killed; run again");
+      if (!claims_.take(claim)) continue;
+      prepare();
+      mark(false);
+      return true;
+    }
+    return false;
+  }
+
+  void prepare() {
+    remove_dead_processes(shards_.folder());
+    remove_claims(shards_.folder(), "prepare_");
+    if (task_.resume) {
+      shards_.resume();
+      progress_.line(fmt::format("--resume: {} of {} parts are there", shards_.count(), units_.count()));
+    } else {
+      shards_.clear();
+    }
+    shards_.write_record(task_.run);
+  }
+
+  void say_if_idle() {
+    if (ranks_.rank != 0 || units_.count() >= ranks_.size) return;
+    progress_.line(fmt::format("this run has {} {} for {} processes, so some are idle{}", units_.count(),
+                               units_.count() == 1 ? "part" : "parts", ranks_.size,
+                               task_.blocks > 1 ? "" : "; a lower output.shard_frames makes more"));
+  }
+
+  // Each rank begins in a stretch of its own, so that few want the same.
+  void first_pass() {
+    const uint64_t count = units_.count(), start = count * ranks_.rank / ranks_.size;
+    for (uint64_t i = 0; i < count && !interrupted(); ++i) {
+      const Unit unit = units_.at((start + i) % count);
+      if (!shards_.finished(unit) && claims_.take(unit_name(unit))) compute_unit(task_, unit, writer_, progress_);
+    }
+    writer_.finish();
+  }
+
+  // Until nobody computes any more: what dead processes left. Returns how many units are missing in the end.
+  uint64_t last_passes() {
+    for (;; std::this_thread::sleep_for(poll_interval)) {
+      claims_.look();  // likewise
+      shards_.look();
+      uint64_t taken = 0, missing = 0;
+      for (uint64_t index = 0; index < units_.count(); ++index) {
+        const Unit unit = units_.at(index);
+        if (shards_.finished(unit)) continue;
+        ++missing;
+        if (interrupted()) continue;
+        if (claims_.take(unit_name(unit))) {
+          progress_.line(unit_words(unit) + ": taken over from a process that died");
+          if (compute_unit(task_, unit, writer_, progress_)) --missing;
+          writer_.finish();
+        } else if (claims_.state(unit_name(unit)) == ClaimState::taken) {
+          ++taken;
+        }
+      }
+      if (taken == 0 || interrupted()) return missing;
+      if (merged()) return 0;
+    }
+  }
+
+  // Whether this process is to merge. Who is not stays until somebody has: whoever merges may die over it.
+  bool take_merge(bool whole) {
+    for (; !interrupted() && !merged(); std::this_thread::sleep_for(poll_interval)) {
+      claims_.look();
+      const bool taken = claims_.take("merge");
+      if (taken && merged()) remove_claims(shards_.folder());  // this one came after the others had gone
+      if (taken || !whole) return taken && !merged();
+      if (claims_.state("merge") == ClaimState::failed && !merged())
+        throw RuntimeError("the processes that merged " + shards_.folder().string() +
+                           " were killed; run again with --resume");
+    }
+    return false;
+  }
+
+  Shared say_missing(const Shared& shared) {
+    std::string which;
+    for (uint64_t index = 0, shown = 0; index < units_.count() && shown < 5; ++index)
+      if (const Unit unit = units_.at(index); !shards_.finished(unit))
+        which += (shown++ ? ", " : "") + unit_words(unit);
+    progress_.line(
+        fmt::format("missing: {}{}; the processes that computed them died. Go on with --resume, or see what is "
+                    "there with wavetracer merge --partial {}",
+                    which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
+                    task_.run.config.output.directory));
+    return shared;
+  }
+};
+
+}  // namespace
+
+Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessInfo& me, Progress& progress) {
+  return Team(task, ranks, me, progress).run();
+}
+
+Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
+  Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text);
+  shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
+  UnitWriter writer(task.run, shards, progress);
+  const Units units = units_of(task);
+  Shared shared;
+  shared.units = units.count() > part.index ? (units.count() - part.index - 1) / part.count + 1 : 0;
+  if (shared.units == 0) shards.note_empty(task.run);
+  for (uint64_t index = part.index; index < units.count(); index += part.count) {
+    const Unit unit = units.at(index);
+    if (task.resume && shards.finished(unit)) continue;
+    if (interrupted() || !compute_unit(task, unit, writer, progress)) ++shared.missing;
+  }
+  writer.finish();
+  return shared;
+}
+
+}  // namespace wavetracer

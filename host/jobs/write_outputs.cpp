@@ -1,0 +1,34 @@
+// Writes the files frame by frame, then lets all of them appear together.
+#include <chrono>
+#include <string>
+#include "base/pending_file.hpp"
+#include "jobs/earlier_run.hpp"
+#include "output/frame_files.hpp"
+#include "output/summary_json.hpp"
+#include "wavetracer/output.hpp"
+
+namespace wavetracer {
+
+std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& directory, const Run& run,
+                                                 Frames frames) {
+  const auto start = std::chrono::steady_clock::now();
+  PendingDirectory folder(directory);
+  std::vector<std::filesystem::path> paths;
+  for (const H5Output& output : h5_outputs(run.config)) paths.push_back(folder.path() / output.name);
+  paths.push_back(folder.path() / "links.csv");
+  FrameFiles on_the_way(run, paths);
+  for (const FrameResult& frame : frames) on_the_way.add(frame);
+  std::vector<PendingFile> files = on_the_way.finish();
+  const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string summary = encode_summary_json(run, on_the_way.totals(), write_seconds, 0);
+  files.emplace_back(folder.path() / "summary.json", std::as_bytes(std::span(summary)));
+  remove_outputs(folder.path(), files);
+  commit_together(files);
+  folder.keep();
+  remove_shards(folder.path());
+  std::vector<std::filesystem::path> written;
+  for (const PendingFile& file : files) written.push_back(file.path());
+  return written;
+}
+
+}  // namespace wavetracer
