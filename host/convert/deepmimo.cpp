@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include "base/pending_folder.hpp"
 #include "convert/convert.hpp"
 #include "convert/deepmimo_scene.hpp"
 #include "convert/npz.hpp"
-#include "base/pending_folder.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 

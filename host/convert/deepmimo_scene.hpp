@@ -3,8 +3,8 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include "convert/convert.hpp"
 #include "base/pending_folder.hpp"
+#include "convert/convert.hpp"
 #include "results/saved_world.hpp"
 
 namespace wavetracer {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include "base/pending_folder.hpp"
 #include "convert/convert.hpp"
 #include "convert/ns3_nodes.hpp"
-#include "base/pending_folder.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 

@@ -1,8 +1,8 @@
 // ParaView: a folder of .vtp files, and run.pvd, which gives them their times. Coordinates are those of the files, z
 // up. A frame is in memory at a time. What does not move is one file, which every time of the .pvd names.
 #include <fmt/format.h>
-#include "convert/convert.hpp"
 #include "base/pending_folder.hpp"
+#include "convert/convert.hpp"
 #include "convert/vtk_file.hpp"
 #include "convert/vtk_glb_kml.hpp"
 #include "output/path_kinds.hpp"

@@ -4,8 +4,8 @@
 #include "fuzz/children.hpp"
 #include "fuzz/fuzz.hpp"
 #include "jobs/merge_folders.hpp"
-#include "output/sample_run.hpp"
 #include "jobs/shards.hpp"
+#include "output/sample_run.hpp"
 
 namespace {
 
