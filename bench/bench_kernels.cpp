@@ -12,8 +12,8 @@
 #include <random>
 
 #include "json_line.hpp"
+#include "kernels/curves.hpp"
 #include "passes/compact.hpp"
-#include "passes/curves.hpp"
 #include "passes/gather_rays.hpp"
 #include "passes/generate_rays.hpp"
 #include "passes/order_keys.hpp"
@@ -264,8 +264,8 @@ class Suite {
 
   // Half of the words live.
   void compact() {
-    const uint32_t block = context_.info().cpu ? 16 : 128;
-    Compact compact(context_, block);
+    const uint32_t block = tuning_of(context_.info()).block;
+    Compact compact(context_);
     std::vector<float> words(n_);
     std::vector<uint32_t> alive;
     const std::vector<uint32_t> coin = random_words(n_, 1);

@@ -173,10 +173,9 @@ uint64_t count_leaks(gpu::Context& context, const Room& room, TraceShape shape, 
   const DeviceScene device_scene = make_device_scene(context, scene, false);
   Trace trace(context, device_scene, shape);
   Scan scan(context);
-  const uint32_t block = Trace::block_size(context.info());
   const auto batch = static_cast<uint32_t>(std::min<uint64_t>(rays, 1 << 20));
   RayQueue queue = make_ray_queue(context, batch, "rays");
-  HitList hits = make_hit_list(context, batch, block);
+  HitList hits = make_hit_list(context, batch);
   std::vector<float> planes(size_t{WT_RAY_PLANES} * queue.capacity);
   uint64_t leaks = 0;
   for (uint64_t done = 0; done < rays; done += queue.count) {
@@ -184,7 +183,7 @@ uint64_t count_leaks(gpu::Context& context, const Room& room, TraceShape shape, 
     aim_batch(scene, room, aim, done / 16, queue.count, queue.capacity, planes);
     queue.planes.write(planes);
     trace(device_scene, queue, hits);
-    leaks += queue.count - scan(hits.block_hits, (queue.count + block - 1) / block);
+    leaks += queue.count - scan(hits.block_hits, hits.blocks(queue.count));
   }
   return leaks;
 }

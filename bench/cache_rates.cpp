@@ -1,4 +1,4 @@
-// Host side of kernels/probe_cache_rate.cl and kernels/probe_thesis_cache.cl.
+// Host side of probe_cache_rate.cl and probe_thesis_cache.cl of tests/kernels.
 // Times are those of the kernels by the device's clock, medians; the first run of each is not counted.
 #include "cache_rates.hpp"
 

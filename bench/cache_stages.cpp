@@ -25,11 +25,10 @@ struct Launch {
 };
 
 Launch make_launch(gpu::Context& context, const Segment& segment) {
-  const uint32_t block = Trace::block_size(context.info());
   Launch launch;
   launch.rays = labelled_queue(context, segment);
-  launch.traced = make_hit_list(context, segment.rays.size(), block);
-  launch.hits = make_hit_list(context, segment.rays.size(), block);
+  launch.traced = make_hit_list(context, segment.rays.size());
+  launch.hits = make_hit_list(context, segment.rays.size());
   launch.missed = context.buffer<float>(launch.rays.capacity, "missed");
   std::vector<uint32_t> every(segment.rays.size());
   std::iota(every.begin(), every.end(), 0u);

@@ -36,7 +36,7 @@ class OurTracer : public Tracer {
         scene_(scene),
         trace_(context, scene, shape),
         queue_(make_ray_queue(context, most_rays, "rays")),
-        hits_(make_hit_list(context, most_rays, Trace::block_size(context.info()))) {}
+        hits_(make_hit_list(context, most_rays)) {}
 
   void load(std::span<const Ray> rays) override {
     std::vector<float> plane(rays.size());

@@ -1,4 +1,5 @@
-# Writes OUTPUT, a C++ table of the texts of FILES (separated by |, relative to ROOT) for host/gpu/source.hpp.
+# Writes OUTPUT, a C++ source with FUNCTION(), the table of the texts of FILES (separated by |, relative to ROOT) for
+# host/gpu/source.hpp.
 # Run with cmake -P.
 include(${CMAKE_CURRENT_LIST_DIR}/embed_bytes.cmake)
 string(REPLACE "|" ";" names "${FILES}")
@@ -15,7 +16,8 @@ namespace {
 ${arrays}
 }  // namespace
 
-std::span<const EmbeddedFile> embedded_files() {
+std::span<const EmbeddedFile> ${FUNCTION}();
+std::span<const EmbeddedFile> ${FUNCTION}() {
   static const EmbeddedFile files[] = {
 ${rows}  };
   return files;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <regex>
@@ -23,6 +24,19 @@ struct File {
   std::string text;
 };
 
+std::vector<std::span<const EmbeddedFile>>& added_files() {
+  static std::vector<std::span<const EmbeddedFile>> files;
+  return files;
+}
+
+std::optional<File> find_among(std::span<const EmbeddedFile> files, std::initializer_list<const char*> folders,
+                               const std::string& name) {
+  for (const EmbeddedFile& file : files)
+    for (const char* folder : folders)
+      if (file.path == folder + name) return File{std::string(file.path), std::string(file.text)};
+  return std::nullopt;
+}
+
 // Where files come from: the embedded table, or a kernels folder on disk with include/ beside it.
 class Source {
  public:
@@ -39,13 +53,11 @@ class Source {
           return File{path.generic_string(), std::string(std::istreambuf_iterator<char>(in), {})};
         }
       }
-      return std::nullopt;
+    } else if (auto file = find_among(embedded_files(), {"kernels/", "include/"}, name)) {
+      return file;
     }
-    for (const EmbeddedFile& file : embedded_files()) {
-      if (file.path == "kernels/" + name || file.path == "include/" + name) {
-        return File{std::string(file.path), std::string(file.text)};
-      }
-    }
+    for (const auto& files : added_files())
+      if (auto file = find_among(files, {"tests/kernels/"}, name)) return file;
     return std::nullopt;
   }
 
@@ -120,6 +132,8 @@ class Expansion {
 };
 
 }  // namespace
+
+void add_files(std::span<const EmbeddedFile> files) { added_files().push_back(files); }
 
 std::string program_source(const std::string& program) {
   const Source source;

@@ -14,6 +14,10 @@ struct EmbeddedFile {
 // Generated at build time by cmake/embed_kernels.cmake, sorted by path.
 std::span<const EmbeddedFile> embedded_files();
 
+// Adds files that programs may name like the embedded ones, whatever WAVETRACER_KERNEL_DIR says: the kernels of tests.
+// Not thread-safe; for before main.
+void add_files(std::span<const EmbeddedFile> files);
+
 // A build log with places as the #line directives of `source` have them. NVIDIA and Oclgrind count the lines of the
 // text that they were given ("<kernel>:812:5", "input.cl:812:5"); PoCL follows the directives, and its log stays as it
 // is.

@@ -13,8 +13,6 @@ namespace wavetracer {
 
 namespace {
 
-constexpr size_t step_items = 256;  // work-group of the steps over all keys
-
 // Local memory that drivers keep for themselves, at most.
 constexpr uint64_t reserved_local_bytes = 1024;
 
@@ -38,8 +36,10 @@ BitonicSort<Key>::BitonicSort(gpu::Context& context, Payload payload, Form form,
     : payload_(payload),
       block_(
           block_size(context.info(), sizeof(Key) + (payload == Payload::none ? 0 : sizeof(uint32_t)), largest_block)) {
-  const bool vectors = form == Form::device ? context.info().cpu : form == Form::vectors;
-  items_ = vectors ? 1u : static_cast<uint32_t>(std::min<size_t>(1024, std::bit_floor(context.info().max_work_group)));
+  const Tuning tuning = tuning_of(context.info());
+  const bool vectors = form == Form::device ? tuning.alone : form == Form::vectors;
+  items_ = vectors ? 1u : tuning.bitonic.items;
+  step_group_ = tuning.bitonic.step_group;
   const gpu::Definitions definitions = {{"WT_KEY_BITS", std::to_string(8 * sizeof(Key))},
                                         {"WT_PAYLOAD", payload == Payload::none    ? "0"
                                                        : payload == Payload::words ? "1"
@@ -86,7 +86,7 @@ void BitonicSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& value
   // The last merge has groups of bit_ceil(n); a launch has as many comparators as whole groups do.
   for (uint64_t stride = block_; stride < n; stride *= 2) {
     const size_t comparators = (n + 2 * stride - 1) / (2 * stride) * stride;
-    const size_t group = std::min<size_t>(step_items, block_);
+    const size_t group = std::min<size_t>(step_group_, block_);
     one_step_({comparators, group}, stage, keys, index, n, static_cast<uint32_t>(stride),
               static_cast<uint32_t>(2 * stride - 1));
     for (uint64_t below = stride / 2; below >= block_; below /= 2)
@@ -94,7 +94,7 @@ void BitonicSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& value
                 static_cast<uint32_t>(below));
     merge_blocks_({blocks * local, local}, stage, keys, index, n);
   }
-  if (payload_ == Payload::words && blocks > 1) gather_({n, step_items}, stage, values, index, n);
+  if (payload_ == Payload::words && blocks > 1) gather_({n, step_group_}, stage, values, index, n);
 }
 
 template class BitonicSort<uint32_t>;

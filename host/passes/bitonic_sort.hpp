@@ -3,6 +3,7 @@
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/payload.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -14,7 +15,8 @@ class BitonicSort {
   enum class Form { device, groups, vectors };
 
   // largest_block: blocks are the largest power of two that local memory holds, up to this; 16 at least.
-  BitonicSort(gpu::Context& context, Payload payload, Form form = Form::device, uint32_t largest_block = 8192);
+  BitonicSort(gpu::Context& context, Payload payload, Form form = Form::device,
+              uint32_t largest_block = largest_bitonic_block);
 
   // The most keys that one launch sorts.
   uint32_t block() const { return block_; }
@@ -29,7 +31,7 @@ class BitonicSort {
 
  private:
   Payload payload_;
-  uint32_t block_, items_;
+  uint32_t block_, items_, step_group_;
   gpu::Kernel sort_blocks_, one_step_, merge_blocks_, gather_;
   void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
             const char* stage);

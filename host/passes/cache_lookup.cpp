@@ -1,19 +1,16 @@
 // Host side of kernels/cache_lookup.cl.
-// On CPUs a work-item takes a run of rays, on GPUs one.
+// A work-item takes a run of rays.
 #include "passes/cache_lookup.hpp"
 
 #include <stdexcept>
-#include <string>
 
 namespace wavetracer {
 
-CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table)
-    : rays_per_item_(context.info().cpu ? 256 : 1),
-      local_(context.info().cpu ? 1 : context.info().simple_local_size()) {
+CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table) : work_(tuning_of(context.info()).cache_rays) {
   // Links along paths, and entries withdrawn, are written beside the reads of others.
   const bool writes = table.config.statistics || table.config.scope == "all";
   gpu::Definitions definitions = table.definitions(!writes);
-  definitions["WT_RAYS_PER_ITEM"] = std::to_string(rays_per_item_) + "u";
+  definitions["WT_RAYS_PER_ITEM"] = work_.option();
   kernel_ = context.kernel("cache_lookup", "cache_lookup", definitions);
 }
 
@@ -22,9 +19,8 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
                              bool touch, gpu::Buffer<uint32_t>* receptions) {
   if (table.config.scope == "all" && !receptions)
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
-  const size_t items = (size_t{rays.count} + rays_per_item_ - 1) / rays_per_item_;
-  kernel_({items, local_}, "cache_lookup", rays.planes, rays.capacity, rays.count, hits.planes, missed, table.entries,
-          table.heads, table.used, table.device_regions, table.counters, table.widths, now,
+  kernel_(work_.range(rays.count), "cache_lookup", rays.planes, rays.capacity, rays.count, hits.planes, missed,
+          table.entries, table.heads, table.used, table.device_regions, table.counters, table.widths, now,
           static_cast<uint32_t>(touch), static_surfaces, scene.surfaces, scene.exact_surfaces, movement.receivers,
           movement.radius_m, movement.instance_since, receptions ? *receptions : table.used, table.hits, table.uses);
 }

@@ -4,6 +4,7 @@
 #include "passes/cache_table.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -21,8 +22,8 @@ class CacheLookup {
                   gpu::Buffer<uint32_t>* receptions = nullptr);
 
  private:
+  Work work_;
   gpu::Kernel kernel_;
-  uint32_t rays_per_item_, local_;
 };
 
 }  // namespace wavetracer

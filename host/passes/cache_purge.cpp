@@ -3,28 +3,23 @@
 #include "passes/cache_purge.hpp"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 namespace wavetracer {
 
-namespace {
-constexpr uint32_t entries_per_item = 16;
-}
-
 CachePurge::CachePurge(gpu::Context& context, const CacheTable& table)
     : old_(context.buffer<uint32_t>(table.regions.size(), "old cache entries")),
-      local_(context.info().simple_local_size()) {
+      work_(tuning_of(context.info()).cache_entries) {
   gpu::Definitions definitions = table.definitions(true);
-  definitions["WT_ENTRIES_PER_ITEM"] = std::to_string(entries_per_item) + "u";
+  definitions["WT_ENTRIES_PER_ITEM"] = work_.option();
   kernel_ = context.kernel("cache_purge", "cache_purge", definitions);
 }
 
 void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t keep_from) {
   context.fill(old_, 0, "cache_purge");
-  const size_t items = (size_t{table.regions.front().entries} + entries_per_item - 1) / entries_per_item;
-  kernel_({{items, table.regions.size(), 1}, {local_, 1, 1}, 2}, "cache_purge", table.entries, table.heads, table.used,
-          table.device_regions, table.counters, keep_from, old_, table.uses);
+  const gpu::Range entries = work_.range(table.regions.front().entries);
+  kernel_({{entries.global[0], table.regions.size(), 1}, entries.local, 2}, "cache_purge", table.entries, table.heads,
+          table.used, table.device_regions, table.counters, keep_from, old_, table.uses);
   if (table.config.kind == "chained") clear_old_regions(context, table);
 }
 

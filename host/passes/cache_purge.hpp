@@ -2,6 +2,7 @@
 // Assumes that nothing else uses the table meanwhile.
 #pragma once
 #include "passes/cache_table.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -17,7 +18,7 @@ class CachePurge {
 
   gpu::Kernel kernel_;
   gpu::Buffer<uint32_t> old_;  // entries a region
-  uint32_t local_;
+  Work work_;
 };
 
 }  // namespace wavetracer

@@ -1,18 +1,15 @@
 // Host side of kernels/cache_store.cl.
-// On CPUs a work-item takes a run of missed rays, on GPUs one.
+// A work-item takes a run of missed rays.
 #include "passes/cache_store.hpp"
 
 #include <stdexcept>
-#include <string>
 
 namespace wavetracer {
 
-CacheStore::CacheStore(gpu::Context& context, const CacheTable& table)
-    : rays_per_item_(context.info().cpu ? 256 : 1),
-      local_(context.info().cpu ? 1 : context.info().simple_local_size()) {
+CacheStore::CacheStore(gpu::Context& context, const CacheTable& table) : work_(tuning_of(context.info()).cache_rays) {
   gpu::Definitions definitions = table.definitions(false);
   definitions["WT_CACHE_TALLY"] = "1";
-  definitions["WT_RAYS_PER_ITEM"] = std::to_string(rays_per_item_) + "u";
+  definitions["WT_RAYS_PER_ITEM"] = work_.option();
   kernel_ = context.kernel("cache_store", "cache_store", definitions);
 }
 
@@ -22,8 +19,7 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
   if (table.config.scope == "all" && !receptions)
     throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions");
   if (missed.count == 0) return;
-  const size_t items = (size_t{missed.count} + rays_per_item_ - 1) / rays_per_item_;
-  kernel_({items, local_}, "cache_store", rays.planes, rays.capacity, missed.planes, missed_hits.planes,
+  kernel_(work_.range(missed.count), "cache_store", rays.planes, rays.capacity, missed.planes, missed_hits.planes,
           missed.capacity, missed.count, indices, hits.planes, table.entries, table.heads, table.used,
           table.device_regions, table.counters, table.widths, now, static_surfaces, receptions ? *receptions : indices);
 }

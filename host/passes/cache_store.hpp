@@ -3,6 +3,7 @@
 #pragma once
 #include "passes/cache_table.hpp"
 #include "passes/ray_queue.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -17,8 +18,8 @@ class CacheStore {
                   uint32_t now, const gpu::Buffer<uint32_t>* receptions = nullptr);
 
  private:
+  Work work_;
   gpu::Kernel kernel_;
-  uint32_t rays_per_item_, local_;
 };
 
 }  // namespace wavetracer

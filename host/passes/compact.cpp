@@ -1,5 +1,5 @@
 // Host side of kernels/compact.cl.
-// A work-item of a CPU takes 64 blocks in turn, as in interact.
+// Checks what it is given: callers name ranges of planes.
 #include "passes/compact.hpp"
 
 #include <fmt/format.h>
@@ -9,20 +9,16 @@
 
 namespace wavetracer {
 
-namespace {
-constexpr uint32_t blocks_per_item = 64;
-}
-
 Compact::Compact(gpu::Context& context, uint32_t block, Form form) : block_(block) {
-  const bool items = form == Form::device ? context.info().cpu : form == Form::items;
+  const Tuning tuning = tuning_of(context.info());
+  const bool items = form == Form::device ? tuning.alone : form == Form::items;
   if (block == 0 || (!items && (block % 32 != 0 || block > context.info().max_work_group)))
     throw std::invalid_argument(fmt::format("compact: blocks of {} words", block));
   gpu::Definitions definitions = {{"WT_BLOCK", std::to_string(block) + "u"}};
-  if (items) definitions["WT_BLOCKS_PER_ITEM"] = std::to_string(blocks_per_item);
+  if (items) definitions["WT_BLOCKS_PER_ITEM"] = std::to_string(tuning.blocks_per_item);
   count_blocks_ = context.kernel("compact", "count_blocks", definitions);
   compact_ = context.kernel("compact", "compact", definitions);
-  words_per_item_ = items ? block * blocks_per_item : 1;
-  local_ = items ? 4 : block;
+  work_ = items ? Work{block * tuning.blocks_per_item, 4} : Work{1, block};
 }
 
 void Compact::check(const gpu::Buffer<float>& words, size_t first, uint32_t count,
@@ -37,15 +33,13 @@ void Compact::check(const gpu::Buffer<float>& words, size_t first, uint32_t coun
 void Compact::count_blocks(const gpu::Buffer<float>& words, size_t first, uint32_t count,
                            gpu::Buffer<uint32_t>& block_counts) {
   check(words, first, count, block_counts);
-  count_blocks_({(size_t{count} + words_per_item_ - 1) / words_per_item_, local_}, "compact", words, uint64_t{first},
-                count, block_counts);
+  count_blocks_(work_.range(count), "compact", words, uint64_t{first}, count, block_counts);
 }
 
 void Compact::operator()(const gpu::Buffer<float>& words, size_t first, uint32_t count,
                          const gpu::Buffer<uint32_t>& block_offsets, gpu::Buffer<uint32_t>& indices) {
   check(words, first, count, block_offsets);
-  compact_({(size_t{count} + words_per_item_ - 1) / words_per_item_, local_}, "compact", words, uint64_t{first}, count,
-           block_offsets, indices);
+  compact_(work_.range(count), "compact", words, uint64_t{first}, count, block_offsets, indices);
 }
 
 }  // namespace wavetracer

@@ -2,6 +2,7 @@
 // Between its two operations the block counts are scanned (see scan), which also gives the number of indices.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "passes/tuning.hpp"
 #include "wavetracer/device/records.h"
 
 namespace wavetracer {
@@ -11,8 +12,13 @@ class Compact {
   // Who takes the words: a work-group a block, or a work-item many blocks. device: items on CPUs, groups elsewhere.
   enum class Form { device, groups, items };
 
-  // block: words a block; for groups a multiple of 32 that a work-group can have.
+  // Blocks as long as those of rays.
+  explicit Compact(gpu::Context& context) : Compact(context, tuning_of(context.info()).block) {}
+  // block: words per block; for groups a multiple of 32 that a work-group can have.
   Compact(gpu::Context& context, uint32_t block, Form form = Form::device);
+
+  // Blocks of so many words: what there must be room for.
+  uint32_t blocks(uint32_t words) const { return words / block_ + (words % block_ != 0); }
 
   // block_counts[b] becomes the number of words != WT_NONE (bit pattern) in block b of words[first .. first + count -
   // 1], the last of which may be incomplete.
@@ -24,7 +30,8 @@ class Compact {
 
  private:
   gpu::Kernel count_blocks_, compact_;
-  uint32_t block_, words_per_item_, local_;
+  uint32_t block_;
+  Work work_;
   void check(const gpu::Buffer<float>& words, size_t first, uint32_t count, const gpu::Buffer<uint32_t>& blocks) const;
 };
 

@@ -2,6 +2,7 @@
 // Assumes two queues of one capacity, the second with no more planes than the first.
 #pragma once
 #include "passes/ray_queue.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -13,9 +14,9 @@ class GatherRays {
   void operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, uint32_t count, RayQueue& next);
 
  private:
-  gpu::Kernel kernel_;
   const char* stage_;
-  uint32_t rays_per_item_, local_;
+  Work work_;
+  gpu::Kernel kernel_;
 };
 
 }  // namespace wavetracer

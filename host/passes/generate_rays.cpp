@@ -21,27 +21,26 @@ GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& direct
                                        {{"WT_DIRECTIONS", directions.map}, {"WT_SAMPLES", "1"}})),
       directions_(directions),
       heights_(heights ? std::move(heights) : std::make_shared<const LaunchHeights>(context)),
-      rays_per_item_(context.info().cpu ? 16 : 1),
-      local_(context.info().simple_local_size()) {}
+      work_(tuning_of(context.info()).generate_rays) {}
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
-  generate_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes, queue.capacity,
-            queue.count, count, first, stride, static_cast<uint32_t>(first / stride & 3), directions_.parameter,
-            directions_.level, directions_.faces, heights_->tables(), heights_->place(from.heights),
-            static_cast<float>(from.position_m.x), static_cast<float>(from.position_m.y),
-            static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter, from.source);
+  generate_(work_.range(count), "generate_rays", queue.planes, queue.capacity, queue.count, count, first, stride,
+            static_cast<uint32_t>(first / stride & 3), directions_.parameter, directions_.level, directions_.faces,
+            heights_->tables(), heights_->place(from.heights), static_cast<float>(from.position_m.x),
+            static_cast<float>(from.position_m.y), static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter,
+            from.source);
   queue.count += count;
 }
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
                               const gpu::Buffer<uint32_t>& order) {
   check_room(queue, count);
-  generate_ordered_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes,
-                    queue.capacity, queue.count, count, first, order, directions_.parameter, directions_.level,
-                    directions_.faces, heights_->tables(), heights_->place(from.heights),
-                    static_cast<float>(from.position_m.x), static_cast<float>(from.position_m.y),
-                    static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter, from.source);
+  generate_ordered_(work_.range(count), "generate_rays", queue.planes, queue.capacity, queue.count, count, first, order,
+                    directions_.parameter, directions_.level, directions_.faces, heights_->tables(),
+                    heights_->place(from.heights), static_cast<float>(from.position_m.x),
+                    static_cast<float>(from.position_m.y), static_cast<float>(from.position_m.z),
+                    WT_ROOT | from.transmitter, from.source);
   queue.count += count;
 }
 
@@ -49,9 +48,9 @@ void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, ui
                            const gpu::Buffer<float>& launchers, const LaunchDirections& directions, Turn turn) {
   queue.count = 0;
   check_room(queue, count);
-  generate_samples_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "generate_rays", queue.planes,
-                    queue.capacity, first, count, list.samples, list.capacity, launchers, directions.parameter,
-                    directions.level, directions.faces, heights_->tables(), turn.cosine, turn.sine, list.ends);
+  generate_samples_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first, count, list.samples,
+                    list.capacity, launchers, directions.parameter, directions.level, directions.faces,
+                    heights_->tables(), turn.cosine, turn.sine, list.ends);
   queue.count = count;
 }
 

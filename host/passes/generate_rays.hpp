@@ -45,7 +45,7 @@ class GenerateRays {
   gpu::Kernel generate_, generate_ordered_, generate_samples_;
   LaunchDirections directions_;
   std::shared_ptr<const LaunchHeights> heights_;
-  uint32_t rays_per_item_, local_;
+  Work work_;
 };
 
 }  // namespace wavetracer

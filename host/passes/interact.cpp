@@ -1,22 +1,18 @@
 // Host side of kernels/interact.cl.
-// On CPUs a work-item takes 64 blocks in turn, on GPUs one ray.
+// A work-item takes a run of blocks (CPUs) or a ray, and then a group a block.
 #include "passes/interact.hpp"
 
 #include <stdexcept>
 #include <string>
 
-#include "passes/trace.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
-namespace {
-constexpr uint32_t blocks_per_item = 64;
-}
-
 Interact::Interact(gpu::Context& context, InteractOptions options) : options_(options) {
-  const uint32_t block = Trace::block_size(context.info());
-  gpu::Definitions definitions{{"WT_BLOCK", std::to_string(block)},
-                               {"WT_BLOCKS_PER_ITEM", std::to_string(blocks_per_item)}};
+  const Tuning tuning = tuning_of(context.info());
+  gpu::Definitions definitions{{"WT_BLOCK", std::to_string(tuning.block)},
+                               {"WT_BLOCKS_PER_ITEM", std::to_string(tuning.blocks_per_item)}};
   if (options.ages) definitions["WT_AGES"] = "1";
   if (options.samples) definitions["WT_SAMPLES"] = "1";
   if (options.labels) definitions["WT_LABELS"] = "1";
@@ -25,8 +21,7 @@ Interact::Interact(gpu::Context& context, InteractOptions options) : options_(op
     definitions["WT_THROUGH"] = "1";
     kernel_through_ = context.kernel("interact", "interact", definitions);
   }
-  rays_per_item_ = context.info().cpu ? block * blocks_per_item : 1;
-  local_ = context.info().cpu ? 4 : block;
+  work_ = tuning.blocks;
 }
 
 void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const HitList& hits, uint32_t hit_count,
@@ -36,10 +31,10 @@ void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const 
   if (to.transmitted && !options_.transmission) throw std::logic_error("interact: it was made without transmission");
   gpu::Kernel& kernel = to.transmitted ? kernel_through_ : kernel_;
   const auto planes = [](const RayQueue* queue) { return queue ? &queue->planes : nullptr; };
-  kernel({(rays.count + rays_per_item_ - 1) / rays_per_item_, local_}, "interact", rays.planes, hits.planes,
-         rays.capacity, rays.count, hits.block_hits, scene.surfaces, trie.table,
-         static_cast<uint32_t>(trie.table.size() - 1), trie.quarters, trie.counters, planes(to.reflected),
-         static_cast<uint32_t>(!to.reflected), trie.ages, trie.now, to.ends, planes(to.transmitted));
+  kernel(work_.range(rays.count), "interact", rays.planes, hits.planes, rays.capacity, rays.count, hits.block_hits,
+         scene.surfaces, trie.table, static_cast<uint32_t>(trie.table.size() - 1), trie.quarters, trie.counters,
+         planes(to.reflected), static_cast<uint32_t>(!to.reflected), trie.ages, trie.now, to.ends,
+         planes(to.transmitted));
   for (RayQueue* const queue : {to.reflected, to.transmitted})
     if (queue) queue->count = hit_count;
 }

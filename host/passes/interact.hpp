@@ -5,6 +5,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/trie.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -34,7 +35,7 @@ class Interact {
  private:
   InteractOptions options_;
   gpu::Kernel kernel_, kernel_through_;
-  uint32_t rays_per_item_, local_;
+  Work work_;
 };
 
 }  // namespace wavetracer

@@ -1,31 +1,32 @@
 // Host side of kernels/label_rays.cl.
-// On CPUs a work-item takes 1024 rays in turn.
+// Three kernels, by what is known of the samples.
 #include "passes/label_rays.hpp"
 
 #include <string>
 
 namespace wavetracer {
 
-LabelRays::LabelRays(gpu::Context& context)
-    : rays_per_item_(context.info().cpu ? 1024 : 1),
-      local_(context.info().cpu ? 1 : context.info().simple_local_size()) {
-  const std::string rays = std::to_string(rays_per_item_) + "u";
+LabelRays::LabelRays(gpu::Context& context) : work_(tuning_of(context.info()).label_rays) {
+  const std::string rays = work_.option();
   label_ = context.kernel("label_rays", "label_rays", {{"WT_RAYS_PER_ITEM", rays}});
   label_ordered_ = context.kernel("label_rays", "label_rays", {{"WT_RAYS_PER_ITEM", rays}, {"WT_ORDERED", "1"}});
   label_samples_ = context.kernel("label_rays", "label_rays", {{"WT_RAYS_PER_ITEM", rays}, {"WT_KEEP_SAMPLES", "1"}});
 }
 
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample) {
-  label_(range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample, queue.planes);
+  label_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample,
+         queue.planes);
 }
 
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample,
                            const gpu::Buffer<uint32_t>& order) {
-  label_ordered_(range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample, order);
+  label_ordered_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample,
+                 order);
 }
 
 void LabelRays::operator()(RayQueue& queue) {
-  label_samples_(range(queue.count), "generate_rays", queue.planes, queue.capacity, 0u, queue.count, 0u, queue.planes);
+  label_samples_(work_.range(queue.count), "generate_rays", queue.planes, queue.capacity, 0u, queue.count, 0u,
+                 queue.planes);
 }
 
 }  // namespace wavetracer

@@ -2,6 +2,7 @@
 // Assumes queues with WT_RAY_LABELLED_PLANES.
 #pragma once
 #include "passes/ray_queue.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -17,9 +18,8 @@ class LabelRays {
   void operator()(RayQueue& queue);
 
  private:
+  Work work_;
   gpu::Kernel label_, label_ordered_, label_samples_;
-  uint32_t rays_per_item_, local_;
-  gpu::Range range(uint32_t count) const { return {(size_t{count} + rays_per_item_ - 1) / rays_per_item_, local_}; }
 };
 
 }  // namespace wavetracer

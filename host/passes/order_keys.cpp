@@ -40,8 +40,7 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
       bins_(bins),
       launch_bits_(key == OrderKey::direction_origin ? 16 : bits_of(key, bins)),
       queue_bits_(bits_of(key, bins)),
-      rays_per_item_(context.info().cpu ? 16 : 1),
-      local_(context.info().simple_local_size()),
+      work_(tuning_of(context.info()).order_keys),
       to_unit_(extent_m > 0 ? 1 / extent_m : 0) {
   if (bins < 1 || bins > 1024) throw std::invalid_argument("order_keys: 1 to 1024 bins, not " + std::to_string(bins));
   const gpu::Definitions definitions{
@@ -53,14 +52,12 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
 }
 
 void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights) {
-  launch_keys_({(count + rays_per_item_ - 1) / rays_per_item_, local_}, "order", keys, count, first,
-               directions_.parameter, directions_.level, directions_.faces, heights_->tables(),
-               heights_->place(heights), bins_);
+  launch_keys_(work_.range(count), "order", keys, count, first, directions_.parameter, directions_.level,
+               directions_.faces, heights_->tables(), heights_->place(heights), bins_);
 }
 
 void OrderKeys::operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys) {
-  queue_keys_({(rays.count + rays_per_item_ - 1) / rays_per_item_, local_}, "order", rays.planes, rays.capacity,
-              rays.count, to_unit_, keys, bins_);
+  queue_keys_(work_.range(rays.count), "order", rays.planes, rays.capacity, rays.count, to_unit_, keys, bins_);
 }
 
 }  // namespace wavetracer

@@ -6,6 +6,7 @@
 #include "passes/launch_directions.hpp"
 #include "passes/launch_heights.hpp"
 #include "passes/ray_queue.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -33,7 +34,8 @@ class OrderKeys {
   gpu::Kernel launch_keys_, queue_keys_;
   LaunchDirections directions_;
   std::shared_ptr<const LaunchHeights> heights_;
-  uint32_t bins_, launch_bits_, queue_bits_, rays_per_item_, local_;
+  uint32_t bins_, launch_bits_, queue_bits_;
+  Work work_;
   float to_unit_;
 };
 

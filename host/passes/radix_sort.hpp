@@ -7,6 +7,7 @@
 
 #include "gpu/gpu.hpp"
 #include "passes/payload.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -15,16 +16,6 @@ namespace wavetracer {
 // into lines before they write them, whatever n (chunks does so where n is large); device takes chunks on CPUs, groups
 // elsewhere. The result is the same.
 enum class SortForm { device, groups, chunks, lines };
-
-// How a form is launched; radix_sort.cpp has the table.
-struct RadixLaunch {
-  uint32_t digit_bits;                   // of the widest digit
-  uint32_t items;                        // a work-group
-  uint32_t offset_items, offset_groups;  // of the kernel that makes offsets of the counts
-  uint32_t tile;                         // a chunk is a multiple of this many keys
-  uint32_t most_chunks;
-  bool moves_tiles;  // a work-group moves one tile, not a chunk, and each tile has counts in temporary memory
-};
 
 // Least significant digit first: a pass counts the digits of every chunk of keys, makes offsets of the counts, and
 // moves keys and values between the caller's buffers and the temporary one.
@@ -55,7 +46,7 @@ class RadixSort {
             unsigned first_bit, unsigned end_bit, const char* stage);
 
   Payload payload_;
-  RadixLaunch launch_;
+  RadixTuning tuning_;
   gpu::Kernel count_, offsets_, move_, settle_;
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gpu/gpu.hpp"
+#include "passes/tuning.hpp"
 #include "wavetracer/device/records.h"
 
 namespace wavetracer {
@@ -20,7 +21,10 @@ struct RayQueue {
 struct HitList {
   gpu::Buffer<float> planes;
   uint32_t capacity = 0;
-  gpu::Buffer<uint32_t> block_hits;  // hits a block of rays; after scan, hits of all blocks before
+  gpu::Buffer<uint32_t> block_hits;  // hits of each block of rays; after scan, hits of all blocks before
+  uint32_t block = 0;                // rays per block
+
+  uint32_t blocks(uint32_t rays) const { return (rays + block - 1) / block; }
 };
 
 // plane_count: WT_RAY_PLANES, one more for WT_RAY_SAMPLE, or WT_RAY_LABELLED_PLANES.
@@ -30,10 +34,10 @@ inline RayQueue make_ray_queue(gpu::Context& context, uint64_t rays, const char*
   return {context.buffer<float>(size_t{capacity} * plane_count, name), capacity, 0, plane_count};
 }
 
-inline HitList make_hit_list(gpu::Context& context, uint64_t rays, uint32_t block) {
-  const uint32_t capacity = padded_capacity(rays);
+inline HitList make_hit_list(gpu::Context& context, uint64_t rays) {
+  const uint32_t capacity = padded_capacity(rays), block = tuning_of(context.info()).block;
   return {context.buffer<float>(size_t{capacity} * WT_HIT_PLANES, "hits"), capacity,
-          context.buffer<uint32_t>(capacity / block + 1, "block counts")};
+          context.buffer<uint32_t>(capacity / block + 1, "block counts"), block};
 }
 
 }  // namespace wavetracer

@@ -10,7 +10,7 @@ Receive::Receive(gpu::Context& context, double radius_m)
       receive_answered_(context.kernel("receive", "receive", {{"WT_ANSWERED", "1"}})),
       first_(context.kernel("receive", "first_receiver")),
       radius_m_(static_cast<float>(radius_m)),
-      local_(context.info().cpu ? 64 : 128),
+      work_(tuning_of(context.info()).receive),
       list_(context.buffer<wt_reception>(1 << 16, "receptions")),
       counter_(context.buffer<uint32_t>(1, "receptions")) {
   begin_batch();
@@ -33,9 +33,9 @@ void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitL
 void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits,
                      uint32_t depth, const gpu::Memory& traced, const gpu::Memory& answered) {
   for (;;) {
-    kernel({rays.count, local_}, "receive", rays.planes, hits.planes, rays.capacity, rays.count, ends.receiver_planes,
-           ends.links, ends.receiver_capacity, radius_m_, depth, list_, static_cast<uint32_t>(list_.size()), counter_,
-           traced, answered);
+    kernel(work_.range(rays.count), "receive", rays.planes, hits.planes, rays.capacity, rays.count,
+           ends.receiver_planes, ends.links, ends.receiver_capacity, radius_m_, depth, list_,
+           static_cast<uint32_t>(list_.size()), counter_, traced, answered);
     const uint32_t now = counter_.read_one(0, "receive");
     if (now <= list_.size()) {
       count_ = now;
@@ -49,7 +49,7 @@ void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue&
 }
 
 void Receive::first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first) {
-  first_({rays.count, local_}, "receive", rays.planes, hits.planes, rays.capacity, rays.count, ends.receiver_planes,
+  first_(work_.range(rays.count), "receive", rays.planes, hits.planes, rays.capacity, rays.count, ends.receiver_planes,
          ends.links, ends.receiver_capacity, radius_m_, first);
 }
 

@@ -5,6 +5,7 @@
 
 #include "passes/radio_ends.hpp"
 #include "passes/ray_queue.hpp"
+#include "passes/tuning.hpp"
 #include "wavetracer/device/waypoints.h"
 
 namespace wavetracer {
@@ -32,7 +33,8 @@ class Receive {
   gpu::Context& context_;
   gpu::Kernel receive_, receive_answered_, first_;
   float radius_m_;
-  uint32_t local_, count_ = 0;
+  Work work_;
+  uint32_t count_ = 0;
   gpu::Buffer<wt_reception> list_;
   gpu::Buffer<uint32_t> counter_;
 };

@@ -13,21 +13,13 @@ namespace wavetracer {
 
 namespace {
 
-constexpr uint32_t most_chunks = 1024;
-
-// CPUs: one launch reads once, two read twice. Two free cores gain 1.07 at 2^18 counts, 1.3 at 2^20 and 2^22, 1.15 at
-// 2^24 (PoCL, medians of 80); where another program keeps one of them busy two launches take 1.2 to 1.4 times as long.
-// So above 2^19. GPUs: as many tiles by one group as cost about what a launch does, not measured yet.
-Scan::Form form_of(const gpu::DeviceInfo& device) {
-  if (device.cpu) return {1, 1u << 19, 4 * device.compute_units};
-  return {static_cast<uint32_t>(std::min<size_t>(256, std::bit_floor(device.max_work_group))), 4096, most_chunks};
-}
+constexpr uint32_t most_chunks = ScanTuning::most_chunks;
 
 }  // namespace
 
-Scan::Scan(gpu::Context& context) : Scan(context, form_of(context.info())) {}
+Scan::Scan(gpu::Context& context) : Scan(context, tuning_of(context.info()).scan) {}
 
-Scan::Scan(gpu::Context& context, Form form)
+Scan::Scan(gpu::Context& context, const ScanTuning& form)
     : form_(form),
       sums_(context.buffer<uint32_t>(most_chunks, "scan sums")),
       total_(context.buffer<uint32_t>(1, "scan total")) {

@@ -16,6 +16,7 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
       lit_(context.kernel("scatter", "lit")),
       scatter_(context.kernel("scatter", "scatter")),
       local_(context.info().simple_local_size()),
+      tiles_work_(tuning_of(context.info()).tiles),
       entries_(context.buffer<uint32_t>(4 * 1024, "lit surfaces")),
       first_row_(context.buffer<uint32_t>(1024 + 1, "rows of tiles")),
       count_(context.buffer<uint32_t>(1, "lit surfaces")) {
@@ -91,11 +92,9 @@ SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends,
   const std::vector<uint32_t> first_row = place_rows(entry_count);
   first_row_.write(first_row, 0, "scatter");
   solved_.count = first_row.back();
-  // A search for the entry serves many rows where there are few cores, and neighbours write side by side elsewhere.
-  const uint32_t rows_per_item = context_.info().cpu ? 64 : 1;
-  scatter_({(size_t{solved_.count} + rows_per_item - 1) / rows_per_item, local_}, "scatter", trie, quarters, entries_,
-           first_row_, entry_count, solved_.count, rows_per_item, scene.exact_surfaces, tiles_of_, centres_,
-           scene.exact_instances, solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences);
+  scatter_(tiles_work_.range(solved_.count), "scatter", trie, quarters, entries_, first_row_, entry_count,
+           solved_.count, tiles_work_.per_item, scene.exact_surfaces, tiles_of_, centres_, scene.exact_instances,
+           solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences);
   return solved_;
 }
 

@@ -7,6 +7,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
 #include "scene/tiles.hpp"
 
 namespace wavetracer {
@@ -32,6 +33,7 @@ class Scatter {
   gpu::Context& context_;
   gpu::Kernel lit_, scatter_;
   uint32_t local_;
+  Work tiles_work_;
   gpu::Buffer<uint32_t> tiles_of_;  // four words a surface, see scatter.cl
   gpu::Buffer<double> centres_;
   gpu::Buffer<uint32_t> entries_, first_row_, count_;  // four words an entry

@@ -12,6 +12,7 @@ namespace wavetracer {
 Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
     : context_(context),
       keep_ages_(keep_ages),
+      work_(tuning_of(context.info()).sequences),
       nodes_(context.buffer<uint32_t>(4096, "sequence list")),
       counters_(context.buffer<wt_counters>(1, "counters")) {
   gpu::Definitions definitions;
@@ -53,16 +54,16 @@ gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uin
       throw RuntimeError("the set of distinct sequences has outgrown 2^29 slots; lower trace.rays or trace.max_depth");
     resize(slots);
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
-      regrow_({old_table.size(), 64}, "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth, moved,
-              table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_, old_ages, ages_,
-              oldest);
+      regrow_(work_.range(old_table.size()), "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth,
+              moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_, old_ages,
+              ages_, oldest);
     if (!overflowed()) return moved;
   }
 }
 
 void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
   const gpu::Buffer<uint32_t> moved = rebuild(table_.size() * 4, max_depth, 0);
-  if (listed_count > 0) follow_({listed_count, 64}, "sequences", nodes_, listed_count, moved);
+  if (listed_count > 0) follow_(work_.range(listed_count), "sequences", nodes_, listed_count, moved);
 }
 
 void Sequences::forget(uint32_t frames, uint32_t max_depth) {
@@ -71,12 +72,12 @@ void Sequences::forget(uint32_t frames, uint32_t max_depth) {
 
 void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
-  keep_({solved.count, 64}, "sequences", table_, solved.headers, solved.count, ages_, now());
+  keep_(work_.range(solved.count), "sequences", table_, solved.headers, solved.count, ages_, now());
 }
 
 void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   for (;;) {
-    commute_({node_count, 64}, "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
+    commute_(work_.range(node_count), "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
              surfaces, quarters_, counters_, ages_, now());
     if (!overflowed()) return;
     // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
@@ -97,7 +98,7 @@ uint32_t Sequences::collect(uint32_t transmitter_count) {
     }
     context_.fill(counters_, &transmitter_count, sizeof transmitter_count, offsetof(wt_counters, nodes),
                   sizeof transmitter_count, "sequences");
-    collect_({table_.size(), 64}, "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
+    collect_(work_.range(table_.size()), "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
              static_cast<uint32_t>(nodes_.size()), counters_);
     const uint32_t count = counters_.read_one(0, "sequences").nodes;
     if (count <= nodes_.size()) return count;

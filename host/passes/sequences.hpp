@@ -4,6 +4,7 @@
 #include "gpu/gpu.hpp"
 #include "passes/solved_list.hpp"
 #include "passes/trie.hpp"
+#include "passes/tuning.hpp"
 #include "wavetracer/device/records.h"
 
 namespace wavetracer {
@@ -53,6 +54,7 @@ class Sequences {
 
   gpu::Context& context_;
   bool keep_ages_;
+  Work work_;
   gpu::Kernel collect_, commute_, regrow_, follow_, keep_;
   gpu::Buffer<uint64_t> table_;
   gpu::Buffer<uint32_t> quarters_, ages_;

@@ -8,7 +8,8 @@
 
 namespace wavetracer {
 
-Solve::Solve(gpu::Context& context, uint32_t max_depth) : context_(context), kernel_(context.kernel("solve", "solve")) {
+Solve::Solve(gpu::Context& context, uint32_t max_depth)
+    : context_(context), work_(tuning_of(context.info()).exact), kernel_(context.kernel("solve", "solve")) {
   solved_.max_depth = std::max(max_depth, 1u);
   solved_.reserve(context, 1 << 14);
 }
@@ -19,10 +20,10 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
   solved_.count = fill_list(
       counters, &wt_counters::solved, "solve", [&] { return solved_.headers.size(); },
       [&] {
-        kernel_({candidate_count, 16}, "solve", trie, quarters, ends.transmitters, ends.receivers, scene.exact_surfaces,
-                scene.exact_triangles, scene.exact_instances, candidates, candidate_count, solved_.max_depth,
-                solved_.headers, solved_.vertices, solved_.sequences, static_cast<uint32_t>(solved_.headers.size()),
-                counters);
+        kernel_(work_.range(candidate_count), "solve", trie, quarters, ends.transmitters, ends.receivers,
+                scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, candidates, candidate_count,
+                solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences,
+                static_cast<uint32_t>(solved_.headers.size()), counters);
       },
       [&](size_t rows) { solved_.reserve(context_, rows); });
   return solved_;

@@ -4,6 +4,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -16,6 +17,7 @@ class Solve {
 
  private:
   gpu::Context& context_;
+  Work work_;
   gpu::Kernel kernel_;
   SolvedList solved_;
 };

@@ -3,14 +3,15 @@
 #include "passes/top_level.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <string>
+
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
 TopLevelTree::TopLevelTree(gpu::Context& context, const std::vector<float>& bodies)
     : local_(context.info().simple_local_size()),
-      group_(static_cast<uint32_t>(std::min<size_t>(1024, std::bit_floor(context.info().max_work_group)))),
+      group_(tuning_of(context.info()).top_level_items),
       bodies_(context.buffer(bodies, "bodies of instances")) {
   instances_.count = static_cast<uint32_t>(bodies.size() / 8);
   instances_.keys = context.buffer<uint32_t>(instances_.count, "keys of instances");

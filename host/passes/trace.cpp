@@ -4,12 +4,15 @@
 
 #include <string>
 
+#include "passes/tuning.hpp"
+
 namespace wavetracer {
 
 Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch, Scope scope)
     : shape_(shape),
       launch_(launch),
-      block_(block_size(context.info())),
+      block_(tuning_of(context.info()).block),
+      blocks_group_(tuning_of(context.info()).trace_group),
       counts_blocks_(shape != TraceShape::bvh2 || launch.plain()) {
   gpu::Definitions definitions = scene.definitions;
   if (scope == Scope::fixed) definitions.erase("WT_INSTANCES");
@@ -30,13 +33,13 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
               scene.moving, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::bvh8:
-      kernel_(launch_.range(blocks, 16), "trace", scene.nodes8, scene.blocks8, scene.moving, scene.extent_m,
+      kernel_(launch_.range(blocks, blocks_group_), "trace", scene.nodes8, scene.blocks8, scene.moving, scene.extent_m,
               rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::packet16:
-      kernel_(launch_.range(blocks, 16), "trace", scene.packet_nodes2, scene.triangles2, scene.triangle_slots,
-              scene.nodes8, scene.blocks8, scene.moving, scene.extent_m, rays.planes, rays.capacity, rays.count,
-              hits.planes, hits.block_hits);
+      kernel_(launch_.range(blocks, blocks_group_), "trace", scene.packet_nodes2, scene.triangles2,
+              scene.triangle_slots, scene.nodes8, scene.blocks8, scene.moving, scene.extent_m, rays.planes,
+              rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
   }
 }

@@ -9,9 +9,6 @@ namespace wavetracer {
 
 class Trace {
  public:
-  // Rays a block: the unit in which hits are counted and rays compacted.
-  static uint32_t block_size(const gpu::DeviceInfo& device) { return device.cpu ? 16 : 128; }
-
   // What is traced: all there is, or the static scene alone (see trace_moving).
   enum class Scope { all, fixed };
 
@@ -25,7 +22,7 @@ class Trace {
   gpu::Kernel kernel_;
   TraceShape shape_;
   LaunchShape launch_;
-  uint32_t block_;
+  uint32_t block_, blocks_group_;
   bool counts_blocks_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -12,8 +13,8 @@ class TraceMoving {
   void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);
 
  private:
+  Work work_;
   gpu::Kernel kernel_;
-  uint32_t rays_per_item_, local_;
 };
 
 }  // namespace wavetracer

@@ -1,8 +1,9 @@
 // Host side of kernels/wedge_join.cl.
-// On CPUs one prefix a work-item, elsewhere a group: a wedge may be seen by few or by thousands.
+// A prefix has one work-item or a group of them: a wedge may be seen by few or by thousands.
 #include "passes/wedge_join.hpp"
 
 #include "passes/growing_list.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -12,7 +13,8 @@ WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receive
       join_(context.kernel("wedge_join", "wedge_join")),
       with_pairs_(pairs && max_depth >= 2),
       max_depth_(max_depth),
-      lanes_(context.info().cpu ? 1 : 32),
+      lanes_(tuning_of(context.info()).join_lanes),
+      group_(tuning_of(context.info()).join_group),
       receiver_of_origin_(context.buffer(receiver_of_origin, "receivers of origins")),
       list_(context.buffer<wt_wedge_candidate>(1 << 14, "wedge candidates")) {
   if (with_pairs_) pairs_ = context.kernel("wedge_join", "wedge_pairs");
@@ -24,11 +26,11 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
   const size_t items = size_t{prefixes.count} * lanes_;
   const auto run = [&] {
     const auto capacity = static_cast<uint32_t>(list_.size());
-    join_({items, 32}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
+    join_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
           ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges(), scene.surfaces,
           list_, capacity, counters);
     if (with_pairs_)
-      pairs_({items, 32}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
+      pairs_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
              ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges(), list_,
              capacity, counters);
   };

@@ -22,7 +22,7 @@ class WedgeJoin {
   gpu::Context& context_;
   gpu::Kernel join_, pairs_;
   bool with_pairs_;
-  uint32_t max_depth_, lanes_;
+  uint32_t max_depth_, lanes_, group_;
   gpu::Buffer<uint32_t> receiver_of_origin_;
   gpu::Buffer<wt_wedge_candidate> list_;
 };

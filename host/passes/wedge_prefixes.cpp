@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_prefixes.cl.
-// One node of the trie a work-item; groups are small, because the ground bounds many wedges and a wall few.
+// One node of the trie per work-item.
 #include "passes/wedge_prefixes.hpp"
 
 #include "passes/growing_list.hpp"
@@ -7,7 +7,9 @@
 namespace wavetracer {
 
 WedgePrefixes::WedgePrefixes(gpu::Context& context)
-    : context_(context), kernel_(context.kernel("wedge_prefixes", "wedge_prefixes")) {
+    : context_(context),
+      work_(tuning_of(context.info()).prefixes),
+      kernel_(context.kernel("wedge_prefixes", "wedge_prefixes")) {
   reserve(1 << 14);
 }
 
@@ -23,8 +25,8 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
   list_.count = fill_list(
       counters, &wt_counters::wedge_prefixes, "wedge_prefixes", [&] { return list_.keys.size(); },
       [&] {
-        kernel_({node_count, 64}, "wedge_prefixes", trie, static_cast<uint32_t>(trie.size() - 1), quarters, nodes,
-                node_count, ends.transmitters, scene.exact_surfaces, wedges.first(), wedges.of_surfaces(),
+        kernel_(work_.range(node_count), "wedge_prefixes", trie, static_cast<uint32_t>(trie.size() - 1), quarters,
+                nodes, node_count, ends.transmitters, scene.exact_surfaces, wedges.first(), wedges.of_surfaces(),
                 wedges.wedges(), list_.keys, list_.prefixes, static_cast<uint32_t>(list_.keys.size()), counters);
       },
       [&](size_t entries) { reserve(entries); });

@@ -4,6 +4,7 @@
 #include "gpu/gpu.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
+#include "passes/tuning.hpp"
 #include "passes/wedges.hpp"
 
 namespace wavetracer {
@@ -28,6 +29,7 @@ class WedgePrefixes {
   void reserve(size_t entries);
 
   gpu::Context& context_;
+  Work work_;
   gpu::Kernel kernel_;
   WedgePrefixList list_;
 };

@@ -9,7 +9,7 @@
 namespace wavetracer {
 
 WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth)
-    : context_(context), kernel_(context.kernel("wedge_solve", "wedge_solve")) {
+    : context_(context), work_(tuning_of(context.info()).exact), kernel_(context.kernel("wedge_solve", "wedge_solve")) {
   solved_.max_depth = max_depth;
   solved_.reserve(context, 1 << 12);
 }
@@ -18,7 +18,7 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const Wedges& wedge
                                    const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
                                    uint32_t candidate_count, gpu::Buffer<wt_counters>& counters) {
   const auto run = [&] {
-    kernel_({candidate_count, 16}, "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
+    kernel_(work_.range(candidate_count), "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
             scene.exact_triangles, scene.exact_instances, wedges.wedges(), candidates, candidate_count,
             solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences,
             static_cast<uint32_t>(solved_.headers.size()), counters);

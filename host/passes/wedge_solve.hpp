@@ -4,6 +4,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
 #include "passes/wedges.hpp"
 
 namespace wavetracer {
@@ -17,6 +18,7 @@ class WedgeSolve {
 
  private:
   gpu::Context& context_;
+  Work work_;
   gpu::Kernel kernel_;
   SolvedList solved_;
 };

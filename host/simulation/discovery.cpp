@@ -10,13 +10,13 @@ namespace {
 constexpr uint64_t initial_slots = 1 << 18;
 constexpr uint64_t room_step = 256;  // room for rays is a multiple of this
 
-// Rays in flight: what fills the device, and what its caches like where there are few cores.
+// Rays in flight, as tuned for the device where memory and the configuration allow it.
 uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& trace, const TracingDepth& depth,
                       const RayFollower& follower) {
   const uint64_t waiting = depth.transmissions > 0 ? depth.interactions - 1 : 0;  // queues beside the two of the loop
   const uint64_t bytes_per_ray = 4 * ((2 + waiting) * WT_RAY_PLANES + WT_HIT_PLANES) + 4;
   const uint64_t most = std::min(device.max_buffer / (8 * WT_RAY_PLANES), device.global_memory / (4 * bytes_per_ray));
-  const uint64_t wanted = trace.batch_rays.value_or(uint64_t{1} << (device.cpu ? 18 : 25));
+  const uint64_t wanted = trace.batch_rays.value_or(tuning_of(device).batch_rays);
   const uint64_t rays = std::clamp<uint64_t>(wanted, room_step, std::max<uint64_t>(most, room_step));
   const uint64_t followed = follower.bytes_per_sample();
   if (followed == 0) return rays;

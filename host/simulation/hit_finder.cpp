@@ -12,7 +12,7 @@ TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& trace,
 
 TracedHits::TracedHits(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch)
     : trace_(context, scene, shape, launch) {
-  if (!trace_.counts_blocks()) compact_.emplace(context, Trace::block_size(context.info()));
+  if (!trace_.counts_blocks()) compact_.emplace(context);
 }
 
 void TracedHits::find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t) { trace_(scene, rays, hits); }

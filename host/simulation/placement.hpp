@@ -9,6 +9,7 @@
 #include "passes/place.hpp"
 #include "passes/sort.hpp"
 #include "passes/top_level.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -21,8 +22,8 @@ class InstancePlacement {
   InstancePlacement(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
                     DeviceScene& scene, TopLevelBuild build = TopLevelBuild::fastest)
       : place_(context, models, instances, scene) {
-    if (build == TopLevelBuild::host || (build == TopLevelBuild::fastest && context.info().cpu)) return;
-    least_ = build == TopLevelBuild::device ? 0 : crossover;
+    if (build == TopLevelBuild::host || (build == TopLevelBuild::fastest && tuning_of(context.info()).alone)) return;
+    least_ = build == TopLevelBuild::device ? 0 : device_tree_instances;
     if (instances.size() < least_) return;
     tree_.emplace(context, place_.bodies());
     sort_.emplace(context);
@@ -44,10 +45,6 @@ class InstancePlacement {
   }
 
  private:
-  // Instances from which a GPU is faster: an H200 places 100, 400 and 10,000 in 0.058, 0.065 and 0.31 ms with a tree of
-  // its own, and in 0.066, 0.20 and 4 to 6 ms with one by the host (bench_drive).
-  static constexpr size_t crossover = 100;
-
   Place place_;
   std::optional<TopLevelTree> tree_;
   std::optional<Sort> sort_;

@@ -55,12 +55,11 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
       lookup_(context, table_),
       store_(context, table_),
       purge_(context, table_),
-      compact_(context, Trace::block_size(context.info())),
+      compact_(context),
       scan_(context),
       gather_(context, "cache_gather"),
       traced_(context, scene, shape, launch),
       trace_(context, scene, shape, launch, config.scope == "static" ? Trace::Scope::fixed : Trace::Scope::all),
-      block_(Trace::block_size(context.info())),
       static_surfaces_(world.static_surfaces),
       keys_(world.transmitters),
       instance_since_(world.instances),
@@ -159,10 +158,10 @@ void RayCache::note_receivers(const std::vector<EndState>& receivers) {
 
 void RayCache::reserve(uint64_t rays) {
   missed_rays_ = make_ray_queue(context_, rays, "missed rays", WT_RAY_ENTRY);
-  missed_hits_ = make_hit_list(context_, rays, block_);
+  missed_hits_ = make_hit_list(context_, rays);
   const uint32_t capacity = missed_rays_.capacity;
   missed_ = context_.buffer<float>(capacity, "missed");
-  missed_blocks_ = context_.buffer<uint32_t>(capacity / block_ + 1, "missed blocks");
+  missed_blocks_ = context_.buffer<uint32_t>(compact_.blocks(capacity) + 1, "missed blocks");
   indices_ = context_.buffer<uint32_t>(capacity, "missed indices");
   if (table_.config.scope != "all") return;
   answers_ = context_.buffer<uint32_t>(capacity, "cached receptions");
@@ -176,7 +175,7 @@ void RayCache::find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uin
   lookup_(scene, rays, hits, missed_, table_, movement_, static_surfaces_, frame_, touch_,
           answers_ ? &answers_ : nullptr);
   compact_.count_blocks(missed_, 0, rays.count, missed_blocks_);
-  const uint32_t missed = scan_(missed_blocks_, (rays.count + block_ - 1) / block_);
+  const uint32_t missed = scan_(missed_blocks_, compact_.blocks(rays.count));
   if (missed > 0) {
     compact_(missed_, 0, rays.count, missed_blocks_, indices_);
     gather_(rays, indices_, missed, missed_rays_);

@@ -74,7 +74,7 @@ class RayCache final : public HitFinder {
   TracedHits traced_;  // before cache.first_depth
   Trace trace_;        // of what is missed
   std::optional<TraceMoving> trace_moving_;
-  uint32_t block_, static_surfaces_, frame_ = 0;
+  uint32_t static_surfaces_, frame_ = 0;
   RayQueue missed_rays_;
   HitList missed_hits_;
   gpu::Buffer<float> missed_;

@@ -46,9 +46,8 @@ Refinement::Refinement(gpu::Context& context, const TraceConfig& config, std::sh
       heights_(std::move(heights)),
       generate_(context, directions_of(config.directions, finest_level), heights_),
       refine_(context),
-      compact_(context, context.info().cpu ? 16 : 128),
-      scan_(context),
-      block_(context.info().cpu ? 16 : 128) {}
+      compact_(context),
+      scan_(context) {}
 
 void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots, uint64_t frame) {
   std::vector<float> records;
@@ -110,11 +109,11 @@ bool Refinement::descend() {
   if (marks_.size() < level.count) {
     marks_ = context_.buffer<float>(level.count, "marks");
     list_ = context_.buffer<uint32_t>(level.count, "marked samples");
-    blocks_ = context_.buffer<uint32_t>(level.count / block_ + 1, "marks of blocks");
+    blocks_ = context_.buffer<uint32_t>(compact_.blocks(level.count) + 1, "marks of blocks");
   }
   refine_.mark(level, hits_, rare_, marks_);
   compact_.count_blocks(marks_, 0, level.count, blocks_);
-  const uint32_t marked = scan_(blocks_, (level.count + block_ - 1) / block_);
+  const uint32_t marked = scan_(blocks_, compact_.blocks(level.count));
   if (marked == 0) return ends(LaunchEnd::nothing_rare);
   if (launched_ + 4 * uint64_t{marked} > most_) return ends(LaunchEnd::max_rays);
   compact_(marks_, 0, level.count, blocks_, list_);

@@ -41,7 +41,6 @@ class Refinement {
   Refine refine_;
   Compact compact_;
   Scan scan_;
-  uint32_t block_;
   gpu::Buffer<float> launchers_, marks_;
   gpu::Buffer<uint32_t> hits_, blocks_, list_;
   SampleList lists_[3];           // the first level, kept for the next frame, and two that take turns

@@ -19,7 +19,6 @@ Wavefront::Wavefront(gpu::Context& context, const TracingDepth& depth, InteractO
                      HitFinder& finder, Sequences& sequences)
     : context_(context),
       depth_(depth),
-      block_(Trace::block_size(context.info())),
       planes_(options.labels ? WT_RAY_LABELLED_PLANES : WT_RAY_PLANES + uint32_t{options.samples}),
       source_(source),
       finder_(finder),
@@ -32,7 +31,7 @@ Wavefront::Wavefront(gpu::Context& context, const TracingDepth& depth, InteractO
 void Wavefront::reserve(uint64_t rays) {
   rays_ = make_ray_queue(context_, rays, "rays", planes_);
   next_ = make_ray_queue(context_, rays, "next rays", planes_);
-  hits_ = make_hit_list(context_, rays, block_);
+  hits_ = make_hit_list(context_, rays);
   transmitted_.clear();
   for (uint32_t depth = 2; depth_.transmissions > 0 && depth <= depth_.interactions; ++depth)
     transmitted_.push_back(make_ray_queue(context_, rays, "transmitted rays", planes_));
@@ -58,9 +57,9 @@ void Wavefront::trace_reflected(const DeviceScene& scene, RayFollower& follower,
   for (uint32_t depth = stage.depth; depth <= last && rays_.count > 0; ++depth) {
     source_.sort(rays_, next_, depth);         // order_keys, sort, gather_rays
     finder_.find(scene, rays_, hits_, depth);  // cache_lookup, trace, cache_store (ray_cache.cpp)
-    follower.follow(rays_, hits_, depth - 1, finder_.answered(depth));                        // waypoints, receive
-    finder_.count_blocks(rays_, hits_, depth);                                                // compact
-    const uint32_t hit_count = scan_(hits_.block_hits, (rays_.count + block_ - 1) / block_);  // scan
+    follower.follow(rays_, hits_, depth - 1, finder_.answered(depth));              // waypoints, receive
+    finder_.count_blocks(rays_, hits_, depth);                                      // compact
+    const uint32_t hit_count = scan_(hits_.block_hits, hits_.blocks(rays_.count));  // scan
     RaysOnward onward{.reflected = depth == last ? nullptr : &next_, .ends = ends};
     if (stage.transmissions > 0 && depth < depth_.interactions) {
       onward.transmitted = &transmitted_[depth - 1];

@@ -43,7 +43,7 @@ class Wavefront {
 
   gpu::Context& context_;
   TracingDepth depth_;
-  uint32_t block_, planes_;
+  uint32_t planes_;
   RaySource& source_;
   HitFinder& finder_;
   Sequences& sequences_;

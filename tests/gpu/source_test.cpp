@@ -71,6 +71,15 @@ TEST_CASE("an embedded program keeps the place of each of its lines") {
   CHECK(checked == lines_of(read_file(WAVETRACER_SOURCE "/kernels/lib/memory_order.clh")).size());
 }
 
+TEST_CASE("kernels of tests are found wherever kernels come from, and are not built into the program") {
+  const auto is_probe = [](const gpu::EmbeddedFile& file) { return contains(std::string(file.path), "probe"); };
+  CHECK(std::ranges::none_of(gpu::embedded_files(), is_probe));
+  CHECK(contains(gpu::program_source("probe_memory_order"), "#line 1 \"tests/kernels/probe_memory_order.cl\""));
+  const TemporaryKernels kernels;
+  kernels.add("lib/memory_order.clh", "from disk\n");
+  CHECK(contains(gpu::program_source("probe_memory_order"), "from disk"));
+}
+
 TEST_CASE("includes: nested, odd blanks, angle brackets left alone, circles end, no last newline") {
   const TemporaryKernels kernels;
   kernels.add("main.cl", "#include \"lib/a.clh\"\n  #  include\t\"lib/b.clh\"  // again\n#include <other.h>\nlast");

@@ -93,7 +93,7 @@ inline RayQueue upload(std::span<const CachedRay> rays) {
 }
 
 inline HitList upload_hits(std::span<const Hit> hits) {
-  HitList list = make_hit_list(context(), hits.size(), Trace::block_size(context().info()));
+  HitList list = make_hit_list(context(), hits.size());
   std::vector<float> planes(list.planes.size());
   for (size_t i = 0; i < hits.size(); ++i) {
     planes[i] = hits[i].t;
@@ -142,7 +142,7 @@ class Cache {
     RayQueue queue = upload(rays);
     const RayQueue missed = upload(rays);
     const HitList list = upload_hits(hits);
-    HitList all = make_hit_list(context(), rays.size(), Trace::block_size(context().info()));
+    HitList all = make_hit_list(context(), rays.size());
     std::vector<uint32_t> every(rays.size());
     std::iota(every.begin(), every.end(), 0u);
     receptions.resize(rays.size(), WT_NONE);

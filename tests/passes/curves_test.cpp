@@ -1,6 +1,6 @@
 // curves: bijections with unit steps at small orders, slow references at full width, the device against the host.
 // References: bit loops (Morton), the grammar of the curve (Hilbert 2D), the motions of its octants (Hilbert 3D).
-#include "passes/curves.hpp"
+#include "kernels/curves.hpp"
 
 #include <doctest/doctest.h>
 

@@ -38,8 +38,8 @@ inline SequenceSet with_prefixes(const std::vector<Sequence>& sequences) {
 // A hit list that says: ray i hit surface surfaces[i], or nothing (WT_NONE). All at distance 1. rays: what it has room
 // for, at least as many as there are surfaces; the planes of a queue and its hits must have one length.
 inline HitList upload_hits(const std::vector<uint32_t>& surfaces, size_t rays) {
-  const uint32_t block = Trace::block_size(context().info());
-  HitList hits = make_hit_list(context(), rays, block);
+  const uint32_t block = tuning_of(context().info()).block;
+  HitList hits = make_hit_list(context(), rays);
   std::vector<float> planes(hits.planes.size(), 1.0f);
   std::vector<uint32_t> counts(hits.block_hits.size(), 0);
   for (size_t i = 0; i < surfaces.size(); ++i) {
@@ -54,7 +54,6 @@ inline HitList upload_hits(const std::vector<uint32_t>& surfaces, size_t rays) {
 
 // Rays that live through these sequences once, one ray a sequence. Nothing is done about a full table.
 inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Sequence> sequences) {
-  const uint32_t block = Trace::block_size(context().info());
   Scan scan(context());
   Interact interact(context());
   std::vector<Ray> rays;
@@ -65,7 +64,7 @@ inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Seq
     for (const Sequence& s : sequences) surfaces.push_back(depth < s.surfaces.size() ? s.surfaces[depth] : WT_NONE);
     std::erase_if(sequences, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
     HitList hits = upload_hits(surfaces, rays.size());
-    const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
+    const uint32_t alive = scan(hits.block_hits, hits.blocks(queue.count));
     interact(scene, queue, hits, alive, set.trie(), {.reflected = &next});
     std::swap(queue, next);
   }

@@ -26,18 +26,17 @@ struct Step {
 
   Step(const Scene& scene, const std::vector<Ray>& rays, bool last = false, bool through = false) {
     const DeviceScene uploaded = make_device_scene(context(), scene, false);
-    const uint32_t block = Trace::block_size(context().info());
     const RayQueue queue = upload(rays);
     RayQueue after = make_ray_queue(context(), rays.size(), "next rays");
     RayQueue transmitted = make_ray_queue(context(), rays.size(), "transmitted rays");
-    HitList list = make_hit_list(context(), rays.size(), block);
+    HitList list = make_hit_list(context(), rays.size());
     Sequences set(context(), 4096);
     Trace trace_pass(context(), uploaded, shapes().back());
     Scan scan(context());
     Interact interact(context(), {.transmission = through});
     trace_pass(uploaded, queue, list);
     hits = download(list, rays.size());
-    const uint32_t alive = scan(list.block_hits, (queue.count + block - 1) / block);
+    const uint32_t alive = scan(list.block_hits, list.blocks(queue.count));
     interact(uploaded, queue, list, alive, set.trie(),
              {.reflected = last ? nullptr : &after, .transmitted = through ? &transmitted : nullptr});
     next = download(after);
@@ -238,7 +237,7 @@ TEST_CASE("what its options need and nobody gives is refused") {
   const DeviceScene scene =
       make_device_scene(context(), scene_of_triangles(room(Room::ball, 4, 10, {3, -2, 1})), false);
   RayQueue rays = make_ray_queue(context(), 16, "rays"), behind = make_ray_queue(context(), 16, "transmitted rays");
-  const HitList hits = make_hit_list(context(), 16, Trace::block_size(context().info()));
+  const HitList hits = make_hit_list(context(), 16);
   Sequences set(context(), 4096);  // keeps no ages
   CHECK_THROWS_AS(Interact(context(), {.ages = true})(scene, rays, hits, 0, set.trie(), {}), std::logic_error);
   CHECK_THROWS_AS(Interact(context(), {.samples = true})(scene, rays, hits, 0, set.trie(), {}), std::logic_error);

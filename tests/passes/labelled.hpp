@@ -38,7 +38,7 @@ inline RayQueue upload_labelled(const std::vector<LabelledRay>& rays) {
 }
 
 inline HitList upload_hits_of(const std::vector<LabelledRay>& rays) {
-  HitList list = make_hit_list(context(), rays.size(), Trace::block_size(context().info()));
+  HitList list = make_hit_list(context(), rays.size());
   std::vector<float> planes(list.planes.size(), std::bit_cast<float>(0x7FC00000u));  // a miss may have any distance
   for (size_t i = 0; i < rays.size(); ++i) {
     const Hit& hit = rays[i].hit;

@@ -17,16 +17,15 @@ struct Bounces {
 
   Bounces(const Scene& scene, std::vector<Ray> rays, uint32_t bounces) {
     const DeviceScene uploaded = make_device_scene(context(), scene, false);
-    const uint32_t block = Trace::block_size(context().info());
     RayQueue queue = upload(rays), next = upload(rays);
-    HitList hits = make_hit_list(context(), rays.size(), block);
+    HitList hits = make_hit_list(context(), rays.size());
     Sequences set(context(), 1 << 22);
     Trace trace_pass(context(), uploaded, shapes()[shapes().size() / 2]);
     Scan scan(context());
     Interact interact(context());
     for (uint32_t k = 0; k < bounces; ++k) {
       trace_pass(uploaded, queue, hits);
-      const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
+      const uint32_t alive = scan(hits.block_hits, hits.blocks(queue.count));
       segments += queue.count;
       escaped += queue.count - alive;
       interact(uploaded, queue, hits, alive, set.trie(), {.reflected = &next});

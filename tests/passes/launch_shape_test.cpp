@@ -94,9 +94,8 @@ TEST_CASE("hits and the hits of blocks are the same for every launch shape") {
     }
   }
   const RayQueue queue = upload(rays);
-  const uint32_t block = Trace::block_size(context().info());
-  const uint32_t blocks = (queue.count + block - 1) / block;
-  Compact compact(context(), block);
+  Compact compact(context());
+  const uint32_t blocks = compact.blocks(queue.count);
   for (const TraceShape traversal : shapes()) {
     CAPTURE(name_of(traversal));
     std::vector<Hit> expected;
@@ -106,7 +105,7 @@ TEST_CASE("hits and the hits of blocks are the same for every launch shape") {
       for (const bool curve : {false, true})
         if (dimensions > 1 || !curve) launches.push_back({dimensions, curve, dimensions == 3 ? 8u : 32u});
     for (const LaunchShape& launch : launches) {
-      HitList hits = make_hit_list(context(), rays.size(), block);
+      HitList hits = make_hit_list(context(), rays.size());
       Trace trace(context(), device, traversal, launch);
       trace(device, queue, hits);
       // bvh2 is the GPU's traversal: where its block differs from this device's, the fused counts are not those of

@@ -99,7 +99,7 @@ inline double reach_of(const std::vector<Ray>& rays) {
 // The nearest hit of each ray.
 inline std::vector<Hit> trace(const DeviceScene& scene, TraceShape shape, const std::vector<Ray>& rays) {
   const RayQueue queue = upload(rays);
-  HitList list = make_hit_list(context(), rays.size(), Trace::block_size(context().info()));
+  HitList list = make_hit_list(context(), rays.size());
   Trace pass(context(), scene, shape);
   pass(scene, queue, list);
   return download(list, rays.size());

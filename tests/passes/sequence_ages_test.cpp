@@ -30,7 +30,6 @@ DeviceScene any_scene() { return scene_of_normals(std::vector<Float3>(8, {0, 0, 
 
 // Rays that live through these sequences in this frame, as enter() has them, in a set that keeps ages.
 void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>& sequences) {
-  const uint32_t block = Trace::block_size(context().info());
   Scan scan(context());
   Interact interact(context(), {.ages = true});
   std::vector<Ray> rays;
@@ -43,7 +42,7 @@ void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>&
       for (const Sequence& s : alive) surfaces.push_back(depth < s.surfaces.size() ? s.surfaces[depth] : WT_NONE);
       std::erase_if(alive, [&](const Sequence& s) { return s.surfaces.size() <= depth; });
       HitList hits = upload_hits(surfaces, rays.size());
-      const uint32_t count = scan(hits.block_hits, (queue.count + block - 1) / block);
+      const uint32_t count = scan(hits.block_hits, hits.blocks(queue.count));
       interact(scene, queue, hits, count, set.trie(), {.reflected = &next});
       std::swap(queue, next);
     }

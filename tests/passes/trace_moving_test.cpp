@@ -18,7 +18,7 @@ TEST_CASE("the static scene, then the instances: the hits of everything at once,
   for (uint32_t i = 0; i < rays.size(); i += 7) rays[i].surface = WT_OWN | i % 9;
   const RayQueue queue = upload(rays);
   for (const TraceShape shape : shapes()) {
-    HitList hits = make_hit_list(context(), rays.size(), Trace::block_size(context().info()));
+    HitList hits = make_hit_list(context(), rays.size());
     Trace(context(), scene, shape, {}, Trace::Scope::fixed)(scene, queue, hits);
     TraceMoving(context(), scene)(scene, queue, hits);
     CHECK(download(hits, rays.size()) == trace(scene, shape, rays));
@@ -53,11 +53,10 @@ TEST_CASE("labels follow a ray through its reflections") {
   CHECK(word(queue, WT_RAY_LEFT, 5) == WT_NONE);
   CHECK(word(queue, WT_RAY_ENTRY, 5) == WT_NONE);
 
-  const uint32_t block = Trace::block_size(context().info());
-  HitList hits = make_hit_list(context(), rays.size(), block);
+  HitList hits = make_hit_list(context(), rays.size());
   Trace trace(context(), scene, shapes().front());
   trace(scene, queue, hits);
-  const uint32_t hit_count = Scan(context())(hits.block_hits, (queue.count + block - 1) / block);
+  const uint32_t hit_count = Scan(context())(hits.block_hits, hits.blocks(queue.count));
   auto trie = context().buffer<uint64_t>(4096, "trie");
   context().fill(trie, WT_EMPTY);
   auto counters = context().buffer<wt_counters>(1, "counters");

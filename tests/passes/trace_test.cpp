@@ -82,7 +82,7 @@ TEST_CASE("a ray does not hit the surface that it leaves, and hits it from anywh
 TEST_CASE("every block counts its hits, in queues that end inside a block") {
   const std::vector<Corners> triangles{{{{-5, -5, 3}, {5, -5, 3}, {0, 5, 3}}}};
   const DeviceScene uploaded = make_device_scene(context(), scene_of_triangles(triangles), false);
-  const uint32_t block = Trace::block_size(context().info());
+  const uint32_t block = tuning_of(context().info()).block;
   for (const uint32_t count : {1u, 15u, 16u, 17u, 300u}) {
     CAPTURE(count);
     std::vector<Ray> rays(count);
@@ -92,7 +92,7 @@ TEST_CASE("every block counts its hits, in queues that end inside a block") {
     for (const TraceShape shape : shapes()) {
       CAPTURE(name_of(shape));
       const RayQueue queue = upload(rays);
-      HitList hits = make_hit_list(context(), count, block);
+      HitList hits = make_hit_list(context(), count);
       Trace pass(context(), uploaded, shape);
       pass(uploaded, queue, hits);
       CHECK(hits.block_hits.read(0, expected.size()) == expected);

@@ -61,7 +61,6 @@ Polyline follow(glm::dvec3 p, glm::dvec3 d, uint32_t reflections) {
 std::vector<wt_waypoint> rows_after(const Scene& scene, const std::vector<LabelledRay>& rays, uint32_t depth,
                                     uint32_t first_sample) {
   const DeviceScene uploaded = make_device_scene(context(), scene, false);
-  const uint32_t block = Trace::block_size(context().info());
   RayQueue queue = upload_labelled(rays), next = upload_labelled(rays);
   HitList hits = upload_hits_of(rays);
   Trace trace_pass(context(), uploaded, shapes().back());
@@ -74,7 +73,7 @@ std::vector<wt_waypoint> rows_after(const Scene& scene, const std::vector<Labell
   for (uint32_t k = 0; k <= depth && queue.count > 0; ++k) {
     trace_pass(uploaded, queue, hits);
     waypoints(queue, hits, k);
-    const uint32_t alive = scan(hits.block_hits, (queue.count + block - 1) / block);
+    const uint32_t alive = scan(hits.block_hits, hits.blocks(queue.count));
     interact(uploaded, queue, hits, alive, set.trie(), {.reflected = &next});
     std::swap(queue, next);
   }

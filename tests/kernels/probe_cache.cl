@@ -2,7 +2,7 @@
 // Keys are numbers. What a key is, and what is stored under it, are functions of its number and of the frame of
 // writing, so that an answer that is torn, of another key or of another frame gives itself away. Global sizes may
 // exceed what there is to do.
-#include "lib/probe_question.clh"
+#include "probe_question.clh"
 
 inline wt_cache probe_cache(global wt_cache_entry* entries, global uint* heads, global uint* used,
                             const global wt_cache_region* regions, global wt_cache_counters* counters) {

@@ -1,6 +1,6 @@
 // Kernels that only bench_cache runs: what a table of the ray cache does in a second, and what memory would allow.
 // Questions are arrays, read in order, one a work-item. All regard region 0.
-#include "lib/probe_question.clh"
+#include "probe_question.clh"
 
 // What is stored under a key.
 inline uint rate_primitive(ulong cells, uint left) { return (uint)(cells ^ cells >> 32) + left; }

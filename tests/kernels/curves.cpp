@@ -1,6 +1,6 @@
-// Host side of kernels/curves.cl.
-// The curves and their shapes are named here once; kernels/curves.cl has a pair of functions for each name.
-#include "passes/curves.hpp"
+// Host side of curves.cl beside it.
+// The curves and their shapes are named here once; curves.cl has a pair of functions for each name.
+#include "kernels/curves.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,162 @@
+// One table of how kernels are launched: every choice between CPUs and GPUs that changes time and no result.
+// A figure says where it was measured; rows without one were chosen by reasoning and not measured. bench_kernels,
+// bench_sort, bench_trace and bench_cache print what a changed row does. Passes of which a work-item does little for
+// one element, on every device, need no row: their groups are DeviceInfo::simple_local_size().
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include "gpu/gpu.hpp"
+
+namespace wavetracer {
+
+// How the elements of a launch (rays, words, rows) are shared out.
+struct Work {
+  uint32_t per_item = 1;  // elements that a work-item takes one after the other
+  uint32_t group = 1;     // work-items per group
+
+  // Work-items for so many elements; the last one may have fewer.
+  gpu::Range range(size_t elements) const { return {(elements + per_item - 1) / per_item, group}; }
+  // per_item as a kernel's build option.
+  std::string option() const { return std::to_string(per_item) + "u"; }
+};
+
+// How prefix sums are made: `items` work-items per chunk (a power of two); one chunk where there are at most `alone`
+// counts, else about `chunks` of them, ScanTuning::most_chunks at most.
+struct ScanTuning {
+  static constexpr uint32_t most_chunks = 1024;
+  uint32_t items, alone, chunks;
+};
+
+// How bitonic_sort is launched.
+struct BitonicTuning {
+  uint32_t items;       // work-items per block of keys, at most
+  uint32_t step_group;  // work-items per group of the steps over all keys
+};
+
+// How a form of radix_sort is launched.
+struct RadixTuning {
+  uint32_t digit_bits;                   // of the widest digit
+  uint32_t items;                        // per group
+  uint32_t offset_items, offset_groups;  // of the kernel that makes offsets of the counts
+  uint32_t tile;                         // a chunk is a multiple of this many keys
+  uint32_t most_chunks;
+  bool moves_tiles;       // a group moves one tile, not a chunk, and each tile has counts in temporary memory
+  uint32_t columns;       // of a tile (groups alone)
+  uint64_t direct_bytes;  // keys and values of up to so many bytes are written without lines (chunks alone)
+};
+
+struct Tuning {
+  bool alone;  // work-items take runs of elements by themselves (CPUs), or groups take blocks together
+
+  uint32_t block;            // rays per block: the unit in which hits are counted and rays are compacted
+  uint32_t blocks_per_item;  // where work-items are alone: blocks that interact and compact take in turn
+  Work blocks;               // interact and compact: elements are the rays or words
+
+  Work generate_rays, order_keys, label_rays, gather_rays;
+  uint32_t trace_group;  // work-items per group where one takes a block
+  Work trace_moving;
+  Work cache_rays, cache_entries;  // cache_lookup and cache_store; cache_purge
+  Work receive;
+
+  Work sequences;
+  bool receivers_together;  // candidates: a work-item takes a sequence with all receivers, or with 16 of them
+  Work candidates, exact, prefixes;
+  uint32_t join_lanes, join_group;  // wedge_join: work-items per prefix
+  Work tiles;                       // rows of scatter
+
+  ScanTuning scan;
+  BitonicTuning bitonic;
+  uint32_t top_level_items;  // of the one group that makes the inner boxes of the top-level tree
+  uint64_t batch_rays;       // rays in flight, where the configuration and memory leave the choice
+};
+
+inline Tuning tuning_of(const gpu::DeviceInfo& device) {
+  const bool cpu = device.cpu;
+  const uint32_t small = device.simple_local_size();  // its figure stands there
+  const uint32_t block = cpu ? 16 : 128;              // 16: the lanes of a packet; 128: not measured
+  // As many blocks as make a work-item of a CPU worth its start; not measured.
+  const uint32_t blocks_per_item = 64;
+  const auto widest = static_cast<uint32_t>(std::bit_floor(device.max_work_group));
+  return {
+      .alone = cpu,
+      .block = block,
+      .blocks_per_item = blocks_per_item,
+      .blocks = cpu ? Work{block * blocks_per_item, 4} : Work{1, block},
+      // Kernels in vectors of 16 lanes on CPUs: per_item is that number, and cannot be another one.
+      .generate_rays = {cpu ? 16u : 1u, small},
+      .order_keys = {cpu ? 16u : 1u, small},
+      // A page of 4 KiB of each plane; not measured.
+      .label_rays = cpu ? Work{1024, 1} : Work{1, small},
+      .gather_rays = cpu ? Work{1024, 1} : Work{1, small},
+      .trace_group = 16,
+      .trace_moving = cpu ? Work{16, 16} : Work{1, 128},
+      // CPUs: sixteen searches of a run are begun together (lib/prefetch.clh). The length of a run was not measured.
+      .cache_rays = cpu ? Work{256, 1} : Work{1, small},
+      .cache_entries = {16, small},
+      .receive = {1, cpu ? 64u : 128u},
+      .sequences = {1, 64},
+      .receivers_together = cpu,
+      .candidates = {1, 64},
+      // Kernels in double with long private arrays, whose neighbours take very different times: small groups.
+      .exact = {1, 16},
+      .prefixes = {1, 64},  // the ground bounds many wedges and a wall few
+      // A wedge may be seen by few prefixes or by thousands; not measured.
+      .join_lanes = cpu ? 1u : 32u,
+      .join_group = 32,
+      // A search for the entry serves many rows where there are few cores.
+      .tiles = {cpu ? 64u : 1u, small},
+      // CPUs: one launch reads once, two read twice. Two free cores gain 1.07 at 2^18 counts, 1.3 at 2^20 and 2^22,
+      // 1.15 at 2^24 (PoCL, medians of 80); where another program keeps one of them busy two launches take 1.2 to 1.4
+      // times as long. So above 2^19. GPUs: not measured.
+      .scan = cpu ? ScanTuning{1, 1u << 19, 4 * device.compute_units}
+                  : ScanTuning{std::min(256u, widest), 4096, ScanTuning::most_chunks},
+      .bitonic = {.items = std::min(1024u, widest), .step_group = 256},
+      .top_level_items = std::min(1024u, widest),
+      // What fills the device, and what its caches like where there are few cores; not measured.
+      .batch_rays = uint64_t{1} << (cpu ? 18 : 25),
+  };
+}
+
+// Radix sort by groups. Tile and columns: what 48 KiB of local memory hold, the fastest of some twenty on an H200
+// (25 G pairs/s at 2^26 instead of 17, bench_sort); or 32 KiB.
+inline RadixTuning radix_groups(const gpu::DeviceInfo& device) {
+  const bool large = device.local_memory >= 48 << 10;
+  const uint32_t columns = large ? 72 : 32;
+  return {.digit_bits = 8,
+          .items = 256,
+          .offset_items = large ? 256u : 32u,
+          .offset_groups = 256,  // a group per digit
+          .tile = 64 * columns,
+          .most_chunks = 1024,
+          .moves_tiles = true,
+          .columns = columns,
+          .direct_bytes = 0};
+}
+
+// Radix sort by single work-items. Eight chunks per core, because PoCL hands the first thread that comes half of all
+// groups (and one) at once, the next half of the rest: the last ones level that out. Keys and values of 16 MiB still
+// fit into the caches with the copy that they are moved to (measured with 32 MiB of third-level cache).
+inline RadixTuning radix_chunks(const gpu::DeviceInfo& device) {
+  return {.digit_bits = 8,
+          .items = 1,
+          .offset_items = 1,
+          .offset_groups = 1,
+          .tile = 1024,
+          .most_chunks = 8 * std::max(1u, device.compute_units),
+          .moves_tiles = false,
+          .columns = 0,
+          .direct_bytes = uint64_t{16} << 20};
+}
+
+// A sort of at most one block of bitonic_sort is one launch there; above it radix_sort is faster: GPUs win more by
+// fewer launches than they lose by more work, CPUs sort a block in vectors (bench_sort prints both at sizes around it).
+constexpr uint32_t largest_bitonic_block = 8192;
+
+// Instances from which a GPU builds the top-level tree faster than the host: an H200 places 100, 400 and 10,000 in
+// 0.058, 0.065 and 0.31 ms with a tree of its own, and in 0.066, 0.20 and 4 to 6 ms with one by the host (bench_drive).
+constexpr size_t device_tree_instances = 100;
+
+}  // namespace wavetracer
