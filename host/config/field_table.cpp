@@ -1,4 +1,4 @@
-// The rows of the field table, one a key of the config file, in the order in which `init` writes them.
+// The rows of the field table, one per key of the config file, in the order in which `init` writes them.
 // The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
 #include "config/field_table.hpp"
 

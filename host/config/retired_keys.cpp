@@ -1,4 +1,4 @@
-// A row a key; it stays, as the configurations of old runs do.
+// A row per key; it stays, as the configurations of old runs do.
 #include "config/retired_keys.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Conversions between TOML and the members of Config, one a slot type.
+// Conversions between TOML and the members of Config, one per slot type.
 // A float of integral value (1e6) is taken where an integer is asked for; NaN never is a value.
 #include "config/values.hpp"
 #include <fmt/format.h>
