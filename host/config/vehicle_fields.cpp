@@ -76,7 +76,8 @@ Table links_table() {
   return {
       .name = "links",
       .doc =
-          "Which links, pairs of a transmitter and a receiver, are computed. Two ends at the same place on one vehicle, "
+          "Which links, pairs of a transmitter and a receiver, are computed. Two ends at the same place on one "
+          "vehicle, "
           "such as the two roles of one antenna, are never linked.",
       .fields = {
           {.name = "max_distance_m",
