@@ -13,7 +13,7 @@ std::string encode_csv(const std::vector<Row>& rows);
 // What people read of a row; the first three cells are words.
 std::vector<std::string> short_columns();
 std::vector<std::string> short_cells(const Row& row);
-// Aligned, a line a row.
+// Aligned, a line per row.
 std::string encode_text(const std::vector<Row>& rows);
 
 }  // namespace wavetracer::accuracy

@@ -51,21 +51,24 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
 }  // namespace
 
 void add_accuracy(CLI::App& program, Invocation& invocation) {
-  CLI::App* command =
-      program.add_subcommand("accuracy", "Measure speed against error of a config, and say what to set");
+  CLI::App* command = program.add_subcommand(
+      "accuracy", "Measure speed and error of a config for several settings, and advise which to use");
   const auto options = std::make_shared<AccuracyOptions>();
   accuracy::Request& request = options->request;
   command->add_option("-c,--config", request.file, "Config file (TOML)")->required();
   command->add_option("-o,--output", options->directory, "Folder for the table, the plot and the page")
       ->capture_default_str();
-  command->add_option("--set", request.sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
-  command->add_option("--device", request.device, "Index, or part of a platform's or device's name");
-  command->add_option("--rays", options->rays,
-                      "Fewest and most rays, A:B; default 1e4:1e6. The reference launches ten times the most");
-  command->add_option("--frames", request.frames, "Frames of a drive, spread over it")
+  command->add_option("--set", request.sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--device", request.device,
+                      "OpenCL device: its index, or a part of its name or of its platform's name");
+  command->add_option(
+      "--rays", options->rays,
+      "Smallest and largest number of rays, A:B; default 1e4:1e6. The reference launches ten times the largest number");
+  command->add_option("--frames", request.frames, "Number of frames of a drive to measure, spread evenly over it")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--repeat", request.repeats, "Solve each frame N times; the median time counts")
+  command->add_option("--repeat", request.repeats, "Compute each frame N times and use the median time")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->callback([options, &invocation] { run_accuracy(*options, invocation); });

@@ -78,24 +78,29 @@ void bench(const BenchOptions& options, Invocation& invocation) {
 }  // namespace
 
 void add_bench(CLI::App& program, Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("bench", "Run an experiment by name; without one, list them");
+  CLI::App* command =
+      program.add_subcommand("bench", "Run an experiment by its name; without a name, list the experiments");
   const auto options = std::make_shared<BenchOptions>();
   command->add_option("experiment", options->experiment, "Name of the experiment");
   command->add_option("-c,--config", options->file,
-                      "Config file whose scene and ends are used, instead of a generated city; its rays, directions, "
-                      "order and launch shape are replaced");
+                      "Config file whose scene, transmitters and receivers are used instead of a generated city; the "
+                      "experiment sets rays, directions, order and launch shape itself");
   command->add_option("-o,--output", options->directory, "Folder for the results, instead of output.directory");
-  command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
-  command->add_option("--device", options->device, "Index, or part of a platform's or device's name");
+  command
+      ->add_option("--set", options->sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--device", options->device,
+                      "OpenCL device: its index, or a part of its name or of its platform's name");
   command->add_option("--rays", options->rays,
-                      "Fewest and most rays, A:B; default: those of the figure, fewer of its caches on CPUs");
-  command->add_option("--repeat", options->repeats, "Frames timed at each point, of which the median counts")
+                      "Smallest and largest number of rays, A:B; default: those of the figure; on CPUs fewer for "
+                      "experiments with caches");
+  command->add_option("--repeat", options->repeats, "How many times each point is measured; the median counts")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--frames", options->frames, "Frames of a drive; default 500, on CPUs 20")
+  command->add_option("--frames", options->frames, "Number of frames of a drive; default 500, on CPUs 20")
       ->check(CLI::Range(1, 1000000));
-  command->add_flag("--quick", options->quick, "Fewer rays and a fifth of the frames");
-  command->footer("");  // not that of the program besides
+  command->add_flag("--quick", options->quick, "Use fewer rays and a fifth of the frames");
+  command->footer("");  // removes the footer of the program, which would be printed too
   command->footer([] { return "Experiments:\n" + listed(); });
   command->callback([options, &invocation] { bench(*options, invocation); });
 }

@@ -45,11 +45,13 @@ void add_validate(CLI::App& program) {
     std::string file;
     std::vector<std::string> sets;
   };
-  CLI::App* command =
-      program.add_subcommand("validate", "Check a config file, what it names, and where its antennas and vehicles are");
+  CLI::App* command = program.add_subcommand(
+      "validate", "Check a config file, the files that it names, and the places of its antennas and vehicles");
   const auto options = std::make_shared<Options>();
   command->add_option("-c,--config", options->file, "Config file (TOML)")->required();
-  command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
+  command
+      ->add_option("--set", options->sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
+      ->allow_extra_args(false);
   command->callback([options] {
     const Config config = load_config(options->file, options->sets);
     check_inputs(config);
@@ -57,10 +59,10 @@ void add_validate(CLI::App& program) {
     const std::string scene =
         config.scene.file.empty() ? "city \"" + config.scene.generate + "\"" : "scene " + config.scene.file;
     const std::string mounted =
-        config.mounts.empty() ? "" : fmt::format(", antennas a vehicle: {}", config.mounts.size());
+        config.mounts.empty() ? "" : fmt::format(", antennas per vehicle: {}", config.mounts.size());
     std::cout << fmt::format(
-        "{}: ok\n{}; standing transmitters: {}, receivers: {}{}; {} rays each, depth {}, {:g} GHz\n", options->file,
-        scene, config.transmitters.size(), config.receivers.size(), mounted, rays_in_words(config.trace),
+        "{}: ok\n{}; fixed transmitters: {}, fixed receivers: {}{}; {} rays per transmitter, depth {}, {:g} GHz\n",
+        options->file, scene, config.transmitters.size(), config.receivers.size(), mounted, rays_in_words(config.trace),
         config.trace.max_depth, config.radio.frequency_hz / 1e9);
   });
 }
@@ -71,12 +73,13 @@ void add_init(CLI::App& program) {
   };
   CLI::App* command = program.add_subcommand("init", "Print a config file with every key explained; it runs as it is");
   const auto options = std::make_shared<Options>();
-  command->add_flag("--minimal", options->minimal, "The fewest keys instead: two antennas in a generated city");
-  command->add_flag("--sumo", options->sumo, "Vehicles of SUMO on a map instead; name your files in it");
-  command->add_flag("--coverage", options->coverage, "A map of what one antenna reaches instead");
+  command->add_flag("--minimal", options->minimal, "Print a short file instead: two antennas in a generated city");
+  command->add_flag("--sumo", options->sumo,
+                    "Print a file for SUMO vehicles on a map instead; put the names of your files into it");
+  command->add_flag("--coverage", options->coverage, "Print a file for a coverage map of one antenna instead");
   command->callback([options] {
     if (options->minimal + options->sumo + options->coverage > 1)
-      throw ConfigError("init: --minimal, --sumo and --coverage are one file each: give one of them");
+      throw ConfigError("init: --minimal, --sumo and --coverage print different files: give only one of them");
     std::cout << (options->minimal    ? minimal_config
                   : options->sumo     ? sumo_config
                   : options->coverage ? coverage_config

@@ -58,12 +58,12 @@ const Exporter& chosen_exporter(const ConvertOptions& options) {
     if (*exporter.suffix && suffix == exporter.suffix) by_suffix = &exporter;
   if (options.format.empty()) {
     if (by_suffix) return *by_suffix;
-    throw ConfigError(
-        fmt::format("-o {}: its suffix names no format; add --to with one of {}", options.output, formats_in_words()));
+    throw ConfigError(fmt::format("-o {}: the suffix of this name belongs to no format; add --to with one of {}",
+                                  options.output, formats_in_words()));
   }
   const Exporter& exporter = named_exporter(options.format);
   if (by_suffix && by_suffix != &exporter)
-    throw ConfigError(fmt::format("-o {}: that is the suffix of {}, but --to says {}; {}", options.output,
+    throw ConfigError(fmt::format("-o {}: this suffix belongs to the format {}, but --to says {}; {}", options.output,
                                   by_suffix->name, exporter.name,
                                   *exporter.suffix ? fmt::format("name it {}", exporter.suffix) : "name a folder"));
   return exporter;
@@ -75,11 +75,12 @@ void check_output(const Exporter& exporter, const fs::path& output) {
   if (!fs::exists(output, ignored)) return;
   const bool folder = fs::is_directory(output, ignored);
   if (*exporter.suffix && folder)
-    throw ConfigError(fmt::format("-o {}: is a folder, but {} is a file; name one such as {}", output.string(),
-                                  exporter.name, (output / (std::string("run") + exporter.suffix)).string()));
-  if (!*exporter.suffix && !folder)
     throw ConfigError(
-        fmt::format("-o {}: is a file, but {} is a folder; name another", output.string(), exporter.name));
+        fmt::format("-o {}: this is a folder, but the format {} is one file; give the name of a file such as {}",
+                    output.string(), exporter.name, (output / (std::string("run") + exporter.suffix)).string()));
+  if (!*exporter.suffix && !folder)
+    throw ConfigError(fmt::format("-o {}: this is a file, but the format {} is a folder; give another name",
+                                  output.string(), exporter.name));
 }
 
 // Rows of the frames that --frames names by their numbers.
@@ -138,10 +139,10 @@ void check_input(const fs::path& input) {
 
 void import_map(const ConvertOptions& options) {
   for (const auto& [flag, value] : {std::pair{"--frames", &options.frames}, {"--projection", &options.projection}})
-    if (!value->empty()) throw ConfigError(fmt::format("{}: is for runs, and {} is a map", flag, options.input));
+    if (!value->empty())
+      throw ConfigError(fmt::format("{}: this option is for runs, but {} is a map", flag, options.input));
   if (!options.format.empty() && options.format != "mitsuba")
-    throw ConfigError(
-        fmt::format("--to {}: a map becomes a scene (mitsuba), which the formats of runs are not", options.format));
+    throw ConfigError(fmt::format("--to {}: a map can only be converted to a scene (mitsuba)", options.format));
   ImportOptions import = options.import;
   import.output = options.output;
   if (!options.traffic.empty()) import.traffic = extent_of_traffic(options);
@@ -154,35 +155,41 @@ void import_map(const ConvertOptions& options) {
 
 void add_convert(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("convert", "A run in the format of another program, or a map of a city as a scene");
+      program.add_subcommand("convert", "Convert a run to the format of another program, or a city map to a scene");
   const auto options = std::make_shared<ConvertOptions>();
-  command->add_option("INPUT", options->input, "The folder of a run or its paths.h5; or .osm, .osm.pbf, .poly.xml");
+  command->add_option("INPUT", options->input,
+                      "The folder of a run, its paths.h5, or a map (.osm, .osm.pbf, .poly.xml)");
   command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
-  command->add_option("-o,--output", options->output, "File or folder to write, by the format");
-  command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all where not given");
-  command->add_option("--projection", options->projection,
-                      "kml: PROJ string of the scene's coordinates, where no georeference.json has it");
-  command->add_flag("--list", options->list, "List the formats of --to");
+  command->add_option("-o,--output", options->output, "File or folder to write; which of them depends on the format");
+  command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all frames if not given");
+  command->add_option(
+      "--projection", options->projection,
+      "For kml: PROJ string of the scene's coordinates, if there is no georeference.json that contains it");
+  command->add_flag("--list", options->list, "List the formats for --to");
   ImportOptions& import = options->import;
   const char* maps = "Maps";
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command->add_option(name, value, help)->group(maps);
   };
-  add("--net", import.net, "OSM: the .net.xml that netconvert made of the map, whose coordinates the scene takes");
-  add("--traffic", options->traffic, "The drive (FCD, CSV) below which the ground has to reach too");
-  add("--level-height", import.level_height_m, "Metres a level of a building")->capture_default_str();
-  add("--default-height", import.default_height_m, "Metres of buildings without a height")->capture_default_str();
-  add("--margin", import.margin_m, "Metres of ground beyond buildings, network and traffic")->capture_default_str();
-  add("--wall-material", import.wall_material, "ITU material where the map does not say")->capture_default_str();
-  add("--roof-material", import.roof_material, "ITU material where the map does not say")->capture_default_str();
+  add("--net", import.net,
+      "For OSM maps: the .net.xml that netconvert made from the map; the scene gets its coordinates");
+  add("--traffic", options->traffic, "Trajectories (FCD, CSV) whose whole area the ground must cover too");
+  add("--level-height", import.level_height_m, "Height of one storey of a building in metres")->capture_default_str();
+  add("--default-height", import.default_height_m, "Height in metres of buildings without a height in the map")
+      ->capture_default_str();
+  add("--margin", import.margin_m, "How far the ground extends beyond buildings, network and traffic, in metres")
+      ->capture_default_str();
+  add("--wall-material", import.wall_material, "ITU material if the map does not name one")->capture_default_str();
+  add("--roof-material", import.roof_material, "ITU material if the map does not name one")->capture_default_str();
   add("--ground-material", import.ground_material, "ITU material of the ground")->capture_default_str();
-  command->add_flag("!--no-ground", import.ground, "Buildings alone")->group(maps);
+  command->add_flag("!--no-ground", import.ground, "Write buildings only, without ground")->group(maps);
   command->callback([options] {
     if (options->list) return print_list();
-    if (options->input.empty()) throw ConfigError("convert: name what to convert: the folder of a run, or a map");
+    if (options->input.empty())
+      throw ConfigError("convert: give the name of what to convert: the folder of a run, or a map");
     if (!options->format.empty() && options->format != "mitsuba") named_exporter(options->format);
     check_input(options->input);
-    if (options->output.empty()) throw ConfigError("convert: say where to write with -o");
+    if (options->output.empty()) throw ConfigError("convert: give the file or folder to write with -o");
     if (is_import(options->input)) return import_map(*options);
     export_run(*options);
   });

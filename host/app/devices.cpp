@@ -28,7 +28,8 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
 }  // namespace
 
 void add_devices(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("devices", "List the OpenCL devices; * marks the one a run would take");
+  CLI::App* command =
+      program.add_subcommand("devices", "List the OpenCL devices; * marks the one that a run uses by default");
   command->callback([] {
     const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
     const size_t chosen = gpu::choose_device(devices, "");

@@ -27,7 +27,7 @@ std::string page(const CLI::App& program, const DocumentationOptions& options) {
 }  // namespace
 
 void add_documentation(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("documentation", "Write a page of the documentation");
+  CLI::App* command = program.add_subcommand("documentation", "Write one page of the documentation");
   command->group("");
   const auto options = std::make_shared<DocumentationOptions>();
   CLI::Option_group* const what = command->add_option_group("page");

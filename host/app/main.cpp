@@ -37,9 +37,9 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", wavetracer::app::build_info);
   program.require_subcommand(0, 1);  // none is reported below, after a misspelt one
   program.footer(
-      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` a key of configuration files, as "
-      "trace.rays, "
-      "and `wavetracer help config` all of them. `wavetracer init --minimal` writes a first file.");
+      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` explains a key of configuration files such "
+      "as trace.rays, and `wavetracer help config` explains all keys. `wavetracer init --minimal` prints a first "
+      "file.");
   wavetracer::app::Invocation invocation{command_line(argc, argv)};
   wavetracer::app::add_run(program, invocation);
   wavetracer::app::add_devices(program);

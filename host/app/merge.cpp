@@ -93,12 +93,12 @@ void add_merge(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<MergeOptions>();
   command->add_option("DIR", options->directories, "Folders of parts, as run --shard or an interrupted run leaves them")
       ->required();
-  command->add_option("-o,--output", options->output, "Folder for the results; of one DIR that folder itself");
-  command->add_flag("--partial", options->partial, "Write what is there, even if parts are missing");
+  command->add_option("-o,--output", options->output,
+                      "Folder for the results; with one DIR, the default is that folder");
+  command->add_flag("--partial", options->partial, "Join the parts that are there, even if others are missing");
   command->footer(
-      "Exit code 5: parts are missing. All DIR must be of one run: configuration, input files, --frames, --repeat, "
-      "version "
-      "and kind of device.");
+      "Exit code 5: parts are missing. All DIR must belong to one run, with the same configuration, input files, "
+      "--frames, --repeat, version and kind of device.");
   command->callback([options, &invocation] { merge(*options, invocation); });
 }
 

@@ -36,20 +36,22 @@ void add_plot(CLI::App& program) {
   CLI::App* command = program.add_subcommand("plot", "Draw figures of a run with gnuplot");
   const auto options = std::make_shared<PlotOptions>();
   command->add_option("RUN", options->run, "Folder of a run, or its paths.h5")->required();
-  command->add_option("-o,--output", options->folder, "Folder for the figures; plots in that of the run if not given");
+  command->add_option("-o,--output", options->folder,
+                      "Folder for the figures; the folder plots in the folder of the run if not given");
   command
-      ->add_option("--what", options->choice.what,
-                   fmt::format("Some of {}, separated by commas; all that suit the run if not given",
-                               fmt::join(plots::plot_names, ", ")))
+      ->add_option(
+          "--what", options->choice.what,
+          fmt::format("Figures to draw, separated by commas: {}; all that are possible for the run if not given",
+                      fmt::join(plots::plot_names, ", ")))
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--tx", options->choice.link.tx, "Name of a transmitter; the strongest links if not given");
+  command->add_option("--tx", options->choice.link.tx,
+                      "Name of a transmitter; the strongest links are drawn if not given");
   command->add_option("--rx", options->choice.link.rx, "Name of a receiver");
-  command->add_option("--grid", options->choice.grid, "Name of a [[receiver_grid]], of --what coverage");
-  command->add_option(
-      "--frame", options->frame,
-      "Number of the frame that figures of one frame show; that of the strongest link if not given, and "
-      "the first for coverage");
+  command->add_option("--grid", options->choice.grid, "Name of a [[receiver_grid]], for --what coverage");
+  command->add_option("--frame", options->frame,
+                      "Number of the frame for figures that show one frame; if not given, the frame of the strongest "
+                      "link, and the first frame for coverage");
   command->add_option("--format", options->format, "svg, png or pdf")->check(CLI::IsMember({"svg", "png", "pdf"}));
   command->callback([options] { plot(*options); });
 }

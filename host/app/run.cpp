@@ -211,27 +211,33 @@ void run(const RunOptions& options, Invocation& invocation) {
 }  // namespace
 
 void add_run(CLI::App& program, Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("run", "Trace a config and write its paths");
+  CLI::App* command = program.add_subcommand("run", "Compute the paths of a config and write them");
   const auto options = std::make_shared<RunOptions>();
   command->add_option("-c,--config", options->file, "Config file (TOML)")->required();
   command->add_option("-o,--output", options->directory, "Folder for the results, instead of output.directory");
-  command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
-  command->add_option("--frames", options->frames, "First and last frame, A:B, A:, :B or A; all of them if not given");
-  command->add_option("--device", options->device, "Index, or part of a platform's or device's name");
-  command->add_option("--repeat", options->repeat, "Solve each frame N times and report the median times")
+  command
+      ->add_option("--set", options->sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--frames", options->frames,
+                      "Numbers of the first and last frame, A:B, A:, :B or A; all frames if not given");
+  command->add_option("--device", options->device,
+                      "OpenCL device: its index, or a part of its name or of its platform's name");
+  command->add_option("--repeat", options->repeat, "Compute each frame N times and report the median times")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--devices", options->devices,
-                      "all, gpu, cpu or indices as 0,1,2: a process on each shares the run. With mpirun or srun: those "
-                      "that the ranks of a host take in turn");
+                      "all, gpu, cpu or indices such as 0,1,2: one process per device, and they share the run. With "
+                      "mpirun or srun: the devices that the ranks of each host use in turn");
   command
       ->add_option("--processes", options->processes,
-                   "So many processes, in turn on --devices or all on --device; they divide the cores")
+                   "Number of processes that share the run and the CPU cores; they are distributed over --devices, or "
+                   "all use --device")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--shard", options->shard,
-                      "K/N: only part K, from 0 to N - 1, of N parts, on any machine; `wavetracer merge` joins them");
-  command->add_flag("--resume", options->resume, "Go on with a drive that was interrupted, in the same folder");
+  command->add_option(
+      "--shard", options->shard,
+      "K/N: compute only part K (from 0 to N - 1) of N parts, on any machine; `wavetracer merge` joins the parts");
+  command->add_flag("--resume", options->resume, "Continue a drive that was interrupted, in the same folder");
   command->add_flag("--verbose", options->verbose,
-                    "Report what tracing did, too: rays, sequences, how they were ordered, what a cache answered");
+                    "Also report rays, sequences, the order of the rays, and how many rays the cache answered");
   command->callback([options, &invocation] { run(*options, invocation); });
 }
 

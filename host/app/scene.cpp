@@ -23,14 +23,16 @@ void add_info(CLI::App& scene) {
     double scale = 1;
     bool edges = false;
   };
-  CLI::App* command = scene.add_subcommand("info", "Print what is understood of a scene file");
+  CLI::App* command = scene.add_subcommand("info", "Print what a scene file contains");
   const auto options = std::make_shared<Options>();
   command->add_option("file", options->file, "Scene file (XML, OBJ, GLB, glTF, PLY)")->required();
-  command->add_option("--scale", options->scale, "As scene.scale: metres a file unit")->check(CLI::PositiveNumber);
-  command->add_option("--up", options->up, "As scene.up")
+  command->add_option("--scale", options->scale, "Metres per file unit, like the key scene.scale")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--up", options->up, "Axis of the file that points up, like the key scene.up")
       ->check(CLI::IsMember(std::vector<std::string>(UpAxis::words.begin(), UpAxis::words.end())));
-  command->add_option("--default-material", options->default_material, "As scene.default_material");
-  command->add_flag("--edges", options->edges, "List the edges that can diffract instead");
+  command->add_option("--default-material", options->default_material,
+                      "Radio material of meshes that name none, like the key scene.default_material");
+  command->add_flag("--edges", options->edges, "Instead, list the edges that can diffract");
   command->callback([options] {
     SceneConfig config;
     config.file = options->file;
@@ -99,18 +101,19 @@ void add_city(CLI::App& scene) {
   struct Options {
     std::string directory = "city";
     // Each is handed on as it is: city_options.cpp, which serves the configuration too, is the one parser of them.
-    std::vector<Option> given = {{"--seed", "Random choices; the same seed gives the same city and drive", false},
-                                 {"--blocks", "Blocks in x and y, such as 6x6", false},
-                                 {"--block-m", "Side of a block in metres", false},
-                                 {"--street-m", "Width of the streets in metres", false},
-                                 {"--floors", "Storeys, such as 3:9", false},
-                                 {"--ground", "ITU material of the ground", false},
-                                 {"--vehicles", "Vehicles of a drive through its streets, written too", true},
-                                 {"--seconds", "How long they drive", true},
-                                 {"--step", "Seconds between their positions", true}};
+    std::vector<Option> given = {
+        {"--seed", "Seed of the random numbers; the same seed gives the same city and drive", false},
+        {"--blocks", "Number of blocks in x and y, such as 6x6", false},
+        {"--block-m", "Side of a block in metres", false},
+        {"--street-m", "Width of the streets in metres", false},
+        {"--floors", "Smallest and largest number of storeys, such as 3:9", false},
+        {"--ground", "ITU material of the ground", false},
+        {"--vehicles", "Number of vehicles that drive through the streets; their trajectories are written too", true},
+        {"--seconds", "Length of the drive in seconds", true},
+        {"--step", "Time between the positions of a vehicle in seconds", true}};
   };
-  CLI::App* command =
-      scene.add_subcommand("city", "Write a generated city as Mitsuba XML with PLY meshes, and a drive through it");
+  CLI::App* command = scene.add_subcommand(
+      "city", "Generate a city and write it as Mitsuba XML with PLY meshes, with traffic if asked for");
   const auto options = std::make_shared<Options>();
   command->add_option("-o,--output", options->directory, "Folder to write to")->capture_default_str();
   for (Option& option : options->given) command->add_option(option.key, option.value, option.doc);
@@ -137,7 +140,7 @@ void add_city(CLI::App& scene) {
 }  // namespace
 
 void add_scene(CLI::App& program) {
-  CLI::App* scene = program.add_subcommand("scene", "Look at scene files, or generate one");
+  CLI::App* scene = program.add_subcommand("scene", "Print what a scene file contains, or generate a city");
   scene->require_subcommand(1);
   add_info(*scene);
   add_city(*scene);

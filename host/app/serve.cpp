@@ -33,14 +33,19 @@ void serve(const ServeOptions& options) {
 }  // namespace
 
 void add_serve(CLI::App& program, Invocation&) {
-  CLI::App* command = program.add_subcommand("serve", "Answer the poses of a running simulator with channels");
+  CLI::App* command =
+      program.add_subcommand("serve", "Receive vehicle poses from a running simulator and answer with radio channels");
   const auto options = std::make_shared<ServeOptions>();
   command->add_option("-c,--config", options->file, "Config file (TOML) with [[live_vehicle]]")->required();
-  command->add_option("--listen", options->serve.listen, "unix:PATH or tcp:ADDRESS:PORT")->capture_default_str();
-  command->add_option("--set", options->sets, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
-  command->add_option("--device", options->serve.device, "Index, or part of a platform's or device's name");
+  command->add_option("--listen", options->serve.listen, "Address to listen on: unix:PATH or tcp:ADDRESS:PORT")
+      ->capture_default_str();
+  command
+      ->add_option("--set", options->sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--device", options->serve.device,
+                      "OpenCL device: its index, or a part of its name or of its platform's name");
   command->add_option("--token-file", options->serve.token_file,
-                      "File of the secret that clients must show; needed beyond loopback");
+                      "File with the secret that clients must send; required unless the address is a loopback address");
   command->callback([options] { serve(*options); });
 }
 

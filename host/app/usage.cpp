@@ -148,10 +148,9 @@ std::string usage_problem(const CLI::App& program, const CLI::ParseError& error)
 void add_help(CLI::App& program) {
   CLI::App* command = program.add_subcommand("help", "Explain a command, or the keys of configuration files");
   const auto topic = std::make_shared<std::vector<std::string>>();
-  command->add_option(
-      "topic", *topic,
-      "A command; config for the keys of configuration files, or one of them, or a table: trace.rays, rays, trace; all "
-      "commands if not given");
+  command->add_option("topic", *topic,
+                      "A command; or config for all keys of configuration files; or one key or table such as "
+                      "trace.rays, rays or trace. If not given, all commands are listed");
   command->callback([topic, &program] { help(program, *topic); });
 }
 

@@ -17,15 +17,18 @@ void add_view(CLI::App& program) {
     std::string run, output, frames, title;
     uint64_t max_paths = 0;
   };
-  CLI::App* command = program.add_subcommand("view", "Write a run as one HTML page that any browser opens");
+  CLI::App* command = program.add_subcommand("view", "Write a run as one HTML page that every browser can show");
   const auto options = std::make_shared<Options>();
   command->add_option("RUN", options->run, "Folder of a run, or its paths.h5")->required();
   command->add_option("-o,--output", options->output, "Page to write (default: view.html in the folder of the run)");
-  command->add_option("--frames", options->frames, "Frames on the page, by their numbers: A:B, A:, :B or A");
+  command->add_option("--frames", options->frames,
+                      "Numbers of the frames on the page: A:B, A:, :B or A; all if not given");
   command
-      ->add_option("--max-paths", options->max_paths,
-                   fmt::format("Only the strongest paths of all frames (default: as many as keep the page below {} MB)",
-                               page_bytes / 1'000'000))
+      ->add_option(
+          "--max-paths", options->max_paths,
+          fmt::format(
+              "Largest number of paths on the page, the strongest of all frames (default: as many as fit into {} MB)",
+              page_bytes / 1'000'000))
       ->check(CLI::PositiveNumber);
   command->add_option("--title", options->title, "Title of the page (default: the name of the folder)");
   command->callback([options] {

@@ -164,7 +164,7 @@ class Parser {
   void read_array(const Table& table, const toml::node& node) {
     const toml::array* array = node.as_array();
     const bool of_tables = array && std::all_of(array->begin(), array->end(), [](auto& n) { return n.is_table(); });
-    if (!of_tables) return fail(place(node.source()), fmt::format("write [[{}]], one table each", table.name));
+    if (!of_tables) return fail(place(node.source()), fmt::format("write [[{}]], one table per element", table.name));
     for (const toml::node& element : *array) {
       const size_t i = table.append(config_);
       elements_[table.name].push_back(element.source().begin);
@@ -300,7 +300,7 @@ Config load_config(const std::filesystem::path& file, const std::vector<std::str
     fail(problem);
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) fail("it is empty, or its permissions do not let it be read");
+  if (!in || !(text << in.rdbuf())) fail("it is empty, or you have no permission to read it");
   return parse_config(text.str(), file.string(), sets);
 }
 

@@ -18,28 +18,29 @@ using Found = std::vector<Contradiction>;
 
 void check_scene(const SceneConfig& scene, Found& out) {
   if (scene.file.empty() && scene.generate.empty())
-    out.push_back({{"scene"},
-                   "no scene: give scene.file = \"FILE\", or scene.generate = \"--seed 1\" for a city made on the "
-                   "spot"});
+    out.push_back(
+        {{"scene"}, "no scene: give scene.file = \"FILE\", or scene.generate = \"--seed 1\" for a generated city"});
   if (!scene.file.empty() && !scene.generate.empty())
     out.push_back(
-        {{"scene.generate", "scene.file"}, "scene.file and scene.generate exclude each other: empty one of them"});
+        {{"scene.generate", "scene.file"}, "scene.file and scene.generate exclude each other: remove one of them"});
 }
 
 void check_launch(const Config& config, Found& out) {
   const uint32_t local = config.launch.local_size.value_or(1);
   if ((local & (local - 1)) != 0)
-    out.push_back({{"launch.local_size"},
-                   fmt::format("launch.local_size = {} is no power of two: give {}, or 0 for what suits the device",
-                               local, std::bit_floor(local))});
+    out.push_back(
+        {{"launch.local_size"},
+         fmt::format(
+             "launch.local_size = {} is not a power of two: give {}, or 0 to let the program choose for the device",
+             local, std::bit_floor(local))});
   const OrderMethod method = config.order.method;
   const LaunchDimensions shape = config.launch.shape;
   const bool plane = method == "H3DH2DH" || method == "hilbert3d-histogram-hilbert2d";
   const bool space = method == "H3DH3DH" || method == "hilbert3d-histogram-hilbert3d";
   if ((plane && shape != "auto" && shape != "2d") || (space && shape != "auto" && shape != "3d"))
     out.push_back({{"launch.shape", "order.method"},
-                   fmt::format("order.method = \"{}\" is a launch of {} dimensions, launch.shape = \"{}\" is not: "
-                               "leave launch.shape out",
+                   fmt::format("order.method = \"{}\" needs a launch of {} dimensions, but launch.shape = \"{}\" is "
+                               "set: remove launch.shape",
                                method.word(), plane ? 2 : 3, shape.word())});
 }
 
@@ -48,72 +49,75 @@ void check_rays(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.rays) {
     if (trace.directions != "hilbert" && trace.directions != "horizon")
-      out.push_back(
-          {{"trace.rays", "trace.directions"},
-           fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"{}\": leave "
-                       "trace.directions out, or give trace.rays a number",
-                       trace.directions.word())});
+      out.push_back({{"trace.rays", "trace.directions"},
+                     fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not "
+                                 "\"{}\": remove trace.directions, or give trace.rays a number",
+                                 trace.directions.word())});
     if (const OrderMethod method = config.order.method; method != "none" && method != "WS")
       out.push_back({{"trace.rays", "order.method"},
-                     fmt::format("trace.rays = \"auto\" launches rays in an order of its own, order.method = \"{}\" "
-                                 "another: leave order.method out, or give trace.rays a number",
+                     fmt::format("trace.rays = \"auto\" launches rays in its own order, but order.method = \"{}\" asks "
+                                 "for another one: remove order.method, or give trace.rays a number",
                                  method.word())});
   } else if (trace.refresh_rays && *trace.refresh_rays > *trace.rays) {
     out.push_back({{"trace.rays", "trace.refresh_rays"},
-                   fmt::format("trace.refresh_rays = {} is more than trace.rays = {}, those of a frame that reuses "
-                               "nothing: give at most as many, or 0 for a tenth",
+                   fmt::format("trace.refresh_rays = {} is more than trace.rays = {}, the number in a frame that "
+                               "reuses nothing: give a number that is not larger, or 0 for a tenth of trace.rays",
                                *trace.refresh_rays, *trace.rays)});
   }
 }
 
-// Spheres take each ray as a sample of the directions that reach a receiver.
+// Reception by spheres counts each ray as one sample of the directions that reach a receiver.
 void check_reception(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (trace.reception != "sphere") return;
   if (!trace.rays)
-    out.push_back({{"trace.reception", "trace.rays"},
-                   "trace.reception = \"sphere\" needs rays that are spread evenly, trace.rays = \"auto\" refines "
-                   "where sequences are rare: give trace.rays a number, or use trace.reception = \"exact\""});
+    out.push_back(
+        {{"trace.reception", "trace.rays"},
+         "trace.reception = \"sphere\" needs rays that are spread evenly, but trace.rays = \"auto\" launches more rays "
+         "where few sequences were found: give trace.rays a number, or use trace.reception = \"exact\""});
 }
 
-// What needs more of rays than that they tell which surfaces they met.
+// Features that reception by spheres, or the recording of waypoints, cannot be combined with.
 void check_features(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   for (const InteractionKind& kind : interaction_kinds) {
     const std::string key = fmt::format("trace.{}", kind.word);
     if (trace.*kind.asked_for && kind.code != reflection && trace.reception == "sphere")
       out.push_back({{key, "trace.reception"},
-                     fmt::format("trace.reception = \"sphere\" receives reflected rays alone, {} = true asks for "
-                                 "more: set it to false, or use trace.reception = \"exact\"",
+                     fmt::format("trace.reception = \"sphere\" receives reflected rays only, but {} = true: set it to "
+                                 "false, or use trace.reception = \"exact\"",
                                  key)});
   }
   if (trace.transmission && config.output.waypoints > 0)
-    out.push_back({{"output.waypoints", "trace.transmission"},
-                   fmt::format("output.waypoints = {} follows rays that are reflected, and with trace.transmission = "
-                               "true they split: leave output.waypoints out, or set trace.transmission to false",
-                               config.output.waypoints)});
+    out.push_back(
+        {{"output.waypoints", "trace.transmission"},
+         fmt::format("output.waypoints = {} needs rays that do not split, but with trace.transmission = true they "
+                     "split at every surface: remove output.waypoints, or set trace.transmission to false",
+                     config.output.waypoints)});
 }
 
 // A signal-to-noise ratio has a signal and a noise.
 void check_link_budget(const RadioConfig& radio, Found& out) {
   if (radio.bandwidth_hz && !radio.transmit_power_dbm)
-    out.push_back({{"radio.bandwidth_hz"},
-                   fmt::format("radio.bandwidth_hz = {} gives the noise of a link budget, which has no "
-                               "radio.transmit_power_dbm: give it too, or leave the bandwidth out",
-                               *radio.bandwidth_hz)});
+    out.push_back(
+        {{"radio.bandwidth_hz"},
+         fmt::format("radio.bandwidth_hz = {} is the bandwidth of the noise in a link budget, which also needs the "
+                     "transmit power: give radio.transmit_power_dbm too, or remove radio.bandwidth_hz",
+                     *radio.bandwidth_hz)});
   if (radio.noise_figure_db > 0 && !radio.bandwidth_hz)
     out.push_back({{"radio.noise_figure_db"},
-                   fmt::format("radio.noise_figure_db = {} is of a noise whose radio.bandwidth_hz is not given: give "
-                               "it too, or leave the noise figure out",
+                   fmt::format("radio.noise_figure_db = {} needs the bandwidth of the noise: give radio.bandwidth_hz "
+                               "too, or remove radio.noise_figure_db",
                                radio.noise_figure_db)});
 }
 
 void check_waypoints(const Config& config, Found& out) {
   if (config.output.waypoints > 0 && !config.trace.rays)
-    out.push_back({{"output.waypoints", "trace.rays"},
-                   fmt::format("output.waypoints = {} picks evenly from a known number of rays, which trace.rays = "
-                               "\"auto\" is not: give trace.rays a number, or leave output.waypoints out",
-                               config.output.waypoints)});
+    out.push_back(
+        {{"output.waypoints", "trace.rays"},
+         fmt::format("output.waypoints = {} selects rays evenly from a known number of rays, but with trace.rays = "
+                     "\"auto\" that number is not known: give trace.rays a number, or remove output.waypoints",
+                     config.output.waypoints)});
 }
 
 void check_cache(const Config& config, Found& out) {
@@ -121,25 +125,25 @@ void check_cache(const Config& config, Found& out) {
   if (cache.kind == "none") return;
   if (cache.key == "exact" && cache.scope == "all")
     out.push_back({{"cache.key", "cache.scope"},
-                   "cache.key = \"exact\" promises the paths of no cache, which cache.scope = \"all\" cannot when "
-                   "things move: leave cache.scope out, or use cache.key = \"quantised\""});
+                   "cache.key = \"exact\" gives the same paths as no cache, but with cache.scope = \"all\" moving "
+                   "vehicles would change them: remove cache.scope, or use cache.key = \"quantised\""});
   if (cache.first_depth > config.trace.max_depth)
     out.push_back({{"cache.first_depth", "trace.max_depth", "cache.kind"},
-                   fmt::format("cache.first_depth = {} is beyond trace.max_depth = {}, so the cache would never be "
-                               "asked: lower the one, raise the other, or use cache.kind = \"none\"",
+                   fmt::format("cache.first_depth = {} is larger than trace.max_depth = {}, so the cache would never "
+                               "be used: lower the first, raise the second, or use cache.kind = \"none\"",
                                cache.first_depth, config.trace.max_depth)});
 }
 
-// member: what names an element. Returns the names.
+// member: the member that holds the name of an element. Returns seen and the names of all elements.
 template <class Element>
 std::set<std::string> check_names(const std::string& table, const std::string& key, const std::vector<Element>& all,
                                   std::string Element::*member, std::set<std::string> seen, Found& out) {
   for (size_t i = 0; i < all.size(); ++i) {
     const std::string& name = all[i].*member;
     if (!name.empty() && !seen.insert(name).second)
-      out.push_back(
-          {{fmt::format("{}.{}.{}", table, i, key)},
-           fmt::format("{}.{} = {} is taken: {}s are unique, choose another", table, key, toml_string(name), key)});
+      out.push_back({{fmt::format("{}.{}.{}", table, i, key)},
+                     fmt::format("{}.{} = {} is used twice: each {} must be unique, choose another one", table, key,
+                                 toml_string(name), key)});
   }
   return seen;
 }
@@ -149,7 +153,8 @@ void check_materials(const std::vector<MaterialConfig>& materials, Found& out) {
     const MaterialConfig& m = materials[i];
     if ((m.a || m.b || m.c || m.d) && (m.permittivity || m.conductivity_s_m))
       out.push_back({{fmt::format("material.{}", i)},
-                     "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: give one kind"});
+                     "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: give either the first "
+                     "four or the last two"});
   }
 }
 
@@ -170,7 +175,7 @@ void check_trajectories(const Config& config, Found& out) {
   const TrajectoriesConfig& t = config.trajectories;
   if (!t.file.empty() && !t.generate.empty())
     out.push_back({{"trajectories.generate", "trajectories.file"},
-                   "trajectories.file and trajectories.generate exclude each other: empty one of them"});
+                   "trajectories.file and trajectories.generate exclude each other: remove one of them"});
   if (t.file.empty() && t.generate.empty() && config.tracks.empty() && config.live_vehicles.empty() &&
       !config.mounts.empty())
     out.push_back({{"mount.0"},
@@ -180,15 +185,16 @@ void check_trajectories(const Config& config, Found& out) {
     const auto& waypoints = config.tracks[i].waypoints;
     for (size_t k = 1; k < waypoints.size(); ++k)
       if (!(waypoints[k][0] > waypoints[k - 1][0]))
-        out.push_back({{fmt::format("track.{}.waypoints", i)},
-                       fmt::format("track.waypoints[{}] is at {} s, the one before it at {} s: time must increase", k,
-                                   waypoints[k][0], waypoints[k - 1][0])});
+        out.push_back(
+            {{fmt::format("track.{}.waypoints", i)},
+             fmt::format("track.waypoints[{}] is at {} s, but the waypoint before it is at {} s: times must increase",
+                         k, waypoints[k][0], waypoints[k - 1][0])});
   }
   const TimeConfig& time = config.time;
   if (time.start_s && time.end_s && *time.end_s < *time.start_s)
-    out.push_back(
-        {{"time.start_s", "time.end_s"},
-         fmt::format("time.end_s = {} is before time.start_s = {}: exchange them", *time.end_s, *time.start_s)});
+    out.push_back({{"time.start_s", "time.end_s"},
+                   fmt::format("time.end_s = {} is before time.start_s = {}: give an end that is later than the start",
+                               *time.end_s, *time.start_s)});
 }
 
 }  // namespace

@@ -46,15 +46,17 @@ Field antenna_field(const Member& member, auto antenna) {
           .choices = {NamedAntenna::words.begin(), NamedAntenna::words.end()},
           .form = Form::choice_or_file,
           .doc =
-              "Named, or a pattern file (CSV: theta_deg,phi_deg,v_re,v_im,h_re,h_im). isotropic leaves gains "
-              "that are those of the channel alone."};
+              "A built-in antenna, or a pattern file (CSV with the columns theta_deg,phi_deg,v_re,v_im,h_re,h_im). "
+              "With isotropic the gains are those of the channel alone."};
 }
 
 template <class Member>
 Field polarization_field(const Member& member, auto polarization) {
   return {.name = "polarization",
           .slot = member(polarization),
-          .doc = "VH (V and H) and cross (+45 and -45 degrees) have two ports. V, as vehicle antennas are."};
+          .doc =
+              "VH (V and H) and cross (+45 and -45 degrees) have two ports. The default is V, as usual for vehicle "
+              "antennas."};
 }
 
 // Of cache_fields.cpp.

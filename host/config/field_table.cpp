@@ -1,4 +1,4 @@
-// The rows of the field table, one a key of the config file, in the order in which `init` writes them.
+// The rows of the field table, one per key of the config file, in the order in which `init` writes them.
 // The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
 #include "config/field_table.hpp"
 
@@ -15,155 +15,164 @@ Table trace_table() {
       .fields = {
           {.name = "rays",
            .slot = t(&TraceConfig::rays),
-           .unit = "rays a transmitter",
+           .unit = "rays per transmitter",
            .range = {1, 2147483648.0},
            .none = "auto",
-           .doc = "More rays find more of the weak paths; those found are exact in any case. The default finds more "
-                  "than 99% of the paths of a city quarter at depth 5. auto: as many as recall asks for, along the "
-                  "Hilbert curve."},
+           .doc = "More rays find more of the weak paths; the paths that are found are exact in any case. The default "
+                  "finds more than 99% of the paths of a city quarter at depth 5. auto: as many rays as trace.recall "
+                  "needs, launched along a Hilbert curve."},
           {.name = "recall",
            .slot = t(&TraceConfig::recall),
            .range = {0, 1, true},
-           .doc = "Of rays = \"auto\": the share of the paths that is to be found, estimated from how much one ray "
-                  "alone has met (Good and Turing). The last percent costs more rays than all before it."},
+           .doc = "Only with rays = \"auto\": the share of all paths that must be found. It is estimated from what "
+                  "only one ray has met (Good-Turing estimate). The last percent costs more rays than all before it."},
           {.name = "max_rays",
            .slot = t(&TraceConfig::max_rays),
-           .unit = "rays a transmitter",
+           .unit = "rays per transmitter",
            .range = {1, 2147483648.0},
-           .doc = "Of rays = \"auto\": never more than this, whatever recall asks for."},
+           .doc = "Only with rays = \"auto\": the largest number of rays, whatever recall asks for."},
           {.name = "reuse",
            .slot = t(&TraceConfig::reuse),
-           .doc = "Keep what rays of earlier frames of a drive have found. Its paths are solved anew in every frame, "
-                  "so they are exact, and more are found with fewer rays."},
+           .doc = "Keep the sequences of surfaces that rays of earlier frames of a drive have found. Their paths are "
+                  "computed anew in every frame, so they are exact, and fewer rays find more paths."},
           {.name = "refresh_rays",
            .slot = t(&TraceConfig::refresh_rays),
-           .unit = "rays a transmitter",
+           .unit = "rays per transmitter",
            .range = {0, 2147483648.0},
            .none = "0",
-           .doc = "Of a frame that reuses, at most rays; each such frame launches other ones of their directions. 0: a "
-                  "tenth of rays, since little is new from one frame to the next. rays = \"auto\" decides by itself."},
+           .doc = "The largest number of rays in a frame that reuses sequences of earlier frames; each such frame "
+                  "launches other directions. 0: a tenth of trace.rays, because little is new from one frame to the "
+                  "next. With rays = \"auto\" the number is chosen automatically."},
           {.name = "forget_frames",
            .slot = t(&TraceConfig::forget_frames),
            .unit = "frames",
            .range = {1, 4294967295.0},
-           .doc = "A sequence of surfaces that neither a ray nor a path has followed for so long is dropped. 50 frames "
-                  "are 5 s at 10 Hz."},
+           .doc = "A sequence of surfaces is dropped after this many frames in which no ray and no path has followed "
+                  "it. 50 frames are 5 s at 10 Hz."},
           {.name = "max_depth",
            .slot = t(&TraceConfig::max_depth),
            .unit = "interactions",
            .range = {0, 32},
-           .doc = "0 is line of sight alone. Beyond 5 a path in a street canyon carries little power."},
+           .doc = "The largest number of interactions of one path. 0 computes the line of sight only. Beyond 5, a path "
+                  "in a street canyon carries little power."},
           {.name = "reflection", .slot = t(&TraceConfig::reflection), .doc = "Specular reflection."},
           {.name = "diffraction",
            .slot = t(&TraceConfig::diffraction),
-           .doc = "Diffraction at edges, by the uniform theory of diffraction. Costs a launch of every receiver that "
-                  "does not send; with it shadows are filled."},
+           .doc = "Diffraction at edges, by the uniform theory of diffraction (UTD). It fills the shadows. It also "
+                  "launches rays from every receiver that is not a transmitter too, which costs time."},
           {.name = "max_diffractions",
            .slot = t(&TraceConfig::max_diffractions),
-           .unit = "a path",
+           .unit = "diffractions per path",
            .range = {1, 2},
-           .doc = "2 adds paths over two edges, straight from one to the other: the field behind a whole building, and "
-                  "a candidate for every pair of edges that both ends see."},
+           .doc = "2 adds paths over two edges, with a straight line from one edge to the other: the field behind a "
+                  "whole building. Every pair of edges that both ends see is then a candidate, which costs time."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
-           .doc = "Edges of a single face diffract too, as half planes: screens, signs, the rims of open "
-                  "meshes. That of the ground never does: the world goes on where the map ends."},
+           .doc = "Edges that belong to one face only also diffract, as half planes: screens, signs and the borders of "
+                  "open meshes. The border of the ground never diffracts, because the real ground continues where the "
+                  "map ends."},
           {.name = "diffraction_rays",
            .slot = t(&TraceConfig::diffraction_rays),
-           .unit = "rays a receiver",
+           .unit = "rays per receiver",
            .range = {0, 2147483648.0},
            .none = "0",
-           .doc = "With diffraction, of a receiver that does not send, at most rays. 0: a tenth of rays, but 100,000 "
-                  "at least: edges are met by many rays."},
+           .doc = "Only with diffraction: the largest number of rays from a receiver that is not a transmitter too. 0: "
+                  "a tenth of trace.rays, but at least 100,000, because many rays meet each edge."},
           {.name = "transmission",
            .slot = t(&TraceConfig::transmission),
-           .doc = "Transmission through surfaces, straight on, each a slab as thick as its material says. Rays then "
-                  "split at every surface, so it may double the tracing with each transmission allowed."},
+           .doc = "Transmission straight through surfaces. Each surface is a slab whose thickness is that of its "
+                  "material. Rays split at every surface, so each transmission that is allowed may double the time of "
+                  "tracing."},
           {.name = "max_transmissions",
            .slot = t(&TraceConfig::max_transmissions),
-           .unit = "a path",
+           .unit = "transmissions per path",
            .range = {1, 32},
-           .doc = "They count for max_depth too. 2 pass through one building or vehicle."},
+           .doc = "The largest number of transmissions of one path. Each also counts as an interaction for max_depth. "
+                  "A path through one building or vehicle needs 2."},
           {.name = "scattering",
            .slot = t(&TraceConfig::scattering),
-           .doc = "Diffuse scattering by surfaces whose material has a coefficient (material.scattering), one tile a "
-                  "path, from the transmitter to the tile to the receiver."},
+           .doc = "Diffuse scattering by surfaces whose material has a scattering coefficient (material.scattering). "
+                  "Surfaces are divided into tiles, and a path goes from the transmitter to one tile to the receiver."},
           {.name = "tile_m",
            .slot = t(&TraceConfig::tile_m),
            .unit = "m",
            .range = {0, 1e6, true},
-           .doc = "No tile of scattering is longer. Half as long are four times as many paths, and about a quarter of "
-                  "the error."},
+           .doc = "The largest side length of a tile of scattering. Half the length gives four times as many paths and "
+                  "about a quarter of the error."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
-           .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, by their "
-                  "heights above the ground and the size of the scene, with a quarter of the rays spread evenly. "
-                  "hilbert: even over the sphere. Both go along a Hilbert curve, so that neighbours in memory are "
-                  "neighbours in space. fibonacci, random: even, in other orders."},
+           .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, given their "
+                  "heights above the ground and the size of the scene; a quarter of the rays is spread evenly. "
+                  "hilbert: evenly spread over the sphere. Both follow a Hilbert curve, so that neighbours in memory "
+                  "are neighbours in space. fibonacci and random: evenly spread, in other orders."},
           {.name = "seed",
            .slot = t(&TraceConfig::seed),
            .range = {0, 9223372036854775807.0},
-           .doc = "Of directions = \"random\"."},
+           .doc = "Only with directions = \"random\": the seed of the random numbers."},
           {.name = "reception",
            .slot = t(&TraceConfig::reception),
-           .doc = "exact: rays only find surfaces, paths are solved by the image method. sphere: a ray that passes "
-                  "within sphere_radius_m of a receiver is its path, as in the thesis: lengths are a little wrong, "
-                  "some paths lost and some none at all. Frames then reuse no sequences, each is traced whole."},
+           .doc = "exact: rays only find surfaces, and paths are computed by the image method. sphere: a ray that "
+                  "passes within sphere_radius_m of a receiver is taken as a path, as in the thesis; lengths are a "
+                  "little wrong, some paths are missed, and some are reported that do not exist. Frames then reuse no "
+                  "sequences: each frame is traced completely."},
           {.name = "sphere_radius_m",
            .slot = t(&TraceConfig::sphere_radius_m),
            .unit = "m",
            .range = {0, 1e4, true},
-           .doc = "Of reception = \"sphere\". A larger sphere loses fewer paths, and errs more in those it finds."},
+           .doc = "Only with reception = \"sphere\". A larger sphere misses fewer paths and makes larger errors in "
+                  "those that it finds."},
           {.name = "batch_rays",
            .slot = t(&TraceConfig::batch_rays),
            .unit = "rays",
            .range = {0, 2147483648.0},
            .none = "0",
-           .doc = "Rays in flight at once, which bounds the device memory; results do not depend on it. 0: chosen "
-                  "from the device."},
+           .doc = "The number of rays that are traced at once, which limits the device memory; results do not depend "
+                  "on it. 0: chosen for the device."},
       }};
 }
 
 Table order_table() {
   const auto o = [](auto member) { return at(&Config::order, member); };
-  return {
-      .name = "order",
-      .doc = "Sorting of the rays before they are traced. Paths do not depend on it, time does.",
-      .fields = {
-          {.name = "method",
-           .slot = o(&OrderConfig::method),
-           .doc = "The plain name or the mnemonic of the method. none: with trace.directions = \"hilbert\" rays are "
-                  "born in order and need no sort. direction-origin: by direction first, then by where the ray starts, "
-                  "for each_depth. auto: the fastest, by a short measurement that is kept for the next run."},
-          {.name = "each_depth",
-           .slot = o(&OrderConfig::each_depth),
-           .doc = "Sort before every depth, not only the first. With method = \"auto\" it is chosen too."},
-          {.name = "bin_num",
-           .slot = o(&OrderConfig::bin_num),
-           .unit = "bins a direction component",
-           .range = {1, 1024},
-           .doc = "Of the histogram methods. 16, as in the thesis, sorts 12 bits; more bins, finer order, more passes "
-                  "of the sort."},
-      }};
+  return {.name = "order",
+          .doc = "Sorting of the rays before they are traced. The paths do not depend on it, only the time does.",
+          .fields = {
+              {.name = "method",
+               .slot = o(&OrderConfig::method),
+               .doc = "The method, by its plain name or its mnemonic. none: no sorting; with trace.directions = "
+                      "\"hilbert\" rays are launched in a good order already. direction-origin: by direction first, "
+                      "then by origin; use it with each_depth. auto: the fastest method, found by a short measurement "
+                      "that is kept for later runs."},
+              {.name = "each_depth",
+               .slot = o(&OrderConfig::each_depth),
+               .doc = "Sort before every depth, not only before the first. With method = \"auto\" this is chosen "
+                      "automatically too."},
+              {.name = "bin_num",
+               .slot = o(&OrderConfig::bin_num),
+               .unit = "bins per direction component",
+               .range = {1, 1024},
+               .doc = "Only for the histogram methods. 16, as in the thesis, gives keys of 12 bits; more bins give a "
+                      "finer order and need more passes of the sort."},
+          }};
 }
 
 Table launch_table() {
   const auto l = [](auto member) { return at(&Config::launch, member); };
-  return {
-      .name = "launch",
-      .doc = "The shape in which the rays of a depth are handed to the device. Paths do not depend on it, time does.",
-      .fields = {
-          {.name = "shape",
-           .slot = l(&LaunchConfig::shape),
-           .doc = "auto: 1d, but 2d and 3d for the two methods that map the sorted rays along a curve of that "
-                  "dimension, and those accept nothing else."},
-          {.name = "local_size",
-           .slot = l(&LaunchConfig::local_size),
-           .unit = "work-items a group",
-           .range = {0, 1024},
-           .none = "0",
-           .doc = "A power of two, spread evenly over the dimensions. 0: what suits the device."},
-      }};
+  return {.name = "launch",
+          .doc =
+              "The shape of the OpenCL kernel launches that process the rays of one depth. The paths do not depend on "
+              "it, only the time does.",
+          .fields = {
+              {.name = "shape",
+               .slot = l(&LaunchConfig::shape),
+               .doc = "auto: 1d, except for the two methods that map the sorted rays along a curve in 2 or 3 "
+                      "dimensions; they need 2d or 3d and accept no other shape."},
+              {.name = "local_size",
+               .slot = l(&LaunchConfig::local_size),
+               .unit = "work-items per work-group",
+               .range = {0, 1024},
+               .none = "0",
+               .doc = "A power of two, divided evenly among the dimensions. 0: chosen for the device."},
+          }};
 }
 
 // With the words of each Choice, and that of an optional that is not set, as choices.
@@ -196,76 +205,77 @@ const std::vector<Table>& tables() {
                    .slot = at(&Config::radio, &RadioConfig::frequency_hz),
                    .unit = "Hz",
                    .range = {1e6, 1e12},
-                   .doc = "5.9 GHz is the band of vehicle communication (ITS-G5, C-V2X). ITU-R P.2040 materials hold "
-                          "from 1 to 100 GHz, most of them."},
+                   .doc = "The carrier frequency. 5.9 GHz is the band of vehicle communication (ITS-G5, C-V2X). Most "
+                          "materials of ITU-R P.2040 are valid from 1 to 100 GHz."},
                   {.name = "transmit_power_dbm",
                    .slot = at(&Config::radio, &RadioConfig::transmit_power_dbm),
                    .unit = "dBm",
                    .range = {-200, 200},
-                   .doc = "Of each transmitter, for received powers in links.csv, plots and maps. Not given: gains "
-                          "alone. 23 dBm is usual for ITS-G5 and C-V2X."},
+                   .doc = "The power of each transmitter, for received powers in links.csv, plots and maps. Not given: "
+                          "only gains are written. 23 dBm is usual for ITS-G5 and C-V2X."},
                   {.name = "bandwidth_hz",
                    .slot = at(&Config::radio, &RadioConfig::bandwidth_hz),
                    .unit = "Hz",
                    .range = {1, 1e12},
-                   .doc = "Of the noise, k T B at 290 K, for signal-to-noise ratios beside received powers; paths do "
-                          "not depend on it. 10 MHz is a channel of ITS-G5."},
+                   .doc = "The bandwidth of the noise, k T B at 290 K, for signal-to-noise ratios beside received "
+                          "powers; paths do not depend on it. 10 MHz is a channel of ITS-G5."},
                   {.name = "noise_figure_db",
                    .slot = at(&Config::radio, &RadioConfig::noise_figure_db),
                    .unit = "dB",
                    .range = {0, 100},
-                   .doc = "Of each receiver: how much its noise is above k T B. 0 is a receiver without noise of its "
-                          "own, 9 dB one that 3GPP assumes for vehicles."}}},
+                   .doc = "The noise figure of each receiver: how far its noise is above k T B. 0 is a receiver "
+                          "without noise of its own; 3GPP assumes 9 dB for vehicles."}}},
       trace_table(),
       order_table(),
       launch_table(),
       cache_table(),
       live_table(),
       {.name = "output",
-       .doc = "What is written.",
-       .fields = {{.name = "directory",
-                   .slot = at(&Config::output, &OutputConfig::directory),
-                   .form = Form::output_folder,
-                   .doc =
-                       "Folder for paths.h5, links.csv and summary.json, from the current folder where it is relative; "
-                       "`run -o` overrides it."},
-                  {.name = "shard_frames",
-                   .slot = at(&Config::output, &OutputConfig::shard_frames),
-                   .unit = "frames a file",
-                   .range = {1, 1e9},
-                   .doc = "Of a drive. An interrupted run goes on after the last file that is whole; the first frame "
-                          "of each is cold where frames reuse sequences, so fewer frames cost time, more cost "
-                          "memory."},
-                  {.name = "waypoints",
-                   .slot = at(&Config::output, &OutputConfig::waypoints),
-                   .unit = "samples a transmitter",
-                   .range = {0, 1e9},
-                   .doc = "Of these rays, spread evenly over each launch, waypoints.h5 gets every point from launch to "
-                          "last hit, for study and pictures. They are many: 0 writes none."},
-                  {.name = "min_gain_db",
-                   .slot = at(&Config::output, &OutputConfig::min_gain_db),
-                   .unit = "dB",
-                   .range = {-1000, 1000},
-                   .doc = "Weaker paths are left out of paths.h5. What this and the next two keys leave out is counted "
-                          "with its power in links.csv and summary.json, whose other figures are those of all paths. "
-                          "Not given: none."},
-                  {.name = "dynamic_range_db",
-                   .slot = at(&Config::output, &OutputConfig::dynamic_range_db),
-                   .unit = "dB",
-                   .range = {0, 1000},
-                   .doc = "Paths that are weaker than the strongest of their link and frame by more than this are left "
-                          "out of paths.h5. Not given: none."},
-                  {.name = "max_paths_per_link",
-                   .slot = at(&Config::output, &OutputConfig::max_paths_per_link),
-                   .unit = "paths a link and frame",
-                   .range = {0, 4294967295.0},
-                   .none = "0",
-                   .doc = "Only so many, the strongest, are written to paths.h5. 0: all."},
-                  {.name = "keep_shards",
-                   .slot = at(&Config::output, &OutputConfig::keep_shards),
-                   .doc = "Keep the shards of a drive beside the merged files, so that a later --resume or merge finds "
-                          "them. false: where one process has computed all frames, they go once the merged files "
-                          "were read back, which halves the space on the disk; a later --resume begins anew."}}},
+       .doc = "The files that a run writes.",
+       .fields =
+           {{.name = "directory",
+             .slot = at(&Config::output, &OutputConfig::directory),
+             .form = Form::output_folder,
+             .doc = "Folder for paths.h5, links.csv and summary.json; a relative path starts at the current folder. "
+                    "`run -o` overrides it."},
+            {.name = "shard_frames",
+             .slot = at(&Config::output, &OutputConfig::shard_frames),
+             .unit = "frames per file",
+             .range = {1, 1e9},
+             .doc = "The number of frames in each file that a drive is written to while it runs. An interrupted run "
+                    "continues after the last complete file. The first frame of each file cannot reuse sequences of "
+                    "earlier frames, so fewer frames per file cost time, and more frames cost memory."},
+            {.name = "waypoints",
+             .slot = at(&Config::output, &OutputConfig::waypoints),
+             .unit = "samples per transmitter",
+             .range = {0, 1e9},
+             .doc = "The number of rays, spread evenly over each launch, whose points are written to waypoints.h5, "
+                    "from the launch to the last hit, for study and pictures. The files become large. 0 writes none."},
+            {.name = "min_gain_db",
+             .slot = at(&Config::output, &OutputConfig::min_gain_db),
+             .unit = "dB",
+             .range = {-1000, 1000},
+             .doc = "Weaker paths are left out of paths.h5. What this key and the next two leave out is counted, with "
+                    "its power, in links.csv and summary.json; all other numbers in these files are for all paths. Not "
+                    "given: no limit."},
+            {.name = "dynamic_range_db",
+             .slot = at(&Config::output, &OutputConfig::dynamic_range_db),
+             .unit = "dB",
+             .range = {0, 1000},
+             .doc = "Paths that are weaker than the strongest path of their link and frame by more than this are left "
+                    "out of paths.h5. Not given: no limit."},
+            {.name = "max_paths_per_link",
+             .slot = at(&Config::output, &OutputConfig::max_paths_per_link),
+             .unit = "paths per link and frame",
+             .range = {0, 4294967295.0},
+             .none = "0",
+             .doc = "Only this many paths, the strongest, are written to paths.h5. 0: all."},
+            {.name = "keep_shards",
+             .slot = at(&Config::output, &OutputConfig::keep_shards),
+             .doc = "Keep the shards (part files) of a drive beside the merged files, so that a later --resume or "
+                    "merge finds them. false: if one process has computed all frames, the shards are removed after the "
+                    "merged files have been read back and checked, which halves the space on the disk; a later "
+                    "--resume then starts again from the first frame."}}},
       material_table(),
       transmitter_table(),
       receiver_table(),

@@ -8,65 +8,71 @@ Table live_table() {
   const auto l = [](auto member) { return at(&Config::live, member); };
   return {
       .name = "live",
-      .doc = "What `wavetracer serve` accepts of its clients. A client that goes beyond is told so, or dropped.",
+      .doc =
+          "Limits on what `wavetracer serve` accepts from its clients. A client that exceeds one gets an error message "
+          "or is disconnected.",
       .fields = {
           {.name = "margin_m",
            .slot = l(&LiveConfig::margin_m),
            .unit = "m",
            .range = {0, 1e5},
-           .doc = "Vehicles may be as far outside of the scene's box, in x, y and z. Farther out, float32 discovery "
-                  "would grow coarse for all."},
+           .doc = "How far outside the bounding box of the scene vehicles may be, in x, y and z. Farther outside, "
+                  "float32 arithmetic would make ray tracing less accurate for all."},
           {.name = "max_clients",
            .slot = l(&LiveConfig::max_clients),
            .range = {1, 1000},
-           .doc = "That have said hello, at once. They share the device frame by frame, in turn."},
+           .doc = "The largest number of clients that have said hello and are connected at the same time. They use the "
+                  "device in turn, frame by frame."},
           {.name = "max_strangers",
            .slot = l(&LiveConfig::max_strangers),
            .range = {1, 1000},
-           .doc = "Connections that have not said hello yet, at once. When one more comes, the one that has waited "
-                  "longest "
-                  "gives way: connections that say nothing keep nobody out."},
+           .doc = "The largest number of connections that have not said hello yet. When one more arrives, the one that "
+                  "has waited longest is closed, so that silent connections keep nobody out."},
           {.name = "max_message_bytes",
            .slot = l(&LiveConfig::max_message_bytes),
-           .unit = "bytes a line",
+           .unit = "bytes per line",
            .range = {1024, 1073741824.0},
-           .doc = "Of a message to the server. A pose takes 100 to 250."},
+           .doc = "The largest length of a message to the server. A pose takes 100 to 250 bytes."},
           {.name = "max_queue_bytes",
            .slot = l(&LiveConfig::max_queue_bytes),
-           .unit = "bytes a client",
+           .unit = "bytes per client",
            .range = {1024, 1e12},
-           .doc = "Of answers that a client has not read: beyond, none of its frames is solved until it reads."},
+           .doc = "The largest amount of answers that a client has not read yet. Above it, no frame of this client is "
+                  "computed until it reads."},
           {.name = "max_pending_frames",
            .slot = l(&LiveConfig::max_pending_frames),
-           .unit = "frames a client",
+           .unit = "frames per client",
            .range = {1, 1000},
-           .doc = "Received and not answered; then the server stops reading from that client until it has answered."},
+           .doc = "The largest number of frames that are received but not answered yet. Above it, the server reads "
+                  "nothing more from this client until it has answered."},
           {.name = "max_rate_hz",
            .slot = l(&LiveConfig::max_rate_hz),
-           .unit = "messages a second",
+           .unit = "messages per second",
            .range = {0.1, 1e6},
-           .doc = "Of a client, on average over a second; what comes faster waits."},
+           .doc =
+               "The largest rate of messages from one client, averaged over a second; messages that come faster wait."},
           {.name = "hello_timeout_s",
            .slot = l(&LiveConfig::hello_timeout_s),
            .unit = "s",
            .range = {0.01, 3600},
-           .doc = "From connecting to the end of hello, which a program says at once."},
+           .doc = "Time from the connection to the end of the hello message, which a client sends immediately."},
           {.name = "message_timeout_s",
            .slot = l(&LiveConfig::message_timeout_s),
            .unit = "s",
            .range = {0.01, 3600},
-           .doc = "From the first byte of a line to its end."},
+           .doc = "Time from the first byte of a line to its end."},
           {.name = "idle_timeout_s",
            .slot = l(&LiveConfig::idle_timeout_s),
            .unit = "s",
            .range = {0, 1e6},
            .none = "0",
-           .doc = "Between messages of a client that owes the next one. 0: no end, for simulators that may pause."},
+           .doc = "The longest time between two messages of a client that has received all its answers. 0: no limit, "
+                  "for simulators that may pause."},
           {.name = "send_timeout_s",
            .slot = l(&LiveConfig::send_timeout_s),
            .unit = "s",
            .range = {0.01, 3600},
-           .doc = "A client that has answers to read and takes no byte for so long is dropped."},
+           .doc = "A client with unread answers that reads nothing for this time is disconnected."},
       }};
 }
 
@@ -74,19 +80,20 @@ Table live_vehicle_table() {
   const auto v = [](auto member) { return at(&Config::live_vehicles, member); };
   return {.name = "live_vehicle",
           .doc =
-              "Places for vehicles whose poses come at run time, to `wavetracer serve`; one table a type. They "
-              "exclude trajectories: everything that moves comes from the client.",
+              "Vehicles whose poses a client sends to `wavetracer serve` at run time; one table per type. They cannot "
+              "be combined with trajectories: everything that moves comes from the client.",
           .fields =
               {
                   {.name = "type",
                    .slot = v(&LiveVehicleConfig::type),
-                   .doc = "A [[vehicle_type]], or a vehicle class of SUMO; unique. [[mount]] names it in `on`, "
-                          "[links] as TYPE.NUMBER/MOUNT."},
+                   .doc = "A [[vehicle_type]], or a vehicle class of SUMO; unique. A [[mount]] refers to it in `on`; "
+                          "in [links] its antennas are called TYPE.NUMBER/MOUNT."},
                   {.name = "count",
                    .slot = v(&LiveVehicleConfig::count),
                    .unit = "vehicles",
                    .range = {1, 100000},
-                   .doc = "At most at once. A place that is empty costs a little memory and no time."},
+                   .doc = "The largest number of vehicles of this type at the same time. An unused place costs a "
+                          "little memory and no time."},
               },
           .append = append<&Config::live_vehicles>,
           .count = count<&Config::live_vehicles>,

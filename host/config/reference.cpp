@@ -1,4 +1,4 @@
-// Pages made of the field table, one entry a key: what it accepts, its default, what it means.
+// Pages made of the field table, one entry per key: what it accepts, its default, what it means.
 // Assumes that docs of fields are plain text with at most `code` in it.
 #include "config/reference.hpp"
 #include <fmt/format.h>
@@ -40,12 +40,12 @@ std::string cell(std::string_view text) {
 }
 
 constexpr const char* how_to_read =
-    "A configuration is a TOML file; `wavetracer init` prints one with every key, and it runs as it is. "
-    "Tables in double brackets may be given many times, one element each. Any key can be set on the command line, "
-    "over the file: `--set trace.rays=1000000`, of an element by its number, `--set transmitter.0.antenna=dipole`. "
-    "A value is TOML, and text that is none is a string. Relative paths start at the folder of the file, those of "
-    "--set "
-    "at the current one. Unknown keys are errors, with their file, line, column and the nearest known key.";
+    "A configuration is a TOML file; `wavetracer init` prints one with every key, and it runs as it is. Tables in "
+    "double brackets may be given many times, once per element. Any key can be set on the command line, which "
+    "overrides the file: `--set trace.rays=1000000`. For an element, give its number: `--set "
+    "transmitter.0.antenna=dipole`. A value is TOML, and text that is not valid TOML is a string. Relative paths in a "
+    "file start at the folder of the file, those of --set at the current folder. Unknown keys are errors; the message "
+    "gives file, line, column and the nearest known key.";
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// A row a key; it stays, as the configurations of old runs do.
+// A row per key; it stays, as the configurations of old runs do.
 #include "config/retired_keys.hpp"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace {
 
 const std::array retired_keys{
     RetiredKey{"trace.join",
-               "trace.join was taken away: rays towards the horizon find more paths in the same time; remove the key, "
-               "and leave trace.directions at \"horizon\""},
+               "trace.join no longer exists, because rays towards the horizon find more paths in the same time: remove "
+               "the key, and keep trace.directions = \"horizon\""},
 };
 
 }  // namespace

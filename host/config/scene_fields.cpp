@@ -10,34 +10,35 @@ namespace {
 template <auto List>
 Table ends_table(std::string name, std::string doc, std::string example_name, std::string example_position) {
   const auto e = [](auto member) { return at(List, member); };
-  return {.name = std::move(name),
-          .doc = std::move(doc),
-          .fields =
-              {
-                  {.name = "name",
-                   .slot = e(&RadioEnd::name),
-                   .required = true,
-                   .doc = "Unique among all transmitters and receivers.",
-                   .example = std::move(example_name)},
-                  {.name = "position_m",
-                   .slot = e(&RadioEnd::position_m),
-                   .unit = "m",
-                   .required = true,
-                   .doc = "x, y, z in the coordinates of the scene file.",
-                   .example = std::move(example_position)},
-                  antenna_field(e, &RadioEnd::antenna),
-                  polarization_field(e, &RadioEnd::polarization),
-                  {.name = "orientation_deg",
-                   .slot = e(&RadioEnd::orientation_deg),
-                   .unit = "degrees",
-                   .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
-                  {.name = "velocity_m_s",
-                   .slot = e(&RadioEnd::velocity_m_s),
-                   .unit = "m/s",
-                   .doc = "Along x, y, z. Gives the Doppler shift of each path; the end stays where it is."},
-              },
-          .append = append<List>,
-          .count = count<List>};
+  return {
+      .name = std::move(name),
+      .doc = std::move(doc),
+      .fields =
+          {
+              {.name = "name",
+               .slot = e(&RadioEnd::name),
+               .required = true,
+               .doc = "Unique among all transmitters and receivers.",
+               .example = std::move(example_name)},
+              {.name = "position_m",
+               .slot = e(&RadioEnd::position_m),
+               .unit = "m",
+               .required = true,
+               .doc = "x, y, z in the coordinates of the scene file.",
+               .example = std::move(example_position)},
+              antenna_field(e, &RadioEnd::antenna),
+              polarization_field(e, &RadioEnd::polarization),
+              {.name = "orientation_deg",
+               .slot = e(&RadioEnd::orientation_deg),
+               .unit = "degrees",
+               .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
+              {.name = "velocity_m_s",
+               .slot = e(&RadioEnd::velocity_m_s),
+               .unit = "m/s",
+               .doc = "Velocity along x, y, z. It gives the Doppler shift of each path; the position does not change."},
+          },
+      .append = append<List>,
+      .count = count<List>};
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
 Table scene_table() {
   const auto s = [](auto member) { return at(&Config::scene, member); };
   return {.name = "scene",
-          .doc = "The static world. Give either file or generate.",
+          .doc = "The static scene. Give either file or generate.",
           .fields = {
               {.name = "file",
                .slot = s(&SceneConfig::file),
@@ -53,113 +54,119 @@ Table scene_table() {
                .doc = "Mitsuba XML with PLY or OBJ meshes, or one OBJ, GLB, glTF or PLY file."},
               {.name = "generate",
                .slot = s(&SceneConfig::generate),
-               .doc = "A city made on the spot instead of a file: the arguments of `wavetracer scene city`.",
+               .doc = "A generated city instead of a file: the options of `wavetracer scene city`.",
                .example = "\"--seed 1 --blocks 4\"",
                .needed = true},
               {.name = "scale",
                .slot = s(&SceneConfig::scale),
-               .unit = "m a file unit",
+               .unit = "metres per file unit",
                .range = {0, 1e6, true},
-               .doc = "For OBJ, GLB and PLY. OBJ and PLY state no unit; 1 reads them as metres, as glTF is."},
+               .doc = "For OBJ, GLB, glTF and PLY files. OBJ and PLY files do not state their unit; 1 reads them in "
+                      "metres, which is also the unit of glTF."},
               {.name = "up",
                .slot = s(&SceneConfig::up),
-               .doc = "The axis of the file that points to the sky; auto is z, but y for glTF as its standard says."},
+               .doc = "The axis of the file that points up. auto: y for GLB and glTF, as their standard says, and z "
+                      "for all other formats."},
               {.name = "default_material",
                .slot = s(&SceneConfig::default_material),
-               .doc = "Radio material of meshes that name none. Left empty, such a mesh is an error, because a guess "
-                      "would be wrong in silence."},
+               .doc = "Radio material of meshes that name none. If this is empty, a mesh without a material is an "
+                      "error, because a guess could be wrong without anybody noticing."},
               {.name = "material_alias",
                .slot = s(&SceneConfig::material_alias),
-               .doc = "Material name in the scene file = radio material, for names that are not ITU-R P.2040 ones.",
+               .doc = "Pairs of a material name in the scene file and the radio material that it means, for names that "
+                      "are not materials of ITU-R P.2040.",
                .example = "{ \"my wall\" = \"concrete\" }"},
           }};
 }
 
 Table material_table() {
   const auto m = [](auto member) { return at(&Config::materials, member); };
-  return {
-      .name = "material",
-      .doc =
-          "A radio material: overrides one of ITU-R P.2040 or adds one. Either a, b, c, d or permittivity and "
-          "conductivity_s_m.",
-      .fields =
-          {
-              {.name = "name",
-               .slot = m(&MaterialConfig::name),
-               .required = true,
-               .doc = "The name that the scene uses, or that scene.material_alias maps to.",
-               .example = "\"concrete\""},
-              {.name = "a",
-               .slot = m(&MaterialConfig::a),
-               .range = {0, 1e6, true},
-               .doc = "Relative permittivity a f^b, f in GHz (ITU-R P.2040-3, Table 3).",
-               .example = "5.24"},
-              {.name = "b",
-               .slot = m(&MaterialConfig::b),
-               .range = {-10, 10},
-               .doc = "Exponent of the permittivity.",
-               .example = "0.0"},
-              {.name = "c",
-               .slot = m(&MaterialConfig::c),
-               .unit = "S/m",
-               .range = {0, 1e12},
-               .doc = "Conductivity c f^d, f in GHz (ITU-R P.2040-3, Table 3).",
-               .example = "0.0462"},
-              {.name = "d",
-               .slot = m(&MaterialConfig::d),
-               .range = {-10, 10},
-               .doc = "Exponent of the conductivity.",
-               .example = "0.7822"},
-              {.name = "permittivity",
-               .slot = m(&MaterialConfig::permittivity),
-               .range = {1, 1e6},
-               .doc = "Relative permittivity at every frequency, instead of a and b.",
-               .example = "5.24"},
-              {.name = "conductivity_s_m",
-               .slot = m(&MaterialConfig::conductivity_s_m),
-               .unit = "S/m",
-               .range = {0, 1e12},
-               .doc = "Conductivity at every frequency, instead of c and d.",
-               .example = "0.185"},
-              {.name = "thickness_m",
-               .slot = m(&MaterialConfig::thickness_m),
-               .unit = "m",
-               .range = {0, infinity, true},
-               .doc = "Of the slab; inf is a half space. Not given: that of the scene file, else 0.1 m.",
-               .example = "0.3"},
-              {.name = "scattering",
-               .slot = m(&MaterialConfig::scattering),
-               .range = {0, 1},
-               .doc = "Coefficient S, with trace.scattering: the share S^2 of the reflected power goes in all "
-                      "directions, and the mirrored wave keeps the rest (Degli-Esposti et al., 2007). Not given: 0.",
-               .example = "0.4"},
-              {.name = "scattering_lobe",
-               .slot = m(&MaterialConfig::scattering_lobe),
-               .range = {0, 50},
-               .doc = "Exponent of a lobe about the mirrored direction, a whole number; 4 is usual for walls. 0: "
-                      "none, scattered by Lambert's law.",
-               .example = "4"},
-              {.name = "scattering_cross_polar",
-               .slot = m(&MaterialConfig::scattering_cross_polar),
-               .range = {0, 1},
-               .doc = "Share of the scattered power in the other polarisation.",
-               .example = "0.1"},
-          },
-      .append = append<&Config::materials>,
-      .count = count<&Config::materials>,
-      .optional = true};
+  return {.name = "material",
+          .doc =
+              "A radio material, which replaces one of ITU-R P.2040 or is added to them. Give either a, b, c and d, or "
+              "permittivity and conductivity_s_m.",
+          .fields =
+              {
+                  {.name = "name",
+                   .slot = m(&MaterialConfig::name),
+                   .required = true,
+                   .doc = "The name that the scene uses, or that scene.material_alias gives.",
+                   .example = "\"concrete\""},
+                  {.name = "a",
+                   .slot = m(&MaterialConfig::a),
+                   .range = {0, 1e6, true},
+                   .doc = "Factor of the relative permittivity a f^b, with f in GHz (ITU-R P.2040-3, Table 3).",
+                   .example = "5.24"},
+                  {.name = "b",
+                   .slot = m(&MaterialConfig::b),
+                   .range = {-10, 10},
+                   .doc = "Exponent of the relative permittivity a f^b.",
+                   .example = "0.0"},
+                  {.name = "c",
+                   .slot = m(&MaterialConfig::c),
+                   .unit = "S/m",
+                   .range = {0, 1e12},
+                   .doc = "Factor of the conductivity c f^d, with f in GHz (ITU-R P.2040-3, Table 3).",
+                   .example = "0.0462"},
+                  {.name = "d",
+                   .slot = m(&MaterialConfig::d),
+                   .range = {-10, 10},
+                   .doc = "Exponent of the conductivity c f^d.",
+                   .example = "0.7822"},
+                  {.name = "permittivity",
+                   .slot = m(&MaterialConfig::permittivity),
+                   .range = {1, 1e6},
+                   .doc = "Relative permittivity at every frequency, instead of a and b.",
+                   .example = "5.24"},
+                  {.name = "conductivity_s_m",
+                   .slot = m(&MaterialConfig::conductivity_s_m),
+                   .unit = "S/m",
+                   .range = {0, 1e12},
+                   .doc = "Conductivity at every frequency, instead of c and d.",
+                   .example = "0.185"},
+                  {.name = "thickness_m",
+                   .slot = m(&MaterialConfig::thickness_m),
+                   .unit = "m",
+                   .range = {0, infinity, true},
+                   .doc = "Thickness of the slab; inf is a half space. Not given: the thickness in the scene file, or "
+                          "0.1 m if it has none.",
+                   .example = "0.3"},
+                  {.name = "scattering",
+                   .slot = m(&MaterialConfig::scattering),
+                   .range = {0, 1},
+                   .doc = "Scattering coefficient S, used with trace.scattering: the share S^2 of the reflected power "
+                          "is scattered in all directions, and the specular reflection keeps the rest (Degli-Esposti "
+                          "et al., 2007). Not given: 0.",
+                   .example = "0.4"},
+                  {.name = "scattering_lobe",
+                   .slot = m(&MaterialConfig::scattering_lobe),
+                   .range = {0, 50},
+                   .doc = "Exponent of the scattering lobe around the specular direction, an integer; 4 is usual for "
+                          "walls. 0: no lobe, scattering by Lambert's law.",
+                   .example = "4"},
+                  {.name = "scattering_cross_polar",
+                   .slot = m(&MaterialConfig::scattering_cross_polar),
+                   .range = {0, 1},
+                   .doc = "Share of the scattered power that is in the other (cross) polarisation.",
+                   .example = "0.1"},
+              },
+          .append = append<&Config::materials>,
+          .count = count<&Config::materials>,
+          .optional = true};
 }
 
 Table transmitter_table() {
   return ends_table<&Config::transmitters>(
-      "transmitter", "A radio end that launches rays; one table each. At least one, unless a [[mount]] is one.",
+      "transmitter",
+      "An antenna that sends; one table per transmitter. At least one is needed, unless a [[mount]] transmits.",
       "\"rsu\"", "[0.0, 0.0, 6.0]");
 }
 
 Table receiver_table() {
-  return ends_table<&Config::receivers>(
-      "receiver", "A radio end that paths lead to; one table each. At least one, unless a [[mount]] is one.", "\"car\"",
-      "[40.0, 0.0, 1.5]");
+  return ends_table<&Config::receivers>("receiver",
+                                        "An antenna that receives; one table per receiver. At least one is needed, "
+                                        "unless a [[mount]] or a [[receiver_grid]] receives.",
+                                        "\"car\"", "[40.0, 0.0, 1.5]");
 }
 
 }  // namespace wavetracer::config

@@ -1,4 +1,4 @@
-// Conversions between TOML and the members of Config, one a slot type.
+// Conversions between TOML and the members of Config, one per slot type.
 // A float of integral value (1e6) is taken where an integer is asked for; NaN never is a value.
 #include "config/values.hpp"
 #include <fmt/format.h>
@@ -83,7 +83,7 @@ std::string assign_real(const Field& field, const std::string& key, T& to, const
 }
 
 std::string unknown_word(const Field& field, const std::string& key, const std::string& given) {
-  return fmt::format("{} = {} is not known: it must be {}{}", key, toml_string(given), accepted(field),
+  return fmt::format("{} = {} is not a known value: it must be {}{}", key, toml_string(given), accepted(field),
                      spelling_hint(given, field.choices));
 }
 
@@ -103,7 +103,7 @@ std::string assign_text(const Field& field, const std::string& key, std::string&
   const std::string& given = text->get();
   if (field.required && given.empty()) return key + " is empty: give it a name";
   if (field.form == Form::plain && has_control_character(given))  // file systems have odder names
-    return fmt::format("{} = {} has a control character, which tables and plots cannot show: leave it out", key,
+    return fmt::format("{} = {} contains a control character, which tables and plots cannot show: remove it", key,
                        toml_string(given));
   to = given;
   if (field.form == Form::input_file) to = resolved_path(folder, given);
@@ -148,7 +148,7 @@ std::string assign_words(const Field& field, const std::string& key, std::vector
   } else {
     return wrong_type(field, key, value);
   }
-  return to.empty() ? key + " is empty: give one at least" : "";
+  return to.empty() ? key + " is empty: give at least one" : "";
 }
 
 std::string assign_waypoints(const Field& field, const std::string& key, std::vector<std::array<double, 4>>& to,
@@ -161,7 +161,7 @@ std::string assign_waypoints(const Field& field, const std::string& key, std::ve
         assign_vector(field, fmt::format("{}[{}]", key, i), to[i], (*array)[i], "four numbers (" + field.unit + ")");
     if (!problem.empty()) return problem;
   }
-  return to.empty() ? key + " is empty: give one waypoint at least" : "";
+  return to.empty() ? key + " is empty: give at least one waypoint" : "";
 }
 
 }  // namespace

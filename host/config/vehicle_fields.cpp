@@ -9,37 +9,40 @@ namespace wavetracer::config {
 Table trajectories_table() {
   const auto t = [](auto member) { return at(&Config::trajectories, member); };
   return {.name = "trajectories",
-          .doc = "How vehicles move: file, generate or [[track]] tables; none of them, no vehicles.",
+          .doc =
+              "How vehicles move: from a file, generated, or by [[track]] tables. Without any of them there are no "
+              "vehicles.",
           .fields = {
               {.name = "file",
                .slot = t(&TrajectoriesConfig::file),
                .form = Form::input_file,
-               .doc = "SUMO's floating car data (--fcd-output), or CSV with a header that names time, id, x, y and "
-                      "perhaps z, yaw, speed, type; plain or gzip."},
+               .doc = "Floating car data of SUMO (--fcd-output), or CSV with a header that names the columns time, id, "
+                      "x, y and optionally z, yaw, speed, type; plain or compressed with gzip."},
               {.name = "generate",
                .slot = t(&TrajectoriesConfig::generate),
-               .doc = "Traffic made on the spot instead of a file, in the streets of the city that scene.generate "
-                      "makes: --blocks, --block-m and --street-m must be the same.",
+               .doc = "Generated traffic instead of a file, in the streets of the city that scene.generate makes: "
+                      "--blocks, --block-m and --street-m must be the same in both.",
                .example = "\"--seed 1 --blocks 4 --vehicles 10 --seconds 1 --step 0.1\""},
               {.name = "offset_m",
                .slot = t(&TrajectoriesConfig::offset_m),
                .unit = "m",
                .doc = "Scene file coordinates = scale * coordinates of trajectories.file + offset_m. SUMO moves its "
-                      "networks by a netOffset; minus that brings them back."},
+                      "networks by a netOffset; its negative value here moves them back."},
               {.name = "scale",
                .slot = t(&TrajectoriesConfig::scale),
                .range = {0, 1e6, true},
-               .doc = "Of the positions in trajectories.file alone: SUMO's sizes and speeds are in metres."},
+               .doc = "Factor for the positions in trajectories.file only: SUMO's sizes and speeds are in metres."},
               {.name = "persons",
                .slot = t(&TrajectoriesConfig::persons),
-               .doc = "Read the persons of a file too, as person:ID. They carry antennas but have no body."},
+               .doc = "Read the persons of the file too, as person:ID. They can carry antennas but have no body."},
               {.name = "containers",
                .slot = t(&TrajectoriesConfig::containers),
-               .doc = "Read the containers of a file too, as container:ID."},
+               .doc = "Read the containers of the file too, as container:ID."},
               {.name = "default_type",
                .slot = t(&TrajectoriesConfig::default_type),
-               .doc = "Vehicle type of vehicles whose own is neither a [[vehicle_type]] nor a class of SUMO. Left "
-                      "empty, such a vehicle is an error, because a guess of its size would be wrong in silence."},
+               .doc = "Vehicle type of vehicles whose own type is neither a [[vehicle_type]] nor a vehicle class of "
+                      "SUMO. If this is empty, such a vehicle is an error, because a guess of its size could be wrong "
+                      "without anybody noticing."},
           }};
 }
 
@@ -51,79 +54,87 @@ Table time_table() {
               {.name = "start_s",
                .slot = t(&TimeConfig::start_s),
                .unit = "s",
-               .doc = "Of the first frame. Not given: the first sample of the trajectories.",
+               .doc = "Time of the first frame. Not given: the time of the first sample of the trajectories.",
                .example = "0.0"},
               {.name = "end_s",
                .slot = t(&TimeConfig::end_s),
                .unit = "s",
-               .doc = "No frame is later. Not given: the last sample of the trajectories.",
+               .doc = "No frame is later than this. Not given: the time of the last sample of the trajectories.",
                .example = "1.0"},
               {.name = "step_s",
                .slot = t(&TimeConfig::step_s),
                .unit = "s",
                .range = {0, 1e9},
                .none = "0",
-               .doc = "Between frames; poses between samples are interpolated smoothly. 0: the step of the "
+               .doc = "Time between frames; poses between samples are interpolated smoothly. 0: the time step of the "
                       "trajectories."},
           }};
 }
 
 Table links_table() {
   const auto l = [](auto member) { return at(&Config::links, member); };
-  return {.name = "links",
-          .doc = "Which pairs of a transmitter and a receiver are computed. Never those of one place on one vehicle.",
-          .fields = {
-              {.name = "max_distance_m",
-               .slot = l(&LinksConfig::max_distance_m),
-               .unit = "m",
-               .range = {0, infinity, true},
-               .doc = "Between the two ends, straight; inf, because only the user knows what is too far."},
-              {.name = "transmitters",
-               .slot = l(&LinksConfig::transmitters),
-               .doc = "Names, with * for any text and ? for any character; those of mounts are VEHICLE/NAME."},
-              {.name = "receivers", .slot = l(&LinksConfig::receivers), .doc = "Names, in the same way."},
-              {.name = "v2v", .slot = l(&LinksConfig::v2v), .doc = "Links between two vehicles."},
-              {.name = "v2i",
-               .slot = l(&LinksConfig::v2i),
-               .doc = "Links between a vehicle and an end that stands, either way."},
-              {.name = "i2i", .slot = l(&LinksConfig::i2i), .doc = "Links between ends that stand."},
-              {.name = "same_vehicle",
-               .slot = l(&LinksConfig::same_vehicle),
-               .doc = "Links between two antennas of one vehicle, whatever v2v says. false: they are wired."},
-          }};
+  return {
+      .name = "links",
+      .doc =
+          "Which links, pairs of a transmitter and a receiver, are computed. Two ends at the same place on one "
+          "vehicle, "
+          "such as the two roles of one antenna, are never linked.",
+      .fields = {
+          {.name = "max_distance_m",
+           .slot = l(&LinksConfig::max_distance_m),
+           .unit = "m",
+           .range = {0, infinity, true},
+           .doc = "The largest straight distance between the two ends. The default is inf, because only the user knows "
+                  "what is too far."},
+          {.name = "transmitters",
+           .slot = l(&LinksConfig::transmitters),
+           .doc = "Names of transmitters, with * for any text and ? for any character; the antennas of vehicles are "
+                  "called VEHICLE/MOUNT."},
+          {.name = "receivers", .slot = l(&LinksConfig::receivers), .doc = "Names of receivers, in the same way."},
+          {.name = "v2v", .slot = l(&LinksConfig::v2v), .doc = "Links between two vehicles."},
+          {.name = "v2i",
+           .slot = l(&LinksConfig::v2i),
+           .doc = "Links between a vehicle and a fixed antenna, in both directions."},
+          {.name = "i2i", .slot = l(&LinksConfig::i2i), .doc = "Links between fixed antennas."},
+          {.name = "same_vehicle",
+           .slot = l(&LinksConfig::same_vehicle),
+           .doc = "Links between two antennas of the same vehicle, whatever v2v says. false, because they are normally "
+                  "connected by a cable."},
+      }};
 }
 
 Table mount_table() {
   const auto m = [](auto member) { return at(&Config::mounts, member); };
-  return {
-      .name = "mount",
-      .doc = "An antenna on every vehicle of a kind; one table each.",
-      .fields =
-          {
-              {.name = "name",
-               .slot = m(&MountConfig::name),
-               .required = true,
-               .doc = "Unique among mounts. The radio end is called VEHICLE/NAME.",
-               .example = "\"roof\""},
-              {.name = "on",
-               .slot = m(&MountConfig::on),
-               .doc = "Id or type of the vehicles that have it, with * for any text and ? for any character."},
-              {.name = "role", .slot = m(&MountConfig::role), .doc = "What it is; both, as radios of vehicles are."},
-              {.name = "offset_m",
-               .slot = m(&MountConfig::offset_m),
-               .unit = "m",
-               .doc = "Ahead, left, up from the centre of the vehicle's footprint.",
-               .example = "[0.0, 0.0, 1.6]"},
-              antenna_field(m, &MountConfig::antenna),
-              polarization_field(m, &MountConfig::polarization),
-              {.name = "orientation_deg",
-               .slot = m(&MountConfig::orientation_deg),
-               .unit = "degrees",
-               .doc = "Yaw, pitch, roll in the axes of the vehicle: intrinsic rotations about z, y, x."},
-          },
-      .append = append<&Config::mounts>,
-      .count = count<&Config::mounts>,
-      .optional = true};
+  return {.name = "mount",
+          .doc = "An antenna on every vehicle that `on` selects; one table per antenna.",
+          .fields =
+              {
+                  {.name = "name",
+                   .slot = m(&MountConfig::name),
+                   .required = true,
+                   .doc = "Unique among mounts. The antenna is called VEHICLE/NAME.",
+                   .example = "\"roof\""},
+                  {.name = "on",
+                   .slot = m(&MountConfig::on),
+                   .doc = "Id or type of the vehicles that carry it, with * for any text and ? for any character."},
+                  {.name = "role",
+                   .slot = m(&MountConfig::role),
+                   .doc = "Whether it sends, receives or does both, as the radios of vehicles do."},
+                  {.name = "offset_m",
+                   .slot = m(&MountConfig::offset_m),
+                   .unit = "m",
+                   .doc = "Position relative to the centre of the vehicle's footprint: ahead, left, up.",
+                   .example = "[0.0, 0.0, 1.6]"},
+                  antenna_field(m, &MountConfig::antenna),
+                  polarization_field(m, &MountConfig::polarization),
+                  {.name = "orientation_deg",
+                   .slot = m(&MountConfig::orientation_deg),
+                   .unit = "degrees",
+                   .doc = "Yaw, pitch, roll in the axes of the vehicle: intrinsic rotations about z, y, x."},
+              },
+          .append = append<&Config::mounts>,
+          .count = count<&Config::mounts>,
+          .optional = true};
 }
 
 Table vehicle_type_table() {
@@ -134,43 +145,48 @@ Table vehicle_type_table() {
             .unit = "m",
             .range = {0, 1000},
             .none = "0",
-            .doc = std::move(along) + ". 0: that of the mesh file, else that of SUMO's vehicle class of this name."};
+            .doc = std::move(along) +
+                   ". 0: the size of the mesh file, or else the size of SUMO's vehicle class of this name., else that "
+                   "of SUMO's vehicle class of this name."};
   };
-  return {.name = "vehicle_type",
-          .doc =
-              "What a vehicle type of the trajectories looks like; one table each. Types that SUMO's classes name "
-              "need none.",
-          .fields =
-              {
-                  {.name = "name",
-                   .slot = v(&VehicleTypeConfig::name),
-                   .required = true,
-                   .doc = "As in the trajectories; unique.",
-                   .example = "\"passenger\""},
-                  {.name = "model",
-                   .slot = v(&VehicleTypeConfig::model),
-                   .choices = {NamedBody::words.begin(), NamedBody::words.end()},
-                   .form = Form::choice_or_file,
-                   .doc = "Its body, or a mesh file in metres (x ahead, z up, origin on the ground below the centre), "
-                          "stretched to the sizes that are given. auto: by the name of the type; none for two-wheelers "
-                          "and persons. Antennas need no body."},
-                  size("length_m", &VehicleTypeConfig::length_m, "Along the vehicle"),
-                  size("width_m", &VehicleTypeConfig::width_m, "Across it"),
-                  size("height_m", &VehicleTypeConfig::height_m, "From the ground up"),
-                  {.name = "material",
-                   .slot = v(&VehicleTypeConfig::material),
-                   .doc = "Radio material of the meshes of a file that name none."},
-              },
-          .append = append<&Config::vehicle_types>,
-          .count = count<&Config::vehicle_types>,
-          .optional = true};
+  return {
+      .name = "vehicle_type",
+      .doc =
+          "What a vehicle type of the trajectories looks like; one table per type. Types that are vehicle classes "
+          "of SUMO need no table.",
+      .fields =
+          {
+              {.name = "name",
+               .slot = v(&VehicleTypeConfig::name),
+               .required = true,
+               .doc = "The name that the trajectories use; unique.",
+               .example = "\"passenger\""},
+              {.name = "model",
+               .slot = v(&VehicleTypeConfig::model),
+               .choices = {NamedBody::words.begin(), NamedBody::words.end()},
+               .form = Form::choice_or_file,
+               .doc = "A built-in body, or a mesh file in metres (x ahead, z up, origin on the ground below the "
+                      "centre), which is stretched to the sizes that are given. auto: chosen by the name of the type, "
+                      "without a body for two-wheelers and persons. A vehicle without a body can carry antennas too."},
+              size("length_m", &VehicleTypeConfig::length_m, "Length"),
+              size("width_m", &VehicleTypeConfig::width_m, "Width"),
+              size("height_m", &VehicleTypeConfig::height_m, "Height"),
+              {.name = "material",
+               .slot = v(&VehicleTypeConfig::material),
+               .doc = "Radio material of those meshes in the model file that name none."},
+          },
+      .append = append<&Config::vehicle_types>,
+      .count = count<&Config::vehicle_types>,
+      .optional = true};
 }
 
 Table track_table() {
   const auto t = [](auto member) { return at(&Config::tracks, member); };
   return {
       .name = "track",
-      .doc = "A vehicle on waypoints, smoothly connected; one table each, with or without other trajectories.",
+      .doc =
+          "A vehicle that moves through waypoints on a smooth curve; one table per vehicle, with or without other "
+          "trajectories.",
       .fields =
           {
               {.name = "id",
@@ -183,8 +199,8 @@ Table track_table() {
                .slot = t(&TrackConfig::waypoints),
                .unit = "s, m, m, m",
                .required = true,
-               .doc = "[time, x, y, z] each, time increasing, in the coordinates of the scene file; the centre of "
-                      "the footprint, on the ground.",
+               .doc = "Each waypoint is [time, x, y, z], with increasing times, in the coordinates of the scene file; "
+                      "the position is the centre of the footprint, on the ground.",
                .example = "[[0.0, -50.0, -3.0, 0.0], [5.0, 0.0, -3.0, 0.0]]"},
           },
       .append = append<&Config::tracks>,

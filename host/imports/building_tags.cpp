@@ -104,7 +104,7 @@ std::string material(const Tags& tags, std::string_view key, const std::string& 
   if (value.empty()) return otherwise;
   const std::string_view known = itu_material(value);
   if (!known.empty()) return std::string(known);
-  ++guessed["material that has no counterpart among ITU's: " + otherwise];
+  ++guessed["material that ITU-R P.2040 does not have: " + otherwise];
   return otherwise;
 }
 
@@ -164,17 +164,17 @@ std::optional<Shape> shape_of(const Tags& tags, const ImportOptions& options, st
     shape.top_m = (*levels + parse_levels(tag(tags, "roof:levels")).value_or(0)) * options.level_height_m;
   } else {
     shape.top_m = options.default_height_m;
-    ++guessed["neither height nor levels: the default height"];
+    ++guessed["neither height nor levels given: default height used"];
   }
   const auto min_height = parse_length_m(tag(tags, "min_height"));
   const auto min_level = parse_levels(tag(tags, "building:min_level"));
   shape.bottom_m = std::max(0.0, min_height.value_or(min_level.value_or(0) * options.level_height_m));
   if (shape.bottom_m >= shape.top_m) {
-    ++left_out["min_height above its height"];
+    ++left_out["min_height is above the height"];
     return {};
   }
   const std::string_view roof = tag(tags, "roof:shape");
-  if (!roof.empty() && roof != "flat") ++guessed["roof that is not flat: flat at its full height"];
+  if (!roof.empty() && roof != "flat") ++guessed["roof that is not flat: built flat at its full height"];
   shape.walls = material(tags, "building:material", options.wall_material, guessed);
   shape.roof = material(tags, "roof:material", options.roof_material, guessed);
   return shape;

@@ -26,8 +26,7 @@ void check(const std::string& projection) {
   for (const char c : projection) plain = plain && c >= ' ' && c <= '~';
   if (!plain) {
     throw InputError(
-        fmt::format("the projection '{}' is no plain PROJ string such as '+proj=utm +zone=32 +ellps=WGS84 "
-                    "+units=m'",
+        fmt::format("the projection '{}' is not a plain PROJ string such as '+proj=utm +zone=32 +ellps=WGS84 +units=m'",
                     projection.substr(0, longest_projection)));
   }
 }
@@ -47,7 +46,7 @@ struct Projection::State {
   PJ_COORD transform(PJ_DIRECTION direction, double x, double y) const {
     const PJ_COORD out = proj_trans(transformation, direction, proj_coord(x, y, 0, 0));
     if (std::isfinite(out.xy.x) && std::isfinite(out.xy.y)) return out;
-    throw InputError(fmt::format("({}, {}) is outside of what the projection '{}' covers", x, y, projection));
+    throw InputError(fmt::format("({}, {}) is outside of the area of the projection '{}'", x, y, projection));
   }
 };
 
@@ -90,12 +89,12 @@ std::optional<Georeference> find_georeference(const std::filesystem::path& scene
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return {};
   if (std::filesystem::file_size(file, error) > largest_file || error) {
-    throw InputError(fmt::format("{}: is too large for a georeference", file.string()));
+    throw InputError(fmt::format("{}: the file is too large for a georeference", file.string()));
   }
   const nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, false);
   const auto text = [&](const char* key) {
     if (!json.contains(key)) return std::string();
-    if (!json[key].is_string()) throw InputError(fmt::format("{}: \"{}\" must be a text", file.string(), key));
+    if (!json[key].is_string()) throw InputError(fmt::format("{}: \"{}\" must be a string", file.string(), key));
     return json[key].get<std::string>();
   };
   if (!json.is_object() || !json.contains("projection")) {

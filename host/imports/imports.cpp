@@ -27,18 +27,19 @@ void check(const ImportOptions& options) {
       throw ConfigError(fmt::format("{} = {} m must be above 0, up to {} m", what, value, most));
     }
   };
-  positive("the height of a level", options.level_height_m, 100);
-  positive("the default height", options.default_height_m, 1000);
+  positive("the height of a storey (--level-height)", options.level_height_m, 100);
+  positive("the default height (--default-height)", options.default_height_m, 1000);
   if (!(options.margin_m >= 0 && options.margin_m <= 10000)) {
-    throw ConfigError(fmt::format("the margin of the ground = {} m must be from 0 to 10000 m", options.margin_m));
+    throw ConfigError(
+        fmt::format("the margin of the ground (--margin) = {} m must be from 0 to 10000 m", options.margin_m));
   }
   if (options.output.empty()) throw ConfigError("an import needs a folder to write to");
   for (const std::string& name : {options.ground_material, options.wall_material, options.roof_material}) {
     const auto& known = itu_materials();
     if (std::none_of(known.begin(), known.end(), [&](const Material& m) { return m.name == name; })) {
       throw ConfigError(
-          fmt::format("'{}' is no ITU material; concrete, brick, wood, glass, metal, marble, "
-                      "medium_dry_ground are some",
+          fmt::format("'{}' is not an ITU material; materials are, for example, concrete, brick, wood, glass, metal, "
+                      "marble and medium_dry_ground",
                       name));
     }
   }
@@ -49,7 +50,7 @@ imports::Map read_map(std::string_view content, const std::string& name, const I
   if (imports::is_osm(begin)) return imports::read_osm(content, name, options);
   if (imports::is_sumo_polygons(begin)) return imports::read_sumo_polygons(content, name);
   throw InputError(
-      fmt::format("{}: is no OpenStreetMap file (.osm, .osm.pbf) and no polygons of SUMO (.poly.xml); "
+      fmt::format("{}: this is neither an OpenStreetMap file (.osm, .osm.pbf) nor a file of SUMO polygons (.poly.xml); "
                   "unpack .gz and .bz2 first",
                   name));
 }
@@ -113,7 +114,7 @@ ImportSummary import_city(std::string_view content, const std::string& name, con
   ImportSummary summary;
   add_counts(summary, plan);
   if (plan.solids.empty()) {
-    throw InputError(fmt::format("{}: holds no building that can be built{}{}", name,
+    throw InputError(fmt::format("{}: contains no building that can be used{}{}", name,
                                  summary.left_out.empty() ? "" : "; left out:\n", total(summary.left_out)));
   }
   const std::vector<imports::SceneMesh> meshes = imports::build_scene(plan, options);

@@ -92,15 +92,15 @@ class OsmReader {
     } catch (const Error&) {
       throw;
     } catch (const std::exception& e) {
-      throw InputError(
-          fmt::format("{}: is no {} file that can be read: {}", name_, is_pbf_ ? "OSM PBF" : "OSM XML", e.what()));
+      throw InputError(fmt::format("{}: cannot be read as a file of the format {}: {}", name_,
+                                   is_pbf_ ? "OSM PBF" : "OSM XML", e.what()));
     }
   }
 
   void node(const osmium::Node& node) {
     // Every node takes a byte at least, compressed ones perhaps half of it: more of them are a trap for the memory.
     if (++nodes_ > 1000000 + 8 * content_.size()) {
-      throw InputError(fmt::format("{}: holds far more nodes than its size allows: it is damaged", name_));
+      throw InputError(fmt::format("{}: the file contains far more nodes than its size allows: it is damaged", name_));
     }
     count_greenery(node);
     if (node.visible() && node.location().valid()) locations_.set(index_id(node.id()), node.location());
@@ -112,7 +112,7 @@ class OsmReader {
     const osmium::TagList& tags = object.tags();
     const unsigned char* const bytes = tags.data();
     if (std::count(bytes + sizeof(osmium::TagList), bytes + tags.byte_size(), '\0') % 2 != 0) {
-      throw InputError(fmt::format("{}: the tags of {} {} are damaged: they hold a zero byte", name_,
+      throw InputError(fmt::format("{}: the tags of {} {} are damaged: they contain a zero byte", name_,
                                    osmium::item_type_to_name(object.type()), object.id()));
     }
   }
@@ -129,7 +129,7 @@ class OsmReader {
     const bool building = is_building(way.tags());
     if (!way.visible() || (!building && !member_ways_.contains(way.id()))) return;
     if (building && (way.nodes().size() < 4 || !way.is_closed()) && !member_ways_.contains(way.id())) {
-      ++map_.left_out["way that does not close, as clipped at the border of an extract"];
+      ++map_.left_out["way that is not closed, as if clipped at the border of an extract"];
       return;
     }
     way_nodes_ += way.nodes().size();
@@ -173,7 +173,7 @@ class OsmReader {
       if (member.type() != osmium::item_type::way) continue;
       const auto found = std::lower_bound(ways_.begin(), ways_.end(), Entry{member.ref(), 0}, by_id);
       if (found == ways_.end() || found->id != member.ref()) {
-        ++map_.left_out["multipolygon of which a way is missing, as clipped at the border of an extract"];
+        ++map_.left_out["multipolygon with a missing way, as if clipped at the border of an extract"];
         return;
       }
       members.push_back(&kept_ways_.get<const osmium::Way>(found->offset));
@@ -185,7 +185,7 @@ class OsmReader {
       return;
     }
     if ((member_nodes_ += nodes) > most_repeated * way_nodes_ + most_relation_nodes) {
-      ++map_.left_out["multipolygon of ways that are in many others"];
+      ++map_.left_out["multipolygon with ways that belong to too many others"];
       return;
     }
     build(relation, "relation",
@@ -217,7 +217,7 @@ class OsmReader {
     }
     if (any) return;
     ++map_.left_out[assembler.stats().invalid_locations > 0
-                        ? "outline of which a node is missing, as clipped at the border of an extract"
+                        ? "outline with a missing node, as if clipped at the border of an extract"
                         : "outline that crosses itself or does not close"];
   }
 
@@ -265,7 +265,7 @@ Georeference local_projection(Map& map, const std::string& name) {
   });
   if (upper.x - lower.x > widest_map_deg || upper.y - lower.y > widest_map_deg) {
     throw InputError(
-        fmt::format("{}: spans {:.1f} by {:.1f} degrees; cut a city out of it: osmium extract -b "
+        fmt::format("{}: spans {:.1f} by {:.1f} degrees; extract a city from it: osmium extract -b "
                     "WEST,SOUTH,EAST,NORTH {} -o city.osm.pbf",
                     name, upper.x - lower.x, upper.y - lower.y, name));
   }

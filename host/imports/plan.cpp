@@ -33,8 +33,8 @@ glm::dvec2 shift_to_origin(const Map& map, const std::string& name) {
   if (!(reach > largest_coordinate_m)) return {0, 0};
   if (!(std::max(upper.x - lower.x, upper.y - lower.y) < 2 * largest_coordinate_m - 2)) {
     throw InputError(
-        fmt::format("{}: the buildings span {:.0f} x {:.0f} km; {:.0f} km is the most; cut a part out of it", name,
-                    (upper.x - lower.x) / 1000, (upper.y - lower.y) / 1000, 2 * largest_coordinate_m / 1000));
+        fmt::format("{}: the buildings span {:.0f} x {:.0f} km; at most {:.0f} km are allowed; cut a part out of it",
+                    name, (upper.x - lower.x) / 1000, (upper.y - lower.y) / 1000, 2 * largest_coordinate_m / 1000));
   }
   return {-std::round((lower.x + upper.x) / 2), -std::round((lower.y + upper.y) / 2)};
 }
@@ -85,8 +85,8 @@ class Planner {
       const glm::dvec2 p = corner + plan_.offset_m;
       if (!(std::max(std::abs(p.x), std::abs(p.y)) <= most_m)) {
         throw InputError(
-            fmt::format("{} reaches ({:.0f}, {:.0f}) km in the scene, which has the ground below it; {:.0f} km is the "
-                        "most: do map and network belong together? Cut both, or import without a ground",
+            fmt::format("{} reaches ({:.0f}, {:.0f}) km in the scene, and the ground must reach as far; at most {:.0f} "
+                        "km are allowed: do map and network belong together? Cut both, or use --no-ground",
                         what, p.x / 1000, p.y / 1000, most_m / 1000));
       }
       plan_.traffic.add(p);
@@ -132,7 +132,7 @@ class Planner {
       const size_t earlier = entry->second;
       const bool replaces = courtyards(i) > courtyards(earlier);
       if (replaces) entry->second = i;
-      drop(candidates_[replaces ? earlier : i], "outline that is there twice");
+      drop(candidates_[replaces ? earlier : i], "outline that occurs twice");
     }
   }
 
@@ -207,7 +207,7 @@ class Planner {
         for (const Ring& hole : outline.holes) {
           if (contains(hole, inside)) return;
         }
-        drop(candidates_[i], "outline of which the parts are built");
+        drop(candidates_[i], "outline whose parts are built instead");
       });
       if (!all) drop(part, too_many_around);
     }

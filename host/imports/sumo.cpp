@@ -144,7 +144,8 @@ Map read_sumo_polygons(std::string_view content, const std::string& name) {
   pugi::xml_document document;
   const pugi::xml_parse_result result = document.load_buffer(content.data(), content.size());
   if (!result) {
-    throw InputError(fmt::format("{}: is no XML: {}", where(content, result.offset, name), result.description()));
+    throw InputError(
+        fmt::format("{}: not well-formed XML: {}", where(content, result.offset, name), result.description()));
   }
   Map map;
   map.nested_are_courtyards = true;
@@ -171,7 +172,7 @@ Map read_sumo_polygons(std::string_view content, const std::string& name) {
     auto shape = parse_shape(poly.attribute("shape").value());
     if (!shape) {
       throw InputError(
-          fmt::format("{}: <poly id=\"{}\">: shape must be points \"x,y\" or \"x,y,z\" with blanks between", at(),
+          fmt::format("{}: <poly id=\"{}\">: shape must be points \"x,y\" or \"x,y,z\" separated by blanks", at(),
                       poly.attribute("id").value()));
     }
     if (poly.attribute("geo").as_bool()) {

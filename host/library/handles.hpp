@@ -24,7 +24,7 @@ struct wavetracer_simulation {
 
 namespace wavetracer::c_api {
 
-// Figures of links (radio/links.hpp), a row a link.
+// Figures of links (radio/links.hpp), a row per link.
 struct LinkColumns {
   std::vector<uint32_t> paths;
   std::vector<uint8_t> los;

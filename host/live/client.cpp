@@ -140,7 +140,7 @@ void Client::check_time(Clock::time_point now) {
   else if (unread && late(took_, limits_.send_timeout_s))
     gone_ = true;  // it would not read why
   else if (!hello && !reading && late(connected_, limits_.hello_timeout_s))
-    drop(fmt::format("no hello within {} s", limits_.hello_timeout_s));
+    drop(fmt::format("the hello message did not arrive within {} s", limits_.hello_timeout_s));
   else if (!in_.empty() && late(line_began_, limits_.message_timeout_s))
     drop(fmt::format("a line was not complete within {} s", limits_.message_timeout_s));
   else if (limits_.idle_timeout_s && owes() && !unread && late(spoke_, *limits_.idle_timeout_s))

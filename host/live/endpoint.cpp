@@ -31,7 +31,7 @@ sockaddr_un unix_address(const std::string& path) {
   sockaddr_un out{};
   out.sun_family = AF_UNIX;
   if (path.empty() || path.size() >= sizeof out.sun_path)
-    throw ConfigError(fmt::format("--listen unix:{}: the path of a socket has 1 to {} bytes; choose a shorter one",
+    throw ConfigError(fmt::format("--listen unix:{}: the path of a socket must have 1 to {} bytes; choose another path",
                                   path, sizeof out.sun_path - 1));
   path.copy(out.sun_path, path.size());
   return out;
@@ -45,10 +45,11 @@ void clear(const std::string& path, const sockaddr_un& address) {
   if (lstat(path.c_str(), &status) != 0) return;  // bind() says what is wrong with the folder
   if (!S_ISSOCK(status.st_mode))
     throw ConfigError(
-        fmt::format("--listen unix:{}: there is a file of that name, and no socket; choose another", path));
+        fmt::format("--listen unix:{}: a file of this name exists, and it is not a socket; choose another path", path));
   const Descriptor probe(socket(AF_UNIX, kind, 0));
   if (connect(*probe, general(address), sizeof address) == 0 || errno != ECONNREFUSED)
-    throw ConfigError(fmt::format("--listen unix:{}: a server is there already; choose another path, or end it", path));
+    throw ConfigError(fmt::format(
+        "--listen unix:{}: another server uses this path already; choose another path, or stop that server", path));
   unlink(path.c_str());
 }
 
@@ -76,7 +77,7 @@ Addresses resolve(const std::string& host, const std::string& port) {
   addrinfo* found = nullptr;
   if (const int failed = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); failed != 0)
     throw ConfigError(
-        fmt::format("--listen tcp:{}:{}: {}; give an address in numbers and a port from 0 to 65535, as in "
+        fmt::format("--listen tcp:{}:{}: {}; give a numeric address and a port from 0 to 65535, such as "
                     "tcp:127.0.0.1:7710 or tcp:[::1]:7710",
                     host, port, gai_strerror(failed)));
   return {found, freeaddrinfo};
@@ -105,7 +106,7 @@ Endpoint parse_endpoint(const std::string& text) {
     out.host = out.host.substr(1, out.host.size() - 2);
   if (out.host == "localhost") out.host = "127.0.0.1";
   if (out.port.find_first_not_of("0123456789") != out.port.npos || out.port.size() > 5 || std::stoi(out.port) > 65535)
-    throw ConfigError(fmt::format("--listen {}: the port is no number from 0 to 65535", text));
+    throw ConfigError(fmt::format("--listen {}: the port must be a number from 0 to 65535", text));
   out.loopback = is_loopback(*resolve(out.host, out.port)->ai_addr);
   return out;
 }
@@ -150,7 +151,7 @@ void Listener::listen_tcp(const Endpoint& endpoint) {
   const int on = 1;
   setsockopt(*socket_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);  // a restart need not wait for old connections
   if (bind(*socket_, address.ai_addr, address.ai_addrlen) != 0 || listen(*socket_, backlog) != 0)
-    throw RuntimeError(fmt::format("--listen tcp:{}:{}: {}; choose another port, or 0 for any", endpoint.host,
+    throw RuntimeError(fmt::format("--listen tcp:{}:{}: {}; choose another port, or 0 for any free one", endpoint.host,
                                    endpoint.port, system_error()));
   const bool v6 = address.ai_family == AF_INET6;
   name_ = fmt::format("tcp:{}{}{}:{}", v6 ? "[" : "", endpoint.host, v6 ? "]" : "", port_of(*socket_));

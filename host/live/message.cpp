@@ -46,7 +46,7 @@ class Watch {
     // depth counts the containers around an event; one that starts adds itself.
     const bool starts = event == Event::object_start || event == Event::array_start;
     if (starts && depth >= max_depth)
-      refuse("bad_json", fmt::format("arrays and objects nest deeper than {}", max_depth));
+      refuse("bad_json", fmt::format("arrays and objects are nested deeper than {} levels", max_depth));
     if (event == Event::key) {
       note_key(value.get_ref<const std::string&>());
     } else if ((starts || event == Event::value) && !open_.empty() && open_.back().array) {
@@ -70,7 +70,7 @@ class Watch {
   };
 
   void note_key(const std::string& key) {
-    if (!open_.back().keys.insert(key).second) refuse("bad_json", "the key " + in_quotes(key) + " is there twice");
+    if (!open_.back().keys.insert(key).second) refuse("bad_json", "the key " + in_quotes(key) + " occurs twice");
     if (open_.size() == 1) key_ = key;
     count_entry();
   }
@@ -79,8 +79,8 @@ class Watch {
     const size_t count = ++open_.back().entries;
     const bool vehicles = open_.size() == 2 && open_.back().array && key_ == "vehicles";
     if (vehicles && count > max_vehicles_)
-      refuse("no_place", fmt::format("frame: more than {} vehicles, which is how many places there are for all types: "
-                                     "raise the counts of [[live_vehicle]]",
+      refuse("no_place", fmt::format("frame: more than {} vehicles, which is the total count of all types: raise the "
+                                     "counts of [[live_vehicle]]",
                                      max_vehicles_));
     if (!vehicles && count > max_entries)
       refuse("bad_json",
@@ -115,10 +115,10 @@ class Object {
  public:
   Object(const json& value, std::string where, std::vector<std::string> known)
       : value_(value), where_(std::move(where)) {
-    if (!value.is_object()) refuse("bad_value", where_ + " is no object");
+    if (!value.is_object()) refuse("bad_value", where_ + " must be an object");
     for (const auto& [key, ignored] : value.items())
       if (std::ranges::find(known, key) == known.end())
-        refuse("unknown_key", fmt::format("{}: {} is no key of it{}", where_, in_quotes(key),
+        refuse("unknown_key", fmt::format("{}: {} is an unknown key{}", where_, in_quotes(key),
                                           key.size() <= max_quoted_bytes ? spelling_hint(key, known) : ""));
   }
 
@@ -130,7 +130,7 @@ class Object {
   }
   std::string text(const char* key, size_t max_bytes) const {
     const json& v = at(key);
-    if (!v.is_string()) refuse("bad_value", name(key) + " is no string");
+    if (!v.is_string()) refuse("bad_value", name(key) + " must be a string");
     const auto& out = v.get_ref<const std::string&>();
     if (out.size() > max_bytes) refuse("bad_value", fmt::format("{} has more than {} bytes", name(key), max_bytes));
     return out;
@@ -139,25 +139,26 @@ class Object {
   std::string id(const char* key) const {
     std::string out = text(key, max_id_bytes);
     if (out.empty()) refuse("bad_value", name(key) + " is empty");
-    if (has_control_character(out)) refuse("bad_value", name(key) + " has control characters");
+    if (has_control_character(out)) refuse("bad_value", name(key) + " contains control characters");
     return out;
   }
   bool flag(const char* key) const {
     if (!has(key)) return false;
-    if (!at(key).is_boolean()) refuse("bad_value", name(key) + " is neither true nor false");
+    if (!at(key).is_boolean()) refuse("bad_value", name(key) + " must be true or false");
     return at(key).get<bool>();
   }
   uint64_t count(const char* key, uint64_t most) const {
     const json& v = at(key);
     if (!v.is_number_unsigned() || v.get<uint64_t>() > most)
-      refuse("bad_value", fmt::format("{} is no integer from 0 to {}", name(key), most));
+      refuse("bad_value", fmt::format("{} must be an integer from 0 to {}", name(key), most));
     return v.get<uint64_t>();
   }
   double number(const char* key, double most) const { return number(at(key), name(key), most); }
   template <size_t N>
   std::array<double, N> numbers(const char* key, double most) const {
     const json& v = at(key);
-    if (!v.is_array() || v.size() != N) refuse("bad_value", fmt::format("{} is no array of {} numbers", name(key), N));
+    if (!v.is_array() || v.size() != N)
+      refuse("bad_value", fmt::format("{} must be an array of {} numbers", name(key), N));
     std::array<double, N> out;
     for (size_t i = 0; i < N; ++i) out[i] = number(v[i], name(key), most);
     return out;
@@ -171,17 +172,18 @@ class Object {
     const std::string word = text(key, max_id_bytes);
     const auto found = std::ranges::find(choices, word);
     if (found == choices.end())
-      refuse("bad_value", fmt::format("{} is {}, none of {}{}", name(key), in_quotes(word), fmt::join(choices, ", "),
-                                      spelling_hint(word, choices)));
+      refuse("bad_value", fmt::format("{} is {}, but must be one of {}{}", name(key), in_quotes(word),
+                                      fmt::join(choices, ", "), spelling_hint(word, choices)));
     return static_cast<size_t>(found - choices.begin());
   }
 
  private:
   std::string name(const char* key) const { return fmt::format("{}: \"{}\"", where_, key); }
   static double number(const json& v, const std::string& name, double most) {
-    if (!v.is_number()) refuse("bad_value", name + " is no number");
+    if (!v.is_number()) refuse("bad_value", name + " must be a number");
     const double out = v.get<double>();
-    if (!(std::abs(out) <= most)) refuse("bad_value", fmt::format("{} is {}, beyond {}", name, out, most));
+    if (!(std::abs(out) <= most))
+      refuse("bad_value", fmt::format("{} is {}, but its absolute value must be at most {}", name, out, most));
     return out;
   }
 
@@ -206,7 +208,7 @@ Hello hello_of(const json& value) {
 // Yaw as trajectories have it, so that the same angle gives the same bits.
 glm::dquat orientation_of(const Object& vehicle) {
   if (vehicle.has("yaw_deg") == vehicle.has("orientation"))
-    refuse("bad_value", "vehicle: give one of \"yaw_deg\" and \"orientation\"");
+    refuse("bad_value", "vehicle: give either \"yaw_deg\" or \"orientation\"");
   if (vehicle.has("orientation")) {
     const auto [w, x, y, z] = vehicle.numbers<4>("orientation", 2);
     return {w, x, y, z};
@@ -240,7 +242,7 @@ FrameMessage frame_of(const json& value) {
     out.cold = object.flag("cold");
     if (object.has("detail")) out.detail = detail_of(object);
     const json& vehicles = object.at("vehicles");
-    if (!vehicles.is_array()) refuse("bad_value", "frame: \"vehicles\" is no array");
+    if (!vehicles.is_array()) refuse("bad_value", "frame: \"vehicles\" must be an array");
     for (const json& vehicle : vehicles) out.vehicles.push_back(pose_of(vehicle));
   } catch (ProtocolError& error) {
     error.frame = out.frame;
@@ -253,10 +255,10 @@ FrameMessage frame_of(const json& value) {
 
 Message parse_message(std::string_view line, size_t max_vehicles) {
   const json value = parse_json(line, max_vehicles);
-  if (!value.is_object()) refuse("bad_json", "a message is an object, {\"message\": ...}");
+  if (!value.is_object()) refuse("bad_json", "a message must be an object, {\"message\": ...}");
   const auto kind = value.find("message");
   if (kind == value.end()) refuse("missing_key", "\"message\" is missing: give \"hello\", \"frame\" or \"bye\"");
-  if (!kind->is_string()) refuse("bad_value", "\"message\" is no string");
+  if (!kind->is_string()) refuse("bad_value", "\"message\" must be a string");
   const auto& name = kind->get_ref<const std::string&>();
   if (name == "hello") return hello_of(value);
   if (name == "frame") return frame_of(value);
@@ -265,7 +267,7 @@ Message parse_message(std::string_view line, size_t max_vehicles) {
     return Bye{};
   }
   refuse("unknown_message",
-         in_quotes(name) + " is none of hello, frame, bye" +
+         in_quotes(name) + " must be one of hello, frame, bye" +
              (name.size() <= max_quoted_bytes ? spelling_hint(name, {"hello", "frame", "bye"}) : ""));
 }
 

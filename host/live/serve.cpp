@@ -22,12 +22,12 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
   const std::string token = options.token_file.empty() ? "" : read_token(options.token_file);
   if (token.empty() && !endpoint.loopback)
     throw ConfigError(
-        fmt::format("--listen {}: others than this machine can connect there: give --token-file, or listen "
-                    "on unix:PATH or tcp:127.0.0.1:PORT",
+        fmt::format("--listen {}: other machines can connect to this address: give --token-file, or listen on "
+                    "unix:PATH or tcp:127.0.0.1:PORT",
                     options.listen));
   std::signal(SIGPIPE, SIG_IGN);
   const Listener listener(endpoint);
-  log("loading the scene, compiling the kernels");
+  log("loading the scene and compiling the kernels");
   Simulation simulation(config, options.device);
   for (const std::string& warning : simulation.warnings()) log("warning: " + warning);
   simulation.run_frame(0);  // with nobody there: buffers are made, drivers finish compiling

@@ -58,7 +58,7 @@ void Server::run(const std::function<bool()>& stop) {
     give_next();
   }
   const Clock::time_point now = Clock::now();
-  for (const auto& client : clients_) client->end(bye_line("the server ends"), now);
+  for (const auto& client : clients_) client->end(bye_line("the server stops"), now);
 }
 
 // Waits for whatever comes first, and moves bytes.
@@ -91,12 +91,14 @@ void Server::accept(Clock::time_point now) {
   auto client = std::make_unique<Client>(next_number_++, std::move(socket), limits_, now);
   log_(fmt::format("client {} connected", client->number()));
   if (const size_t guests = count(is_guest); guests >= limits_.max_clients)
-    turn_away(*client, "too_many_clients", fmt::format("{} clients are here already (live.max_clients)", guests), now);
-  else if (count(is_stranger) >= limits_.max_strangers)
-    turn_away(**std::ranges::find_if(clients_, [](const auto& c) { return is_stranger(*c); }), "timeout",
-              fmt::format("no hello so far, and others wait: {} connections have said none (live.max_strangers)",
-                          limits_.max_strangers),
+    turn_away(*client, "too_many_clients", fmt::format("{} clients are connected already (live.max_clients)", guests),
               now);
+  else if (count(is_stranger) >= limits_.max_strangers)
+    turn_away(
+        **std::ranges::find_if(clients_, [](const auto& c) { return is_stranger(*c); }), "timeout",
+        fmt::format("no hello message so far, and others wait: {} connections have sent none (live.max_strangers)",
+                    limits_.max_strangers),
+        now);
   clients_.push_back(std::move(client));
 }
 
@@ -104,7 +106,7 @@ void Server::talk(Client& client, const std::function<void()>& action) const {
   try {
     action();
   } catch (const std::exception& error) {
-    log_(fmt::format("client {} is dropped: {}", client.number(), error.what()));
+    log_(fmt::format("client {} is disconnected: {}", client.number(), error.what()));
     client.hang_up();
   }
 }
@@ -136,7 +138,8 @@ Server::ReadLine Server::parse(const Line& line) const {
   } catch (const ProtocolError& error) {
     return {line.client, line.received, error};
   } catch (const std::exception& error) {
-    return {line.client, line.received, ProtocolError("failed", fmt::format("not understood: {}", error.what()))};
+    return {line.client, line.received,
+            ProtocolError("failed", fmt::format("the message cannot be processed: {}", error.what()))};
   }
 }
 
@@ -175,23 +178,25 @@ void Server::handle(Client& client, ReadLine line, Clock::time_point now) {
   if (auto* hello = std::get_if<Hello>(&message)) {
     greet(client, std::move(*hello), now);
   } else if (std::holds_alternative<Bye>(message)) {
-    client.end(bye_line("as you wish"), now);
+    client.end(bye_line("goodbye"), now);
   } else if (!client.hello) {
-    end(client, "hello_first", "the first message is hello", now);
+    end(client, "hello_first", "the first message must be hello", now);
   } else {
     queue(client, std::move(std::get<FrameMessage>(message)), line.received);
   }
 }
 
 void Server::greet(Client& client, Hello hello, Clock::time_point now) {
-  if (client.hello) return refuse(client, {"unexpected", "hello was said already"}, now);
+  if (client.hello) return refuse(client, {"unexpected", "hello was received already"}, now);
   if (hello.protocol != protocol_version)
     return end(client, "protocol",
-               fmt::format("protocol {} is not spoken here, {} is", hello.protocol, protocol_version), now);
+               fmt::format("protocol {} is not supported; this server supports {}", hello.protocol, protocol_version),
+               now);
   if (!token_.empty() && !same_token(token_, hello.token))
-    return end(client, "token", "hello needs the token of this server", now);
+    return end(client, "token", "hello must contain the token of this server", now);
   if (const size_t guests = count(is_guest); guests >= limits_.max_clients)
-    return end(client, "too_many_clients", fmt::format("{} clients are here already (live.max_clients)", guests), now);
+    return end(client, "too_many_clients", fmt::format("{} clients are connected already (live.max_clients)", guests),
+               now);
   client.hello = std::move(hello);
   client.hello->token.clear();
   client.say(world_line_, now);
@@ -209,7 +214,7 @@ void Server::queue(Client& client, FrameMessage message, Clock::time_point recei
 void Server::refuse(Client& client, const ProtocolError& error, Clock::time_point now) {
   if (++client.errors >= most_errors) {
     flush_refusals(client, now);
-    return end(client, "too_many_errors", fmt::format("{} messages were wrong", most_errors), now);
+    return end(client, "too_many_errors", fmt::format("{} messages had errors", most_errors), now);
   }
   std::string line = error_line(error.code, error.what(), error.frame, false);
   if (client.hello->free_running)
@@ -236,7 +241,7 @@ void Server::take_answer(Clock::time_point now) {
     talk(*client, [&] { client->say(answer->line, now); });
   }
   if (!answer->fatal) return;
-  for (const auto& client : clients_) client->end(bye_line("the device failed, and the server ends"), now);
+  for (const auto& client : clients_) client->end(bye_line("the device failed, and the server stops"), now);
   throw DeviceError("the device failed: " + answer->failure);
 }
 

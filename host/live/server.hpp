@@ -20,7 +20,7 @@ class Server {
  public:
   // token: empty where none is asked for.
   Server(Simulation& simulation, const Listener& listener, std::string token, Log log);
-  // Until stop() says so, which is asked ten times a second. Throws DeviceError where the device fails.
+  // Until stop() says so, which is asked ten times per second. Throws DeviceError where the device fails.
   void run(const std::function<bool()>& stop);
 
  private:

@@ -46,7 +46,7 @@ Answer Solver::answer(const Job& job) {
   } catch (const std::exception& e) {
     afresh_ = true;
     const std::string text =
-        fmt::format("this frame could not be solved: {}; the next one starts from nothing", e.what());
+        fmt::format("this frame could not be computed: {}; the next frame reuses nothing", e.what());
     return {job.client, error_line("failed", text, frame, false), text, false};
   }
 }

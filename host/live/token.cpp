@@ -22,9 +22,11 @@ std::string read_token(const std::filesystem::path& file) {
   struct stat status;
   if (stat(file.c_str(), &status) != 0)
     throw InputError(fmt::format("--token-file {}: {}", file.string(), std::strerror(errno)));
-  if (!S_ISREG(status.st_mode)) throw InputError(fmt::format("--token-file {}: this is no plain file", file.string()));
+  if (!S_ISREG(status.st_mode))
+    throw InputError(fmt::format("--token-file {}: this is not a regular file", file.string()));
   if ((status.st_mode & 077) != 0)
-    throw ConfigError(fmt::format("--token-file {0}: others can read or write it; chmod 600 {0}", file.string()));
+    throw ConfigError(
+        fmt::format("--token-file {0}: other users can read or write it; run: chmod 600 {0}", file.string()));
   std::ifstream in(file, std::ios::binary);
   std::string text(most_bytes + 2, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -37,8 +39,8 @@ std::string read_token(const std::filesystem::path& file) {
   const bool plain = std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
   if (text.size() < least_bytes || text.size() > most_bytes || !plain)
     throw InputError(
-        fmt::format("--token-file {}: a token is {} to {} letters, digits and signs in one word; make one "
-                    "with: openssl rand -hex 32",
+        fmt::format("--token-file {}: a token must be one word of {} to {} letters, digits and signs; create one with: "
+                    "openssl rand -hex 32",
                     file.string(), least_bytes, most_bytes));
   return text;
 }

@@ -48,9 +48,10 @@ std::string_view ByteStream::next() {
     const int count = gzread(handle_->stream, chunk_.data(), chunk_bytes);
     size_ = count > 0 ? static_cast<size_t>(count) : 0;
     if ((bytes_ += size_) > most_bytes_) {
-      throw InputError(fmt::format(
-          "{}: unpacks to more than {} times its {} bytes, as no trajectories do; unpack it, and look what it holds",
-          file_, most_unpacked, (most_bytes_ - free_bytes) / most_unpacked));
+      throw InputError(
+          fmt::format("{}: unpacks to more than {} times its {} bytes, which is too much for trajectories; unpack it "
+                      "and look at its content",
+                      file_, most_unpacked, (most_bytes_ - free_bytes) / most_unpacked));
     }
     int error = Z_OK;
     const char* const reason = gzerror(handle_->stream, &error);

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 8> names = {"time", "id", "x", "y", "z", 
 constexpr size_t needed = 4;  // of the names
 constexpr size_t absent = ~size_t{0};
 constexpr std::string_view columns_advice =
-    "a header names the columns time,id,x,y and, where there are such, z,yaw,speed,type";
+    "the first line must be a header with the columns time,id,x,y and optionally z,yaw,speed,type";
 
 class Lines {
  public:
@@ -39,7 +39,7 @@ class Lines {
       found = end != rest_.npos;
       line += rest_.substr(0, end);
       rest_.remove_prefix(found ? end + 1 : rest_.size());
-      if (line.size() > longest) fail_at(stream_.file(), number_ + 1, "the line has no end; this is no CSV file");
+      if (line.size() > longest) fail_at(stream_.file(), number_ + 1, "the line does not end; this is not a CSV file");
     }
     if (!found && line.empty()) return false;
     if (++number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of UTF-8
@@ -74,7 +74,7 @@ class CsvReader {
         has_header = true;
       }
     }
-    if (!has_header) throw InputError(fmt::format("{}: is empty; {}", tracks_.file(), columns_advice));
+    if (!has_header) throw InputError(fmt::format("{}: the file is empty; {}", tracks_.file(), columns_advice));
     return tracks_.finish(ReferencePoint::centre);
   }
 

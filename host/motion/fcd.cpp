@@ -23,14 +23,14 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 constexpr std::string_view geo_advice =
-    "the coordinates are longitude and latitude (--fcd-output.geo); run sumo without that option, it then writes "
+    "the coordinates are longitude and latitude (--fcd-output.geo); run sumo without that option, so that it writes "
     "metres, or convert them to the scene's projection";
 
 class FcdReader {
  public:
   FcdReader(ByteStream& stream, const TrajectoryOptions& options)
       : stream_(stream), options_(options), tracks_(stream.file(), options), parser_(XML_ParserCreate(nullptr)) {
-    if (!parser_) throw RuntimeError("no memory for an XML parser");
+    if (!parser_) throw RuntimeError("not enough memory for an XML parser");
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), &on_start, &on_end);
     XML_SetCommentHandler(parser_.get(), &on_comment);
@@ -39,10 +39,10 @@ class FcdReader {
   Trajectories read() {
     for (std::string_view chunk = stream_.next(); !chunk.empty(); chunk = stream_.next()) parse(chunk, false);
     parse({}, true);
-    if (!has_timestep_) throw InputError(fmt::format("{}: has no <timestep> in it; nothing would move", file()));
+    if (!has_timestep_) throw InputError(fmt::format("{}: the file has no <timestep>, so nothing would move", file()));
     refuse_degrees();
     if (skipped_ > 0) {
-      tracks_.warn(fmt::format("{}: {} samples of persons and containers were left out; they can be read, by option",
+      tracks_.warn(fmt::format("{}: {} samples of persons and containers were left out; options can include them",
                                file(), skipped_));
     }
     if (riders_ > 0) {
@@ -50,8 +50,8 @@ class FcdReader {
     }
     if (decimals_ == 2) {
       tracks_.warn(
-          fmt::format("{}: positions have 2 decimals, and 5 mm are 35 degrees of phase at 5.9 GHz: run sumo "
-                      "with --precision 6 where phases or Doppler matter",
+          fmt::format("{}: positions have 2 decimals, and an error of 5 mm is a phase error of 35 degrees at 5.9 GHz: "
+                      "run sumo with --precision 6 where phases or Doppler matter",
                       file()));
     }
     return tracks_.finish(ReferencePoint::front_bumper);
@@ -71,8 +71,8 @@ class FcdReader {
     if (XML_Parse(parser_.get(), chunk.data(), static_cast<int>(chunk.size()), last) == XML_STATUS_OK) {
       const XML_Index begin = XML_GetCurrentByteIndex(parser_.get());  // of what is open
       if (!last && begin >= 0 && bytes_ - static_cast<uint64_t>(begin) > longest) {
-        fail(fmt::format("a tag, an attribute or a comment of more than {} bytes begins here; this is no FCD output",
-                         longest));
+        fail(fmt::format(
+            "a tag, an attribute or a comment of more than {} bytes begins here; this is not an FCD output", longest));
       }
       return;
     }
@@ -110,19 +110,18 @@ class FcdReader {
     switch (static_cast<Level>(std::min(depth_++, 3))) {
       case Level::document:
         if (name == "fcd-export") return;
-        fail(
-            fmt::format("the root element is <{}>, a file of trajectories has <fcd-export>: run sumo with "
-                        "--fcd-output FILE",
-                        name));
+        fail(fmt::format(
+            "the root element is <{}>, but that of a trajectory file is <fcd-export>: run sumo with --fcd-output FILE",
+            name));
       case Level::root:
-        if (name != "timestep") fail(fmt::format("<{}> stands outside of a <timestep>", name));
+        if (name != "timestep") fail(fmt::format("<{}> is outside of a <timestep>", name));
         return start_timestep(attributes);
       case Level::timestep:
         if (name == "vehicle") return add_sample(name, attributes, "", "DEFAULT_VEHTYPE");
         if (name == "person") return add_optional(options_.persons, name, attributes, "DEFAULT_PEDTYPE");
         if (name == "container") return add_optional(options_.containers, name, attributes, "DEFAULT_CONTAINERTYPE");
         if (unknown_.emplace(name).second) {
-          tracks_.warn(fmt::format("{}:{}: <{}> is not known and was skipped", file(), line(), name));
+          tracks_.warn(fmt::format("{}:{}: <{}> is unknown and was skipped", file(), line(), name));
         }
         return;
       case Level::vehicle:
@@ -156,8 +155,9 @@ class FcdReader {
     const std::optional<double> time_s = seconds(text);
     if (!time_s) fail(fmt::format("<timestep>: time = '{}' is neither a number of seconds nor [d:]hh:mm:ss", text));
     if (has_timestep_ && *time_s <= time_s_) {
-      fail(fmt::format("time {}, from {} s in line {} to {} s; timesteps must be in order, and one run a file",
-                       *time_s == time_s_ ? "stands still" : "goes backwards", time_s_, timestep_line_, *time_s));
+      fail(fmt::format(
+          "time {}, from {} s in line {} to {} s; timesteps must be in order, and a file must contain only one run",
+          *time_s == time_s_ ? "stands still" : "goes backwards", time_s_, timestep_line_, *time_s));
     }
     time_s_ = *time_s;
     timestep_line_ = line();

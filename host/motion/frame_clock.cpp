@@ -22,7 +22,7 @@ FrameClock::FrameClock(double first_time_s, double last_time_s, double step_s)
   }
   const double steps = (last_time_s - first_time_s) / step_s;
   constexpr double most = 9007199254740992;  // 2^53: beyond, doubles do not count in ones
-  if (!(steps < most - 1)) throw ConfigError(fmt::format("{:g} frames are too many: take a longer time step", steps));
+  if (!(steps < most - 1)) throw ConfigError(fmt::format("{:g} frames are too many: use a longer time step", steps));
   frame_count_ = static_cast<uint64_t>(std::floor(steps + 1e-9 * std::max(1.0, steps))) + 1;
 }
 

@@ -18,11 +18,12 @@ Trajectories read_trajectories(const std::filesystem::path& path, const Trajecto
   constexpr std::string_view passed_over(" \t\r\n\xEF\xBB\xBF\xFF\xFE\0", 10);
   const size_t first = start.find_first_not_of(passed_over);
   if (first == start.npos) {
-    throw InputError(fmt::format("{}: is empty; a file of trajectories is SUMO's FCD output or CSV", stream.file()));
+    throw InputError(
+        fmt::format("{}: the file is empty; a trajectory file is the FCD output of SUMO or CSV", stream.file()));
   }
   if (start[first] == '<') return read_fcd(stream, options);
   if (start.substr(0, first).find_first_of("\xFF\xFE") != start.npos) {
-    throw InputError(fmt::format("{}: is a text file in UTF-16; save it as UTF-8", stream.file()));
+    throw InputError(fmt::format("{}: this is a text file in UTF-16; save it as UTF-8", stream.file()));
   }
   return read_csv(stream, options);
 }

@@ -41,8 +41,8 @@ void TrackBuilder::add(std::string_view id, std::string_view type, const Sample&
   if (found == track_of_.end()) {
     if (has_control_character(id) || has_control_character(type))
       fail_at(file_, line,
-              fmt::format("{}: its id or type has a control character, such as a line break, which tables "
-                          "and plots cannot show: leave it out",
+              fmt::format("{}: its id or type contains a control character, such as a line break, which tables and "
+                          "plots cannot show: remove it",
                           what));
     track_of_.emplace(id, static_cast<uint32_t>(out_.tracks.size()));
     out_.tracks.push_back({std::string(id), type_index(type, line), {sample}, {}});
@@ -78,8 +78,8 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
   if (!type) {
     if (!options_.default_type) {
       fail_at(file_, line,
-              fmt::format("the vehicle type '{}' is not known: add a [[vehicle_type]] with its length_m, width_m "
-                          "and height_m, or give trajectories.default_type",
+              fmt::format("the vehicle type '{}' is unknown: add a [[vehicle_type]] with its length_m, width_m and "
+                          "height_m, or give trajectories.default_type",
                           name));
     }
     type = options_.default_type;
@@ -93,7 +93,8 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
 }
 
 Trajectories TrackBuilder::finish(ReferencePoint reference) {
-  if (out_.tracks.empty()) throw InputError(fmt::format("{}: has no vehicle in it; nothing would move", file_));
+  if (out_.tracks.empty())
+    throw InputError(fmt::format("{}: the file contains no vehicle, so nothing would move", file_));
   set_order(out_);
   std::vector<std::string> cut, without_heading;
   double first_cut_s = 0;
@@ -108,14 +109,14 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
     complete_velocities(track);
   }
   if (!unknown_types_.empty()) {
-    warn(fmt::format("{}: no size is known for the vehicle types {}: {} x {} x {} m is used", file_,
+    warn(fmt::format("{}: the sizes of the vehicle types {} are unknown: {} x {} x {} m is used", file_,
                      listed(unknown_types_), options_.default_type->length_m, options_.default_type->width_m,
                      options_.default_type->height_m));
   }
   if (off_network_ > 0) {
     warn(fmt::format(
         "{}: {} samples have x or y = {:.0f}, which SUMO writes for a vehicle off the network: the vehicle is "
-        "absent there",
+        "absent at these times",
         file_, off_network_, sumo_invalid));
   }
   if (changed_types_ > 0) {
@@ -123,11 +124,12 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
                      changed_types_));
   }
   if (!cut.empty()) {
-    warn(fmt::format("{}: gaps or teleports in {} tracks ({}), the first one after {} s: the vehicle is absent there",
-                     file_, cut.size(), listed(cut), first_cut_s));
+    warn(fmt::format(
+        "{}: gaps or teleports in {} tracks ({}), the first one after {} s: the vehicle is absent at these times",
+        file_, cut.size(), listed(cut), first_cut_s));
   }
   if (!without_heading.empty()) {
-    warn(fmt::format("{}: the heading of {} is neither given nor told by motion: they look along +x", file_,
+    warn(fmt::format("{}: the heading of {} is not given, and they do not move: they point along +x", file_,
                      listed(without_heading)));
   }
   return std::move(out_);

@@ -89,8 +89,8 @@ void check_type(const VehicleType& type) {
     return;  // no body: [[vehicle_type]] model = "none"
   for (const double size_m : {type.length_m, type.width_m, type.height_m}) {
     if (size_m > 0 && size_m < std::numeric_limits<double>::infinity()) continue;
-    throw ConfigError(fmt::format("vehicle type '{}': {} m is no size; length, width and height must be positive",
-                                  type.name, size_m));
+    throw ConfigError(fmt::format(
+        "vehicle type '{}': {} m is not a valid size; length, width and height must be positive", type.name, size_m));
   }
 }
 

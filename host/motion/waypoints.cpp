@@ -22,9 +22,9 @@ Trajectories connect_waypoints(std::span<const WaypointTrack> tracks) {
       throw InputError(fmt::format("waypoint {} of '{}': {}", k, from.id, what));
     };
     check_type(from.type);
-    if (from.waypoints.empty()) throw InputError(fmt::format("'{}' has no waypoint; it needs one at least", from.id));
+    if (from.waypoints.empty()) throw InputError(fmt::format("'{}' has no waypoint; it needs at least one", from.id));
     if (!ids.insert(from.id).second) {
-      throw InputError(fmt::format("'{}' has waypoints twice; ids must be unique", from.id));
+      throw InputError(fmt::format("'{}' is defined twice; ids must be unique", from.id));
     }
     auto type = std::find(out.types.begin(), out.types.end(), from.type);
     if (type == out.types.end()) type = out.types.insert(type, from.type);
@@ -35,7 +35,7 @@ Trajectories connect_waypoints(std::span<const WaypointTrack> tracks) {
         if (!std::isfinite(value)) fail(k, fmt::format("{} is not a finite number", value));
       }
       if (k > 0 && time_s <= from.waypoints[k - 1].time_s) {
-        fail(k, fmt::format("time must increase, but {} s follows on {} s", time_s, from.waypoints[k - 1].time_s));
+        fail(k, fmt::format("time must increase, but {} s follows {} s", time_s, from.waypoints[k - 1].time_s));
       }
       Sample sample;
       sample.time_s = time_s;

@@ -1,5 +1,5 @@
 // place: vehicles in the scene of a frame: their surfaces for the exact solve, and a top-level tree over the instances.
-// The trees of the models are built once; a frame uploads 112 bytes an instance, and where the host builds the tree
+// The trees of the models are built once; a frame uploads 112 bytes per instance, and where the host builds the tree
 // over them, 128 bytes more.
 #pragma once
 #include <cstdint>
@@ -39,7 +39,7 @@ class Place {
   gpu::Kernel kernel_;
   uint32_t local_;
   std::vector<Instance> instances_;
-  std::vector<uint32_t> first_primitive_;  // one an instance
+  std::vector<uint32_t> first_primitive_;  // one per instance
   std::vector<Model> models_;
   gpu::Buffer<wt_model_surface> model_surfaces_;
   gpu::Buffer<uint32_t> surface_instances_;  // the instance of each surface of instances

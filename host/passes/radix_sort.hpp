@@ -1,4 +1,4 @@
-// radix_sort: stable sort of 32- or 64-bit keys by a range of their bits, with a 32-bit word a key or without.
+// radix_sort: stable sort of 32- or 64-bit keys by a range of their bits, with a 32-bit word per key or without.
 // Assumes one in-order queue: nothing is read back between the passes, and digits that are the same in all keys are
 // skipped on the device.
 #pragma once

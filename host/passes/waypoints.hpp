@@ -1,4 +1,4 @@
-// waypoints: where rays start and end, segment by segment, a row a sample.
+// waypoints: where rays start and end, segment by segment, a row per sample.
 // Assumes labelled queues (see label_rays), and every depth of a batch passed once, in order.
 #pragma once
 #include <vector>

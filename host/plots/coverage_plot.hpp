@@ -19,7 +19,7 @@ struct CoverageCell {
   uint32_t paths = 0;          // of all transmitters that count
 };
 
-// One entry a receiver, row by row. tx: that one alone counts. Empty where the run has no receiver of that grid. Throws
+// One entry per receiver, row by row. tx: that one alone counts. Empty if the run has no receiver of that grid. Throws
 // InputError where cells are missing.
 std::vector<CoverageCell> coverage_cells(const SavedRun& run, const SavedFrame& frame, const std::string& grid,
                                          std::optional<uint32_t> tx);

@@ -31,7 +31,7 @@ struct PathPoint {
 
 struct LinkSeries {
   std::vector<Link> links;                       // the strongest first, by the power of all frames together
-  std::vector<std::vector<LinkMoment>> moments;  // of each link, one a frame of the run
+  std::vector<std::vector<LinkMoment>> moments;  // of each link, one per frame of the run
   std::vector<PathPoint> paths;                  // of the first link in all frames, in the order of the file
   uint32_t frame = 0;  // the number of the frame asked for, else that in which the first link is strongest
   double frame_time_s = 0;

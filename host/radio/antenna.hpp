@@ -19,7 +19,7 @@ using PortFields = std::array<FieldPair, 2>;
 
 class Antenna {
  public:
-  // slants_rad: one a port, the angle by which the pattern's field is turned about the direction of travel, from
+  // slants_rad: one per port, the angle by which the pattern's field is turned about the direction of travel, from
   // theta-hat (V) towards phi-hat (H): the polarisation model of TR 38.901, eq. 7.3-4 and 7.3-5. The shape of the
   // pattern stays; to lay a dipole down, use the orientation.
   Antenna(Pattern pattern, const std::vector<double>& slants_rad, const glm::dmat3& rotation);
@@ -44,7 +44,7 @@ class Antenna {
 
   Pattern pattern_;
   bool isotropic_;             // the pattern does not look at its angles
-  std::vector<Slant> slants_;  // one a port
+  std::vector<Slant> slants_;  // one per port
   glm::dmat3 to_global_;
 };
 

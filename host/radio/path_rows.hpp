@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// The entries of one path in a column that has one an interaction.
+// The entries of one path in a column that has one per interaction.
 template <class T>
 std::span<const T> of_path(const PathGeometry& paths, const std::vector<T>& column, size_t path) {
   return std::span(column).subspan(paths.first[path], paths.first[path + 1] - paths.first[path]);

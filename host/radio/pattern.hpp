@@ -23,7 +23,7 @@ FieldPair tr38901_pattern(const Angles&);           // 3GPP TR 38.901, Table 7.3
 
 // A pattern measured or computed elsewhere. The file is a CSV with the header
 //   theta_deg,phi_deg,v_re,v_im,h_re,h_im
-// and one row a direction, in any order: a regular grid over theta from 0 to 180 and phi around the full circle (the
+// and one row per direction, in any order: a regular grid over theta from 0 to 180 and phi around the full circle (the
 // closing 360 may be there or not). Blank lines and lines that start with # are skipped. Between grid points the
 // components are interpolated bilinearly. Throws InputError, naming file and line.
 Pattern load_pattern(const std::string& file);

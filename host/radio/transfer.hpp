@@ -16,7 +16,7 @@ class Transfer {
   // The wave leaves along a direction with this basis; columns of the matrix belong to (theta, phi) there.
   explicit Transfer(const SphericalBasis& departure);
 
-  // The wave travels along k_in, meets a surface and goes on along k_out: its field normal to the plane of incidence
+  // The wave travels along k_in, meets a surface and continues along k_out: its field normal to the plane of incidence
   // (TE) and in that plane (TM) is multiplied by te and tm, with the signs of slab.hpp. Unit vectors.
   void meet(const glm::dvec3& k_in, const glm::dvec3& k_out, const glm::dvec3& normal, std::complex<double> te,
             std::complex<double> tm);

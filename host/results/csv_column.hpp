@@ -14,7 +14,7 @@ class CsvColumn {
   void read(std::string_view piece);
   // After the last piece: whether there is such a column.
   bool finish();
-  // A value a row, NaN where the field is empty, missing or no number.
+  // A value per row, NaN where the field is empty, missing or no number.
   const std::vector<double>& values() const { return values_; }
 
  private:

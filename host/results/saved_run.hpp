@@ -35,7 +35,7 @@ struct SavedFrame {
   double time_s = 0;
   Paths paths;                   // of this frame alone, so vertex_offset begins with 0
   std::vector<SavedPose> poses;  // of the vehicles that are present
-  // File coordinates, one an end of the run; NaN while it is absent.
+  // File coordinates, one per end of the run; NaN while it is absent.
   std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;
   std::vector<glm::dvec3> transmitter_velocity_m_s, receiver_velocity_m_s;
   std::vector<Link> links;  // that were asked for, with paths or without

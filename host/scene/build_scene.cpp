@@ -36,7 +36,8 @@ Soup gather(const RawScene& raw) {
   for (const RawMesh& mesh : raw.meshes) corners += mesh.triangles.size() * 3;
   if (corners == 0) throw InputError(fmt::format("{}: the scene has no triangles", raw.file));
   if (corners >= none)
-    throw InputError(fmt::format("{}: {} triangles are more than 32-bit indices hold", raw.file, corners / 3));
+    throw InputError(
+        fmt::format("{}: {} triangles are too many for 32-bit indices: make the scene smaller", raw.file, corners / 3));
   Soup soup;
   soup.triangles.reserve(corners / 3);
   soup.object.reserve(corners / 3);
@@ -70,16 +71,16 @@ dvec3 recentre(Soup& soup, const std::string& file) {
   const dvec3 size = upper - lower;
   if (!(std::max({size.x, size.y, size.z}) <= largest_extent_m)) {
     throw InputError(
-        fmt::format("{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, more than {:.0f} km: is scene.scale "
-                    "right, is a vertex astray?",
+        fmt::format("{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, more than {:.0f} km: is scene.scale right, "
+                    "or is there a stray vertex?",
                     file, size.x, size.y, size.z, largest_extent_m / 1000));
   }
   if (std::max({size.x, size.y, size.z}) < smallest_extent_m) {
-    throw InputError(fmt::format(
-        "{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, less than {:g} m, where corners within 1 mm of each "
-        "other are one: is scene.scale right? To trace a small model, scale scene, antennas and wavelength up by one "
-        "factor",
-        file, size.x, size.y, size.z, smallest_extent_m));
+    throw InputError(
+        fmt::format("{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, less than {:g} m, which is too small, "
+                    "because corners within 1 mm of each other are merged: is scene.scale right? To trace a small "
+                    "model, scale scene, antennas and wavelength up by one factor",
+                    file, size.x, size.y, size.z, smallest_extent_m));
   }
   const dvec3 origin = glm::round(lower + size * 0.5) + dvec3(0);  // + 0: no negative zeros
   for (dvec3& v : soup.vertices) v -= origin;

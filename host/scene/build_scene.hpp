@@ -1,5 +1,5 @@
 // From raw meshes to a Scene: recentred, welded, cleaned, with surfaces and edges.
-// Assumes coordinates in metres, z up (units and axes are applied before), and one resolved material a mesh.
+// Assumes coordinates in metres, z up (units and axes are applied before), and one resolved material per mesh.
 #pragma once
 #include "scene/materials.hpp"
 #include "scene/raw_scene.hpp"

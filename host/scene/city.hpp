@@ -1,4 +1,4 @@
-// A city of our own making: blocks between straight streets, buildings of several shapes, roofs and ITU materials.
+// A generated city: blocks between straight streets, buildings of several shapes, roofs and ITU materials.
 // The same options give the same bytes on every platform: all choices are integers, all coordinates multiples of 1/8 m.
 #pragma once
 #include <array>
@@ -33,7 +33,7 @@ CityOptions parse_city_options(std::string_view text);
 RawScene generate_city(const CityOptions& options);
 
 // folder/city.xml and folder/meshes/*.ply, for this program, Sionna RT and Mitsuba. Creates the folder.
-// Throws RuntimeError where it cannot be written.
+// Throws RuntimeError if the folder or a file cannot be written.
 void write_city(const CityOptions& options, const std::filesystem::path& folder);
 
 // Places in the streets, in metres, that make sense for antennas of any city.

@@ -28,7 +28,7 @@ T whole(std::string_view key, std::string_view text, T least, T most) {
   T value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) {
-    fail(fmt::format("{} '{}' must be a whole number from {} to {}", key, text, least, most));
+    fail(fmt::format("{} '{}' must be an integer from {} to {}", key, text, least, most));
   }
   return value;
 }
@@ -68,7 +68,7 @@ void set(Options& all, std::string_view key, std::string_view value) {
     for (const Material& m : itu_materials()) {
       if (m.name == value) return;
     }
-    fail(fmt::format("--ground '{}' is no ITU material", value));
+    fail(fmt::format("--ground '{}' is not an ITU material", value));
   } else if (key == "--vehicles") {
     all.traffic.vehicles = whole<uint32_t>(key, value, 1, 1000000);
   } else if (key == "--seconds") {

@@ -43,10 +43,9 @@ std::string glb_json(std::ifstream& in, const std::filesystem::path& path) {
     if (!length) break;
     at += 8;
     if (*length > size - at) {
-      throw InputError(
-          fmt::format("{}: a chunk of {} bytes begins at byte {} of {}: the file is cut short or damaged; "
-                      "copy it again",
-                      path.string(), *length, at, size));
+      throw InputError(fmt::format(
+          "{}: a chunk of {} bytes begins at byte {} of {}: the file is incomplete or damaged; copy it again",
+          path.string(), *length, at, size));
     }
     if (first) {
       out.resize(*length);
@@ -60,11 +59,12 @@ std::string glb_json(std::ifstream& in, const std::filesystem::path& path) {
 
 json parse(std::string_view text, const std::string& file) {
   const auto shallow = [&file](int depth, json::parse_event_t, const json&) {
-    if (depth > most_nested) throw InputError(fmt::format("{}: its JSON nests deeper than {}", file, most_nested));
+    if (depth > most_nested)
+      throw InputError(fmt::format("{}: its JSON is nested deeper than {} levels", file, most_nested));
     return true;
   };
   json out = json::parse(text, shallow, false);
-  if (!out.is_object()) throw InputError(fmt::format("{}: is no glTF: its JSON cannot be read", file));
+  if (!out.is_object()) throw InputError(fmt::format("{}: is not a glTF file: its JSON cannot be read", file));
   return out;
 }
 

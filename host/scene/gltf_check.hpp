@@ -1,4 +1,4 @@
-// What assimp does not look at in a glTF file before it takes memory for it.
+// Checks of a glTF file that assimp does not make before it allocates memory.
 // Assumes nothing of the file.
 #pragma once
 #include <filesystem>

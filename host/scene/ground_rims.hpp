@@ -1,5 +1,6 @@
-// Which free edges are the rim of a ground: an edge of the map, where the world goes on, and nothing diffracts.
-// A scene is a part of the world, its ground a sheet that ends where the map does. Names of objects do not matter.
+// Which free edges are the rim of a ground: the border of the map. The real ground continues there, so it does not
+// diffract. A scene is a part of the world, and its ground a sheet that ends at the border of the map. Names do not
+// matter.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -16,10 +17,10 @@ namespace wavetracer {
 // carport
 //    over a ground are none.
 // 3. Its face is joined, by way of surfaces that touch along edges, to so many that together they span at least half of
-//    the scene, seen from above (half of the area of the box around it). So a canopy is no ground where a scene has no
+//    the scene, seen from above (half of the area of the box around it). So a canopy is not a ground if a scene has no
 //    ground at all, and tiles of a ground that are not welded, or of several materials, are one.
 //
-// A closed slab has no free edges and is no sheet. Up is z. Models of vehicles have no ground.
+// A closed slab has no free edges and is not a sheet. Up is z. Models of vehicles have no ground.
 class GroundRims {
  public:
   explicit GroundRims(const Scene& scene);      // joins surfaces that share edges of the mesh; scene outlives this

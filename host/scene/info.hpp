@@ -10,7 +10,7 @@ namespace wavetracer {
 // Extent, triangles, surfaces, edges, materials, what was dropped, warnings; lines end in \n.
 std::string describe_scene(const Scene& scene);
 
-// The edges that can diffract, one a line below a line of titles: number, ends (file coordinates), length, interior
+// The edges that can diffract, one per line below a header line: number, ends (file coordinates), length, interior
 // angle (degrees; 0: a free edge), surfaces with their materials.
 std::string describe_edges(const Scene& scene);
 

@@ -66,17 +66,18 @@ RawScene read_raw(const std::filesystem::path& path) {
     return raw;
   }
   if (head.substr(0, 15).ends_with("\x0a\x09OSMHeader") || path.string().ends_with(".osm.pbf"))
-    throw InputError(fmt::format(
-        "{0}: is a map of OpenStreetMap, of which `wavetracer convert {0} -o FOLDER` makes a scene, FOLDER/city.xml",
-        path.string()));
-  throw InputError(
-      fmt::format("{}: the format is not known; known: Mitsuba XML, PLY, OBJ, glTF (.gltf, .glb)", path.string()));
+    throw InputError(
+        fmt::format("{0}: this is a map of OpenStreetMap; `wavetracer convert {0} -o FOLDER` converts it to a scene, "
+                    "FOLDER/city.xml",
+                    path.string()));
+  throw InputError(fmt::format(
+      "{}: the file format is unknown; supported formats: Mitsuba XML, PLY, OBJ, glTF (.gltf, .glb)", path.string()));
 }
 
 // File units and axes to metres with z up.
 void apply_units(RawScene& raw, const SceneConfig& config) {
   if (!(config.scale > 0) || !std::isfinite(config.scale)) {
-    throw ConfigError(fmt::format("scene.scale = {}: must be a positive number of metres a file unit", config.scale));
+    throw ConfigError(fmt::format("scene.scale = {}: must be a positive number of metres per file unit", config.scale));
   }
   const bool y_up = config.up == "y" || (config.up == "auto" && raw.y_up);
   for (RawMesh& mesh : raw.meshes) {

@@ -1,4 +1,4 @@
-// The door to scenes: one call from a configuration, or a file, to a Scene ready to trace.
+// Loads scenes: one call turns a configuration, or a file, into a Scene that is ready to trace.
 // Assumes file names absolute or relative to the working folder (the config parser makes them absolute).
 #pragma once
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace wavetracer {
 // for them. Throws ConfigError or InputError.
 Scene load_scene(const Config& config);
 
-// Reads Mitsuba XML, PLY, OBJ or glTF, by content and else by suffix. scene.file and scene.generate are not looked at.
+// Reads Mitsuba XML, PLY, OBJ or glTF, by content and else by suffix. scene.file and scene.generate are ignored.
 // The frequency only chooses between laws of one material name (glass has two ranges).
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
                       const std::vector<MaterialConfig>& materials = {},

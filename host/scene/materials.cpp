@@ -59,8 +59,8 @@ class Resolver {
       used_.insert("alias " + spelling);
       if (const auto material = known(alias->second)) return *material;
       throw ConfigError(
-          fmt::format("[scene.material_alias]: '{}' is mapped to '{}', which is no known material; known: {}; "
-                      "others are defined by [[material]]",
+          fmt::format("[scene.material_alias]: '{}' is mapped to '{}', which is not a known material; known materials: "
+                      "{}; define others with [[material]]",
                       spelling, alias->second, itu_names()));
     }
     if (definition && (definition->itu_type || definition->permittivity)) return defined(*definition);
@@ -99,7 +99,7 @@ class Resolver {
       fail("permittivity must be 1 or more, a positive");
     if ((m.conductivity_s_m && *m.conductivity_s_m < 0) || (m.c && *m.c < 0)) fail("conductivity_s_m or c is negative");
     if (m.scattering_lobe && *m.scattering_lobe != std::floor(*m.scattering_lobe))
-      fail("scattering_lobe must be a whole number");
+      fail("scattering_lobe must be an integer");
     if (m.thickness_m && !(*m.thickness_m > 0)) fail("thickness_m must be positive (inf: a half space)");
   }
 
@@ -149,7 +149,7 @@ class Resolver {
       if (!material) {
         if (!over->a && !over->permittivity) {
           throw ConfigError(fmt::format(
-              "[[material]] '{}' is no ITU material, so it needs permittivity (or a, b, c, d)", over->name));
+              "[[material]] '{}' is not an ITU material, so it needs permittivity (or a, b, c, d)", over->name));
         }
         material = Material{.name = spellings(over->name)[2]};
       }

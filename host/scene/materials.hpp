@@ -19,7 +19,7 @@ struct ResolvedMaterials {
   std::vector<std::string> warnings;
 };
 
-// A name means, in this order: its alias (scene.material_alias); what [[material]] or the file itself defines; the ITU
+// A name is looked up in this order: its alias (scene.material_alias); [[material]] or the file itself; the ITU
 // material of that name. "mat-" and then "itu_" are stripped where the full name is not known. [[material]] of the
 // configuration overrides file and table, field by field. Throws InputError that names mesh, file and material.
 ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scene,

@@ -39,13 +39,13 @@ class MitsubaReader {
     const pugi::xml_node scene = document.document_element();
     if (const std::string_view root = scene.name(); root == "osm" || root == "additional" || root == "polygons") {
       throw InputError(
-          fmt::format("{}: the root element is <{}>: this is a map, of which `wavetracer convert {} -o FOLDER` "
-                      "makes a scene, FOLDER/city.xml",
+          fmt::format("{}: the root element is <{}>: this is a map; `wavetracer convert {} -o FOLDER` converts it to a "
+                      "scene, FOLDER/city.xml",
                       where(scene), scene.name(), path_.string()));
     }
     if (std::string_view(scene.name()) != "scene") {
-      throw InputError(
-          fmt::format("{}: the root element is <{}>, a Mitsuba scene has <scene>", where(scene), scene.name()));
+      throw InputError(fmt::format("{}: the root element is <{}>, but that of a Mitsuba scene is <scene>", where(scene),
+                                   scene.name()));
     }
     for (const pugi::xml_node node : scene.children("default"))
       defaults_[attribute(node, "name")] = attribute(node, "value");
@@ -63,7 +63,7 @@ class MitsubaReader {
       } else if (tag == "include") {
         throw InputError(fmt::format("{}: <include> is not supported: put its content into this file", where(node)));
       } else if (!skipped.contains(tag)) {
-        raw_.warnings.push_back(fmt::format("{}: <{}> is not known and was skipped", where(node), tag));
+        raw_.warnings.push_back(fmt::format("{}: <{}> is unknown and was skipped", where(node), tag));
       }
     }
     return std::move(raw_);
@@ -171,7 +171,7 @@ class MitsubaReader {
         const std::string id = attribute(child, "id");
         const auto found = material_of_.find(id);
         if (found != material_of_.end()) return found->second;
-        throw InputError(fmt::format("{}: {} refers to the material '{}', which no <bsdf> of this file defines",
+        throw InputError(fmt::format("{}: {} refers to the material '{}', but no <bsdf> of this file defines it",
                                      where(child), describe(shape), id));
       }
     }
@@ -181,8 +181,9 @@ class MitsubaReader {
   void add_shape(const pugi::xml_node shape) {
     const std::string type = attribute(shape, "type");
     if (type != "ply" && type != "obj") {
-      throw InputError(fmt::format("{}: {}: shapes of this type are not supported; export it as a mesh (ply or obj)",
-                                   where(shape), describe(shape)));
+      throw InputError(
+          fmt::format("{}: {}: shapes of this type are not supported; export the shape as a mesh (ply or obj)",
+                      where(shape), describe(shape)));
     }
     const std::string filename = attribute(property(shape, "string", "filename"), "value");
     if (filename.empty()) {

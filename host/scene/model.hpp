@@ -9,10 +9,10 @@
 namespace wavetracer {
 
 enum class ModelFormat { obj, gltf };
-// By the suffix: all but .obj is glTF.
+// Chooses the format by the suffix: every suffix but .obj means glTF.
 ModelFormat model_format(const std::filesystem::path& path);
 
-// Whatever the suffix is. Throws InputError that names the file and the mesh.
+// Ignores the suffix. Throws InputError that names the file and the mesh.
 RawScene read_model(const std::filesystem::path& path, ModelFormat format);
 
 }  // namespace wavetracer

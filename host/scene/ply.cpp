@@ -38,8 +38,8 @@ class Body {
     const uint64_t left = static_cast<uint64_t>(end_ - next_) + 1;  // the last separator of an ascii file may be absent
     if (least > 0 && element.count > left / least) {
       throw InputError(
-          fmt::format("{}: the header declares {} entries of element '{}', at least {} bytes each, but only {} "
-                      "bytes are left: the file is cut or its header is wrong",
+          fmt::format("{}: the header declares {} entries of element '{}', at least {} bytes each, but only {} bytes "
+                      "are left: the file is incomplete or its header is wrong",
                       file_, element.count, element.name, least, left - 1));
     }
   }
@@ -73,7 +73,7 @@ class Body {
     const double n = scalar(*property.count);
     const size_t bytes = format_ == Format::ascii ? 1 : ply::size_of(property.type);
     if (!(n >= 0) || n * static_cast<double>(bytes) > static_cast<double>(end_ - next_)) {
-      fail(fmt::format("property '{}' has the length {}, more than the file holds", property.name, n));
+      fail(fmt::format("property '{}' has the length {}, which is more than the file contains", property.name, n));
     }
     return static_cast<size_t>(n);
   }
@@ -90,7 +90,7 @@ class Body {
  private:
   template <class T>
   T raw() {
-    if (static_cast<size_t>(end_ - next_) < sizeof(T)) fail("the file ends here: it is cut");
+    if (static_cast<size_t>(end_ - next_) < sizeof(T)) fail("the file ends here: it is incomplete");
     std::array<char, sizeof(T)> bytes;
     std::memcpy(bytes.data(), next_, sizeof(T));
     next_ += sizeof(T);
@@ -101,7 +101,7 @@ class Body {
 
   double word(Type type) {
     while (next_ < end_ && ply::is_space(*next_)) ++next_;
-    if (next_ == end_) fail("the file ends here: it is cut");
+    if (next_ == end_) fail("the file ends here: it is incomplete");
     const char* begin = next_;
     while (next_ < end_ && !ply::is_space(*next_)) ++next_;
     const std::string_view text(begin, static_cast<size_t>(next_ - begin));
@@ -215,7 +215,8 @@ PlyMesh read_ply(const std::filesystem::path& path) {
     }
   }
   if (!has_vertices) throw InputError(fmt::format("{}: the PLY file has no element 'vertex'", file));
-  if (!faces) throw InputError(fmt::format("{}: the PLY file has no element 'face': a point cloud is no mesh", file));
+  if (!faces)
+    throw InputError(fmt::format("{}: the PLY file has no element 'face': a point cloud is not a mesh", file));
   const size_t face_count = faces->first.size() - 1;
   for (size_t f = 0; f < face_count; ++f) {
     const std::span<const uint32_t> polygon(faces->corners.data() + faces->first[f],

@@ -79,7 +79,8 @@ class HeaderParser {
   std::string_view next_line() {
     const size_t end = content_.find('\n', position_);
     ++line_;
-    if (end == std::string_view::npos) fail("the PLY header has no 'end_header': the file is cut, or not a PLY file");
+    if (end == std::string_view::npos)
+      fail("the PLY header has no 'end_header': the file is incomplete, or it is not a PLY file");
     std::string_view line = content_.substr(position_, end - position_);
     position_ = end + 1;
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
@@ -102,11 +103,11 @@ class HeaderParser {
 
   void add_element(const std::vector<std::string_view>& word) {
     Element element;
-    if (word.size() != 3) fail("an element line is 'element NAME COUNT'");
+    if (word.size() != 3) fail("an element line must be 'element NAME COUNT'");
     element.name = word[1];
     const auto [end, error] = std::from_chars(word[2].data(), word[2].data() + word[2].size(), element.count);
     if (error != std::errc() || end != word[2].data() + word[2].size()) {
-      fail(fmt::format("element '{}' has the count '{}', not a whole number", word[1], word[2]));
+      fail(fmt::format("element '{}' has the count '{}', which is not an integer", word[1], word[2]));
     }
     header_.elements.push_back(std::move(element));
   }
@@ -114,7 +115,8 @@ class HeaderParser {
   void add_property(const std::vector<std::string_view>& word) {
     if (header_.elements.empty()) fail("a property comes before the first element");
     const bool list = word.size() == 5 && word[1] == "list";
-    if (!list && word.size() != 3) fail("a property line is 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+    if (!list && word.size() != 3)
+      fail("a property line must be 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
     Property property;
     property.name = word.back();
     property.type = type(word[list ? 3 : 1]);

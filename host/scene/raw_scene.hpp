@@ -1,4 +1,4 @@
-// What a reader hands over: meshes and material definitions as the file has them, nothing welded, nothing resolved.
+// The result of a reader: meshes and material definitions as they are in the file, not yet welded or resolved.
 // Coordinates are double, in file units and file axes; indices are valid and coordinates finite once a reader returns.
 #pragma once
 #include <array>

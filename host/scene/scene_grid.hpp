@@ -23,7 +23,7 @@ struct SceneBox {
 
 class SceneGrid {
  public:
-  // Cells are as small as they can be while neither their number nor the sum of cells over all boxes exceeds 8 a box:
+  // Cells are as small as they can be while neither their number nor the sum of cells over all boxes exceeds 8 per box:
   // memory stays linear, whatever the boxes.
   explicit SceneGrid(std::span<const SceneBox> boxes);
 

@@ -91,8 +91,8 @@ TileTable::TileTable(const Scene& scene, std::span<const Scene> models, std::spa
     double enough_m = tile_m;
     while (std::isfinite(enough_m) && count(enough_m, fair) > static_cast<double>(fair)) enough_m *= 2;
     throw ConfigError(
-        fmt::format("trace.tile_m = {:g} cuts the surfaces that scatter into {:.3g} tiles or more, and there may be "
-                    "{}; trace.tile_m = {:g} would do, and every tile is a path for each link that sees it",
+        fmt::format("trace.tile_m = {:g} cuts the surfaces that scatter into {:.3g} tiles or more, but at most {} are "
+                    "possible; use trace.tile_m = {:g} or more. Every tile is one path for each link that sees it",
                     tile_m, found, most_tiles, enough_m));
   }
   parts_.push_back(make_tiles(scene, tile_m));

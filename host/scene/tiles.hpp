@@ -34,7 +34,7 @@ class TileTable {
   // A number and the bits of WT_STEP_KIND share a word; more tiles than these would fit no device's memory anyway.
   static constexpr uint64_t most_tiles = uint64_t{1} << 28;
 
-  // Throws ConfigError, naming trace.tile_m and a value that would do, where tiles outnumber most_tiles.
+  // Throws ConfigError, naming trace.tile_m and a value that is large enough, if there are more than most_tiles.
   TileTable(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances, double tile_m);
 
   uint32_t size() const { return size_; }

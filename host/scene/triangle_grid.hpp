@@ -1,4 +1,4 @@
-// The triangles of a scene by the cells of a grid: what a line meets, and what is near a place.
+// The triangles of a scene, sorted into the cells of a grid: which a line meets, and which are near a place.
 // Assumes recentred coordinates and triangles that do not change; the scene must outlive this.
 #pragma once
 #include <cstdint>
@@ -26,7 +26,7 @@ class TriangleGrid {
 
   const SceneGrid& grid() const { return grid_; }
   std::span<const uint32_t> operator[](uint32_t cell) const { return triangles_[cell]; }
-  const std::vector<SceneBox>& boxes() const { return boxes_; }  // one a triangle
+  const std::vector<SceneBox>& boxes() const { return boxes_; }  // one per triangle
   const SceneBox& bounds() const { return bounds_; }             // of them all
 
  private:

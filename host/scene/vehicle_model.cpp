@@ -85,8 +85,9 @@ Scene vehicle_model(NamedBody kind, double length_m, double width_m, double heig
   const Body& body = body_of(kind);
   for (const double size_m : {length_m, width_m, height_m}) {
     if (size_m > 0 && size_m < std::numeric_limits<double>::infinity()) continue;
-    throw ConfigError(fmt::format("vehicle model '{}': {} m is no size; length, width and height must be positive",
-                                  kind.word(), size_m));
+    throw ConfigError(
+        fmt::format("vehicle model '{}': {} m is not a valid size; length, width and height must be positive",
+                    kind.word(), size_m));
   }
   RawScene raw;
   raw.file = fmt::format("vehicle model '{}'", kind.word());

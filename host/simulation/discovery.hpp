@@ -10,7 +10,7 @@
 
 namespace wavetracer {
 
-// What a discovery is told besides the configuration; what it refers to outlives it.
+// The inputs of a discovery besides the configuration; the objects that it refers to must outlive it.
 struct DiscoveryOptions {
   OrderPlan order = {};
   bool keep_ages = false;             // see passes/sequences.hpp

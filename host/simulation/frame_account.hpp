@@ -1,4 +1,4 @@
-// The account of a frame, beside the list of its passes: what was counted, how long it took, and what to warn of.
+// The account of a frame, apart from its list of passes: counts, seconds and warnings.
 #pragma once
 #include "base/stopwatch.hpp"
 #include "gpu/gpu.hpp"

@@ -18,7 +18,7 @@ struct Launch {
   std::vector<Launcher> who = {};
   uint64_t rays = 1;  // directions of the full set, the same number for each launcher
   DirectionShare share = {};
-  bool followed = true;  // by who follows rays (RayFollower)
+  bool followed = true;  // recorded by RayFollower
   bool sorted = true;    // by order.method, where the share is all of trace.rays directions
 
   uint64_t rays_each() const { return (rays - share.phase + share.stride - 1) / share.stride; }

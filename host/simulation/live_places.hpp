@@ -1,4 +1,4 @@
-// Places of a live world: one a vehicle that may be there, grouped by type, and which vehicle of a client has which.
+// Places of a live world: one per possible vehicle, grouped by type, and which vehicle of a client has which place.
 // Assumes that instances and ends are made once, so that a vehicle that comes takes a place that is free.
 #pragma once
 #include <span>
@@ -21,7 +21,7 @@ class LivePlaces {
   // Throws ConfigError for a type that nothing knows or that is there twice, and for trajectories beside them.
   LivePlaces(const Config& config, const VehicleModels& vehicles, const Scene& scene);
 
-  // A track a place, TYPE.NUMBER, of one sample: the middle of the scene, where nobody is present. File coordinates.
+  // A track per place, TYPE.NUMBER, of one sample: the middle of the scene, where nobody is present. File coordinates.
   Trajectories tracks() const;
   const std::vector<LiveType>& types() const { return types_; }
   const LiveBounds& bounds() const { return bounds_; }  // file coordinates

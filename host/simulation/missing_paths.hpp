@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// config: as it was asked for; features: what of it is on.
+// config: as it was given; features: which of its features are on.
 MissingLinks explain_missing(const Config& config, const Features& features, const Surroundings& around,
                              const World& world, const FrameResult& frame);
 

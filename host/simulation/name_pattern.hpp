@@ -1,4 +1,4 @@
-// Names by pattern: * stands for any text, also none, and ? for any one character; all else stands for itself.
+// Names by pattern: * matches any text, also an empty one, ? matches one character; all others match themselves.
 // Characters are bytes, which suits names in ASCII.
 #pragma once
 #include <string>
@@ -10,7 +10,7 @@ namespace wavetracer {
 bool matches(std::string_view pattern, std::string_view name);
 
 // Throws ConfigError, with the name nearest to the pattern, unless one of the names matches. `*` needs no name.
-// key: what the message begins with, "links.receivers"; what: one of the things that are named, "receiver".
+// key: the beginning of the message, "links.receivers"; what: the kind of thing that is named, "receiver".
 void require_match(std::string_view pattern, const std::vector<std::string>& names, std::string_view key,
                    std::string_view what);
 

@@ -1,5 +1,5 @@
 // Instances where a frame has them: their surfaces and the tree over them, which the host builds where they are few and
-// a GPU where they are many. Rays hit the same, whoever built it.
+// a GPU where they are many. Hits do not depend on which of them built it.
 #pragma once
 #include <algorithm>
 #include <optional>

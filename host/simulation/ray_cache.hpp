@@ -20,7 +20,7 @@
 
 namespace wavetracer {
 
-// What a cache must know of the world besides the scene on the device.
+// The data of the world that a cache needs besides the scene on the device.
 struct CacheWorld {
   uint32_t transmitters = 0;
   uint32_t surfaces = 0, primitives = 0;  // of everything

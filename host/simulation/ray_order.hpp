@@ -16,7 +16,7 @@ namespace wavetracer {
 // An order without names that need interpretation.
 struct OrderPlan {
   std::string method = "none";  // plain name
-  std::optional<OrderKey> key;  // not set: rays stay as they were born
+  std::optional<OrderKey> key;  // not set: rays keep the order of their launch
   bool each_depth = false;
   uint32_t bins = 16;
   LaunchShape launch;

@@ -32,7 +32,7 @@ struct GridCell {
   uint32_t ix = 0, iy = 0;
 };
 
-// The cell of a receiver by its name, nothing where it is none of the grid.
+// The cell of a receiver by its name; empty if it does not belong to the grid.
 std::optional<GridCell> grid_cell(const std::string& grid, const std::string& receiver);
 
 }  // namespace wavetracer

@@ -15,7 +15,7 @@ namespace wavetracer {
 // Returns the paths with the reversed ones of wanted links added, in the order and merged by the rule of
 // distinct_paths. A sequence that both directions have keeps its own solution in each of them: they may differ in the
 // last bits, since they were solved from different ends.
-//   receiver_of_transmitter, transmitter_of_receiver: the other index of the same end, or no_end; one an end.
+//   receiver_of_transmitter, transmitter_of_receiver: the other index of the same end, or no_end; one per end.
 //   wanted: sorted. Links that are not wanted get no reversed paths, and keep what they have.
 PathGeometry with_reversed_twins(PathGeometry paths, std::span<const uint32_t> receiver_of_transmitter,
                                  std::span<const uint32_t> transmitter_of_receiver, std::span<const Link> wanted);

@@ -38,7 +38,7 @@ struct Setup {
   World world;
   Surroundings around;  // of places in the scene
   std::vector<std::string> place_warnings;
-  Config config;  // as it was asked for, with all ends of the world
+  Config config;  // as it was given, with all ends of the world
   Features features;
   TraceConfig trace;  // without what the scene does not need
   Origins origins;
@@ -47,7 +47,7 @@ struct Setup {
   LaunchSides launch_sides;
   OrderChoice order;
   OrderSummary order_summary;
-  bool reuse;                          // whether frames go on with the sequences of those before
+  bool reuse;                          // whether frames reuse the sequences of earlier frames
   std::optional<LaunchSlopes> slopes;  // with trace.directions = "horizon"
   std::optional<RayTrails> trails;     // with trace.reception = "sphere" or output.waypoints
   std::optional<RayCache> cache;       // with cache.kind

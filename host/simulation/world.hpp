@@ -36,7 +36,7 @@ class World {
   const std::vector<uint32_t>& receiver_of_transmitter() const;
   const std::vector<uint32_t>& transmitter_of_receiver() const;
 
-  // Recentred; of a live world a track a place.
+  // Recentred; of a live world a track per place.
   const Trajectories& trajectories() const;
   // Whether [links] allows any pair of ends at all, wherever they are.
   bool any_link_allowed() const;

@@ -13,10 +13,10 @@ namespace wavetracer {
 
 constexpr uint32_t no_vehicle = std::numeric_limits<uint32_t>::max();
 
-// One side of all links, an entry an end.
+// One side of all links, an entry per end.
 struct LinkSide {
   std::vector<std::string> names;
-  std::vector<uint32_t> vehicles;  // the vehicle that carries the end; no_vehicle: it stands
+  std::vector<uint32_t> vehicles;  // the vehicle that carries the end; no_vehicle: it is fixed
 };
 
 class LinkRules {
@@ -25,7 +25,7 @@ class LinkRules {
   // Throws ConfigError for a pattern of names that no end has, RuntimeError for more pairs than a drive can have.
   LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers);
 
-  // The links of ends that are present, sorted. Ends of one and the same place have no path that a ray could tell.
+  // The links of ends that are present, sorted. Ends at the same place are not linked.
   // Throws RuntimeError where more pairs are present than a frame can have.
   std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;
 

@@ -26,9 +26,9 @@ class VehicleModels {
   // The type of this name, as a reader of trajectories finds it. Empty where nothing knows the name.
   std::optional<VehicleType> find_type(std::string_view name) const;
 
-  // The index into models() of a vehicle's body, built where it is new; empty where it has none.
+  // The index into models() of a vehicle's body, which is built if it is new; empty if it has no body.
   std::optional<uint32_t> model_of(const VehicleType& type, std::string_view vehicle_id);
-  // Each a file or kind, material and size of its own.
+  // Each has its own file or kind, material and size.
   std::vector<Scene>& models() { return models_; }
 
  private:

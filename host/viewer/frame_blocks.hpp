@@ -25,7 +25,7 @@ struct Extent {
 
 struct FrameBlocks {
   nlohmann::json frames =
-      nlohmann::json::array();           // a row a frame: number, time_s, paths there were and paths on the page
+      nlohmann::json::array();           // a row per frame: number, time_s, paths there were and paths on the page
   double lowest_db = 0, highest_db = 0;  // of the finite gains on the page; 0, 0: there is none
   uint32_t highest_order = 0;
   uint32_t interactions = 0;     // of all paths, bits as in paths.h5

@@ -19,7 +19,7 @@ struct LinkRow {
   double gain_db() const;                                                // -inf where no power arrives
 };
 
-// Every link that was asked for or has a path, sorted. missed_power_share: one a link of frame.links, or empty.
+// Every link that was asked for or has a path, sorted. missed_power_share: one per link of frame.links, or empty.
 std::vector<LinkRow> link_rows(const SavedFrame& frame, std::span<const double> missed_power_share);
 
 }  // namespace wavetracer

@@ -64,7 +64,7 @@ json receiver_rows(const SavedRun& run, const std::vector<bool>& own) {
   return rows;
 }
 
-// A row a kind of path, the least special first: the code of its interaction, 0 of line of sight; the words of the
+// A row per kind of path, the least special first: the code of its interaction, 0 of line of sight; the words of the
 // interaction and of the path; its colours; whether the run has computed it, or holds one.
 json path_kind_rows(const Config& config, uint32_t interactions) {
   json rows = json::array();

@@ -1,4 +1,4 @@
-// One of a few words, such as "exact" or "sphere", held as its number: what keys of the configuration with choices are.
+// One of a few words, such as "exact" or "sphere", stored as its number: the type of configuration keys with choices.
 // In code a word is checked where it is compiled, and compared as a number; text that comes at run time goes through
 // parse() or named(), once.
 #pragma once
@@ -20,7 +20,7 @@ struct Word {
   consteval Word(const char (&literal)[N]) { std::copy_n(literal, N, text); }
 };
 
-// What fields of the configuration are handled by, whatever their words are.
+// The common base of all choices, whatever their words are.
 struct ChoiceIndex {
   uint8_t value = 0;
 };
@@ -31,7 +31,7 @@ class Choice : ChoiceIndex {
   static constexpr std::array<std::string_view, sizeof...(Words)> words{Words.text...};
 
   constexpr Choice() = default;  // the first word
-  // A literal that is none of the words does not compile: it has no number.
+  // A literal that is not one of the words does not compile.
   consteval Choice(const char* word) : ChoiceIndex(*parse(word)) {}
 
   static constexpr std::optional<Choice> parse(std::string_view word) {
@@ -41,7 +41,7 @@ class Choice : ChoiceIndex {
     out.value = static_cast<uint8_t>(at - words.begin());
     return out;
   }
-  // Throws ConfigError, which lists the words, for any other.
+  // Throws ConfigError, which lists the words, for any other text.
   static Choice named(std::string_view word) {
     if (const std::optional<Choice> known = parse(word)) return *known;
     std::string list;

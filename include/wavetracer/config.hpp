@@ -1,4 +1,4 @@
-// The configuration of a run, one struct a table of the TOML file. Defaults live here, each with its reason
+// The configuration of a run, one struct per table of the TOML file. Defaults are defined here, each with its reason
 // in the field table (host/config/field_table.cpp), which is what parsing, `validate`, `init` and `--help` are driven
 // by. Where the file says 0 or "auto" for "choose yourself" or "no limit", the member is an optional that is not set.
 #pragma once
@@ -27,8 +27,8 @@ using UpAxis = Choice<"auto", "y", "z">;
 struct SceneConfig {
   std::string file;                                   // absolute after parsing (given relative to the config file)
   std::string generate;                               // arguments of `wavetracer scene city`, instead of a file
-  double scale = 1;                                   // metres a file unit (OBJ, GLB, PLY)
-  UpAxis up = "auto";                                 // auto: z, but y for glTF
+  double scale = 1;                                   // metres per file unit (OBJ, GLB, PLY)
+  UpAxis up = "auto";                                 // auto: y for glTF, else z
   std::map<std::string, std::string> material_alias;  // [scene.material_alias]: name in the file -> radio material
   std::string default_material;                       // for meshes without one; empty: a missing material is an error
 };
@@ -40,7 +40,7 @@ struct RadioConfig {
   double noise_figure_db = 0;
 };
 
-// The patterns that an antenna may be instead of a file, and its ports.
+// The antenna patterns that are built in (else: a pattern file), and the ports of an antenna.
 using NamedAntenna = Choice<"isotropic", "short-dipole", "dipole", "tr38901">;
 using Polarization = Choice<"V", "H", "VH", "cross">;
 
@@ -50,7 +50,7 @@ struct RadioEnd {  // [[transmitter]] or [[receiver]]
   std::string antenna = "isotropic";          // a NamedAntenna, or a pattern file
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
-  std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; shifts frequencies, moves nothing
+  std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; for Doppler shifts only: the position does not change
 };
 
 using HeightAbove = Choice<"zero", "ground">;
@@ -82,15 +82,15 @@ struct TrackConfig {  // [[track]]: a vehicle on waypoints
   std::vector<std::array<double, 4>> waypoints;  // time_s, x, y, z; file coordinates of the scene
 };
 
-// The bodies that a vehicle may have instead of a mesh file.
+// The bodies of vehicles that are built in (else: a mesh file).
 using NamedBody = Choice<"auto", "car", "van", "truck", "none">;
 
 struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories looks like
   std::string name;
   std::string model = "auto";  // a NamedBody, or a mesh file (x ahead, z up, origin on the ground)
-  // Not given: that of the mesh file, else of SUMO's class of this name.
+  // Not given: the size of the mesh file, or else of SUMO's vehicle class of this name.
   std::optional<double> length_m = {}, width_m = {}, height_m = {};
-  std::string material = "metal";  // of a mesh without one
+  std::string material = "metal";  // radio material of meshes that name none
 };
 
 using MountRole = Choice<"transmitter", "receiver", "both">;
@@ -121,27 +121,27 @@ using Directions = Choice<"horizon", "hilbert", "fibonacci", "random">;
 using Reception = Choice<"exact", "sphere">;
 
 struct TraceConfig {
-  std::optional<uint64_t> rays = 200000;  // a transmitter; not set ("auto"): as many as recall asks for, up to max_rays
-  double recall = 0.99;                   // of rays = "auto": wanted share of the paths
-  uint64_t max_rays = 10000000;           // of rays = "auto"
-  bool reuse = true;                      // sequences of earlier frames of a drive are kept and solved again
-  std::optional<uint64_t> refresh_rays = {};  // a transmitter, of a frame that reuses; not given: a tenth of rays
-  uint32_t forget_frames = 50;                // a sequence that no ray has met for so many frames is dropped
+  std::optional<uint64_t> rays = 200000;      // per transmitter; not set ("auto"): what recall needs, at most max_rays
+  double recall = 0.99;                       // with rays = "auto": share of the paths to find
+  uint64_t max_rays = 10000000;               // with rays = "auto"
+  bool reuse = true;                          // sequences of earlier frames of a drive are kept and solved again
+  std::optional<uint64_t> refresh_rays = {};  // per transmitter, in a frame that reuses; not given: a tenth of rays
+  uint32_t forget_frames = 50;                // a sequence that no ray has met for this many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
-  uint32_t max_diffractions = 1;                  // a path, 1 or 2
+  uint32_t max_diffractions = 1;                  // per path, 1 or 2
   bool free_edges = true;                         // edges of one face diffract as half planes
-  std::optional<uint64_t> diffraction_rays = {};  // of a receiver; not given: a tenth of rays, at least 100,000
-  uint32_t max_transmissions = 2;                 // a path
-  double tile_m = 5;                              // of scattering: no tile is longer
+  std::optional<uint64_t> diffraction_rays = {};  // per receiver; not given: a tenth of rays, at least 100,000
+  uint32_t max_transmissions = 2;                 // per path
+  double tile_m = 5;                              // largest side length of a tile of scattering
   Directions directions = "horizon";
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
-  std::optional<uint64_t> batch_rays = {};  // in flight at once; not given: chosen from the device
+  std::optional<uint64_t> batch_rays = {};  // traced at once; not given: chosen for the device
 };
 
-// Those of the thesis have two words each, the plain name and the mnemonic; a configuration is echoed as it was given.
+// Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the word that was given.
 using OrderMethod = Choice<"none", "WS", "morton", "Z", "hilbert3d-histogram", "H3DH", "morton-histogram", "HZ",
                            "hilbert3d-histogram-hilbert2d", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "H3DH3DH",
                            "direction-origin", "auto">;
@@ -149,14 +149,14 @@ using OrderMethod = Choice<"none", "WS", "morton", "Z", "hilbert3d-histogram", "
 struct OrderConfig {
   OrderMethod method = "none";
   bool each_depth = false;
-  uint32_t bin_num = 16;  // bins a direction component, histogram methods
+  uint32_t bin_num = 16;  // bins per direction component, histogram methods
 };
 
 using LaunchDimensions = Choice<"auto", "1d", "2d", "3d">;
 
 struct LaunchConfig {
   LaunchDimensions shape = "auto";
-  std::optional<uint32_t> local_size = {};  // work-items of a group; not given: chosen from the device
+  std::optional<uint32_t> local_size = {};  // work-items per work-group; not given: chosen for the device
 };
 
 using CacheKind = Choice<"none", "chained", "open", "concurrent">;
@@ -170,28 +170,28 @@ struct CacheConfig {
   CacheKind kind = "none";
   CacheKey key = "quantised";        // quantised: primitive and cells of directions; exact: the ray itself
   uint32_t hash_method = 3;          // 1 uniform, 2 Morton, 3 mixed
-  uint32_t division = 200000;        // cells a direction component, of a quantised key
+  uint32_t division = 200000;        // cells per direction component, of a quantised key
   uint64_t buffer_size = 1048576;    // entries, shared evenly by the transmitters
-  double load_factor = 3;            // chained: entries a bucket, on average
-  CacheLocking locking = "readers";  // of an open table
-  uint32_t readers_number = 5;       // open, readers: reads of an entry after which it is written anew
+  double load_factor = 3;            // chained: entries per bucket, on average
+  CacheLocking locking = "readers";  // only for an open table
+  uint32_t readers_number = 5;       // open, readers: an entry must be renewed after this many reads
   CachePurging purge = "position";
   double position_step_m = 0.1;     // of the transmitter's position key
   double residual_value = 0.0125;   // precision: largest L1 distance of origins and directions
-  CacheScope scope = "static";      // static: what vehicles and receivers decide is tested every time; all: it is kept
-  CacheHitPoint hit_point = "own";  // of an answered ray: own (its line on the surface), cached (the other ray's)
+  CacheScope scope = "static";      // static: vehicles and receivers are tested every time; all: they are cached too
+  CacheHitPoint hit_point = "own";  // of an answered ray: own (its line meets the surface), cached (of the other ray)
   uint32_t first_depth = 1;         // segments before this one of a ray, counted from 1, are always traced
-  bool statistics = false;          // hits an entry, and entries linked along paths
+  bool statistics = false;          // count hits per entry, and entries linked along paths
 };
 
 struct OutputConfig {
   std::string directory = "out";
-  uint32_t shard_frames = 100;  // frames a file of a drive; the first of each is cold where frames reuse sequences
-  uint64_t waypoints = 0;       // samples a transmitter whose waypoints are written, spread evenly; 0: none
+  uint32_t shard_frames = 100;  // frames per file of a drive; the first of each is cold if frames reuse sequences
+  uint64_t waypoints = 0;       // samples per transmitter whose waypoints are written, spread evenly; 0: none
   // Paths that are not written to paths.h5, see output/path_limits.hpp; not given: all are.
   std::optional<double> min_gain_db, dynamic_range_db;
   std::optional<uint32_t> max_paths_per_link = {};
-  bool keep_shards = true;  // of a drive that is whole and merged
+  bool keep_shards = true;  // of a drive that is complete and merged
 };
 
 struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer
@@ -201,17 +201,17 @@ struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type
 };
 
 struct LiveConfig {                      // [live]: what `wavetracer serve` accepts
-  double margin_m = 100;                 // vehicles may be as far outside of the scene's box
-  uint32_t max_clients = 8;              // that have said hello
-  uint32_t max_strangers = 8;            // that have not
-  uint64_t max_message_bytes = 1048576;  // a line
-  uint64_t max_queue_bytes = 67108864;   // unread answers of a client
-  uint32_t max_pending_frames = 4;       // a client, not yet answered
-  double max_rate_hz = 1000;             // messages of a client
-  double hello_timeout_s = 3;            // from connecting to the end of hello
+  double margin_m = 100;                 // how far vehicles may be outside of the scene's box
+  uint32_t max_clients = 8;              // connections that have said hello
+  uint32_t max_strangers = 8;            // connections that have not
+  uint64_t max_message_bytes = 1048576;  // of one line
+  uint64_t max_queue_bytes = 67108864;   // of unread answers, per client
+  uint32_t max_pending_frames = 4;       // per client, not yet answered
+  double max_rate_hz = 1000;             // messages per client
+  double hello_timeout_s = 3;            // from the connection to the end of hello
   double message_timeout_s = 5;          // from the first byte of a line to its end
   std::optional<double> idle_timeout_s = 300;
-  double send_timeout_s = 10;  // answers unread
+  double send_timeout_s = 10;  // without reading any byte of its answers
 };
 
 struct Config {

@@ -1,4 +1,4 @@
-// The errors of wavetracer: each class knows the exit code that the command line answers with.
+// The errors of wavetracer: each class knows the exit code that the program returns for it.
 // A message says what is wrong, where (file, line, element) and what to do about it.
 #pragma once
 #include <stdexcept>
@@ -29,7 +29,7 @@ struct InputError : Error {
 struct DeviceError : Error {
   explicit DeviceError(const std::string& message) : Error(ExitCode::device, message) {}
 };
-// Anything else that stops a run: a full disk, a limit met.
+// Anything else that stops a run: a full disk, an exceeded limit.
 struct RuntimeError : Error {
   explicit RuntimeError(const std::string& message) : Error(ExitCode::runtime, message) {}
 };

@@ -1,4 +1,4 @@
-// What a run computes with: its device, the order of its rays, and the parts of the model that are on.
+// How a run computes: its device, the order of its rays, and the features (interactions) that are on.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -13,17 +13,17 @@ struct DeviceSummary {
 
 // How rays were ordered and launched.
 struct OrderSummary {
-  std::string method = "none";  // plain name; "none" too where order.method = "auto" found no sort that pays
+  std::string method = "none";  // plain name; "none" also if order.method = "auto" found that no sort saves time
   bool each_depth = false;
   std::string launch_shape = "1d";
-  uint32_t local_size = 0;  // 0: what suits the device
-  std::string reason;       // why, where order.method = "auto"
+  uint32_t local_size = 0;  // 0: chosen for the device
+  std::string reason;       // why this method was chosen, with order.method = "auto"
 };
 
-// A part of the model that the configuration asks for or not, and that the scene needs or not.
+// A feature: it is on if the configuration asks for it and the scene needs it.
 struct Feature {
   bool on = false;
-  std::string reason;  // why not: "trace.diffraction = false", "no edge of the scene diffracts", ...
+  std::string reason;  // why it is off: "trace.diffraction = false", "no edge of the scene diffracts", ...
 };
 // By name: the words of interaction_kinds (interaction_kinds.hpp), double_diffraction, instances. What is off runs no
 // kernel.

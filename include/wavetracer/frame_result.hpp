@@ -28,29 +28,29 @@ struct FrameCounts {
 // What the ray cache did in a frame. Counts are of this frame alone.
 struct CacheSummary {
   bool on = false;          // false: the frame had no cache, and everything below is 0 or empty
-  uint64_t lookups = 0;     // rays that asked, all depths
-  uint64_t hits = 0;        // of these, answered; the others were traced
-  uint64_t conflicts = 0;   // misses because of another look-up or a write of that moment
-  uint64_t stale = 0;       // misses although the key was there: purging did not let its entry stand
+  uint64_t lookups = 0;     // look-ups by rays, at all depths
+  uint64_t hits = 0;        // look-ups that were answered; the other rays were traced
+  uint64_t conflicts = 0;   // misses because another look-up or a write used the entry at that moment
+  uint64_t stale = 0;       // misses although the key was found, because its entry is out of date
   uint64_t stored = 0;      // entries written
-  uint64_t replaced = 0;    // of these, over another one
-  uint64_t duplicates = 0;  // writes of a key that was there already
-  uint64_t dropped = 0;     // writes that met another one or found no place; their segments are traced again
-  uint64_t exhausted = 0;   // of these, for want of a free entry
-  uint64_t evicted = 0;     // entries removed: unused for long, or of a transmitter that has moved on
-  uint64_t linked = 0;      // with cache.statistics: hits on the entry that the ray's last one links to
-  // The table as the frame leaves it: entries it has room for, those that hold a segment, device memory.
+  uint64_t replaced = 0;    // entries that were written over another one
+  uint64_t duplicates = 0;  // writes of a key that the table contained already
+  uint64_t dropped = 0;     // writes that collided with another or found no place; their segments are traced again
+  uint64_t exhausted = 0;   // writes dropped because no entry was free
+  uint64_t evicted = 0;     // entries removed: unused for long, or of a transmitter that has moved away
+  uint64_t linked = 0;      // with cache.statistics: hits on the entry that the ray's previous entry links to
+  // The table at the end of the frame: its size in entries, the entries that contain a segment, its device memory.
   uint64_t entries = 0, used = 0, bytes = 0;
   std::vector<uint64_t> lookups_per_depth, hits_per_depth;  // [0]: segments from transmitters
   // With cache.statistics: how many of the used entries have answered 0, 1, 2, 3-4, 5-8, 9-16, ... times. Else empty.
   std::vector<uint64_t> entries_by_hits;
 };
 
-// Seconds a stage: device stages from profiling events, host stages from a steady clock.
+// Seconds per stage: device stages from profiling events, host stages from a steady clock.
 using StageSeconds = std::map<std::string, double>;
 
-// Links without a path: why, of the first few, in words, and how many there are. Receivers of grids are counted apart,
-// because those that are inside of houses have none.
+// Links without a path: the reasons for the first few, in words, and their number. Receivers of grids are counted
+// apart, because receivers inside of houses have no path.
 struct MissingLinks {
   static constexpr size_t shown = 5;
   uint64_t links = 0, in_grids = 0;
@@ -67,9 +67,9 @@ struct FrameResult {
   StageSeconds seconds;
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
-  WaypointRows waypoints;  // of output.waypoints samples a transmitter
+  WaypointRows waypoints;  // of output.waypoints samples per transmitter
   std::vector<std::string> warnings;
-  MissingLinks missing;  // by Simulation::explain_missing, where somebody asked
+  MissingLinks missing;  // set by Simulation::explain_missing, else empty
 };
 
 }  // namespace wavetracer

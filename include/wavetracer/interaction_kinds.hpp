@@ -1,4 +1,4 @@
-// The kinds of interaction, one row each: whatever numbers, names, counts or colours them takes it from here.
+// The kinds of interaction, one row each: all code that numbers, names, counts or colours them uses this table.
 // A new kind needs its code in paths.hpp, its step in device/records.h, its key in config.hpp and a row below.
 #pragma once
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace wavetracer {
 
 // Paths are named and drawn by the most special of their interactions.
 struct PathKind {
-  std::string_view word;         // in files and identifiers; texts have spaces in the place of _
+  std::string_view word;         // in files and identifiers; texts have spaces instead of _
   std::string_view dark, light;  // its colour on a dark and on a light page
   size_t plot;                   // its colour in plots, see host/plots/gnuplot.hpp
 };
@@ -25,11 +25,11 @@ struct PathKind {
 struct InteractionKind {
   Interaction code;              // in files
   uint32_t step;                 // in the steps of solved paths on the device, see WT_STEP_KIND
-  WaypointKind waypoint;         // in waypoints; WaypointKind::launch where rays do not have it
+  WaypointKind waypoint;         // in waypoints; WaypointKind::launch if rays do not do it
   std::string_view word;         // the name of the feature, and of the key in [trace]
-  std::string_view legend;       // how descriptions in files spell it
-  PathKind paths;                // those whose most special interaction it is
-  bool TraceConfig::*asked_for;  // by that key
+  std::string_view legend;       // its name in descriptions in files
+  PathKind paths;                // the paths whose most special interaction it is
+  bool TraceConfig::*asked_for;  // the value of that key
 };
 
 // The least special first. A row: code, step and waypoint; words; paths; key.
@@ -56,7 +56,7 @@ inline constexpr auto path_kinds = [] {
   return all;
 }();
 
-// The row of a code; nullptr where it is none.
+// The row of a code; nullptr if there is no such code.
 constexpr const InteractionKind* find_interaction(uint8_t code) {
   const auto row = std::ranges::find(interaction_kinds, code, [](const auto& kind) { return +kind.code; });
   return row == interaction_kinds.end() ? nullptr : &*row;

@@ -1,4 +1,4 @@
-// Live worlds: vehicles whose poses come at run time and take the places that the configuration has for their type.
+// Live worlds: vehicles whose poses come at run time. They take the places that the configuration has for their type.
 // Positions are in file coordinates, as in trajectories: the centre of the footprint, on the ground.
 #pragma once
 #include <cstdint>
@@ -25,7 +25,7 @@ struct LivePose {
   std::optional<glm::dvec3> velocity_m_s, angular_velocity_rad_s;  // scene axes
 };
 
-// A pose that cannot be placed. Nothing has changed when it is thrown.
+// A vehicle that cannot be placed. Nothing has changed when this is thrown.
 struct PoseError : InputError {
   // unknown_type, type_changed, no_place, duplicate_id, out_of_bounds, bad_value
   std::string code;
@@ -45,8 +45,8 @@ struct LiveType {
   std::vector<MountConfig> mounts;  // that it carries
 };
 
-// The traffic of one source of poses: which place each of its vehicles has, and its pose in the last frame.
-// Sources may take turns at one Simulation, each with traffic of its own: places are then theirs frame by frame.
+// The traffic of one source of poses: the place of each of its vehicles, and its pose in the last frame.
+// Several sources may use one Simulation in turn, each with its own traffic: in a frame all places are for one source.
 struct LiveTraffic {
   struct Vehicle {
     uint32_t place = 0;
@@ -55,13 +55,13 @@ struct LiveTraffic {
   };
   std::map<std::string, Vehicle, std::less<>> vehicles;  // of the last frame, by id
   double time_s = 0;                                     // of the last frame
-  uint32_t frames = 0;                                   // solved so far; the next one's number
+  uint32_t frames = 0;                                   // computed so far; the number of the next frame
 };
 
-// A frame, and what its ends and vehicles are called by who sent the poses. Ends that are absent have empty names.
+// A frame, and the names of its ends and vehicles that the sender of the poses uses. Absent ends have empty names.
 struct LiveFrame {
   FrameResult result;
-  std::vector<std::string> transmitters, receivers;  // VEHICLE/MOUNT, or the name of an end that stands
+  std::vector<std::string> transmitters, receivers;  // VEHICLE/MOUNT, or the name of a fixed end
   std::vector<std::string> instances;                // vehicle ids
 };
 

@@ -1,5 +1,5 @@
 // What the rays of a run may have missed, estimated from those rays themselves: docs/method.md, "What was missed".
-// A launch is four launches of a quarter of its rays: paths that few of them found tell of those that none has found.
+// A launch is four launches of a quarter of its rays: the paths that few of them found show how many none has found.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,15 +11,15 @@ struct Paths;
 
 // Counts that add up over frames. Powers are sums of |a|^2.
 struct MissedCounts {
-  uint64_t frames = 0;  // 0: nothing is known
-  // [k]: those that rays had to find and k + 1 quarters found; [0] also those that none found alone, whose parts are
-  // of different quarters.
+  uint64_t frames = 0;  // 0: there is no estimate
+  // [k]: paths that rays had to find and k + 1 quarters found; [0] also paths that no quarter found alone, because
+  // their parts are of different quarters.
   std::array<uint64_t, 4> paths{};
   std::array<double, 4> powers{};  // of these
-  double amplitude = 0;  // of these, sum of |a|: what is typical, where a few are much stronger than all others
+  double amplitude = 0;  // of these, sum of |a|: typical even if a few paths are much stronger than all others
   double power = 0;      // of all paths
 };
-// low to high: where the truth is in 95 cases of 100.
+// low to high: the 95% confidence interval.
 struct MissedRange {
   double estimate = 0, low = 0, high = 0;
 };
@@ -30,10 +30,10 @@ struct Missed {
 };
 
 void add(MissedCounts& sum, const MissedCounts& more);
-// Of another part of the same frames.
+// Adds the counts of another part of the same frames.
 void add_part(MissedCounts& sum, const MissedCounts& more);
 
-// Rows first to end - 1, as one frame. Nothing where it is not known who found them.
+// Counts rows first to end - 1 as one frame. Empty if it is not known which rays have found them.
 MissedCounts missed_counts(const Paths& paths, size_t first, size_t end);
 
 Missed estimate_missed(const MissedCounts& counts);

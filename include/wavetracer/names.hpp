@@ -1,11 +1,11 @@
-// What names of radio ends, vehicles and models may be: they stand in tables, plots and messages, a line each.
+// Which names radio ends, vehicles and models may have: tables, plots and messages show them on one line.
 #pragma once
 #include <algorithm>
 #include <string_view>
 
 namespace wavetracer {
 
-// NUL, a line break, any other character of ASCII that controls instead of being shown.
+// True if the text contains an ASCII control character, such as NUL or a line break.
 inline bool has_control_character(std::string_view name) {
   return std::any_of(name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; });
 }

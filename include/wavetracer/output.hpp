@@ -22,7 +22,7 @@ struct InputFile {
   bool operator==(const InputFile&) const = default;
 };
 
-// What is known about a run beyond its world and its frames.
+// Information about a run besides its world and its frames.
 struct RunSummary {
   std::string version = WAVETRACER_VERSION;
   DeviceSummary device;
@@ -32,11 +32,11 @@ struct RunSummary {
   std::string command_line;
   std::vector<InputFile> inputs;
   uint64_t frames_asked = 1;
-  uint32_t repeat_count = 1;          // how often each frame was solved; its seconds are medians
-  std::vector<std::string> warnings;  // those of the run; frames bring their own
+  uint32_t repeat_count = 1;          // how often each frame was computed; its seconds are medians
+  std::vector<std::string> warnings;  // warnings of the run; frames have their own
 };
 
-// What all frames of a run share. It refers to the simulation that it was made of, and may not outlive it.
+// What all frames of a run share. It refers to the simulation that it was made from, which must live longer.
 struct Run {
   const Config& config;  // with the ends that are mounted on vehicles
   const Scene& scene;
@@ -45,7 +45,7 @@ struct Run {
   RunSummary summary;
 };
 
-// Of all that the simulation says of itself; command_line is what the outputs will name as their origin.
+// Made from what the simulation knows about itself; the outputs name command_line as their origin.
 Run make_run(const Simulation& simulation, uint64_t frames_asked = 1, const std::string& command_line = "");
 
 // Consecutive frames, sorted by their number.
@@ -53,7 +53,7 @@ using Frames = std::span<const FrameResult>;
 
 // Writes paths.h5, waypoints.h5 (where output.waypoints asks for it), links.csv and summary.json of a run that fits in
 // memory, in place of all that an earlier run left there, and returns their paths in that order.
-// The folder is created where it is missing. A file appears under its name only when all are whole and on the disk;
+// The folder is created if it is missing. A file appears under its name only when all are complete and on the disk;
 // after a failure neither temporary files nor a folder made here are left. Throws RuntimeError.
 // Not to be called from two threads at once: the HDF5 library is not thread safe.
 std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& directory, const Run& run, Frames frames);

@@ -1,4 +1,4 @@
-// Solved, visible paths before fields: what the exact solve hands to the radio side. Coordinates are recentred.
+// Solved, visible paths before fields are computed: the result of the exact geometry. Coordinates are recentred.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -11,11 +11,11 @@ struct PathGeometry {
   std::vector<uint32_t> tx, rx;
   std::vector<uint8_t> quarters;  // see Paths::quarters; of every path, or empty
   std::vector<uint64_t> first{0};
-  // One an interaction, numbered through the world (Instance::first_surface, first_wedge): the surface of a reflection
+  // One per interaction, numbered through the world (Instance::first_surface, first_wedge): the surface of a reflection
   // or transmission, the wedge of a diffraction, the tile of a diffuse scattering (scene/tiles.hpp).
   std::vector<uint32_t> surface;
-  std::vector<uint8_t> interaction;  // one an interaction, see Interaction
-  std::vector<glm::dvec3> vertex;    // one an interaction, recentred metres
+  std::vector<uint8_t> interaction;  // one per interaction, see Interaction
+  std::vector<glm::dvec3> vertex;    // one per interaction, recentred metres
   size_t size() const { return tx.size(); }
 };
 

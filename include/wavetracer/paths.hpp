@@ -1,4 +1,4 @@
-// Propagation paths of one or more frames: one row a path, vertices in a compressed row layout.
+// Propagation paths of one or more frames: one row per path, vertices in a compressed row layout.
 #pragma once
 #include <array>
 #include <complex>
@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// What happens to a wave at a vertex of its path, as files have it; interaction_kinds.hpp says more of each.
+// What happens to a wave at a vertex of its path, with the numbers in files; see also interaction_kinds.hpp.
 enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, diffraction = 8 };
 
 constexpr uint32_t no_instance = 0xFFFFFFFFu;
@@ -18,16 +18,16 @@ constexpr uint32_t no_instance = 0xFFFFFFFFu;
 // a is the passband coefficient between the antenna ports without the carrier phase of the delay:
 // h(f) = sum a exp(-j 2 pi f tau). Angles are those of the global frame: theta from +z, phi from +x towards +y.
 struct Paths {
-  uint32_t rx_ports = 1, tx_ports = 1;  // 2 where any antenna of that side has two ports
+  uint32_t rx_ports = 1, tx_ports = 1;  // 2 if any antenna of that side has two ports
   std::vector<uint32_t> frame, tx, rx, depth;
   std::vector<double> delay_s, gain_db;
   std::vector<std::array<std::complex<double>, 4>> a;
   std::vector<double> aod_theta_rad, aod_phi_rad, aoa_theta_rad, aoa_phi_rad, doppler_hz;
-  // Which quarters of the launch found the path, a bit each (missed.hpp); empty where that is not known. A path that
+  // Which quarters of the launch found the path, one bit each (missed.hpp); empty if that is not known. A path that
   // needs no ray has all four.
   std::vector<uint8_t> quarters;
   std::vector<uint64_t> vertex_offset{0};  // size() + 1 entries
-  // One entry an interaction, ends excluded, in order from the transmitter.
+  // One entry per interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates
   std::vector<uint8_t> vertex_interaction;
   std::vector<uint32_t> vertex_surface;  // in its scene or model; of a diffraction the wedge (`scene info --edges`)

@@ -1,4 +1,4 @@
-// Waypoints of samples of launched rays, for study and pictures: where each ray went, whether or not it became a path.
+// Waypoints of samples of launched rays, for study and pictures: where each ray went, even if it led to no path.
 // Columns of equal length, sorted by frame, tx, sample, depth; hits come before the end of their segment, by receiver.
 #pragma once
 #include <cstdint>
@@ -18,11 +18,11 @@ enum class WaypointKind : uint8_t {
 struct WaypointRows {
   std::vector<uint32_t> frame, tx;
   std::vector<uint64_t> sample;  // launch index of the ray, counted for its transmitter
-  std::vector<uint32_t> depth;   // segments up to here: 0 at the transmitter
+  std::vector<uint32_t> depth;   // number of segments before this point: 0 at the transmitter
   std::vector<WaypointKind> kind;
   std::vector<glm::dvec3> position_m;  // file coordinates
   std::vector<uint32_t> surface;       // as in Paths; the receiver of a hit; no_surface of launches and misses
-  std::vector<uint32_t> instance;      // of a surface that moves, else no_instance
+  std::vector<uint32_t> instance;      // the vehicle of a moving surface, else no_instance
 
   size_t size() const { return tx.size(); }
 };

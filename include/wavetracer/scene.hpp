@@ -1,4 +1,4 @@
-// A scene as geometry sees it: welded triangles, the planar surfaces they form, edges and materials.
+// The geometry of a scene: welded triangles, the planar surfaces that they form, edges and materials.
 // All coordinates are double, in metres, recentred: file coordinate = origin_m + coordinate.
 #pragma once
 #include <array>
@@ -39,7 +39,7 @@ struct Surface {
 struct Edge {
   std::array<uint32_t, 2> vertices;
   uint32_t first_face = 0, face_count = 0;
-  // Faces on both sides of it, all in one plane: nothing there diffracts. A free edge is never flat.
+  // True if all faces at it lie in one plane, on both sides: it does not diffract. A free edge is never flat.
   bool flat = false;
 };
 
@@ -56,7 +56,7 @@ struct Wedge {
   std::array<uint32_t, 2> surface{0, 0};  // of face 0 and face 1, into Scene::surfaces; the same for a free edge
 };
 
-// What the loader left out, and why; every count is reported to the user.
+// What was left out when the scene was loaded, and why; every count is reported to the user.
 struct LoadReport {
   uint64_t degenerate_triangles = 0;  // zero area, dropped
   uint64_t duplicate_triangles = 0;   // same three welded vertices as an earlier one, dropped
@@ -72,7 +72,7 @@ struct LoadReport {
 
 struct Scene {
   std::string file;
-  std::vector<std::string> files;  // that were read for it: that one, and those that it names; none if it was generated
+  std::vector<std::string> files;  // the scene file and the files that it names; none if it was generated
   glm::dvec3 origin_m{0};
   std::vector<glm::dvec3> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
@@ -82,7 +82,7 @@ struct Scene {
   std::vector<uint32_t> surface_triangles;  // triangle indices, grouped by surface
   std::vector<Edge> edges;
   std::vector<uint32_t> edge_faces;
-  std::vector<Wedge> wedges;  // free edges among them, whatever trace.free_edges says
+  std::vector<Wedge> wedges;  // includes free edges, whatever trace.free_edges says
   std::vector<Material> materials;
   std::vector<std::string> objects;  // mesh names
   glm::dvec3 lower{0}, upper{0};     // bounding box, recentred

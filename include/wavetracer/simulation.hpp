@@ -1,4 +1,4 @@
-// The public entry of libwavetracer: a scene on a device, solved frame by frame.
+// The public entry of libwavetracer: a scene on a device, computed frame by frame.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -15,15 +15,15 @@
 
 namespace wavetracer {
 
-// How far a frame is: `done` of `total` of what the stage counts.
+// Progress of a frame: `done` of `total`, in the unit of the stage.
 struct FrameProgress {
   std::string stage;  // "rays" (those that were launched), then "paths" (steps of the exact solution)
   uint64_t done = 0, total = 0;
 };
-// Is told between batches of rays and between these steps; where it returns false, the frame is given up.
+// Called between batches of rays and between these steps; if it returns false, the frame is cancelled.
 using FrameObserver = std::function<bool(const FrameProgress&)>;
 
-// What run_frame() throws where the observer wanted no more of it. The simulation can go on with any frame.
+// What run_frame() throws if the observer has cancelled the frame. The simulation can continue with any frame.
 class FrameStopped : public std::runtime_error {
  public:
   FrameStopped() : std::runtime_error("the frame was given up") {}
@@ -34,10 +34,10 @@ struct TransmitterRange {
   uint32_t first = 0, end = 0;
 };
 
-// Why frames of this configuration cannot be cut into blocks of transmitters; empty where they can.
+// Why frames of this configuration cannot be divided into blocks of transmitters; empty if they can.
 std::string block_obstacle(const Config& config);
 
-// Of a live world, see wavetracer/live.hpp.
+// Only for a live world, see wavetracer/live.hpp.
 struct LiveBounds;
 struct LiveFrame;
 struct LivePose;
@@ -66,9 +66,9 @@ class Simulation {
   LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
   const std::vector<LiveType>& live_types() const;
   const LiveBounds& live_bounds() const;
-  // Of all frames that follow; an empty one is told nothing.
+  // The observer of all frames that follow; an empty function: none.
   void observe(FrameObserver observer);
-  // Drops all sequences of earlier frames, and what a ray cache holds: the next frame is cold.
+  // Drops all sequences of earlier frames, and the content of a ray cache: the next frame is cold.
   void forget();
   uint64_t frame_count() const;
   double time_s(uint32_t frame) const;
@@ -77,11 +77,11 @@ class Simulation {
   const Config& config() const;
   const std::vector<Instance>& instances() const;
   const std::vector<Scene>& models() const;
-  // Why links of a frame have no path: what their direct lines meet first, and which mechanism that is off may bring
-  // something. It costs a pass over the scene.
+  // Why links of a frame have no path: what their direct lines meet first, and which feature that is off may add
+  // paths. It costs a pass over the scene.
   MissingLinks explain_missing(const FrameResult& frame) const;
-  // What loading the scene and the trajectories left out or made up; antennas and vehicles in places that cannot be
-  // meant.
+  // What was left out or assumed when the scene and the trajectories were loaded; antennas and vehicles in impossible
+  // places.
   std::vector<std::string> warnings() const;
   const DeviceSummary& device() const;
   const OrderSummary& order() const;

@@ -1,6 +1,6 @@
 // The stages of a frame: every name that FrameResult::seconds may have, and what of the frame it belongs to.
 // Device stages are named where kernels are launched and buffers copied, host stages where a stopwatch is read. A frame
-// with a stage that is not listed here fails, so that whoever adds up parts of a frame leaves none out.
+// with a stage that is not listed here fails, so that sums over the parts of a frame are complete.
 #pragma once
 #include <array>
 #include <stdexcept>
@@ -13,10 +13,10 @@ namespace wavetracer {
 
 enum class FramePart {
   whole,      // from poses to fields, wall time; all other stages are inside of it
-  world,      // vehicles to their places
+  world,      // moving vehicles to their places
   order,      // keys, sorts and moves that put rays in order
   discovery,  // rays from launch to sequences
-  cache,      // what a ray cache adds to discovery
+  cache,      // additional time of a ray cache in discovery
   reception,  // receivers that rays pass, and waypoints
   paths,      // sequences to exact paths
   fields,     // coefficients of paths
@@ -48,7 +48,7 @@ constexpr const FrameStage* find_frame_stage(std::string_view name) {
   return nullptr;
 }
 
-// A frame has no entry for a stage that it had no use for.
+// A frame has no entry for a stage that it did not need.
 inline double stage_seconds(const StageSeconds& seconds, std::string_view stage) {
   const auto found = seconds.find(std::string(stage));
   return found == seconds.end() ? 0.0 : found->second;

@@ -25,18 +25,18 @@ typedef struct wavetracer_error wavetracer_error;
 /* Codes of errors: those that the program exits with. */
 enum wavetracer_code {
   WAVETRACER_OK = 0,
-  WAVETRACER_RUNTIME = 1, /* out of memory, a full disk, a limit met */
+  WAVETRACER_RUNTIME = 1, /* out of memory, a full disk, an exceeded limit */
   WAVETRACER_USAGE = 2,   /* a configuration or an argument that is wrong */
   WAVETRACER_INPUT = 3,   /* a scene, antenna or trajectory file that is wrong */
   WAVETRACER_DEVICE = 4   /* no OpenCL device, no memory on it, a kernel that does not build */
 };
 
-/* WAVETRACER_OK and "" of null. The text lives as long as the error; it may have several lines. */
+/* For null: WAVETRACER_OK and "". The text lives as long as the error; it may have several lines. */
 int wavetracer_error_code(const wavetracer_error* error);
 const char* wavetracer_error_message(const wavetracer_error* error);
 void wavetracer_error_free(wavetracer_error* error);
 
-/* Of the library, as "0.2.0"; lives forever. */
+/* The version of the library, such as "0.2.0"; the text lives forever. */
 const char* wavetracer_version(void);
 
 /* Loads the scene of a configuration and compiles the kernels.
@@ -56,7 +56,7 @@ const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_
 const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index);
 const char* wavetracer_device_name(const wavetracer_simulation* self);
 const char* wavetracer_config_text(const wavetracer_simulation* self); /* every key with its value, TOML */
-const char* wavetracer_warnings(const wavetracer_simulation* self);    /* one a line; "" where there are none */
+const char* wavetracer_warnings(const wavetracer_simulation* self);    /* one per line; "" if there are none */
 
 /* Solves a frame, 0 to frame_count - 1. With trace.reuse, what a frame finds depends on the frames since the last
    wavetracer_forget, which makes the next one cold. After a failure of code RUNTIME or DEVICE close the simulation. */
@@ -68,11 +68,11 @@ void wavetracer_forget(wavetracer_simulation* self);
 typedef struct wavetracer_counts {
   uint64_t rays;       /* launched */
   uint64_t segments;   /* rays traced or answered by the cache, all depths */
-  uint64_t hits;       /* of these, that met a surface */
+  uint64_t hits;       /* rays that met a surface */
   uint64_t sequences;  /* distinct sequences of surfaces */
   uint64_t candidates; /* sequence and receiver pairs that may be paths */
-  uint64_t solved;     /* of these, with all points in their surfaces */
-  uint64_t paths;      /* of these, visible and distinct: the rows of the columns */
+  uint64_t solved;     /* candidates with all points in their surfaces */
+  uint64_t paths;      /* visible and distinct paths: the rows of the columns */
 } wavetracer_counts;
 
 /* What the rays of a frame may have missed: docs/method.md, "What was missed". low to high: where the truth is in 95
@@ -84,7 +84,7 @@ typedef struct wavetracer_missed {
 
 /* 0 of null. */
 uint32_t wavetracer_frame_number(const wavetracer_frame* self);
-uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 where any receiver has two */
+uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 if any receiver has two */
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
 wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 of null */
 wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self); /* all NaN of null */
@@ -102,11 +102,11 @@ enum wavetracer_type {
 typedef struct wavetracer_column {
   const void* data; /* rows * width values without gaps; never null. Lives as long as the frame. */
   size_t rows;
-  size_t width; /* values a row */
+  size_t width; /* values per row */
   int type;     /* enum wavetracer_type */
 } wavetracer_column;
 
-/* One row a path, sorted by frame, tx, rx, delay:
+/* One row per path, sorted by frame, tx, rx, delay:
      frame, tx, rx, depth                                    uint32     frame number, indices of the ends, interactions
      delay_s, gain_db                                        float64
      a                                                       complex128 x rx ports x tx ports, row major: coefficient

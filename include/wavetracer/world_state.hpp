@@ -26,7 +26,7 @@ struct EndState {
   glm::dvec3 position_m{0};
   glm::dmat3 rotation{1.0};  // antenna axes to scene axes
   glm::dvec3 velocity_m_s{0};
-  uint32_t instance = no_instance;  // the vehicle that carries it, which does not hide it
+  uint32_t instance = no_instance;  // the vehicle that carries it, which does not block its paths
   bool present = true;
 };
 
@@ -45,7 +45,7 @@ struct WorldState {
   std::vector<Link> links;  // of ends that are present, sorted, each once
 };
 
-// What an instance is, whatever the time.
+// The properties of an instance that do not change with time.
 struct Instance {
   std::string id, type;  // of the vehicle, as in its trajectory
   uint32_t model = 0;    // index into the models of the world

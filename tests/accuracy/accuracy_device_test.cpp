@@ -138,8 +138,9 @@ TEST_CASE("a setting that the configuration excludes has a row that says why") {
   const std::string file = folder.file(
       "join.toml", config_text(scene, "max_depth = 1\nrays = 1000\nreception = \"sphere\"\n", {rx, {2, 4, 1}}));
   const accuracy::Study spheres = studied(file, {1000, 1000});
-  CHECK(row(spheres, "auto", "recall 0.9").refusal.find("trace.rays = \"auto\" refines") != std::string::npos);
-  CHECK(row(spheres, "diffraction", "on").refusal.find("receives reflected rays alone") != std::string::npos);
+  CHECK(row(spheres, "auto", "recall 0.9").refusal.find("trace.rays = \"auto\" launches more rays") !=
+        std::string::npos);
+  CHECK(row(spheres, "diffraction", "on").refusal.find("receives reflected rays only") != std::string::npos);
   CHECK(row(spheres, "rays", "1,000").measured());
 }
 

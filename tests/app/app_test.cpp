@@ -346,10 +346,10 @@ TEST_CASE("what diffraction excludes, and a key that was taken away, is said bef
   const Folder folder;
   const std::string file = folder.file("a.toml", city + "trace.diffraction = true\ntrace.join = true\n" + ends);
   check(run_program({"run", "-c", file, "-o", folder.path("out")}), 2,
-        file + ":3:7: trace.join was taken away: rays towards the horizon find more paths in the same time");
+        file + ":3:7: trace.join no longer exists, because rays towards the horizon find more paths in the same time");
   check(run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.join=false", "--set",
                      "trace.reception=sphere"}),
-        2, "--set trace.reception=sphere: trace.reception = \"sphere\" receives reflected rays alone");
+        2, "--set trace.reception=sphere: trace.reception = \"sphere\" receives reflected rays only");
   CHECK(folder.entries() == 1);
 }
 

@@ -59,7 +59,7 @@ TEST_CASE("a trajectory file that is wrong exits 3 with its line, and writes not
   check(with("2.000001", "nan"), 6, "<vehicle id=\"a\">: x = 'nan' is not a finite number");
   check(with("time=\"0.1\"", "time=\"-0.1\""), 5, "time goes backwards, from 0 s in line 2 to -0.1 s");
   check(with("time=\"0.1\"", "time=\"0.0\""), 5, "time stands still");
-  check(with("type=\"passenger\"", "type=\"spaceship\""), 3, "the vehicle type 'spaceship' is not known");
+  check(with("type=\"passenger\"", "type=\"spaceship\""), 3, "the vehicle type 'spaceship' is unknown");
   check("time,id,x,y\n0,a,1,2\n0.1,a,1,2\n0.05,a,1,2\n", 4, "time goes backwards, from 0.1 s in line 3 to 0.05 s");
   check("time;id;x;y\n0;a;1;2\n", 1, "separated by commas, not by semicolons");
 

@@ -80,12 +80,13 @@ TEST_CASE("numbers of the cache outside their range: value and limit are named, 
   };
   const std::vector<Limit> limits = {
       {"hash_method", "0", "1", "3", "4", "an integer from 1 to 3"},
-      {"division", "0", "1", "2097151", "2097152", "an integer from 1 to 2097151 (cells a direction component)"},
+      {"division", "0", "1", "2097151", "2097152", "an integer from 1 to 2097151 (cells per direction component)"},
       {"buffer_size", "15", "16", "2147483648", "2147483649", "an integer from 16 to 2147483648 (entries)"},
-      {"load_factor", "0.99", "1", "64", "64.5", "a number from 1 to 64 (entries a bucket)"},
+      {"load_factor", "0.99", "1", "64", "64.5", "a number from 1 to 64 (entries per bucket)"},
       {"readers_number", "0", "1", "65535", "65536", "an integer from 1 to 65535 (reads)"},
       {"position_step_m", "0.0009", "0.001", "1000", "1001.0", "a number from 0.001 to 1000 (m)"},
-      {"residual_value", "-0.1", "0", "1000000", "1e+300", "a number from 0 to 1000000 (m + 1, L1)"},
+      {"residual_value", "-0.1", "0", "1000000", "1e+300",
+       "a number from 0 to 1000000 (L1 norm of metres and direction components)"},
       {"first_depth", "0", "1", "32", "33", "an integer from 1 to 32 (segments of a ray, counted from 1)"},
   };
   for (const Limit& limit : limits) {
@@ -104,10 +105,11 @@ TEST_CASE("numbers of the cache outside their range: value and limit are named, 
                                                     "(entries)");
   check_contains(of("cache.residual_value = nan"), "cache.residual_value = nan is out of range");
   check_contains(of("cache.position_step_m = inf"), "cache.position_step_m = inf is out of range");
-  check_contains(of("cache.division = 1.5"), "cache.division must be an integer from 1 to 2097151 (cells a direction");
+  check_contains(of("cache.division = 1.5"),
+                 "cache.division must be an integer from 1 to 2097151 (cells per direction");
   check_contains(of("cache.statistics = 1"), "cache.statistics must be true or false, not an integer");
   check_contains(of("output.waypoints = -1"), "output.waypoints = -1 is out of range: it must be an integer from 0");
-  check_contains(of("output.waypoints = 1000000001"), "from 0 to 1000000000 (samples a transmitter)");
+  check_contains(of("output.waypoints = 1000000001"), "from 0 to 1000000000 (samples per transmitter)");
 }
 
 TEST_CASE("misspelt keys and words of the cache are hinted") {
@@ -117,8 +119,8 @@ TEST_CASE("misspelt keys and words of the cache are hinted") {
   check_contains(of("cache.reader_number = 1"), "did you mean \"cache.readers_number\"?");
   check_contains(of("output.waypoint = 1"), "did you mean \"output.waypoints\"?");
   CHECK(of("cache.key = \"quantized\"") ==
-        "a.toml:2:13: cache.key = \"quantized\" is not known: it must be one of \"quantised\", \"exact\"; did you mean "
-        "\"quantised\"?");
+        "a.toml:2:13: cache.key = \"quantized\" is not a known value: it must be one of \"quantised\", \"exact\"; did "
+        "you mean \"quantised\"?");
   check_contains(of("cache.kind = \"concurent\""), "did you mean \"concurrent\"?");
   check_contains(of("cache.locking = \"reader\""), "did you mean \"readers\"?");
   check_contains(of("cache.purge = \"presicion\""), "did you mean \"precision\"?");
@@ -130,22 +132,24 @@ TEST_CASE("misspelt keys and words of the cache are hinted") {
 TEST_CASE("an exact key does not go with a cache that decides for what moves") {
   const std::string exact = "cache.key = \"exact\"\n", all = "cache.scope = \"all\"\n";
   CHECK(of("cache.kind = \"open\"\n" + exact + all) ==
-        "a.toml:4:15: cache.key = \"exact\" promises the paths of no cache, which cache.scope = \"all\" cannot when "
-        "things move: leave cache.scope out, or use cache.key = \"quantised\"");
-  check_contains(of(all + "cache.kind = \"open\"\n" + exact), "a.toml:4:13: cache.key = \"exact\" promises");
+        "a.toml:4:15: cache.key = \"exact\" gives the same paths as no cache, but with cache.scope = \"all\" moving "
+        "vehicles would change them: remove cache.scope, or use cache.key = \"quantised\"");
+  check_contains(of(all + "cache.kind = \"open\"\n" + exact),
+                 "a.toml:4:13: cache.key = \"exact\" gives the same paths as no cache");
   CHECK(of(exact + all) == "no error");  // no cache
 }
 
 TEST_CASE("a cache that would never be asked is refused") {
   const std::string kind = "cache.kind = \"concurrent\"\n";
   CHECK(of(kind + "trace.max_depth = 3\ncache.first_depth = 4") ==
-        "a.toml:4:21: cache.first_depth = 4 is beyond trace.max_depth = 3, so the cache would never be asked: lower "
-        "the one, raise the other, or use cache.kind = \"none\"");
+        "a.toml:4:21: cache.first_depth = 4 is larger than trace.max_depth = 3, so the cache would never be used: "
+        "lower the first, raise the second, or use cache.kind = \"none\"");
   CHECK(of(kind + "trace.max_depth = 3\ncache.first_depth = 3") == "no error");
-  check_contains(of(kind + "trace.max_depth = 0"), "a.toml:3:19: cache.first_depth = 1 is beyond trace.max_depth = 0");
+  check_contains(of(kind + "trace.max_depth = 0"),
+                 "a.toml:3:19: cache.first_depth = 1 is larger than trace.max_depth = 0");
   CHECK(of("trace.max_depth = 3\ncache.first_depth = 4") == "no error");  // no cache
   check_contains(error_of(scene + "trace.max_depth = 3\ncache.first_depth = 4\n" + ends, {"cache.kind=open"}),
-                 "--set cache.kind=open: cache.first_depth = 4 is beyond");
+                 "--set cache.kind=open: cache.first_depth = 4 is larger than");
 }
 
 TEST_CASE("reception spheres take whole rays that are spread evenly") {
@@ -155,16 +159,17 @@ TEST_CASE("reception spheres take whole rays that are spread evenly") {
   CHECK(c.trace.sphere_radius_m == 0.5);
   CHECK(of(sphere + "trace.reuse = true") == "no error");
   CHECK(of("trace.rays = \"auto\"\ntrace.reception = \"exact\"") == "no error");
-  CHECK(of(sphere + "trace.rays = \"auto\"") ==
-        "a.toml:3:14: trace.reception = \"sphere\" needs rays that are spread evenly, trace.rays = \"auto\" refines "
-        "where sequences are rare: give trace.rays a number, or use trace.reception = \"exact\"");
+  CHECK(
+      of(sphere + "trace.rays = \"auto\"") ==
+      "a.toml:3:14: trace.reception = \"sphere\" needs rays that are spread evenly, but trace.rays = \"auto\" launches "
+      "more rays where few sequences were found: give trace.rays a number, or use trace.reception = \"exact\"");
   check_contains(of("trace.sphere_radius_m = 0"), "it must be a number above 0 up to 10000 (m)");
 }
 
 TEST_CASE("waypoints are those of a known number of rays") {
   CHECK(of("output.waypoints = 100") == "no error");
   CHECK(of("output.waypoints = 100\ntrace.rays = \"auto\"") ==
-        "a.toml:3:14: output.waypoints = 100 picks evenly from a known number of rays, which trace.rays = \"auto\" is "
-        "not: give trace.rays a number, or leave output.waypoints out");
+        "a.toml:3:14: output.waypoints = 100 selects rays evenly from a known number of rays, but with trace.rays = "
+        "\"auto\" that number is not known: give trace.rays a number, or remove output.waypoints");
   CHECK(of("output.waypoints = 0\ntrace.rays = \"auto\"") == "no error");
 }

@@ -49,7 +49,7 @@ TEST_CASE("every word of every key with choices is read and written again") {
         ++words;
         CHECK(after(field, "\"" + word + "\"") == "\"" + word + "\"");
       }
-      CHECK(after(field, "\"qqqqqqqq\"").find("is not known: it must be one of \"") != std::string::npos);
+      CHECK(after(field, "\"qqqqqqqq\"").find("is not a known value: it must be one of \"") != std::string::npos);
       CHECK(after(field, "1").find("must be one of \"") != std::string::npos);
     }
   CHECK(keys >= 16);

@@ -137,17 +137,18 @@ TEST_CASE("what is missing or said twice") {
                  "a.toml:8:1: [[receiver]] has no name");
   check_contains(error_of(scene + ends + "[[receiver]]\nname = \"q\"\n"), "[[receiver]] has no position_m");
   check_contains(error_of(scene + ends + "[[receiver]]\nname = \"t\"\nposition_m = [0, 0, 0]\n"),
-                 "a.toml:9:8: receiver.name = \"t\" is taken");
+                 "a.toml:9:8: receiver.name = \"t\" is used twice");
   check_contains(error_of(scene + ends + "[[receiver]]\nname = \"\"\nposition_m = [0, 0, 0]\n"),
                  "receiver.name is empty");
   for (const char* character : {"\\n", "\\u0000", "\\u007f", "\\t"}) {
     const std::string name = std::string("name = \"a") + character + "b\"";
     const std::string error = error_of(scene + ends + "[[receiver]]\n" + name + "\nposition_m = [0, 0, 0]\n");
     check_contains(error, "a.toml:9:8: receiver.name = ");
-    check_contains(error, "has a control character");
+    check_contains(error, "contains a control character");
   }
   check_contains(error_of("scene.generate = \"--seed 1\"\n" + scene + ends), "exclude each other");
-  check_contains(error_of(scene + "[[material]]\nname = \"m\"\na = 2\npermittivity = 3\n" + ends), "give one kind");
+  check_contains(error_of(scene + "[[material]]\nname = \"m\"\na = 2\npermittivity = 3\n" + ends),
+                 "give either the first four or the last two");
 }
 
 TEST_CASE("all mistakes are reported at once, in the order of the file") {
@@ -172,8 +173,9 @@ TEST_CASE("a key that was taken away says what to do instead; false, which every
     return error_of(scene + keys + ends, sets);
   };
   const std::string said =
-      "trace.join was taken away: rays towards the horizon find more paths in the same time; remove the key, and leave "
-      "trace.directions at \"horizon\"";
+      "trace.join no longer exists, because rays towards the horizon find more paths in the same time: remove the key, "
+      "and "
+      "keep trace.directions = \"horizon\"";
   CHECK(with("trace.join = true\n") == "a.toml:2:7: " + said);
   CHECK(with("trace.join = \"yes\"\n") == "a.toml:2:7: " + said);
   CHECK(with("", {"trace.join=true"}) == "--set trace.join=true: " + said);
@@ -193,13 +195,13 @@ TEST_CASE("diffraction, transmission and scattering are refused beside what foll
   for (const std::string key : {"trace.diffraction", "trace.transmission", "trace.scattering"}) {
     CAPTURE(key);
     CHECK(with(key + " = true\ntrace.reception = \"sphere\"\n") ==
-          "a.toml:3:19: trace.reception = \"sphere\" receives reflected rays alone, " + key +
-              " = true asks for more: set it to false, or use trace.reception = \"exact\"");
+          "a.toml:3:19: trace.reception = \"sphere\" receives reflected rays only, but " + key +
+              " = true: set it to false, or use trace.reception = \"exact\"");
     CHECK(with(key + " = false\ntrace.reception = \"sphere\"\n") == "no error");
   }
   CHECK(with("trace.transmission = true\noutput.waypoints = 5\n") ==
-        "a.toml:3:20: output.waypoints = 5 follows rays that are reflected, and with trace.transmission = true they "
-        "split: leave output.waypoints out, or set trace.transmission to false");
+        "a.toml:3:20: output.waypoints = 5 needs rays that do not split, but with trace.transmission = true they split "
+        "at every surface: remove output.waypoints, or set trace.transmission to false");
   CHECK(with("trace.diffraction = true\ntrace.scattering = true\noutput.waypoints = 5\n") == "no error");
   // The place is that of the later of the two keys, or of --set.
   const std::string sphere = "trace.reception = \"sphere\"\n";
@@ -209,7 +211,7 @@ TEST_CASE("diffraction, transmission and scattering are refused beside what foll
   // Each contradiction is told.
   const std::string both = with("trace.reception = \"sphere\"\n" + all);
   for (const std::string key : {"trace.diffraction", "trace.transmission", "trace.scattering"})
-    check_contains(both, key + " = true asks for more");
+    check_contains(both, key + " = true: set it to false");
 }
 
 TEST_CASE("orders by name or mnemonic; launch shapes that contradict them are refused") {
@@ -220,12 +222,13 @@ TEST_CASE("orders by name or mnemonic; launch shapes that contradict them are re
         "no error");
   CHECK(with("order.method = \"H3DH3DH\"\nlaunch.shape = \"3d\"\n") == "no error");
   CHECK(with("order.method = \"H3DH2DH\"\nlaunch.shape = \"1d\"\n") ==
-        "a.toml:3:16: order.method = \"H3DH2DH\" is a launch of 2 dimensions, launch.shape = \"1d\" is not: leave "
-        "launch.shape out");
-  check_contains(with("launch.local_size = 48\n"), "a.toml:2:21: launch.local_size = 48 is no power of two: give 32");
+        "a.toml:3:16: order.method = \"H3DH2DH\" needs a launch of 2 dimensions, but launch.shape = \"1d\" is set: "
+        "remove launch.shape");
+  check_contains(with("launch.local_size = 48\n"),
+                 "a.toml:2:21: launch.local_size = 48 is not a power of two: give 32");
   check_contains(with("launch.local_size = 2048\n"), "out of range");
   check_contains(with("order.bin_num = 0\n"), "out of range");
-  check_contains(with("launch.shape = \"4d\"\n"), "is not known");
+  check_contains(with("launch.shape = \"4d\"\n"), "is not a known value");
 }
 
 TEST_CASE("--set overrides the file, as TOML or as a bare word") {

@@ -65,5 +65,5 @@ TEST_CASE("values that are no such thing, with their place") {
   check_contains(error_of(scene + ends + grid + "stepp_m = 1\n"), "did you mean \"receiver_grid.step_m\"?");
   check_contains(error_of(scene + ends + grid + "x_min_m = inf\n"), "receiver_grid.x_min_m = inf is out of range");
   check_contains(error_of(scene + ends + "[receiver_grid]\nname = \"map\"\n"), "write [[receiver_grid]]");
-  check_contains(error_of(scene + ends + grid + grid), "a.toml:11:8: receiver_grid.name = \"map\" is taken");
+  check_contains(error_of(scene + ends + grid + grid), "a.toml:11:8: receiver_grid.name = \"map\" is used twice");
 }

@@ -151,7 +151,7 @@ TEST_CASE("--set reaches the new keys") {
 
 TEST_CASE("values that are no such thing, with their place") {
   check_contains(error_of(scene + "trace.rays = \"many\"\n" + ends),
-                 "a.toml:2:14: trace.rays must be an integer from 1 to 2147483648 (rays a transmitter) or \"auto\"");
+                 "a.toml:2:14: trace.rays must be an integer from 1 to 2147483648 (rays per transmitter) or \"auto\"");
   check_contains(error_of(scene + "links.transmitters = 3\n" + ends),
                  "a.toml:2:22: links.transmitters must be a string or an array of strings, not an integer");
   check_contains(error_of(scene + "links.receivers = [\"a\", 3]\n" + ends),
@@ -164,7 +164,7 @@ TEST_CASE("values that are no such thing, with their place") {
                  "did you mean \"receiver\"?");
   check_contains(error_of(scene + ends + "[[mount]]\nname = \"m\"\nof = \"x\"\n"), "did you mean \"mount.on\"?");
   check_contains(error_of(scene + ends + "[[vehicle_type]]\nname = \"m\"\nmodel = \"truk\"\n"),
-                 "a.toml:10:9: vehicle_type.model = \"truk\" is not known");
+                 "a.toml:10:9: vehicle_type.model = \"truk\" is not a known value");
   const auto waypoints = [](const std::string& value) {
     return error_of(scene + ends + "[[track]]\nid = \"e\"\nwaypoints = " + value + "\n");
   };
@@ -183,13 +183,14 @@ TEST_CASE("what contradicts itself, with its place") {
   CHECK(error_of(scene + "[trajectories]\ngenerate = \"--vehicles 3\"\n" + ends + track) == "no error");
   check_contains(error_of(scene + ends + "[[mount]]\nname = \"m\"\n"), "a.toml:8:1: [[mount]] needs vehicles: give");
   check_contains(error_of(scene + ends + track + "[[mount]]\nname = \"m\"\n[[mount]]\nname = \"m\"\n"),
-                 "a.toml:14:8: mount.name = \"m\" is taken");
-  check_contains(error_of(scene + ends + track + track), "a.toml:12:6: track.id = \"ego\" is taken: ids are unique");
+                 "a.toml:14:8: mount.name = \"m\" is used twice");
+  check_contains(error_of(scene + ends + track + track),
+                 "a.toml:12:6: track.id = \"ego\" is used twice: each id must be unique");
   check_contains(error_of(scene + ends + "[[vehicle_type]]\nname = \"m\"\n[[vehicle_type]]\nname = \"m\"\n"),
-                 "a.toml:11:8: vehicle_type.name = \"m\" is taken");
+                 "a.toml:11:8: vehicle_type.name = \"m\" is used twice");
   check_contains(
       error_of(scene + ends + "[[track]]\nid = \"e\"\nwaypoints = [[0, 1, 2, 3], [2, 1, 2, 3], [2, 1, 2, 3]]\n"),
-      "a.toml:10:13: track.waypoints[2] is at 2 s, the one before it at 2 s: time must increase");
+      "a.toml:10:13: track.waypoints[2] is at 2 s, but the waypoint before it is at 2 s: times must increase");
   check_contains(error_of(scene + "time.start_s = 3\ntime.end_s = 2\n" + ends),
                  "a.toml:3:14: time.end_s = 2 is before time.start_s = 3");
   check_contains(error_of(scene + ends + "[[track]]\nid = \"e\"\n"), "a.toml:8:1: [[track]] has no waypoints: give it");
@@ -201,12 +202,12 @@ TEST_CASE("a refined launch goes along the hilbert curve and nothing else") {
   CHECK(error_of(automatic + "trace.directions = \"hilbert\"\norder.method = \"none\"\n" + ends) == "no error");
   CHECK(error_of(automatic + "order.method = \"WS\"\n" + ends) == "no error");
   CHECK(error_of(automatic + "trace.directions = \"random\"\n" + ends) ==
-        "a.toml:3:20: trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"random\": leave "
-        "trace.directions out, or give trace.rays a number");
+        "a.toml:3:20: trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not \"random\": "
+        "remove trace.directions, or give trace.rays a number");
   for (const std::string method : {"Z", "direction-origin", "auto"})
     check_contains(error_of(automatic + "order.method = \"" + method + "\"\n" + ends),
-                   "a.toml:3:16: trace.rays = \"auto\" launches rays in an order of its own, order.method = \"" +
-                       method + "\" another: leave order.method out");
+                   "a.toml:3:16: trace.rays = \"auto\" launches rays in its own order, but order.method = \"" + method +
+                       "\" asks for another one: remove order.method");
   // What stands last is to blame, and --set comes after the file.
   check_contains(error_of(scene + "order.method = \"Z\"\n" + ends, {"trace.rays=auto"}), "--set trace.rays=auto: ");
   CHECK(error_of(automatic + "order.method = \"Z\"\n" + ends, {"trace.rays=1000"}) == "no error");

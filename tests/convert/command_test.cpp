@@ -64,7 +64,7 @@ TEST_CASE("the suffix decides where it says enough") {
   CHECK(contains(unknown.err, "add --to with one of sionna, deepmimo"));
   const Outcome other = convert({run, "--to", "ns3", "-o", folder.path("out.npz")});
   CHECK(other.code == 2);
-  CHECK(contains(other.err, "the suffix of sionna, but --to says ns3"));
+  CHECK(contains(other.err, "this suffix belongs to the format sionna, but --to says ns3"));
 }
 
 TEST_CASE("errors say what to do, and leave nothing behind") {
@@ -79,8 +79,10 @@ TEST_CASE("errors say what to do, and leave nothing behind") {
   CHECK(convert({run, "-o", folder.path("x/out.npz"), "--frames", "12"}).code == 2);
   CHECK(folder.entries() == 1);  // the run
 
-  CHECK(contains(convert({run, "--to", "sionna", "-o", run}).err, "is a folder, but sionna is a file"));
-  CHECK(contains(convert({run, "--to", "ns3", "-o", folder.file("a", "b")}).err, "is a file, but ns3 is a folder"));
+  CHECK(
+      contains(convert({run, "--to", "sionna", "-o", run}).err, "this is a folder, but the format sionna is one file"));
+  CHECK(contains(convert({run, "--to", "ns3", "-o", folder.file("a", "b")}).err,
+                 "this is a file, but the format ns3 is a folder"));
   const Outcome full = convert({run, "--to", "ns3", "-o", run});
   CHECK(full.code == 3);
   CHECK(contains(full.err, "is there already"));

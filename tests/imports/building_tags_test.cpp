@@ -44,7 +44,7 @@ TEST_CASE("heights: height, then levels, then the default") {
   CHECK(ask({{"building:levels", "2,5"}}).shape->top_m == 7.5);
   const Answer nothing = ask({{"building", "yes"}});
   CHECK(nothing.shape->top_m == 10);
-  CHECK(nothing.guessed.at("neither height nor levels: the default height") == 1);
+  CHECK(nothing.guessed.at("neither height nor levels given: default height used") == 1);
   ImportOptions options;
   options.level_height_m = 3.5;
   options.default_height_m = 7;

@@ -102,7 +102,7 @@ TEST_CASE("polyconvert's polygons and the map itself, in the coordinates of netc
   const Imported plain = import_text(read_file(base + "_plain.poly.xml"), folder);
   CHECK(plain.summary.buildings == 3);
   CHECK(plain.summary.courtyards == 1);
-  CHECK(plain.summary.guessed.at("neither height nor levels: the default height") == 4);
+  CHECK(plain.summary.guessed.at("neither height nor levels given: default height used") == 4);
 
   // The middle of the house is where the map has it.
   const auto reference = find_georeference(polygons.summary.scene);

@@ -66,7 +66,7 @@ TEST_CASE("ways that many multipolygons name are not assembled again and again")
   for (int i = 0; i < 4990; ++i) comb.emplace_back(i % 4 == 0 || i % 4 == 3 ? 0 : 90, i / 2 * 0.03);
   const int way = map.way(comb, {});
   for (int i = 0; i < 2000; ++i) map.relation({{way, "outer"}}, {{"building", "yes"}});
-  CHECK(summary_of(map.text()).left_out.at("multipolygon of ways that are in many others") > 1980);
+  CHECK(summary_of(map.text()).left_out.at("multipolygon with ways that belong to too many others") > 1980);
 }
 
 TEST_CASE("towers of polygons, and parts within them, take no square of their number") {

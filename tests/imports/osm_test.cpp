@@ -87,7 +87,7 @@ TEST_CASE("a relation and its outer way both tagged: the courtyard stays open") 
   const auto [summary, scene] = import_text(map.text(), folder);
   CHECK(summary.buildings == 1);
   CHECK(summary.courtyards == 1);
-  CHECK(summary.left_out.at("outline that is there twice") == 1);
+  CHECK(summary.left_out.at("outline that occurs twice") == 1);
   CHECK(std::abs(volume_m3(scene, "relation") - 1400 * 11) < 11 * area_error(280));
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("Simple 3D Buildings: parts instead of their outline, an outline witho
   const auto [summary, scene] = import_text(map.text(), folder);
   CHECK(summary.buildings == 1);
   CHECK(summary.parts == 2);
-  CHECK(summary.left_out.at("outline of which the parts are built") == 1);
+  CHECK(summary.left_out.at("outline whose parts are built instead") == 1);
   const std::string id = "way_" + std::to_string(tower);
   CHECK(bottom_m(scene, id) == 5);
   CHECK(std::abs(volume_m3(scene, id) - 400 * 25) < 25 * area_error(80));
@@ -127,7 +127,7 @@ TEST_CASE("clipped and broken outlines are left out, and say why") {
   for (const auto& [reason, count] : summary.left_out) left_out += count;
   CHECK(left_out == 4);
   CHECK(summary.left_out.size() == 4);
-  CHECK(summary.left_out.at("outline of which a node is missing, as clipped at the border of an extract") == 1);
+  CHECK(summary.left_out.at("outline with a missing node, as if clipped at the border of an extract") == 1);
   CHECK(describe(summary).find("outline that crosses itself") != std::string::npos);
 }
 

@@ -96,7 +96,7 @@ TEST_CASE("what cannot be read is named with its line") {
     CAPTURE(shape);
     CHECK_THROWS_WITH_AS(import_text(text, folder), doctest::Contains("map:5: <poly id=\"a\">"), InputError);
   }
-  CHECK_THROWS_WITH_AS(import_text("<additional><poly", folder), doctest::Contains("no XML"), InputError);
+  CHECK_THROWS_WITH_AS(import_text("<additional><poly", folder), doctest::Contains("not well-formed XML"), InputError);
   CHECK_THROWS_WITH_AS(import_text(file("<location netOffset=\"x\"/>"), folder), doctest::Contains("netOffset"),
                        InputError);
   CHECK_THROWS_WITH_AS(import_text(file("<poly id=\"a\" type=\"building\" geo=\"1\" shape=\"1,2\"/>"), folder),

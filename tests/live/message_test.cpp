@@ -125,7 +125,7 @@ TEST_CASE("depth is bounded before anything is built") {
     std::string deep = R"({"message":)";
     for (int k = 0; k < 200000; ++k) deep += bracket == '[' ? "[" : "{\"a\":";
     CHECK(code_of(deep) == "bad_json");
-    CHECK(text_of(deep).find("nest deeper") != std::string::npos);
+    CHECK(text_of(deep).find("nested deeper") != std::string::npos);
   }
 }
 

@@ -80,13 +80,14 @@ TEST_CASE("CSV errors name file, line and column") {
     CHECK_THROWS_WITH_AS(read(content), Contains(message), InputError);
   };
   const std::string header = "time,id,x,y,z\n";
-  fails("time,id,x\n", "drive.csv:1: the header has no column 'y'; a header names the columns time,id,x,y");
+  fails("time,id,x\n",
+        "drive.csv:1: the header has no column 'y'; the first line must be a header with the columns time,id,x,y");
   fails("0,a,1,2\n", "drive.csv:1: the header has no column 'time'");
   fails("\n\ntime;id;x;y\n", "drive.csv:3: the header has no column 'time'");
   fails("time;id;x;y\n", "separated by commas, not by semicolons");
   fails("time,id,x,y,X\n", "drive.csv:1: the header has the column 'x' twice");
-  fails("# nothing\n", "drive.csv: is empty");
-  fails(header, "drive.csv: has no vehicle in it");
+  fails("# nothing\n", "drive.csv: the file is empty");
+  fails(header, "drive.csv: the file contains no vehicle");
   fails(header + "0,a,1,2\n", "drive.csv:2: the row has 4 cells, the header 5");
   fails(header + "0,a,1,2,3,4\n", "drive.csv:2: the row has 6 cells, the header 5");
   fails(header + "0,a,1,2,3\n\n1,a,nan,2,3\n", "drive.csv:4: column 3 (x): 'nan' is not a finite number");
@@ -98,8 +99,8 @@ TEST_CASE("CSV errors name file, line and column") {
   fails(header + "1,a,1,2,3\n1,b,1,2,3\n1,a,1,2,3\n",
         "drive.csv:4: vehicle 'a' has a second sample at 1 s, the first one is in line 2");
   fails(header + "1,a,1,2,3\n0,a,1,2,3\n", "drive.csv:3: vehicle 'a': time goes backwards, from 1 s in line 2 to 0 s");
-  fails(std::string(2 << 20, 'x'), "drive.csv:1: the line has no end");
-  fails(std::string("\xFF\xFEt\0i\0", 6), "drive.csv: is a text file in UTF-16; save it as UTF-8");
+  fails(std::string(2 << 20, 'x'), "drive.csv:1: the line does not end");
+  fails(std::string("\xFF\xFEt\0i\0", 6), "drive.csv: this is a text file in UTF-16; save it as UTF-8");
 }
 
 TEST_CASE("a row at SUMO's invalid value is of a vehicle off the network, which is absent then") {

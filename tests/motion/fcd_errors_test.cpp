@@ -44,9 +44,9 @@ TEST_CASE("ids and types without control characters") {
   const std::string of = "x=\"1\" y=\"2\" angle=\"90\" speed=\"3\"";
   for (const std::string character : {"&#10;", "&#9;", "&#127;"}) {
     fails(fcd(timestep("0", "<vehicle id=\"a" + character + "b\" type=\"car\" " + of + "/>")),
-          "its id or type has a control character");
+          "its id or type contains a control character");
     fails(fcd(timestep("0", "<vehicle id=\"a\" type=\"c" + character + "r\" " + of + "/>")),
-          "drive.xml:3: <vehicle id=\"a\">: its id or type has a control character");
+          "drive.xml:3: <vehicle id=\"a\">: its id or type contains a control character");
   }
 }
 
@@ -61,11 +61,11 @@ TEST_CASE("times and ids out of order") {
 TEST_CASE("files of another kind") {
   fails("<?xml version=\"1.0\"?>\n<routes/>", "drive.xml:2: the root element is <routes>");
   fails("<routes/>", "run sumo with --fcd-output FILE");
-  fails("<fcd-export/>", "drive.xml: has no <timestep> in it");
-  fails(fcd(timestep("0", "")), "drive.xml: has no vehicle in it");
-  fails(fcd("<timestep time=\"0\"/>\n" + good), "drive.xml:4: <vehicle> stands outside of a <timestep>");
-  fails("", "drive.xml: is empty");
-  fails("  \r\n ", "drive.xml: is empty");
+  fails("<fcd-export/>", "drive.xml: the file has no <timestep>");
+  fails(fcd(timestep("0", "")), "drive.xml: the file contains no vehicle");
+  fails(fcd("<timestep time=\"0\"/>\n" + good), "drive.xml:4: <vehicle> is outside of a <timestep>");
+  fails("", "drive.xml: the file is empty");
+  fails("  \r\n ", "drive.xml: the file is empty");
   const TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(read_trajectories(folder.path() / "none.xml"), Contains("none.xml: no such file"), InputError);
   CHECK_THROWS_WITH_AS(read_trajectories(folder.path()), Contains("is a folder"), InputError);
@@ -125,9 +125,10 @@ TEST_CASE("unknown types are errors where there is no default; sizes and scale m
   TrajectoryOptions options;
   options.default_type.reset();
   fails(fcd(timestep("0", car("x=\"1\" y=\"2\" type=\"spaceship\""))),
-        "drive.xml:3: the vehicle type 'spaceship' is not known: add a [[vehicle_type]] with its length_m", options);
+        "drive.xml:3: the vehicle type 'spaceship' is unknown: add a [[vehicle_type]] with its length_m", options);
   options.types = {{"spaceship", 0, 1, 1}};
-  CHECK_THROWS_WITH_AS(read_text(fcd(""), options), Contains("vehicle type 'spaceship': 0 m is no size"), ConfigError);
+  CHECK_THROWS_WITH_AS(read_text(fcd(""), options), Contains("vehicle type 'spaceship': 0 m is not a valid size"),
+                       ConfigError);
   options.types.clear();
   options.scale = 0;
   CHECK_THROWS_WITH_AS(read_text(fcd(""), options), Contains("the scale of trajectories is 0"), ConfigError);
@@ -138,7 +139,7 @@ TEST_CASE("a small file that unpacks to gigabytes ends early, with the limit") {
   const std::string blanks(size_t{120} << 20, ' '), letters(size_t{2} << 20, 'a');
   fails(gzip(head + blanks + "</timestep></fcd-export>", Z_BEST_COMPRESSION),
         "drive.xml: unpacks to more than 300 times its");
-  fails(gzip("time,id,x,y\n" + blanks, Z_BEST_COMPRESSION), "drive.xml:2: the line has no end");
+  fails(gzip("time,id,x,y\n" + blanks, Z_BEST_COMPRESSION), "drive.xml:2: the line does not end");
   const std::string too_long = " of more than 1048576 bytes begins here";
   for (const bool packed : {false, true})
     for (const char* open : {"<vehicle id=\"", "<!--", "<"}) {
@@ -156,5 +157,5 @@ TEST_CASE("a vehicle at SUMO's invalid value is absent, whatever else is unknown
   REQUIRE(t.tracks.size() == 1);
   CHECK(t.tracks[0].samples.size() == 2);
   check_contains(t.warnings.at(1), "1 samples have x or y = -1073741824");
-  fails(fcd(timestep("0", off)), "drive.xml: has no vehicle in it");
+  fails(fcd(timestep("0", off)), "drive.xml: the file contains no vehicle");
 }

@@ -112,7 +112,7 @@ TEST_CASE("a vehicle that never moves and has no angle looks along +x, and says 
   const Trajectories t = read_text(fcd(timestep("0", "<vehicle id=\"parked\" x=\"1\" y=\"2\"/>")));
   CHECK(t.tracks.at(0).samples[0].yaw_rad == 0);
   REQUIRE(t.warnings.size() == 1);
-  check_contains(t.warnings[0], "the heading of 'parked' is neither given nor told by motion");
+  check_contains(t.warnings[0], "the heading of 'parked' is not given, and they do not move");
 }
 
 TEST_CASE("SUMO's default of two decimals is told, since it spoils phases") {
@@ -146,7 +146,7 @@ TEST_CASE("persons, containers and riders") {
   const Trajectories cars = read_text(text);
   REQUIRE(cars.tracks.size() == 1);
   REQUIRE(cars.warnings.size() == 3);
-  check_contains(cars.warnings[0], "drive.xml:3: <signal> is not known and was skipped");
+  check_contains(cars.warnings[0], "drive.xml:3: <signal> is unknown and was skipped");
   check_contains(cars.warnings[1], "2 samples of persons and containers were left out");
   check_contains(cars.warnings[2], "2 samples of riders were left out");
   TrajectoryOptions options;
@@ -181,7 +181,7 @@ TEST_CASE("tracks come by first appearance, then id, and types are shared") {
   CHECK(t.last_time_s == 2);
   CHECK(t.step_s == 1);
   REQUIRE(t.warnings.size() == 2);
-  check_contains(t.warnings[0], "no size is known for the vehicle types 'spaceship': 5 x 1.8 x 1.5 m is used");
+  check_contains(t.warnings[0], "the sizes of the vehicle types 'spaceship' are unknown: 5 x 1.8 x 1.5 m is used");
   check_contains(t.warnings[1], "1 samples change the type of their vehicle");
 }
 

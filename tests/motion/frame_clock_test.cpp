@@ -33,7 +33,7 @@ TEST_CASE("clocks that cannot run") {
   for (double last : {-1.0, inf, not_given}) {
     CHECK_THROWS_WITH_AS(FrameClock(0, last, 1), Contains("the end must not be before"), ConfigError);
   }
-  CHECK_THROWS_WITH_AS(FrameClock(0, 1e9, 1e-9), Contains("take a longer time step"), ConfigError);
+  CHECK_THROWS_WITH_AS(FrameClock(0, 1e9, 1e-9), Contains("use a longer time step"), ConfigError);
 }
 
 TEST_CASE("who is present in a frame") {

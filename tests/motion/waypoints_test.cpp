@@ -83,8 +83,8 @@ TEST_CASE("errors name the waypoint") {
   fails({}, "'a' has no waypoint");
   fails({{0, {0, 0, 0}}, {1, {0, nan, 0}}}, "waypoint 1 of 'a': nan is not a finite number");
   fails({{nan, {0, 0, 0}}}, "waypoint 0 of 'a': nan is not a finite number");
-  fails({{0, {0, 0, 0}}, {0, {1, 0, 0}}}, "waypoint 1 of 'a': time must increase, but 0 s follows on 0 s");
-  fails({{0, {0, 0, 0}}, {-1, {1, 0, 0}}}, "but -1 s follows on 0 s");
+  fails({{0, {0, 0, 0}}, {0, {1, 0, 0}}}, "waypoint 1 of 'a': time must increase, but 0 s follows 0 s");
+  fails({{0, {0, 0, 0}}, {-1, {1, 0, 0}}}, "but -1 s follows 0 s");
   const std::array twice = {WaypointTrack{"a", car, {{0, {0, 0, 0}}}}, WaypointTrack{"a", car, {{0, {0, 0, 0}}}}};
-  CHECK_THROWS_WITH_AS(connect_waypoints(twice), Contains("'a' has waypoints twice"), InputError);
+  CHECK_THROWS_WITH_AS(connect_waypoints(twice), Contains("'a' is defined twice"), InputError);
 }

@@ -60,7 +60,7 @@ TEST_CASE("aliases map names with and without prefixes") {
   mine.permittivity = 3;
   CHECK(resolve(named("tiles"), {mine}, scene) == Material{.name = "mine", .a = 3});
   scene.material_alias["Facade.001"] = "bricks";
-  CHECK_THROWS_WITH_AS(resolve(named("Facade.001"), {}, scene), Contains("is mapped to 'bricks', which is no known"),
+  CHECK_THROWS_WITH_AS(resolve(named("Facade.001"), {}, scene), Contains("is mapped to 'bricks', which is not a known"),
                        ConfigError);
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("Mitsuba errors name file, line and element") {
         "there is no file");  // a longer name than any file can have
   fails("<shape type=\"obj\"><string name=\"filename\" value=\"/\"/></shape>", "is a folder");
   fails("<shape type=\"ply\"><string name=\"filename\" value=\"/\"/></shape>", "is a folder");
-  fails(square("<ref name=\"bsdf\" id=\"nothing\"/>"), "refers to the material 'nothing', which no <bsdf>");
+  fails(square("<ref name=\"bsdf\" id=\"nothing\"/>"), "refers to the material 'nothing', but no <bsdf>");
   fails(square(""), "mesh 'square' has no material; set scene.default_material");
   fails("<bsdf type=\"diffuse\" id=\"mat-Facade\"/>" + square("<ref id=\"mat-Facade\"/>"),
         "square.ply: mesh 'square': the material 'mat-Facade' is not known; known ITU materials: vacuum, concrete");

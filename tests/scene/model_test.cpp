@@ -114,12 +114,13 @@ TEST_CASE("models: errors and warnings") {
   CHECK_THROWS_WITH_AS(load("circle.gltf", nodes("[" + circle + "]")), Contains("circle.gltf: there are more than"),
                        InputError);
   CHECK_THROWS_WITH_AS(load("deep.gltf", nodes(std::string(1000000, '[') + std::string(1000000, ']'))),
-                       Contains("deep.gltf: its JSON nests deeper than 100"), InputError);
+                       Contains("deep.gltf: its JSON is nested deeper than 100"), InputError);
   // Of a format that assimp knows by its first bytes, and that nobody asked for.
-  CHECK_THROWS_WITH_AS(load("other.glb", "quick3Ds" + std::string(100, '\x7f')), Contains("other.glb: is no glTF"),
-                       InputError);
-  CHECK_THROWS_WITH_AS(load("none.gltf", "{\"nodes\":"), Contains("none.gltf: is no glTF"), InputError);
-  CHECK_THROWS_WITH_AS(load("d.stl", "solid d\n"), Contains("the format is not known; known: Mitsuba XML"), InputError);
+  CHECK_THROWS_WITH_AS(load("other.glb", "quick3Ds" + std::string(100, '\x7f')),
+                       Contains("other.glb: is not a glTF file"), InputError);
+  CHECK_THROWS_WITH_AS(load("none.gltf", "{\"nodes\":"), Contains("none.gltf: is not a glTF file"), InputError);
+  CHECK_THROWS_WITH_AS(load("d.stl", "solid d\n"),
+                       Contains("the file format is unknown; supported formats: Mitsuba XML"), InputError);
   CHECK_THROWS_WITH_AS(load("e.obj", ""), Contains("the file is empty"), InputError);
   CHECK_THROWS_WITH_AS(load("f.ply", "version https://git-lfs.github.com/spec/v1\n"), Contains("git lfs pull"),
                        InputError);

@@ -100,7 +100,8 @@ TEST_CASE("PLY errors name the element") {
   fails(test::square_ply("3 0 1 1.5\n", 1), "'1.5' is not a whole number");
   fails(test::square_ply("3 0 1 2\n3 0 1\n", 2), "face 1 of 2: the file ends here");
   fails(test::square_ply("3 0 1 2\n", 4000000), "the header declares 4000000 entries of element 'face'");
-  fails(test::square_ply("200 0 1 2\n", 1), "property 'vertex_indices' has the length 200, more than the file holds");
+  fails(test::square_ply("200 0 1 2\n", 1),
+        "property 'vertex_indices' has the length 200, which is more than the file contains");
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n";
   const std::string z = "property float z\n", face = "element face 1\nproperty list uchar int vertex_indices\n";
   fails(head + z + face + "end_header\n0 nan 0\n3 0 0 0\n", "vertex 0 of 1: y is nan, not a finite number");
@@ -114,7 +115,7 @@ TEST_CASE("PLY errors name the element") {
   fails("ply\nformat ascii 1.0\n" + face + "end_header\n3 0 0 0\n", "no element 'vertex'");
   fails("ply\nformat ascii 1.0\nelement vertex many\nend_header\n",
         "mesh.ply:3: element 'vertex' has the count 'many'");
-  fails("ply\nformat ascii 1.0\nelement vertex 18446744073709551616\nend_header\n", "not a whole number");
+  fails("ply\nformat ascii 1.0\nelement vertex 18446744073709551616\nend_header\n", "is not an integer");
   fails("ply\nformat binary 1.0\nend_header\n", "mesh.ply:2: unknown PLY format 'binary'");
   fails("ply\nelement vertex 1\nend_header\n", "no 'format' line");
   fails("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "before the first element");

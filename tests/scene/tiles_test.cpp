@@ -143,7 +143,7 @@ TEST_CASE("numbers go through the world: static tiles, then instance by instance
 TEST_CASE("too many tiles: an error that names the key and a value that would do") {
   const Scene scene = scene_of({square(8, 0.5)});
   CHECK_THROWS_WITH_AS(TileTable(scene, {}, {}, 1e-5), doctest::Contains("trace.tile_m = 1e-05 cuts"), ConfigError);
-  CHECK_THROWS_WITH_AS(TileTable(scene, {}, {}, 1e-5), doctest::Contains("trace.tile_m = 0.01024 would do"),
+  CHECK_THROWS_WITH_AS(TileTable(scene, {}, {}, 1e-5), doctest::Contains("use trace.tile_m = 0.01024 or more"),
                        ConfigError);
   CHECK(make_tiles(scene, 0.01024).size() <= TileTable::most_tiles / 64);
   // Every instance of a model counts: 65,536 tiles of 6.25 cm each.

@@ -136,6 +136,6 @@ TEST_CASE("the mirror image of a model is the model") {
 
 TEST_CASE("an unknown kind and an impossible size are errors") {
   CHECK_THROWS_WITH_AS(vehicle_model("none", 2, 1, 1), Contains("'none'; known: car, van, truck"), ConfigError);
-  CHECK_THROWS_WITH_AS(vehicle_model("car", 5, 0, 1.5), Contains("0 m is no size"), ConfigError);
+  CHECK_THROWS_WITH_AS(vehicle_model("car", 5, 0, 1.5), Contains("0 m is not a valid size"), ConfigError);
   CHECK_THROWS_WITH_AS(vehicle_model("car", std::nan(""), 1.8, 1.5), Contains("nan m"), ConfigError);
 }

@@ -74,7 +74,7 @@ TEST_CASE("more pairs than a drive or a frame can have are an error that says so
 TEST_CASE("types, names and steps that are not known") {
   const TemporaryFolder folder;
   const std::string odd = two_vehicles("spaceship");
-  check_contains(error_of<InputError>(drive(folder, odd)), "the vehicle type 'spaceship' is not known");
+  check_contains(error_of<InputError>(drive(folder, odd)), "the vehicle type 'spaceship' is unknown");
   Config config = drive(folder, odd);
   config.trajectories.default_type = "truck";
   const World world(config, static_scene());

@@ -39,7 +39,7 @@ function missed_text() {
 
 // Row k of `links` as rows of a table.
 function link_figures(k) {
-  if (k < 0) return [["Path gain", "not asked for, or left out of the page"]];
+  if (k < 0) return [["Path gain", "this link was not computed, or is not on the page"]];
   if (!links.paths[k]) return [["Path gain", "no path"]];
   return [
     ["Path gain", `${fixed(links.gain_db[k], 2)} dB, ${links.paths[k]} ${links.paths[k] === 1 ? "path" : "paths"}`],

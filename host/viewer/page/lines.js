@@ -31,7 +31,7 @@ class PathLines {
   reserve(segments) {
     if (this.positions && this.positions.length >= 6 * segments) return;
     this.positions = new Float32Array(6 * segments);
-    this.colours = new Uint8Array(8 * segments);  // four bytes a point: aligned
+    this.colours = new Uint8Array(8 * segments);  // four bytes per point: aligned
     this.object.geometry.dispose();
     const geometry = new THREE.BufferGeometry();
     this.position_attribute = new THREE.BufferAttribute(this.positions, 3);

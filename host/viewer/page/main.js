@@ -24,8 +24,8 @@ const renderer = (() => {
   try {
     return new THREE.WebGLRenderer({canvas, antialias: true});
   } catch (error) {
-    warnings.push("This browser draws no three-dimensional pictures (WebGL is missing or switched off); "
-                  + "paths, filters and charts are here all the same.");
+    warnings.push("This browser cannot draw the three-dimensional view (WebGL is missing or switched off); "
+                  + "paths, filters and charts work nevertheless.");
     return null;
   }
 })();
@@ -86,7 +86,7 @@ function show_frame(row) {
   state.selected = chosen.find(state.frame);
   refilter();
   if (state.selected >= 0) show_path(control("details"), state.frame, state.selected);
-  else if (chosen.link) show_hint(control("details"), "The chosen path is not in this frame.");
+  else if (chosen.link) show_hint(control("details"), "The selected path does not exist in this frame.");
   else if (grid_of[filters.rx] >= 0) show_cell(control("details"), state.frame, filters.rx, coverage.rows[filters.rx]);
 }
 
@@ -135,7 +135,7 @@ function go_to(role, i) {
     return;
   }
   const radio = state.radios.find((one) => one[role] === i);
-  if (!radio) return show_hint(control("details"), "That antenna is not there in this frame.");
+  if (!radio) return show_hint(control("details"), "This antenna is not present in this frame.");
   select_radio(radio);
   orbit.focus(new THREE.Vector3().fromArray(radio.m));
 }
