@@ -76,8 +76,7 @@ Table links_table() {
   return {
       .name = "links",
       .doc =
-          "Which links, pairs of a transmitter and a receiver, are computed. Two ends at the same place on one "
-          "vehicle, "
+          "Which links (pairs of a transmitter and a receiver) are computed. Two ends at the same place on a vehicle, "
           "such as the two roles of one antenna, are never linked.",
       .fields = {
           {.name = "max_distance_m",

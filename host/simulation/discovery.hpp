@@ -1,4 +1,4 @@
-// Discovery: rays from every transmitter leave the distinct sequences of surfaces that they lived through.
+// Discovery: launches rays from every transmitter and collects the distinct sequences of surfaces that they meet.
 // Launches are cut into batches, which bound the memory, whatever the number of rays; a batch whose sequences do not
 // fit grows the set and is traced again.
 #pragma once
@@ -16,7 +16,7 @@ struct DiscoveryOptions {
   bool keep_ages = false;             // see passes/sequences.hpp
   HitFinder* finder = nullptr;        // a ray cache; not given: rays are traced
   RayFollower* follower = nullptr;    // of the launches that are followed
-  const FrameWatch* watch = nullptr;  // is told of the rays that were launched
+  const FrameWatch* watch = nullptr;  // gets the number of launched rays
 };
 
 class Discovery {
@@ -35,9 +35,9 @@ class Discovery {
 
  private:
   void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
-  // Did the set of sequences have to grow? Then what was traced is to be traced again.
+  // True if the set of sequences had to grow; the batch must then be traced again.
   bool grew();
-  // Room for batches of so many rays, in everything that holds something of each.
+  // Makes room for batches of this many rays, in all buffers with an entry per ray.
   void reserve(uint64_t rays);
   void tell(uint64_t done, uint64_t total) const {
     if (watch_) watch_->tell("rays", done, total);
@@ -49,7 +49,7 @@ class Discovery {
   const FrameWatch* watch_;
   uint64_t batch_rays_;
   RaySource source_;
-  std::optional<TracedHits> traced_;  // where no finder was given
+  std::optional<TracedHits> traced_;  // if no finder was given
   HitFinder& finder_;
   Sequences sequences_;
   Wavefront wavefront_;

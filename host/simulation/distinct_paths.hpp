@@ -1,5 +1,5 @@
 // Paths in the order of their links, each once.
-// Rows may come in any order; the result depends on what they are alone, and not on how many threads made it.
+// Rows may come in any order; the result depends only on the rows, and not on the number of threads.
 #pragma once
 #include "wavetracer/path_geometry.hpp"
 

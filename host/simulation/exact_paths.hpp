@@ -22,7 +22,7 @@ struct ExactPaths {
   ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
              const TraceConfig& trace, const Origins& origins);
 
-  // Marks the solved paths that have a leg which is obstructed, or passes more than it may.
+  // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
   // Of paths: specular, diffracted, scattered.
   uint64_t kinds() const { return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()}; }

@@ -1,5 +1,5 @@
-// What a run computes: what the configuration asks for, as far as the scene needs it.
-// What is off makes no pass, launches no kernel and holds no memory.
+// Which features a run computes: those that the configuration asks for and that the scene needs.
+// A feature that is off makes no pass, runs no kernel and takes no memory.
 #pragma once
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
@@ -10,7 +10,7 @@ namespace wavetracer {
 
 Features choose_features(const Config& config, const Scene& scene, const World& world);
 
-// trace with everything switched off that is not on.
+// A copy of trace in which all features that are off are switched off.
 TraceConfig with_features(TraceConfig trace, const Features& features);
 
 }  // namespace wavetracer

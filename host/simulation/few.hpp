@@ -13,7 +13,7 @@ class Few {
   void add(const std::string& text) {
     if (count_++ < shown) out_.push_back(text);
   }
-  // what: "more antennas are below the ground"; said with their number, where there are such.
+  // what: "more antennas are below the ground"; added with their number if there are more.
   void end(const std::string& what) {
     if (count_ > shown) out_.push_back(fmt::format("{} {}", count_ - shown, what));
   }

@@ -1,4 +1,4 @@
-// The frame: the list of what turns poses into paths. It reads as the table of docs/architecture.md.
+// The frame: the list of passes that turn poses into paths, in the order of the table in docs/architecture.md.
 // Frames of one setup share its set of sequences and its ray cache, so they are solved one after the other.
 #pragma once
 #include <functional>
@@ -10,12 +10,12 @@
 
 namespace wavetracer {
 
-// What a frame is of.
+// The inputs of a frame.
 struct FrameTask {
   uint32_t frame = 0;
   std::function<WorldState()> pose = {};              // where everything is
   EndName transmitter_name = {}, receiver_name = {};  // for warnings; asked after the poses
-  std::optional<TransmitterRange> transmitters = {};  // the links of these alone; not given: all
+  std::optional<TransmitterRange> transmitters = {};  // only the links of these; not given: all
   bool compiling = false;                             // launches are there to be compiled: few rays, and no warnings
 };
 
@@ -23,9 +23,9 @@ class FrameLoop {
  public:
   // setup outlives this. On a CPU, compiles what a frame launches.
   explicit FrameLoop(Setup& setup);
-  // Throws FrameStopped where the observer wants no more, and whatever poses and blocks throw.
+  // Throws FrameStopped if the observer has cancelled the frame, and the errors of poses and blocks.
   FrameResult run(const FrameTask& task);
-  // The next frame is cold: it starts from nothing.
+  // The next frame is cold: it reuses nothing.
   void forget();
 
  private:
@@ -38,7 +38,7 @@ class FrameLoop {
   uint64_t warm_frames_ = 0;  // since the last cold one, which counts
 };
 
-// The exact paths of what rays have found, each once.
+// The exact paths of the sequences that rays have found, each once.
 PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
                          const FrameWatch& watch, FrameAccount& account);
 

@@ -15,7 +15,7 @@ class FrameAccount {
 
   // Ends a stage of the host: its seconds are those since the stage before, or since device_done().
   void end_stage(const char* name) { host_stages_[name] += host_.lap(); }
-  // The device has done what the host waited for: the time until now is no stage of the host.
+  // The device has finished what the host waited for: the time until now belongs to no stage of the host.
   void device_done() { host_.lap(); }
 
   void discovered(const DiscoveryCounts& found);

@@ -1,5 +1,5 @@
-// Who watches a frame, and may end it: see Simulation::observe().
-// Passes that take long say how far they are, between launches; nothing here waits for the device.
+// The observer of a frame, which may cancel it: see Simulation::observe().
+// Long passes report their progress between launches; nothing here waits for the device.
 #pragma once
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace wavetracer {
 class FrameWatch {
  public:
   void set(FrameObserver observer) { observer_ = std::move(observer); }
-  // Throws FrameStopped where the observer wants no more.
+  // Throws FrameStopped if the observer has cancelled the frame.
   void tell(const char* stage, uint64_t done, uint64_t total) const {
     if (observer_ && !observer_({stage, done, total})) throw FrameStopped();
   }

@@ -1,5 +1,5 @@
 // A launch: which ends send rays, in which directions, and what discovery counts of it.
-// Launches are values: they say what is traced, and nothing about how.
+// Launches are values: they describe what is traced, not how.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -19,20 +19,20 @@ struct Launch {
   uint64_t rays = 1;  // directions of the full set, the same number for each launcher
   DirectionShare share = {};
   bool followed = true;  // recorded by RayFollower
-  bool sorted = true;    // by order.method, where the share is all of trace.rays directions
+  bool sorted = true;    // by order.method, if the launch has all trace.rays directions
 
   uint64_t rays_each() const { return (rays - share.phase + share.stride - 1) / share.stride; }
   uint64_t total() const { return rays_each() * who.size(); }
 };
 
-// Launchers that stand on no vehicle; positions in recentred metres.
+// Launchers that are not on a vehicle; positions in recentred metres.
 inline std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitters) {
   std::vector<Launcher> out;
   for (const glm::dvec3& position : transmitters) out.push_back({static_cast<uint32_t>(out.size()), position});
   return out;
 }
 
-// Why a refined launch ended: it found what trace.recall asks for; its next level would go beyond trace.max_rays; its
+// Why a refined launch ended: it reached trace.recall; its next level would launch more than trace.max_rays; its
 // cells are as small as they get; or none of its last rays met anything rare, so that there is nothing to refine.
 enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 

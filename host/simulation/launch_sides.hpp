@@ -20,7 +20,7 @@ class LaunchSides {
   std::vector<Launcher> of(const std::vector<Launcher>& launchers, const WorldState& state) const;
 
  private:
-  // A plane of unit normal, and how far above it a point lies.
+  // A plane with its unit normal, and the height of a point above it.
   struct Plane {
     glm::dvec3 normal;
     double above_m;

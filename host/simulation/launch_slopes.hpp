@@ -18,7 +18,7 @@
 
 namespace wavetracer {
 
-// How many paths climb and fall by so much: half octaves, the first up to 2.8 m, the last from 1.4 km on.
+// How many paths climb and fall by this height: half octaves, the first up to 2.8 m, the last from 1.4 km.
 struct SlopeCounts {
   static constexpr uint32_t bins = 20;
   std::array<uint32_t, bins> up{}, down{};
@@ -38,7 +38,7 @@ class LaunchSlopes {
   SlopeTables tables(const WorldState& world, const Origins& origins);
 
  private:
-  // Height of the ground under an end; that of an origin which stands is remembered.
+  // Height of the ground under an end; for fixed origins it is remembered.
   double ground_m(uint32_t origin, const EndState& end, const WorldState& world);
 
   struct Ground {

@@ -1,4 +1,4 @@
-// The links of some transmitters, cut out of a frame: their paths are, bit for bit, those that the whole frame has.
+// The links of some of a frame's transmitters: their paths are the same, bit for bit, as in the whole frame.
 // A link is found from all ends whose rays it may meet on its way, so these launch as they do in the whole frame.
 #pragma once
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Who launches rays: transmitters of wanted links, and where paths are met from both ends, their receivers.
+// Which ends launch rays: transmitters of wanted links and, if paths are met from both ends, their receivers.
 // An end that sends and receives launches once; a receiver that does not send is a listener, an origin of its own.
 #pragma once
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Origins {
   uint32_t count() const { return static_cast<uint32_t>(receiver_of_origin.size()); }
 };
 
-// both: receivers launch too. Else transmitters alone do.
+// both: receivers launch too; otherwise only transmitters do.
 inline Origins make_origins(const std::vector<uint32_t>& receiver_of_transmitter,
                             const std::vector<uint32_t>& transmitter_of_receiver, bool both) {
   Origins out{{}, receiver_of_transmitter, transmitter_of_receiver};

@@ -18,7 +18,7 @@ struct PlacedPose {
 
 class LivePlaces {
  public:
-  // Throws ConfigError for a type that nothing knows or that is there twice, and for trajectories beside them.
+  // Throws ConfigError for a type that is unknown or occurs twice, and if there are trajectories too.
   LivePlaces(const Config& config, const VehicleModels& vehicles, const Scene& scene);
 
   // A track per place, TYPE.NUMBER, of one sample: the middle of the scene, where nobody is present. File coordinates.

@@ -15,8 +15,8 @@ struct OrderChoice {
   std::string reason;  // for people: what was measured, and when
 };
 
-// Times one transmitter's rays with every order, or takes what an earlier run kept beside the program cache under the
-// same device, scene, directions, ray count and depth. transmitters: recentred metres.
+// Times one transmitter's rays with every order, or uses the result that an earlier run stored beside the programs for
+// the same device, scene, directions, ray count and depth. transmitters: recentred metres.
 OrderChoice choose_order(gpu::Context& context, const Scene& scene, const DeviceScene& device_scene,
                          const Config& config, const std::vector<glm::dvec3>& transmitters);
 

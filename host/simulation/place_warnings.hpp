@@ -1,5 +1,5 @@
-// Words about ends and vehicles that stand where nobody would put them: inside of houses, below the ground, far
-// outside. Said before anything is traced, by name, a few of each kind and then their number.
+// Warnings about ends and vehicles at places that cannot be intended: inside of houses, below the ground, far
+// outside. Given before anything is traced, by name, a few of each kind and then their number.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace wavetracer {
 
-// Of a configuration whose ends are those that stand, as it was loaded.
+// Warnings about the fixed ends of a configuration, as it was loaded.
 std::vector<std::string> place_warnings(const Config& config, const Surroundings& around, const World& world);
 
 // Those about vehicles, at the frames of the drive, or evenly spread ones where they are many.

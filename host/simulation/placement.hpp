@@ -1,5 +1,5 @@
-// Instances where a frame has them: their surfaces and the tree over them, which the host builds where they are few and
-// a GPU where they are many. Hits do not depend on which of them built it.
+// Instances at their places in a frame: their surfaces and the tree over them, which the host builds if they are few
+// and a GPU if they are many. Hits do not depend on which of them built it.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -13,12 +13,12 @@
 
 namespace wavetracer {
 
-// Who builds the top-level tree; fastest: by the device and the number of instances that are present.
+// Where the top-level tree is built; fastest: by the device and the number of instances that are present.
 enum class TopLevelBuild { fastest, host, device };
 
 class InstancePlacement {
  public:
-  // As Place.
+  // See the constructor of Place.
   InstancePlacement(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
                     DeviceScene& scene, TopLevelBuild build = TopLevelBuild::fastest)
       : place_(context, models, instances, scene) {

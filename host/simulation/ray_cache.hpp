@@ -1,6 +1,6 @@
 // The ray cache in a frame: answers rays of a depth, traces the rest, keeps what was traced; one region for each
 // transmitter.
-// Rests on what the static scene decides (cache.scope = "static"), or on everything as the thesis does ("all").
+// Entries contain hits on the static scene only (cache.scope = "static"), or on everything, as in the thesis ("all").
 #pragma once
 #include <glm/vec3.hpp>
 #include <optional>
@@ -39,13 +39,13 @@ struct CachedReception {
 
 class RayCache final : public HitFinder {
  public:
-  // shape, launch: how missed rays are traced. Throws ConfigError where the table does not fit.
+  // shape, launch: how missed rays are traced. Throws ConfigError if the table does not fit.
   RayCache(gpu::Context& context, const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world,
            TraceShape shape, const LaunchShape& launch, CachedReception reception = {});
   void reserve(uint64_t rays) override;
   // Forgets everything: the next frame meets an empty table.
   void clear();
-  // A frame begins: regions of transmitters that have moved on are purged, and what nobody uses where room is short.
+  // A frame begins: purges regions of transmitters that have moved away and, if room is short, entries without use.
   void begin_frame(const WorldState& world);
   void find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) override;
   // Where receptions are kept, also with what receivers.
@@ -82,10 +82,10 @@ class RayCache final : public HitFinder {
   RayTrails* trails_ = nullptr;            // where receptions are kept
   gpu::Buffer<uint32_t> answers_, first_;  // scope = "all": receivers of answered rays, and of missed ones
   bool touch_ = false;
-  std::vector<uint64_t> keys_;            // position key a transmitter
+  std::vector<uint64_t> keys_;            // position key per transmitter
   std::vector<Placement> placements_;     // where instances were when they last counted as moved
   std::vector<uint32_t> instance_since_;  // the frame of that
-  std::vector<uint32_t> used_;            // entries a region at the end of the last frame
+  std::vector<uint32_t> used_;            // entries per region at the end of the last frame
   device::wt_cache_counters counters_{};  // of the last frame
   CacheSummary frame_summary_;
 };

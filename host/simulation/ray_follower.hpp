@@ -26,12 +26,12 @@ struct AnsweredRays {
 class RayFollower {
  public:
   virtual ~RayFollower() = default;
-  // Segments that it wants to see after the last interaction of a ray.
+  // The number of segments that it needs after the last interaction of a ray.
   virtual uint32_t extra_segments() const { return 0; }
   // Device memory that it needs for each sample of a batch, and room for batches of so many samples.
   virtual uint64_t bytes_per_sample() const { return 0; }
   virtual void reserve(uint64_t /*samples*/) {}
-  // The launch begins, or begins again: forgets what it knows of it.
+  // The launch begins, or begins again: drops all data of this launch.
   virtual void begin_launch() {}
   // Labelled rays of these parts follow, and none of an earlier call; also where the batch before is traced again.
   virtual void begin_batch(std::vector<LaunchPart> /*parts*/) {}

@@ -1,5 +1,5 @@
-// Where rays come from: the directions of a launch, in the order that the configuration asks for, labelled where
-// somebody must know whose rays they are.
+// The source of rays: the directions of a launch, in the order of the configuration, labelled if a later pass needs
+// to know their transmitters.
 #pragma once
 #include <map>
 #include <memory>

@@ -19,7 +19,7 @@ class RayTrails final : public RayFollower {
   // depth: most interactions of a ray. The scenes that `surfaces` refers to must outlive this.
   RayTrails(gpu::Context& context, const TraceConfig& trace, uint64_t samples_a_transmitter, uint32_t depth,
             const SurfaceTable& surfaces);
-  // Are receptions wanted? Then rays need a segment after their last interaction.
+  // True if receptions are recorded; rays then need a segment after their last interaction.
   bool receives() const { return reception_.has_value(); }
   // The frame begins: its ends and where its vehicles are.
   void begin_frame(uint32_t frame, const RadioEnds& ends, const WorldState& world);
@@ -46,7 +46,7 @@ class RayTrails final : public RayFollower {
   void add(const LaunchPart& part, uint32_t sample, std::span<const wt_waypoint> row,
            std::span<const wt_reception> hits);
 
-  uint64_t wanted_;  // samples a transmitter
+  uint64_t wanted_;  // samples per transmitter
   uint32_t depth_;
   SurfaceTable surfaces_;
   Waypoints waypoints_;

@@ -1,4 +1,4 @@
-// What to say of a launch of trace.rays = "auto" that ended before it found what trace.recall asks for.
+// The warning about a launch of trace.rays = "auto" that ended before it reached trace.recall.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace wavetracer {
 
-// Nothing where that is no loss: most sequences that rays meet once lead to no receiver. cold: the frame knows nothing
+// Empty if that is no loss: most sequences that rays meet once lead to no receiver. cold: the frame knows nothing
 // of earlier ones, so that its own rays tell what is missed. missed: of the frame's paths.
 std::optional<std::string> recall_warning(const DiscoveryCounts& found, const TraceConfig& trace, bool cold,
                                           const MissedCounts& missed);

@@ -271,7 +271,7 @@ TEST_CASE("first configurations run as they are, that of SUMO with the reader's 
   check(run_program({"validate", "-c", sumo}), 3, "trajectories.file is ");
   CHECK(run_program({"validate", "-c", sumo, "--set", "trajectories.file=" + folder.path("town/drive.fcd.xml")}).code ==
         0);
-  check(run_program({"init", "--minimal", "--sumo"}), 2, "give one of them");
+  check(run_program({"init", "--minimal", "--sumo"}), 2, "give only one of them");
 }
 
 TEST_CASE("hints at misspelt keys are those of their table, a map as a scene names convert, no body needs no size") {

@@ -28,7 +28,7 @@ struct Kind {
 
 const std::string no_mast = "launches rays from the first [[transmitter]], and there is none";
 const std::string no_link = "no transmitter launches rays in the frames that are measured, because no link is wanted";
-const std::string late_cache = "cache.first_depth = 2 is beyond trace.max_depth = 1";
+const std::string late_cache = "cache.first_depth = 2 is larger than trace.max_depth = 1";
 
 const std::vector<Kind> kinds = {
     {"a mast and a receiver", mast + receiver, "", "", "", ""},
