@@ -1,5 +1,5 @@
-// Lists that kernels append to, counting in wt_counters: run, read the count, and where the list was too small make it
-// larger and run again. Assumes that a kernel counts on beyond the capacity, and writes nothing there.
+// Lists that kernels append to, counting: run, read the count, and where the list was too small make it larger and run
+// again. Assumes that a kernel counts on beyond the capacity, and writes nothing there.
 #pragma once
 #include <vector>
 
@@ -14,19 +14,30 @@ inline void zero_counter(gpu::Context& context, gpu::Buffer<wt_counters>& counte
   context.fill(counters, &zero, sizeof zero, offset, sizeof zero, stage);
 }
 
-// capacity(): of the list now; run(): the kernel; reserve(n): room for n entries, of which `kept` are from before, stay
-// as they are and are what the counter begins with; others may be lost. Returns the length of the list.
-template <class Capacity, class Run, class Reserve>
-uint32_t fill_list(gpu::Buffer<wt_counters>& counters, wt_uint wt_counters::*counter, const char* stage,
-                   const Capacity& capacity, const Run& run, const Reserve& reserve, uint32_t kept = 0) {
+// run(): the kernel; count(): the number that it has counted to; capacity(): of the list now; grow(n): makes room for n
+// entries, and lets the counter begin again with what the list still holds. Returns the length of the list.
+template <class Run, class Count, class Capacity, class Grow>
+uint32_t grow_until_filled(const Run& run, const Count& count, const Capacity& capacity, const Grow& grow) {
   for (;;) {
     run();
-    wt_counters now = counters.read_one(0, stage);
-    if (now.*counter <= capacity()) return now.*counter;
-    reserve(size_t{now.*counter} + now.*counter / 4);
-    now.*counter = kept;
-    counters.write(std::vector{now}, 0, stage);
+    const uint32_t now = count();
+    if (now <= capacity()) return now;
+    grow(size_t{now} + now / 4);
   }
+}
+
+// The same for a list whose length is one of wt_counters, and which begins with nothing when it grows.
+template <class Capacity, class Run, class Grow>
+uint32_t fill_list(gpu::Buffer<wt_counters>& counters, wt_uint wt_counters::*counter, const char* stage,
+                   const Capacity& capacity, const Run& run, const Grow& grow) {
+  wt_counters now{};
+  return grow_until_filled(
+      run, [&] { return (now = counters.read_one(0, stage)).*counter; }, capacity,
+      [&](size_t entries) {
+        grow(entries);
+        now.*counter = 0;
+        counters.write(std::vector{now}, 0, stage);
+      });
 }
 
 }  // namespace wavetracer

@@ -2,6 +2,8 @@
 // One ray a work-item. A list that is too short is made longer, and the same rays run again.
 #include "passes/receive.hpp"
 
+#include "passes/growing_list.hpp"
+
 namespace wavetracer {
 
 Receive::Receive(gpu::Context& context, double radius_m)
@@ -32,20 +34,19 @@ void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitL
 
 void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits,
                      uint32_t depth, const gpu::Memory& traced, const gpu::Memory& answered) {
-  for (;;) {
-    kernel(work_.range(rays.count), "receive", rays.planes, hits.planes, rays.capacity, rays.count,
-           ends.receiver_planes, ends.links, ends.receiver_capacity, radius_m_, depth, list_,
-           static_cast<uint32_t>(list_.size()), counter_, traced, answered);
-    const uint32_t now = counter_.read_one(0, "receive");
-    if (now <= list_.size()) {
-      count_ = now;
-      return;
-    }
-    auto longer = context_.buffer<wt_reception>(size_t{now} + now / 4, "receptions (see trace.sphere_radius_m)");
-    context_.copy(list_, longer, size_t{count_} * sizeof(wt_reception), "receive");
-    list_ = longer;
-    counter_.write(std::vector{count_}, 0, "receive");
-  }
+  count_ = grow_until_filled(
+      [&] {
+        kernel(work_.range(rays.count), "receive", rays.planes, hits.planes, rays.capacity, rays.count,
+               ends.receiver_planes, ends.links, ends.receiver_capacity, radius_m_, depth, list_,
+               static_cast<uint32_t>(list_.size()), counter_, traced, answered);
+      },
+      [&] { return counter_.read_one(0, "receive"); }, [&] { return list_.size(); },
+      [&](size_t entries) {
+        auto longer = context_.buffer<wt_reception>(entries, "receptions (see trace.sphere_radius_m)");
+        context_.copy(list_, longer, size_t{count_} * sizeof(wt_reception), "receive");
+        list_ = longer;
+        counter_.write(std::vector{count_}, 0, "receive");
+      });
 }
 
 void Receive::first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first) {

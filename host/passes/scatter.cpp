@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "passes/growing_list.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -48,18 +49,19 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
 uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                            const gpu::Buffer<uint32_t>& nodes, uint32_t node_count) {
   const uint32_t groups = ends.receiver_capacity / 16;
-  for (;;) {
-    context_.fill(count_, 0, "scatter");
-    const auto capacity = static_cast<uint32_t>(entries_.size() / 4);
-    lit_({size_t{node_count} * groups, local_}, "scatter", trie, nodes, node_count, ends.transmitters,
-         ends.transmitter_count, ends.receivers, ends.links, groups, scene.exact_surfaces, tiles_of_, entries_,
-         capacity, count_);
-    const uint32_t count = count_.read_one(0, "scatter");
-    if (count <= capacity) return count;
-    const size_t larger = size_t{count} + count / 4;
-    entries_ = context_.buffer<uint32_t>(4 * larger, "lit surfaces");
-    first_row_ = context_.buffer<uint32_t>(larger + 1, "rows of tiles");
-  }
+  const auto capacity = [&] { return static_cast<uint32_t>(entries_.size() / 4); };
+  return grow_until_filled(
+      [&] {
+        context_.fill(count_, 0, "scatter");
+        lit_({size_t{node_count} * groups, local_}, "scatter", trie, nodes, node_count, ends.transmitters,
+             ends.transmitter_count, ends.receivers, ends.links, groups, scene.exact_surfaces, tiles_of_, entries_,
+             capacity(), count_);
+      },
+      [&] { return count_.read_one(0, "scatter"); }, capacity,
+      [&](size_t larger) {
+        entries_ = context_.buffer<uint32_t>(4 * larger, "lit surfaces");
+        first_row_ = context_.buffer<uint32_t>(larger + 1, "rows of tiles");
+      });
 }
 
 std::vector<uint32_t> Scatter::place_rows(uint32_t entry_count) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numeric>
 
+#include "passes/growing_list.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -86,25 +87,30 @@ void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_c
   }
 }
 
+void Sequences::write_roots(uint32_t transmitter_count) {
+  if (roots_ == transmitter_count) return;
+  if (nodes_.size() < transmitter_count)
+    nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
+  std::vector<uint32_t> roots(transmitter_count);
+  std::iota(roots.begin(), roots.end(), WT_ROOT);
+  nodes_.write(roots, 0, "sequences");
+  roots_ = transmitter_count;
+}
+
 uint32_t Sequences::collect(uint32_t transmitter_count) {
-  for (;;) {
-    if (roots_ != transmitter_count) {
-      if (nodes_.size() < transmitter_count)
-        nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
-      std::vector<uint32_t> roots(transmitter_count);
-      std::iota(roots.begin(), roots.end(), WT_ROOT);
-      nodes_.write(roots, 0, "sequences");
-      roots_ = transmitter_count;
-    }
-    context_.fill(counters_, &transmitter_count, sizeof transmitter_count, offsetof(wt_counters, nodes),
-                  sizeof transmitter_count, "sequences");
-    collect_(work_.range(table_.size()), "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
-             static_cast<uint32_t>(nodes_.size()), counters_);
-    const uint32_t count = counters_.read_one(0, "sequences").nodes;
-    if (count <= nodes_.size()) return count;
-    nodes_ = context_.buffer<uint32_t>(size_t{count} + count / 4, "sequence list");
-    roots_ = 0;
-  }
+  return grow_until_filled(
+      [&] {
+        write_roots(transmitter_count);
+        context_.fill(counters_, &transmitter_count, sizeof transmitter_count, offsetof(wt_counters, nodes),
+                      sizeof transmitter_count, "sequences");
+        collect_(work_.range(table_.size()), "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
+                 static_cast<uint32_t>(nodes_.size()), counters_);
+      },
+      [&] { return counters_.read_one(0, "sequences").nodes; }, [&] { return nodes_.size(); },
+      [&](size_t entries) {
+        nodes_ = context_.buffer<uint32_t>(entries, "sequence list");
+        roots_ = 0;
+      });
 }
 
 }  // namespace wavetracer

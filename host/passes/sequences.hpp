@@ -49,6 +49,8 @@ class Sequences {
 
  private:
   void resize(uint64_t slots);
+  // At the head of nodes_, where they are not there yet.
+  void write_roots(uint32_t transmitter_count);
   // A table of so many slots, or more, without the nodes older than `oldest`; where each old slot's node went.
   gpu::Buffer<uint32_t> rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest);
 

@@ -1,5 +1,5 @@
-// Where the sorts cross. Set to what bench_sort prints; it prints both sorts at sizes around it.
-// GPUs: fewer launches outweigh more work up to there; CPUs: one launch in vectors.
+// Where the sorts cross: one block of the bitonic one (passes/tuning.hpp).
+// One launch there, and no temporary memory.
 #include "passes/sort.hpp"
 
 #include <algorithm>
@@ -7,18 +7,26 @@
 namespace wavetracer {
 
 Sort::Sort(gpu::Context& context)
-    : bitonic_(context, Payload::index), radix_(context, Payload::index), bitonic_most_(bitonic_.block()) {}
+    : context_(context),
+      bitonic_(context, Payload::index),
+      radix_(context, Payload::index),
+      temporary_(context.buffer<uint32_t>(1, "sort")) {}
 
-size_t Sort::temporary_words(uint32_t n) const {
-  return std::max(bitonic_.temporary_words(std::min(n, bitonic_most_)), radix_.temporary_words(n));
+size_t Sort::words(uint32_t n) const {
+  const size_t few = bitonic_.temporary_words(std::min(n, bitonic_.block()));
+  return n <= bitonic_.block() ? few : std::max(few, radix_.temporary_words(n));
 }
 
-void Sort::operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n,
-                      gpu::Buffer<uint32_t>& temporary, unsigned bits) {
-  if (n <= bitonic_most_)
-    bitonic_(keys, order, n, temporary);
+void Sort::reserve(uint32_t n) {
+  if (temporary_.size() < words(n)) temporary_ = context_.buffer<uint32_t>(words(n), "sort");
+}
+
+void Sort::operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits) {
+  if (temporary_.size() < words(n)) reserve(n + std::min(n / 4, ~n));  // they are often a few more the next time
+  if (n <= bitonic_.block())
+    bitonic_(keys, order, n, temporary_);
   else
-    radix_(keys, order, n, temporary, 0, bits);
+    radix_(keys, order, n, temporary_, 0, bits);
 }
 
 }  // namespace wavetracer

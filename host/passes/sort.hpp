@@ -9,17 +9,19 @@ namespace wavetracer {
 class Sort {
  public:
   explicit Sort(gpu::Context& context);
-  // Words of temporary memory that up to n keys need.
-  size_t temporary_words(uint32_t n) const;
+  // Makes its temporary memory large enough for up to n keys; the sorts do so by themselves where it is not.
+  void reserve(uint32_t n);
   // Sorts keys[0 .. n - 1] by their lowest `bits` bits, above which they must be zero; order[i] becomes the place that
   // the i-th had. Buffers may be longer than n.
-  void operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n,
-                  gpu::Buffer<uint32_t>& temporary, unsigned bits);
+  void operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits);
 
  private:
+  size_t words(uint32_t n) const;  // of temporary memory for up to n keys
+
+  gpu::Context& context_;
   BitonicSort<uint32_t> bitonic_;
   RadixSort<uint32_t> radix_;
-  uint32_t bitonic_most_;
+  gpu::Buffer<uint32_t> temporary_;
 };
 
 }  // namespace wavetracer

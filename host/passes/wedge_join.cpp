@@ -20,18 +20,18 @@ WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receive
   if (with_pairs_) pairs_ = context.kernel("wedge_join", "wedge_pairs");
 }
 
-uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const Wedges& wedges,
+uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                                const RadioEnds& ends, gpu::Buffer<wt_counters>& counters) {
   const uint32_t groups = ends.receiver_capacity / 16;
   const size_t items = size_t{prefixes.count} * lanes_;
   const auto run = [&] {
     const auto capacity = static_cast<uint32_t>(list_.size());
     join_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
-          ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges(), scene.surfaces,
+          ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges, scene.surfaces,
           list_, capacity, counters);
     if (with_pairs_)
       pairs_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
-             ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges(), list_,
+             ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges, list_,
              capacity, counters);
   };
   return fill_list(

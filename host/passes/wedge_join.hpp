@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
-#include "passes/wedge_prefixes.hpp"
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/wedge_lists.hpp"
 
 namespace wavetracer {
 
@@ -14,7 +16,7 @@ class WedgeJoin {
   // too.
   WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth, bool pairs);
   // prefixes: sorted by their keys. Returns the number of candidates, in list().
-  uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const Wedges& wedges,
+  uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                       const RadioEnds& ends, gpu::Buffer<wt_counters>& counters);
   const gpu::Buffer<wt_wedge_candidate>& list() const { return list_; }
 

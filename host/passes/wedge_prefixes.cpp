@@ -18,7 +18,7 @@ void WedgePrefixes::reserve(size_t entries) {
            context_.buffer<wt_wedge_prefix>(entries, "wedge prefixes")};
 }
 
-WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedges& wedges, const RadioEnds& ends,
+WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                            const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
                                            const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                                            gpu::Buffer<wt_counters>& counters) {
@@ -26,8 +26,8 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
       counters, &wt_counters::wedge_prefixes, "wedge_prefixes", [&] { return list_.keys.size(); },
       [&] {
         kernel_(work_.range(node_count), "wedge_prefixes", trie, static_cast<uint32_t>(trie.size() - 1), quarters,
-                nodes, node_count, ends.transmitters, scene.exact_surfaces, wedges.first(), wedges.of_surfaces(),
-                wedges.wedges(), list_.keys, list_.prefixes, static_cast<uint32_t>(list_.keys.size()), counters);
+                nodes, node_count, ends.transmitters, scene.exact_surfaces, wedges.first, wedges.of_surfaces,
+                wedges.wedges, list_.keys, list_.prefixes, static_cast<uint32_t>(list_.keys.size()), counters);
       },
       [&](size_t entries) { reserve(entries); });
   return list_;

@@ -5,22 +5,15 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/tuning.hpp"
-#include "passes/wedges.hpp"
+#include "passes/wedge_lists.hpp"
 
 namespace wavetracer {
-
-// Prefixes with their wedges as keys, to be sorted: order[i] is the place of the prefix that key i had.
-struct WedgePrefixList {
-  gpu::Buffer<uint32_t> keys, order;
-  gpu::Buffer<wt_wedge_prefix> prefixes;
-  uint32_t count = 0;
-};
 
 class WedgePrefixes {
  public:
   explicit WedgePrefixes(gpu::Context& context);
   // nodes: of the trie, in any order; roots among them are passed over. The keys are not sorted yet.
-  WedgePrefixList& operator()(const DeviceScene& scene, const Wedges& wedges, const RadioEnds& ends,
+  WedgePrefixList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                               const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
                               const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                               gpu::Buffer<wt_counters>& counters);

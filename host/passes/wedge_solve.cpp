@@ -14,14 +14,14 @@ WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth)
   solved_.reserve(context, 1 << 12);
 }
 
-SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const Wedges& wedges, const RadioEnds& ends,
+SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                    const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
                                    uint32_t candidate_count, gpu::Buffer<wt_counters>& counters) {
   const auto run = [&] {
     kernel_(work_.range(candidate_count), "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
-            scene.exact_triangles, scene.exact_instances, wedges.wedges(), candidates, candidate_count,
-            solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences,
-            static_cast<uint32_t>(solved_.headers.size()), counters);
+            scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates, candidate_count, solved_.max_depth,
+            solved_.headers, solved_.vertices, solved_.sequences, static_cast<uint32_t>(solved_.headers.size()),
+            counters);
   };
   zero_counter(context_, counters, offsetof(wt_counters, solved), "wedge_solve");
   solved_.count = fill_list(

@@ -5,14 +5,14 @@
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
 #include "passes/tuning.hpp"
-#include "passes/wedges.hpp"
+#include "passes/wedge_lists.hpp"
 
 namespace wavetracer {
 
 class WedgeSolve {
  public:
   WedgeSolve(gpu::Context& context, uint32_t max_depth);
-  SolvedList& operator()(const DeviceScene& scene, const Wedges& wedges, const RadioEnds& ends,
+  SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                          const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
                          uint32_t candidate_count, gpu::Buffer<wt_counters>& counters);
 

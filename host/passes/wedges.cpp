@@ -61,10 +61,10 @@ Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scen
   diffracting_ = static_cast<uint32_t>(std::ranges::count_if(
       records, [&](const wt_wedge& wedge) { return free_edges || wedge.exterior <= half_plane_rad; }));
 
-  wedges_ = context.buffer(records, "wedges");
+  list_.wedges = context.buffer(records, "wedges");
   models_ = context.buffer(std::vector<wt_wedge>(records.begin() + static_count_, records.end()), "model wedges");
-  first_ = context.buffer(first, "first wedges of surfaces");
-  of_surfaces_ = context.buffer(of_surfaces, "wedges of surfaces");
+  list_.first = context.buffer(first, "first wedges of surfaces");
+  list_.of_surfaces = context.buffer(of_surfaces, "wedges of surfaces");
 }
 
 unsigned Wedges::key_bits() const {
@@ -73,7 +73,8 @@ unsigned Wedges::key_bits() const {
 
 void Wedges::operator()(const DeviceScene& scene) {
   if (moving_count_ > 0)
-    kernel_({moving_count_, local_}, "wedges", scene.exact_instances, models_, static_count_, moving_count_, wedges_);
+    kernel_({moving_count_, local_}, "wedges", scene.exact_instances, models_, static_count_, moving_count_,
+            list_.wedges);
 }
 
 }  // namespace wavetracer

@@ -5,7 +5,7 @@
 
 #include "gpu/gpu.hpp"
 #include "passes/device_scene.hpp"
-#include "wavetracer/device/records.h"
+#include "passes/wedge_lists.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/world_state.hpp"
 
@@ -21,16 +21,13 @@ class Wedges {
 
   uint32_t diffracting() const { return diffracting_; }  // wedges that count
   unsigned key_bits() const;                             // of WT_WEDGE_KEY
-  const gpu::Buffer<wt_wedge>& wedges() const { return wedges_; }
-  // Wedges of surface s: of_surfaces[first[s] .. first[s + 1]].
-  const gpu::Buffer<uint32_t>& first() const { return first_; }
-  const gpu::Buffer<uint32_t>& of_surfaces() const { return of_surfaces_; }
+  const WedgeList& list() const { return list_; }
 
  private:
   gpu::Kernel kernel_;
   uint32_t local_, static_count_ = 0, moving_count_ = 0, diffracting_ = 0;
-  gpu::Buffer<wt_wedge> wedges_, models_;
-  gpu::Buffer<uint32_t> first_, of_surfaces_;
+  gpu::Buffer<wt_wedge> models_;
+  WedgeList list_;
 };
 
 }  // namespace wavetracer

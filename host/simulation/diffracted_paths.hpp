@@ -9,6 +9,7 @@
 #include "passes/wedge_join.hpp"
 #include "passes/wedge_prefixes.hpp"
 #include "passes/wedge_solve.hpp"
+#include "passes/wedges.hpp"
 #include "wavetracer/config.hpp"
 
 namespace wavetracer {
@@ -21,14 +22,11 @@ struct DiffractedPaths {
         prefixes(context),
         join(context, receiver_of_origin, trace.max_depth, trace.max_diffractions > 1),
         solve(context, trace.max_depth),
-        context_(context),
         sort_(context) {}
 
   // Sorts prefixes by the wedges that they see.
   void sort(WedgePrefixList& list) {
-    const size_t words = sort_.temporary_words(list.count);
-    if (temporary_.size() < words) temporary_ = context_.buffer<uint32_t>(words + words / 4, "sort");
-    if (list.count > 0) sort_(list.keys, list.order, list.count, temporary_, wedges.key_bits());
+    if (list.count > 0) sort_(list.keys, list.order, list.count, wedges.key_bits());
   }
 
   Wedges wedges;
@@ -37,9 +35,7 @@ struct DiffractedPaths {
   WedgeSolve solve;
 
  private:
-  gpu::Context& context_;
   Sort sort_;
-  gpu::Buffer<uint32_t> temporary_;
 };
 
 }  // namespace wavetracer

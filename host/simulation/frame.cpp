@@ -163,12 +163,12 @@ PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const Radi
   if (exact.diffraction) {
     DiffractedPaths& edges = *exact.diffraction;
     edges.wedges(scene);  // wedges
-    WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges, ends, set.table(), set.quarters(), set.nodes(),
-                                               nodes, set.counters());                        // wedge_prefixes
-    edges.sort(prefixes);                                                                     // sort
-    const uint32_t joined = edges.join(scene, prefixes, edges.wedges, ends, set.counters());  // wedge_join
+    WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
+                                               set.nodes(), nodes, set.counters());                  // wedge_prefixes
+    edges.sort(prefixes);                                                                            // sort
+    const uint32_t joined = edges.join(scene, prefixes, edges.wedges.list(), ends, set.counters());  // wedge_join
     counts.candidates += joined;
-    see(edges.solve(scene, edges.wedges, ends, set.table(), edges.join.list(), joined,
+    see(edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.join.list(), joined,
                     set.counters()));  // wedge_solve
   }
   if (exact.scatter) {

@@ -27,8 +27,6 @@ class InstancePlacement {
     if (instances.size() < least_) return;
     tree_.emplace(context, place_.bodies());
     sort_.emplace(context);
-    const size_t words = sort_->temporary_words(static_cast<uint32_t>(instances.size()));
-    temporary_ = context.buffer<uint32_t>(std::max<size_t>(words, 1), "sort");
   }
 
   // Moves all instances, which are in the order of the placements, and builds the tree over them.
@@ -40,7 +38,7 @@ class InstancePlacement {
     }
     place_.surfaces(scene, placements);
     InstanceOrder& instances = tree_->keys(scene);
-    (*sort_)(instances.keys, instances.order, instances.count, temporary_, InstanceOrder::key_bits);
+    (*sort_)(instances.keys, instances.order, instances.count, InstanceOrder::key_bits);
     (*tree_)(scene, present);
   }
 
@@ -48,7 +46,6 @@ class InstancePlacement {
   Place place_;
   std::optional<TopLevelTree> tree_;
   std::optional<Sort> sort_;
-  gpu::Buffer<uint32_t> temporary_;
   size_t least_ = 0;
 };
 

@@ -76,7 +76,7 @@ RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const Lau
 void RayOrder::reserve(uint64_t rays) {
   keys_ = context_.buffer<uint32_t>(rays + 16, "order keys");
   order_ = context_.buffer<uint32_t>(rays + 16, "order");
-  temporary_ = context_.buffer<uint32_t>(sort_.temporary_words(static_cast<uint32_t>(rays)), "sort");
+  sort_.reserve(static_cast<uint32_t>(rays));
 }
 
 void RayOrder::check_room(uint64_t rays) const {
@@ -86,14 +86,14 @@ void RayOrder::check_room(uint64_t rays) const {
 const gpu::Buffer<uint32_t>& RayOrder::sort_launch(uint64_t first, uint32_t count, uint32_t heights) {
   check_room(count);
   keys_of_(first, count, keys_, heights);
-  sort_(keys_, order_, count, temporary_, keys_of_.launch_bits());
+  sort_(keys_, order_, count, keys_of_.launch_bits());
   return order_;
 }
 
 void RayOrder::sort_queue(RayQueue& rays, RayQueue& spare) {
   check_room(rays.count);
   keys_of_(rays, keys_);
-  sort_(keys_, order_, rays.count, temporary_, keys_of_.queue_bits());
+  sort_(keys_, order_, rays.count, keys_of_.queue_bits());
   gather_(rays, order_, rays.count, spare);
   std::swap(rays, spare);
 }

@@ -48,7 +48,7 @@ class RayOrder {
   OrderKeys keys_of_;
   Sort sort_;
   GatherRays gather_;
-  gpu::Buffer<uint32_t> keys_, order_, temporary_;
+  gpu::Buffer<uint32_t> keys_, order_;
 };
 
 }  // namespace wavetracer

@@ -44,9 +44,8 @@ std::vector<uint32_t> order_of(OrderKey key, uint32_t bins, const LaunchDirectio
   Sort sort(context());
   gpu::Buffer<uint32_t> keys = context().buffer<uint32_t>(queue.count + 16, "keys");
   gpu::Buffer<uint32_t> order = context().buffer<uint32_t>(queue.count + 16, "order");
-  gpu::Buffer<uint32_t> temporary = context().buffer<uint32_t>(sort.temporary_words(queue.count), "temporary");
   order_keys(queue, keys);
-  sort(keys, order, queue.count, temporary, order_keys.queue_bits());
+  sort(keys, order, queue.count, order_keys.queue_bits());
   return order.read(0, queue.count);
 }
 

@@ -1,6 +1,8 @@
 // wedge_join: of all pairs of prefixes that see one wedge, or two, none that solves exactly is rejected, and none is
 // listed that is not wanted, too long, or there already. The exact solve is the reference's bisection and image method.
 #include "passes/wedge_join.hpp"
+#include "passes/wedge_prefixes.hpp"
+#include "passes/wedges.hpp"
 
 #include <doctest/doctest.h>
 
@@ -52,12 +54,11 @@ Run join(const World& world, uint32_t prefix_depth, uint32_t max_depth, bool pai
   const uint32_t node_count = set.collect(ends.transmitter_count);
   WedgePrefixes see(context());
   WedgePrefixList& list =
-      see(scene, wedges, ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
+      see(scene, wedges.list(), ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
   Sort sort(context());
-  auto temporary = context().buffer<uint32_t>(sort.temporary_words(list.count), "sort");
-  sort(list.keys, list.order, list.count, temporary, wedges.key_bits());
+  sort(list.keys, list.order, list.count, wedges.key_bits());
   WedgeJoin pass(context(), world.receiver_of_origin, max_depth, pairs);
-  const uint32_t count = pass(scene, list, wedges, ends, set.counters());
+  const uint32_t count = pass(scene, list, wedges.list(), ends, set.counters());
   Run out;
   const std::vector<uint64_t> table = set.table().read();
   const auto keys = list.keys.read(0, list.count), order = list.order.read(0, list.count);

@@ -1,6 +1,7 @@
 // wedge_prefixes: every (prefix, wedge) that a loop over all sequences, their next surfaces and the wedges of those
 // finds, each once; images and their places about the edge in double on the host.
 #include "passes/wedge_prefixes.hpp"
+#include "passes/wedges.hpp"
 
 #include <doctest/doctest.h>
 
@@ -44,8 +45,8 @@ Listed list(const World& world, const std::vector<Sequence>& sequences, uint32_t
   const uint32_t node_count = set.collect(ends.transmitter_count);
   WedgePrefixes pass(context());
   const WedgePrefixList& found =
-      pass(scene, wedges, ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
-  Listed out{{}, wedges.wedges().read(), scene.exact_surfaces.read()};
+      pass(scene, wedges.list(), ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
+  Listed out{{}, wedges.list().wedges.read(), scene.exact_surfaces.read()};
   const std::vector<uint64_t> table = set.table().read();
   const std::vector<uint32_t> keys = found.keys.read(0, found.count);
   const std::vector<wt_wedge_prefix> prefixes = found.prefixes.read(0, found.count);

@@ -1,6 +1,7 @@
 // wedge_solve: points on one edge and on two against closed forms and the reference's bisection, whose lengths are
 // minimal; edges' ends, reflections, and what is no path.
 #include "passes/wedge_solve.hpp"
+#include "passes/wedges.hpp"
 
 #include <doctest/doctest.h>
 
@@ -56,7 +57,7 @@ std::map<size_t, PathRow> solve(const Scene& scene, const std::vector<glm::dvec3
                           q.receiver,
                           WT_ALL_QUARTERS});
   WedgeSolve pass(context(), max_depth);
-  const SolvedList& list = pass(uploaded, wedges, ends, set.table(), context().buffer(candidates, "candidates"),
+  const SolvedList& list = pass(uploaded, wedges.list(), ends, set.table(), context().buffer(candidates, "candidates"),
                                 static_cast<uint32_t>(candidates.size()), set.counters());
   // Rows come in any order: a row answers the question with its ends and steps.
   std::map<std::tuple<uint32_t, uint32_t, std::vector<uint32_t>>, size_t> asked;
@@ -275,7 +276,7 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
   place(scene, std::vector{placement});
   Wedges wedges(context(), still, models, instances, true);
   wedges(scene);
-  const Wedge moved = wedge_of(wedges.wedges().read_one(0, "test"));
+  const Wedge moved = wedge_of(wedges.list().wedges.read_one(0, "test"));
   const glm::dvec3 a{-2, 3, 0.6}, b{9, 5.5, 1.4};
   const auto expected = reference::diffraction_point(moved, a, b);
   REQUIRE(expected);
@@ -290,7 +291,7 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
       WedgeSolve pass(context(), 3);
       const auto candidates = context().buffer(
           std::vector<wt_wedge_candidate>{{WT_ROOT, WT_ROOT | 1, {0, WT_NONE}, 0, WT_ALL_QUARTERS}}, "candidates");
-      const SolvedList& list = pass(scene, wedges, ends, set.table(), candidates, 1, set.counters());
+      const SolvedList& list = pass(scene, wedges.list(), ends, set.table(), candidates, 1, set.counters());
       CHECK(list.count == (own_tx || own_rx ? 0 : 1));
       if (list.count) CHECK(glm::distance(download_rows(list)[0].points[0], *expected) < 1e-6);
     }

@@ -54,7 +54,7 @@ TEST_CASE("wedges of instances are where their poses put them, frame after frame
   for (int frame = 0; frame < 3; ++frame) {
     place(scene, fleet.placements);
     wedges(scene);
-    const std::vector<wt_wedge> records = wedges.wedges().read();
+    const std::vector<wt_wedge> records = wedges.list().wedges.read();
     REQUIRE(records.size() == 20 + 3 * 12 + 2 * 4);
     for (uint32_t k = 0; k < 20; ++k) {
       CHECK(distance(records[k].start, fleet.still.wedges[k].start) == 0);
@@ -96,8 +96,8 @@ TEST_CASE("each surface lists the wedges that it bounds, each once; without free
   for (const bool free_edges : {true, false}) {
     CAPTURE(free_edges);
     const Wedges wedges(context(), fleet.still, fleet.models, fleet.instances, free_edges);
-    const std::vector<wt_wedge> records = wedges.wedges().read();
-    const std::vector<uint32_t> first = wedges.first().read(), listed = wedges.of_surfaces().read();
+    const std::vector<wt_wedge> records = wedges.list().wedges.read();
+    const std::vector<uint32_t> first = wedges.list().first.read(), listed = wedges.list().of_surfaces.read();
     REQUIRE(first.size() == 9 + 3 * 6 + 2 * 1 + 1);
     std::set<std::pair<uint32_t, uint32_t>> expected, found;
     for (uint32_t k = 0; k < records.size(); ++k)
@@ -118,7 +118,7 @@ TEST_CASE("a world without wedges, and one without instances") {
   Wedges none(context(), bare, {}, {}, true);
   none(scene);
   CHECK(none.diffracting() == 0);
-  CHECK(none.first().read() == std::vector<uint32_t>{0, 0});
+  CHECK(none.list().first.read() == std::vector<uint32_t>{0, 0});
   const Scene still = box_and_panels();
   Wedges fixed(context(), still, {}, {}, true);
   fixed(scene);

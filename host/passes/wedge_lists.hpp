@@ -1,0 +1,22 @@
+// What the passes of diffracted paths hand on to each other: the wedges of the world, and the prefixes that see them.
+// Layouts: wt_wedge and wt_wedge_prefix in wavetracer/device/records.h.
+#pragma once
+#include "gpu/gpu.hpp"
+#include "wavetracer/device/records.h"
+
+namespace wavetracer {
+
+struct WedgeList {
+  gpu::Buffer<wt_wedge> wedges;
+  // Wedges of surface s: of_surfaces[first[s] .. first[s + 1]].
+  gpu::Buffer<uint32_t> first, of_surfaces;
+};
+
+// Prefixes with their wedges as keys, to be sorted: order[i] is the place of the prefix that key i had.
+struct WedgePrefixList {
+  gpu::Buffer<uint32_t> keys, order;
+  gpu::Buffer<wt_wedge_prefix> prefixes;
+  uint32_t count = 0;
+};
+
+}  // namespace wavetracer
