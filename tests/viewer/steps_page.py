@@ -117,7 +117,7 @@ assert page.js("return wavetracer.state.selected") == page.index(same[0])
 assert f"{paths['delay_s'][same[0]] * 1e9:.1f}"[:-1] in page.text("details"), page.text("details")
 page.js("wavetracer.chosen.frame = {...wavetracer.chosen.frame, vertex_surface: wavetracer.chosen.frame.vertex_surface.map((s) => s + 1000)}")
 body.send_keys(Keys.ARROW_RIGHT)
-assert page.js("return wavetracer.state.selected") == -1 and "not in this frame" in page.text("details")
+assert page.js("return wavetracer.state.selected") == -1 and "does not exist in this frame" in page.text("details")
 assert page.find("charts").is_displayed()
 
 # Escape shows all again.
