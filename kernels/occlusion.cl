@@ -2,7 +2,7 @@
 // Consumes solved paths; sets wt_solved::blocked.
 #include "lib/legs.clh"
 
-kernel void occlusion(const global WT_NODE* nodes, const global WT_NODE* triangles, uint triangle_slots, float extent_m,
+kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, uint triangle_slots, float extent_m,
                       const global float4* moving, const global double4* transmitters, const global double4* receivers,
                       const global wt_exact_surface* surfaces, uint solved_count, uint max_depth,
                       global wt_solved* solved, const global double* vertices, const global uint* sequences) {

@@ -1,7 +1,6 @@
 // top_level: the top-level tree of a frame (wavetracer/device/moving.h), over instances in the order of keys that are
 // sorted between the first kernel and the others. It is numbered as a heap: below node k are 2 k + 1 and 2 k + 2, so
 // every level is a range of numbers, and so are the leaves. A box is two float4, the lower and the upper corner.
-#include "wavetracer/device/bvh.h"
 #include "wavetracer/device/curves.h"
 #include "wavetracer/device/moving.h"
 #include "wavetracer/device/records.h"
@@ -15,14 +14,13 @@ inline uint cell(float x, float extent_m) {
 }
 
 // The box of every instance in scene coordinates, rounded outwards, and its key: vehicles stand side by side, so their
-// places on the ground order them. Those of absent instances are the largest. bodies: the corners of the model's box,
-// the root of its tree beside the lower and the instance's first primitive beside the upper, as words.
-kernel void instance_keys(const global wt_exact_instance* instances, const global float4* bodies, uint instance_count,
+// places on the ground order them. Those of absent instances are the largest.
+kernel void instance_keys(const global wt_exact_instance* instances, const global wt_body* bodies, uint instance_count,
                           float extent_m, global float4* boxes, global uint* keys) {
   const uint i = get_global_id(0);
   if (i >= instance_count) return;
   const global wt_exact_instance* instance = instances + i;
-  const double3 a = convert_double3(bodies[2 * i].xyz), b = convert_double3(bodies[2 * i + 1].xyz);
+  const double3 a = convert_double3(vload3(0, bodies[i].lower)), b = convert_double3(vload3(0, bodies[i].upper));
   const double3 c = 0.5 * (a + b), h = 0.5 * (b - a);
   float lower[3], upper[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +46,7 @@ inline uint place_of_leaf(uint k, uint lowest, uint leaf_count) {
 
 // Instances in the order of their leaves, and the boxes of the leaves. There are two leaves at least; from `present` on
 // they are empty: their boxes are inverted.
-kernel void leaves(const global uint* order, const global wt_exact_instance* instances, const global float4* bodies,
+kernel void leaves(const global uint* order, const global wt_exact_instance* instances, const global wt_body* bodies,
                    const global float4* boxes, uint present, uint leaf_count, global float4* tree,
                    global float4* moving) {
   const uint k = leaf_count - 1 + get_global_id(0);
@@ -63,12 +61,15 @@ kernel void leaves(const global uint* order, const global wt_exact_instance* ins
   tree[2 * k] = boxes[2 * number];
   tree[2 * k + 1] = boxes[2 * number + 1];
   const global wt_exact_instance* instance = instances + number;
-  global float4* record = moving + as_uint(moving[0].x) + WT_INSTANCE_FLOAT4S * (size_t)place;
+  const global wt_moving_head* head = (const global wt_moving_head*)moving;
+  global wt_instance* record = (global wt_instance*)(moving + head->instances) + place;
   for (int row = 0; row < 3; ++row)
-    record[row] = (float4)((float)instance->rotation[row], (float)instance->rotation[3 + row],
-                           (float)instance->rotation[6 + row], (float)instance->position[row]);
-  record[3] = as_float4(
-      (uint4)(as_uint(bodies[2 * number].w), instance->first_surface, as_uint(bodies[2 * number + 1].w), number));
+    record->row[row] = (float4)((float)instance->rotation[row], (float)instance->rotation[3 + row],
+                                (float)instance->rotation[6 + row], (float)instance->position[row]);
+  record->root = bodies[number].root;
+  record->first_surface = instance->first_surface;
+  record->first_primitive = bodies[number].first_primitive;
+  record->number = number;
 }
 
 // Boxes of the inner nodes but the root, a level after the other, by one group.
@@ -84,7 +85,7 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void inner_boxes(ui
   }
 }
 
-// An interval as centre and half size: centred_boxes of host/accel/layout.hpp, bit for bit.
+// An interval as centre and half size: centred_nodes of host/accel/layout.hpp, bit for bit.
 inline float2 centred(float lower, float upper, double padding) {
   if (!(lower <= upper)) return (float2)(0.0f, -1.0f - (float)padding);
   const float centre = (float)(0.5 * ((double)lower + (double)upper));
@@ -107,11 +108,11 @@ kernel void top_nodes(const global float4* tree, uint present, uint leaf_count, 
     y[side] = centred(lower.y, upper.y, padding);
     z[side] = centred(lower.z, upper.z, padding);
     const uint place = place_of_leaf(child, lowest, leaf_count);
-    reference[side] = child < leaf_count - 1 ? (int)child : ~(int)((place << WT_LEAF_BITS) | (place < present));
+    reference[side] = child < leaf_count - 1 ? (int)child : wt_leaf(place, place < present);
   }
-  global float4* node = moving + WT_MOVING_TOP + 4 * (size_t)k;
-  node[0] = (float4)(x[0], y[0]);
-  node[1] = (float4)(x[1], y[1]);
-  node[2] = (float4)(z[0], z[1]);
-  node[3] = (float4)(as_float(reference[0]), as_float(reference[1]), 0.0f, 0.0f);
+  global wt_centred_node* node = (global wt_centred_node*)((global wt_moving_head*)moving + 1) + k;
+  node->left = (float4)(x[0], y[0]);
+  node->right = (float4)(x[1], y[1]);
+  node->z = (float4)(z[0], z[1]);
+  node->child = (int4)(reference[0], reference[1], 0, 0);
 }

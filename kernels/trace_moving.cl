@@ -16,8 +16,6 @@ kernel void trace_moving(const global float4* moving, float extent_m, const glob
     wt_hit hit = {found == WT_NONE ? INFINITY : hits[i], found, wt_load_word(hits, capacity, WT_HIT_SURFACE, i)};
     wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, &hit);
     if (hit.primitive == found) continue;
-    hits[i] = hit.t;
-    wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, hit.primitive);
-    wt_store_word(hits, capacity, WT_HIT_SURFACE, i, hit.surface);
+    wt_store_hit(hits, capacity, i, hit);
   }
 }

@@ -1,22 +1,17 @@
 // The BVH8 layout: the optimal collapse of a binary tree by dynamic programming, and blocks of four triangles.
 // Assumes a tree built down to small leaves; a binary leaf is never divided.
 #include <array>
-#include <bit>
 #include <limits>
 #include <string>
 
 #include "accel/layout.hpp"
-#include "wavetracer/device/bvh.h"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
 
 constexpr uint32_t kWidth = 8, kBlock = 4;
-constexpr int32_t empty_leaf = ~0;  // of no block
 
-float bits(int32_t integer) { return std::bit_cast<float>(integer); }
-float bits(uint32_t integer) { return std::bit_cast<float>(integer); }
 uint32_t block_count(uint32_t triangles) { return (triangles + kBlock - 1) / kBlock; }
 
 // What stands for a binary node in the eight-wide tree.
@@ -79,20 +74,20 @@ class Writer {
   // Writes the eight-wide node of these binary nodes and all below, in depth-first order.
   int32_t inner(const std::vector<uint32_t>& children, uint32_t depth) {
     const size_t at = out_.nodes.size();
-    out_.nodes.resize(at + WT_BVH8_NODE_FLOATS, 0.0f);
+    out_.nodes.push_back({});
     out_.max_depth = std::max(out_.max_depth, depth);
     for (size_t lane = 0; lane < kWidth; lane++) {
       const bool used = lane < children.size();
       const Box box = used ? tree_.nodes[children[lane]].box : Box{};
-      const int32_t reference = used ? child(children[lane], depth + 1) : empty_leaf;
-      float* node = &out_.nodes[at];
+      const int32_t reference = used ? child(children[lane], depth + 1) : wt_leaf(0, 0);
+      wt_bvh8_node& node = out_.nodes[at];
       for (size_t axis = 0; axis < 3; axis++) {
-        node[kWidth * axis + lane] = box.lower[axis];
-        node[kWidth * (3 + axis) + lane] = box.upper[axis];
+        node.planes[axis].s[lane] = box.lower[axis];
+        node.planes[3 + axis].s[lane] = box.upper[axis];
       }
-      node[kWidth * 6 + lane] = bits(reference);
+      node.child[lane] = reference;
     }
-    return static_cast<int32_t>(at / WT_BVH8_NODE_FLOATS);
+    return static_cast<int32_t>(at);
   }
 
   // The binary nodes that cover `index` with at most `roots` subtrees, as planned.
@@ -128,7 +123,7 @@ class Writer {
       const uint32_t triangle = tree_.references[i];
       if (std::find(members.begin(), members.end(), triangle) == members.end()) members.push_back(triangle);
     }
-    const auto first = static_cast<uint32_t>(out_.blocks.size() / WT_BLOCK_FLOATS);
+    const auto first = static_cast<uint32_t>(out_.blocks.size());
     const uint32_t count = block_count(static_cast<uint32_t>(members.size()));
     if (count >= 1u << WT_LEAF_BITS || first >= 1u << (31 - WT_LEAF_BITS)) {
       throw RuntimeError("block " + std::to_string(first) + " of " + std::to_string(members.size()) +
@@ -140,17 +135,16 @@ class Writer {
       for (size_t lane = 0; lane < kBlock; lane++) four[lane] = members[begin + (lane < size ? lane : 0)];
       append(four);
     }
-    return ~static_cast<int32_t>((first << WT_LEAF_BITS) | count);
+    return wt_leaf(first, count);
   }
 
   void append(const std::array<uint32_t, kBlock>& four) {
-    const size_t at = out_.blocks.size();
-    out_.blocks.resize(at + WT_BLOCK_FLOATS, 0.0f);
+    wt_triangle_block& block = out_.blocks.emplace_back();
     for (size_t lane = 0; lane < kBlock; lane++) {
       const AccelTriangle& triangle = triangles_[four[lane]];
-      for (size_t row = 0; row < 9; row++) out_.blocks[at + kBlock * row + lane] = triangle.v[row / 3][row % 3];
-      out_.blocks[at + 36 + lane] = bits(triangle.primitive);
-      out_.blocks[at + 40 + lane] = bits(triangle.surface);
+      for (size_t row = 0; row < 9; row++) block.corner[row].s[lane] = triangle.v[row / 3][row % 3];
+      block.primitive.s[lane] = triangle.primitive;
+      block.surface.s[lane] = triangle.surface;
     }
   }
 };

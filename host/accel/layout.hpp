@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "accel/build.hpp"
+#include "wavetracer/device/bvh.h"
 
 namespace wavetracer {
 
 struct Bvh2 {
-  std::vector<float> nodes;      // WT_BVH2_NODE_FLOATS each
-  std::vector<float> triangles;  // three rotated copies of triangle_slots triangles, 12 floats a triangle
+  std::vector<wt_bvh2_node> nodes;
+  std::vector<wt_bvh2_triangle> triangles;  // three rotated copies of triangle_slots triangles
   uint32_t triangle_slots = 0;
   // Inner nodes on the longest way down, root included: a stack of this many entries suffices.
   uint32_t max_depth = 0;
@@ -22,13 +23,13 @@ struct Bvh2 {
 // triangles than a reference can count; build with max_leaf <= 15.
 Bvh2 make_bvh2(const BinaryTree& tree, std::span<const AccelTriangle> triangles);
 
-// BVH2 nodes as one ray a work-item reads them: pairs (minimum, maximum) become (centre, half size), padded for the
-// rounding of rays whose origins and hits have coordinates of at most extent_m.
-std::vector<float> centred_boxes(std::vector<float> nodes, float extent_m);
+// BVH2 nodes as one ray per work-item reads them: boxes as centre and half size, padded for the rounding of rays whose
+// origins and hits have coordinates of at most extent_m.
+std::vector<wt_centred_node> centred_nodes(std::span<const wt_bvh2_node> nodes, float extent_m);
 
 struct Bvh8 {
-  std::vector<float> nodes;   // WT_BVH8_NODE_FLOATS each
-  std::vector<float> blocks;  // WT_BLOCK_FLOATS each, four triangles
+  std::vector<wt_bvh8_node> nodes;
+  std::vector<wt_triangle_block> blocks;
   // Inner nodes on the longest way down, root included: a stack of 7 * max_depth + 1 entries suffices.
   uint32_t max_depth = 0;
 };

@@ -3,17 +3,12 @@
 #include "accel/top_level.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
-#include "wavetracer/device/bvh.h"
+#include "accel/bvh2_node.hpp"
 
 namespace wavetracer {
 namespace {
-
-int32_t leaf_reference(size_t first, uint32_t count) {
-  return ~static_cast<int32_t>((static_cast<uint32_t>(first) << WT_LEAF_BITS) | count);
-}
 
 class Builder {
  public:
@@ -39,40 +34,21 @@ class Builder {
                        return x < y || (x == y && a < b);  // the same tree whatever the library does
                      });
     const size_t at = out_.nodes.size();
-    out_.nodes.resize(at + WT_BVH2_NODE_FLOATS, 0.0f);
+    out_.nodes.push_back({});
     Box left, right;
     const int32_t left_child = child(first, middle, left), right_child = child(middle, last, right);
-    store(at, 0, left, left_child);
-    store(at, 1, right, right_child);
+    store_child(out_.nodes[at], 0, left, left_child);
+    store_child(out_.nodes[at], 1, right, right_child);
     box.grow(left);
     box.grow(right);
-    return static_cast<int32_t>(at / WT_BVH2_NODE_FLOATS);
-  }
-
-  // A root over one box or none.
-  void lonely_root() {
-    out_.nodes.resize(WT_BVH2_NODE_FLOATS, 0.0f);
-    const bool any = !boxes_.empty();
-    store(0, 0, any ? boxes_[0] : Box{}, leaf_reference(0, any));
-    store(0, 1, Box{}, leaf_reference(0, 0));
+    return static_cast<int32_t>(at);
   }
 
  private:
   int32_t child(size_t first, size_t last, Box& box) {
     if (last - first > 1) return node(first, last, box);
     box = boxes_[out_.order[first]];
-    return leaf_reference(first, 1);
-  }
-
-  void store(size_t node, size_t side, const Box& box, int32_t child) {
-    float *xy = &out_.nodes[node + 4 * side], *z = &out_.nodes[node + 8 + 2 * side];
-    xy[0] = box.lower[0];
-    xy[1] = box.upper[0];
-    xy[2] = box.lower[1];
-    xy[3] = box.upper[1];
-    z[0] = box.lower[2];
-    z[1] = box.upper[2];
-    out_.nodes[node + 12 + side] = std::bit_cast<float>(child);
+    return wt_leaf(static_cast<uint32_t>(first), 1);
   }
 
   std::span<const Box> boxes_;
@@ -90,7 +66,7 @@ TopLevel build_top_level(std::span<const Box> boxes) {
   if (boxes.size() > 1)
     builder.node(0, boxes.size(), whole);
   else
-    builder.lonely_root();
+    out.nodes.push_back(boxes.empty() ? lonely_root(Box{}, wt_leaf(0, 0)) : lonely_root(boxes[0], wt_leaf(0, 1)));
   return out;
 }
 

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "accel/box.hpp"
+#include "wavetracer/device/bvh.h"
 
 namespace wavetracer {
 
 struct TopLevel {
-  std::vector<float> nodes;     // WT_BVH2_NODE_FLOATS each, boxes as minimum and maximum; node 0 is the root
-  std::vector<uint32_t> order;  // leaf k holds box order[k]
+  std::vector<wt_bvh2_node> nodes;  // node 0 is the root
+  std::vector<uint32_t> order;      // leaf k holds box order[k]
 };
 
 // Boxes must not be empty; of no boxes at all it is a root that no ray enters.

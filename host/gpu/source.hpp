@@ -1,5 +1,5 @@
 // Kernel sources: the table embedded in the library, and the places of lines after the expansion of includes.
-// Paths are those of the source tree: "kernels/trace.cl", "include/wavetracer/device/bvh.h".
+// Paths are those of the source tree: "kernels/visible.cl", "include/wavetracer/device/bvh.h".
 #pragma once
 #include <span>
 #include <string>

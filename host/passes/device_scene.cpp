@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "accel/layout.hpp"
-#include "wavetracer/device/bvh.h"
 
 namespace wavetracer {
 
@@ -38,7 +37,7 @@ void upload_surfaces(gpu::Context& context, const Scene& scene, DeviceScene& out
   out.exact_surfaces = context.buffer(exact, "exact surfaces");
   out.exact_triangles = context.buffer(surface_corners(scene), "surface triangles");
   out.exact_instances = context.buffer<wt_exact_instance>(1, "instances");
-  out.moving = context.buffer<float>(4, "moving");
+  out.moving = context.buffer<wt_float4>(1, "moving");
 }
 
 }  // namespace
@@ -78,7 +77,7 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
   options.spatial_splits = spatial_splits;
   const Bvh2 two = make_bvh2(build_binary(triangles, options), triangles);
   out.triangle_slots = two.triangle_slots;
-  out.nodes2 = context.buffer(centred_boxes(two.nodes, out.extent_m), "BVH2 nodes");
+  out.nodes2 = context.buffer(centred_nodes(two.nodes, out.extent_m), "BVH2 nodes");
   out.triangles2 = context.buffer(two.triangles, "BVH2 triangles");
   out.require_stack("WT_BVH2_STACK", two.max_depth);
   out.require_stack("WT_PACKET_STACK", two.max_depth);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "wavetracer/device/bvh.h"
 #include "wavetracer/device/records.h"
 #include "wavetracer/scene.hpp"
 
@@ -17,10 +18,11 @@ namespace wavetracer {
 enum class TraceShape { bvh2, bvh8, packet16 };
 
 struct DeviceScene {
-  gpu::Buffer<float> nodes2;           // BVH2, boxes as centre and padded half size (one ray a work-item)
-  gpu::Buffer<float> packet_nodes2;    // BVH2, boxes as minimum and maximum (CPUs only)
-  gpu::Buffer<float> triangles2;       // triangles of both
-  gpu::Buffer<float> nodes8, blocks8;  // BVH8 (CPUs only)
+  gpu::Buffer<wt_centred_node> nodes2;       // BVH2 for one ray per work-item
+  gpu::Buffer<wt_bvh2_node> packet_nodes2;   // BVH2 for packets (CPUs only)
+  gpu::Buffer<wt_bvh2_triangle> triangles2;  // of both
+  gpu::Buffer<wt_bvh8_node> nodes8;          // BVH8 (CPUs only)
+  gpu::Buffer<wt_triangle_block> blocks8;
   uint32_t triangle_slots = 0;
   float extent_m = 0;  // largest absolute coordinate of scene and rays, recentred
   bool cpu = false;
@@ -29,10 +31,13 @@ struct DeviceScene {
   gpu::Buffer<double> exact_triangles;  // nine doubles a triangle, grouped by surface
   uint32_t primitive_count = 0;         // triangles of the static scene
   // What moves, by passes/place.hpp; placeholders where nothing does.
-  gpu::Buffer<float> moving;  // wavetracer/device/moving.h
+  gpu::Buffer<wt_float4> moving;  // wavetracer/device/moving.h
   gpu::Buffer<wt_exact_instance> exact_instances;
   gpu::Definitions definitions;  // stack sizes that the trees need
 
+  // The tree that legs of paths are tested against: BVH8 on CPUs, BVH2 elsewhere (kernels/lib/legs.clh).
+  const gpu::Memory& leg_nodes() const { return cpu ? static_cast<const gpu::Memory&>(nodes8) : nodes2; }
+  const gpu::Memory& leg_leaves() const { return cpu ? static_cast<const gpu::Memory&>(blocks8) : triangles2; }
   // Makes the stack called `name` at least so large; sizes go in steps, so that scenes of like size share kernels.
   void require_stack(const std::string& name, uint32_t entries);
 };

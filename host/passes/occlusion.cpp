@@ -4,17 +4,13 @@
 
 namespace wavetracer {
 
-Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene) {
-  gpu::Definitions definitions = scene.definitions;
-  definitions[scene.cpu ? "WT_SHAPE_BVH8" : "WT_SHAPE_BVH2"] = "1";
-  kernel_ = context.kernel("occlusion", "occlusion", definitions);
-}
+Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
+    : work_(tuning_of(context.info()).exact), kernel_(context.kernel("occlusion", "occlusion", scene.definitions)) {}
 
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved) {
-  kernel_({size_t{solved.count} * (solved.max_depth + 1), 16}, "occlusion", scene.cpu ? scene.nodes8 : scene.nodes2,
-          scene.cpu ? scene.blocks8 : scene.triangles2, scene.triangle_slots, scene.extent_m, scene.moving,
-          ends.transmitters, ends.receivers, scene.exact_surfaces, solved.count, solved.max_depth, solved.headers,
-          solved.vertices, solved.sequences);
+  kernel_(work_.range(size_t{solved.count} * (solved.max_depth + 1)), "occlusion", scene.leg_nodes(),
+          scene.leg_leaves(), scene.triangle_slots, scene.extent_m, scene.moving, ends.transmitters, ends.receivers,
+          scene.exact_surfaces, solved.count, solved.max_depth, solved.headers, solved.vertices, solved.sequences);
 }
 
 }  // namespace wavetracer

@@ -4,6 +4,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -13,6 +14,7 @@ class Occlusion {
   void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
 
  private:
+  Work work_;
   gpu::Kernel kernel_;
 };
 

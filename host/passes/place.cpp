@@ -3,35 +3,51 @@
 #include "passes/place.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "accel/layout.hpp"
 #include "accel/top_level.hpp"
-#include "wavetracer/device/bvh.h"
-#include "wavetracer/device/moving.h"
 
 namespace wavetracer {
 
 namespace {
 
-float bits(uint32_t word) { return std::bit_cast<float>(word); }
-
 int32_t moved_child(int32_t child, uint32_t first_node, uint32_t first_leaf) {
   if (child >= 0) return child + static_cast<int32_t>(first_node);
-  return ~static_cast<int32_t>(static_cast<uint32_t>(~child) + (first_leaf << WT_LEAF_BITS));
+  const uint32_t first = wt_leaf_first(child);
+  return wt_leaf(first + first_leaf, wt_leaf_end(child) - first);
 }
 
-// Appends a tree's nodes of `floats` floats each, whose `children` references begin at float `at`.
-void append_nodes(std::vector<float>& all, std::vector<float> nodes, size_t floats, size_t at, size_t children,
-                  uint32_t first_leaf) {
-  const auto first_node = static_cast<uint32_t>(all.size() / floats);
-  for (size_t node = 0; node < nodes.size(); node += floats)
-    for (size_t k = node + at; k < node + at + children; ++k)
-      nodes[k] = std::bit_cast<float>(moved_child(std::bit_cast<int32_t>(nodes[k]), first_node, first_leaf));
+// Children of a node, used or not.
+std::span<int32_t> children(wt_centred_node& node) { return std::span(node.child.s).first(2); }
+std::span<int32_t> children(wt_bvh8_node& node) { return node.child; }
+
+// Appends a tree, whose references then count from the first node and leaf of all.
+template <class Node>
+void append_nodes(std::vector<Node>& all, std::vector<Node> nodes, size_t first_leaf) {
+  const auto first_node = static_cast<uint32_t>(all.size());
+  for (Node& node : nodes)
+    for (int32_t& child : children(node)) child = moved_child(child, first_node, static_cast<uint32_t>(first_leaf));
   all.insert(all.end(), nodes.begin(), nodes.end());
 }
+
+template <class T>
+size_t float4s(const std::vector<T>& records) {
+  static_assert(sizeof(T) % sizeof(wt_float4) == 0);
+  return records.size() * (sizeof(T) / sizeof(wt_float4));
+}
+
+// The records as what `moving` is made of.
+template <class T>
+std::vector<wt_float4> as_float4s(const std::vector<T>& records) {
+  std::vector<wt_float4> out(float4s(records));
+  if (!records.empty()) std::memcpy(out.data(), records.data(), out.size() * sizeof(wt_float4));
+  return out;
+}
+
+constexpr size_t top_at = sizeof(wt_moving_head) / sizeof(wt_float4);  // the top-level tree follows the head
 
 Box box_of(const std::vector<AccelTriangle>& triangles) {
   Box box;
@@ -120,59 +136,79 @@ void Place::upload_surfaces(gpu::Context& context, const std::vector<Scene>& mod
   extended(scene.exact_surfaces, "exact surfaces");
 }
 
-void Place::upload_trees(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene) {
-  std::vector<float> nodes, leaves;
-  std::vector<Bvh2> trees;
-  uint32_t stack = 0;
-  for (size_t m = 0; m < models.size(); ++m) {
-    const std::vector<AccelTriangle> triangles = accel_triangles(models[m]);
-    models_[m].box = box_of(triangles);
-    if (scene.cpu) {
-      models_[m].root = static_cast<uint32_t>(nodes.size() / WT_BVH8_NODE_FLOATS);
-      const Bvh8 eight = make_bvh8(build_binary(triangles, BuildOptions::for_bvh8()), triangles);
-      const auto first_block = static_cast<uint32_t>(leaves.size() / WT_BLOCK_FLOATS);
-      append_nodes(nodes, eight.nodes, WT_BVH8_NODE_FLOATS, 48, 8, first_block);
-      leaves.insert(leaves.end(), eight.blocks.begin(), eight.blocks.end());
-      stack = std::max(stack, 7 * eight.max_depth + 1);
-    } else {
-      models_[m].root = static_cast<uint32_t>(nodes.size() / WT_BVH2_NODE_FLOATS);
-      trees.push_back(make_bvh2(build_binary(triangles, BuildOptions::for_bvh2()), triangles));
-      // Rays in model coordinates start as far away as the scene is wide.
-      const std::vector<float> centred = centred_boxes(trees.back().nodes, 4 * extent_m_);
-      append_nodes(nodes, centred, WT_BVH2_NODE_FLOATS, 12, 2, triangle_slots_);
-      triangle_slots_ += trees.back().triangle_slots;
-      stack = std::max(stack, trees.back().max_depth);
-    }
-  }
-  for (size_t copy = 0; copy < 3; ++copy)
-    for (const Bvh2& tree : trees) {
-      const size_t floats = tree.triangles.size() / 3;
-      leaves.insert(leaves.end(), tree.triangles.begin() + static_cast<std::ptrdiff_t>(copy * floats),
-                    tree.triangles.begin() + static_cast<std::ptrdiff_t>((copy + 1) * floats));
-    }
-  scene.require_stack(scene.cpu ? "WT_BVH8_STACK" : "WT_BVH2_STACK", stack);
-
-  // The parts begin at even float4: vectors of eight are read from there.
-  instances_at_ = WT_MOVING_TOP + 4 * std::max<size_t>(instances_.size(), 2);
-  nodes_at_ = instances_at_ + WT_INSTANCE_FLOAT4S * instances_.size();
-  triangles_at_ = nodes_at_ + nodes.size() / 4;
-  const float head[4] = {bits(static_cast<uint32_t>(instances_at_)), bits(static_cast<uint32_t>(nodes_at_)),
-                         bits(static_cast<uint32_t>(triangles_at_)), bits(triangle_slots_)};
-  scene.moving = context.buffer<float>(4 * triangles_at_ + leaves.size(), "moving");
-  scene.moving.write(head);
-  scene.moving.write(nodes, 4 * nodes_at_);
-  scene.moving.write(leaves, 4 * triangles_at_);
-  top_.resize(4 * (nodes_at_ - WT_MOVING_TOP));
+template <class Node, class Leaf>
+void Place::upload(gpu::Context& context, DeviceScene& scene, const std::vector<Node>& nodes,
+                   const std::vector<Leaf>& leaves) {
+  // Trees over so many instances have fewer nodes, and one where there are none or one.
+  const size_t top_nodes = std::max<size_t>(instances_.size(), 2);
+  top_.resize(top_nodes * (sizeof(wt_centred_node) / sizeof(wt_float4)) +
+              instances_.size() * (sizeof(wt_instance) / sizeof(wt_float4)));
+  wt_moving_head head{};
+  head.instances =
+      static_cast<uint32_t>(top_at + top_.size() - instances_.size() * (sizeof(wt_instance) / sizeof(wt_float4)));
+  head.nodes = static_cast<uint32_t>(top_at + top_.size());
+  head.triangles = static_cast<uint32_t>(head.nodes + float4s(nodes));
+  head.triangle_slots = triangle_slots_;
+  instances_at_ = head.instances - top_at;
+  scene.moving = context.buffer<wt_float4>(head.triangles + float4s(leaves), "moving");
+  scene.moving.write(as_float4s(std::vector{head}));
+  scene.moving.write(as_float4s(nodes), head.nodes);
+  scene.moving.write(as_float4s(leaves), head.triangles);
 }
 
-std::vector<float> Place::bodies() const {
-  std::vector<float> bodies;
-  bodies.reserve(8 * instances_.size());
+void Place::upload_trees(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene) {
+  if (scene.cpu)
+    upload_bvh8(context, models, scene);
+  else
+    upload_bvh2(context, models, scene);
+}
+
+void Place::upload_bvh8(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene) {
+  std::vector<wt_bvh8_node> nodes;
+  std::vector<wt_triangle_block> blocks;
+  for (size_t m = 0; m < models.size(); ++m) {
+    const std::vector<AccelTriangle> triangles = accel_triangles(models[m]);
+    const Bvh8 tree = make_bvh8(build_binary(triangles, BuildOptions::for_bvh8()), triangles);
+    models_[m].box = box_of(triangles);
+    models_[m].root = static_cast<int32_t>(nodes.size());
+    append_nodes(nodes, tree.nodes, blocks.size());
+    blocks.insert(blocks.end(), tree.blocks.begin(), tree.blocks.end());
+    scene.require_stack("WT_BVH8_STACK", 7 * tree.max_depth + 1);
+  }
+  upload(context, scene, nodes, blocks);
+}
+
+void Place::upload_bvh2(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene) {
+  std::vector<wt_centred_node> nodes;
+  std::vector<Bvh2> trees;
+  for (size_t m = 0; m < models.size(); ++m) {
+    const std::vector<AccelTriangle> triangles = accel_triangles(models[m]);
+    const Bvh2& tree = trees.emplace_back(make_bvh2(build_binary(triangles, BuildOptions::for_bvh2()), triangles));
+    models_[m].box = box_of(triangles);
+    models_[m].root = static_cast<int32_t>(nodes.size());
+    // Rays in model coordinates start as far away as the scene is wide.
+    append_nodes(nodes, centred_nodes(tree.nodes, 4 * extent_m_), triangle_slots_);
+    triangle_slots_ += tree.triangle_slots;
+    scene.require_stack("WT_BVH2_STACK", tree.max_depth);
+  }
+  std::vector<wt_bvh2_triangle> leaves;  // all first copies, all second ones, all third ones
+  for (size_t copy = 0; copy < 3; ++copy)
+    for (const Bvh2& tree : trees) {
+      const auto first = tree.triangles.begin() + static_cast<std::ptrdiff_t>(copy * tree.triangle_slots);
+      leaves.insert(leaves.end(), first, first + tree.triangle_slots);
+    }
+  upload(context, scene, nodes, leaves);
+}
+
+std::vector<wt_body> Place::bodies() const {
+  std::vector<wt_body> bodies;
   for (size_t i = 0; i < instances_.size(); ++i) {
     const Model& model = models_[instances_[i].model];
-    const auto &lower = model.box.lower, &upper = model.box.upper;
-    bodies.insert(bodies.end(), {lower[0], lower[1], lower[2], bits(model.root)});
-    bodies.insert(bodies.end(), {upper[0], upper[1], upper[2], bits(first_primitive_[i])});
+    wt_body& body = bodies.emplace_back();
+    std::ranges::copy(model.box.lower, body.lower);
+    std::ranges::copy(model.box.upper, body.upper);
+    body.root = model.root;
+    body.first_primitive = first_primitive_[i];
   }
   return bodies;
 }
@@ -205,26 +241,25 @@ void Place::write_top_level(DeviceScene& scene, std::span<const Placement> place
     present_.push_back(i);
     boxes_.push_back(placed(models_[instances_[i].model].box, placements[i]));
   }
-  TopLevel tree = build_top_level(boxes_);
-  const std::vector<float> nodes = centred_boxes(std::move(tree.nodes), extent_m_);
-  std::ranges::copy(nodes, top_.begin());
-  float* record = &top_[4 * (instances_at_ - WT_MOVING_TOP)];
-  for (const uint32_t leaf : tree.order) {
-    write_instance(record, present_[leaf], placements[present_[leaf]]);
-    record += 4 * WT_INSTANCE_FLOAT4S;
-  }
-  scene.moving.write(top_, 4 * WT_MOVING_TOP, "place");
+  const TopLevel tree = build_top_level(boxes_);
+  std::ranges::copy(as_float4s(centred_nodes(tree.nodes, extent_m_)), top_.begin());
+  std::vector<wt_instance> records;
+  for (const uint32_t leaf : tree.order) records.push_back(instance_record(present_[leaf], placements[present_[leaf]]));
+  std::ranges::copy(as_float4s(records), top_.begin() + static_cast<std::ptrdiff_t>(instances_at_));
+  scene.moving.write(top_, top_at, "place");
 }
 
-void Place::write_instance(float* record, uint32_t i, const Placement& placement) const {
-  for (int k = 0; k < 3; ++k, record += 4) {  // row k of the inverse rotation is column k of the rotation
-    for (int axis = 0; axis < 3; ++axis) record[axis] = static_cast<float>(placement.rotation[k][axis]);
-    record[3] = static_cast<float>(placement.position_m[k]);
+wt_instance Place::instance_record(uint32_t i, const Placement& placement) const {
+  wt_instance record{};
+  for (int k = 0; k < 3; ++k) {  // row k of the inverse rotation is column k of the rotation
+    for (int axis = 0; axis < 3; ++axis) record.row[k].s[axis] = static_cast<float>(placement.rotation[k][axis]);
+    record.row[k].s[3] = static_cast<float>(placement.position_m[k]);
   }
-  record[0] = bits(models_[instances_[i].model].root);
-  record[1] = bits(instances_[i].first_surface);
-  record[2] = bits(first_primitive_[i]);
-  record[3] = bits(i);
+  record.root = models_[instances_[i].model].root;
+  record.first_surface = instances_[i].first_surface;
+  record.first_primitive = first_primitive_[i];
+  record.number = i;
+  return record;
 }
 
 }  // namespace wavetracer

@@ -8,6 +8,7 @@
 
 #include "accel/box.hpp"
 #include "passes/device_scene.hpp"
+#include "wavetracer/device/moving.h"
 #include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
@@ -23,18 +24,25 @@ class Place {
   void operator()(DeviceScene& scene, std::span<const Placement> placements);
   // The same without the tree, for those that build it elsewhere (passes/top_level.hpp).
   void surfaces(DeviceScene& scene, std::span<const Placement> placements);
-  // What such a tree holds of the instances whatever the frame: eight floats each, see instance_keys of top_level.cl.
-  std::vector<float> bodies() const;
+  // What such a tree holds of the instances whatever the frame: see instance_keys of top_level.cl.
+  std::vector<wt_body> bodies() const;
 
  private:
   struct Model {
     Box box;  // of its triangles, model coordinates
-    uint32_t root = 0, first_surface = 0;
+    int32_t root = 0;
+    uint32_t first_surface = 0;
   };
   void upload_surfaces(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
   void upload_trees(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
   void write_top_level(DeviceScene& scene, std::span<const Placement> placements);
-  void write_instance(float* record, uint32_t i, const Placement& placement) const;
+  void upload_bvh2(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
+  void upload_bvh8(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
+  // Nodes and leaves of all models, and room for the top level.
+  template <class Node, class Leaf>
+  void upload(gpu::Context& context, DeviceScene& scene, const std::vector<Node>& nodes,
+              const std::vector<Leaf>& leaves);
+  wt_instance instance_record(uint32_t i, const Placement& placement) const;
 
   gpu::Kernel kernel_;
   uint32_t local_;
@@ -44,13 +52,13 @@ class Place {
   gpu::Buffer<wt_model_surface> model_surfaces_;
   gpu::Buffer<uint32_t> surface_instances_;  // the instance of each surface of instances
   uint32_t first_surface_, surface_count_ = 0;
-  size_t instances_at_, nodes_at_, triangles_at_;  // parts of `moving`, counted in float4
+  size_t instances_at_ = 0;  // in top_
   uint32_t triangle_slots_ = 0;
   float extent_m_;
   std::vector<wt_exact_instance> records_;  // of the last frame, as are these
   std::vector<uint32_t> present_;
   std::vector<Box> boxes_;
-  std::vector<float> top_;  // the top-level tree and its instances: `moving` between its head and the models' trees
+  std::vector<wt_float4> top_;  // the top-level tree and its instances: `moving` between its head and the models' trees
 };
 
 }  // namespace wavetracer

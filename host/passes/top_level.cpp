@@ -9,11 +9,11 @@
 
 namespace wavetracer {
 
-TopLevelTree::TopLevelTree(gpu::Context& context, const std::vector<float>& bodies)
+TopLevelTree::TopLevelTree(gpu::Context& context, const std::vector<wt_body>& bodies)
     : local_(context.info().simple_local_size()),
       group_(tuning_of(context.info()).top_level_items),
       bodies_(context.buffer(bodies, "bodies of instances")) {
-  instances_.count = static_cast<uint32_t>(bodies.size() / 8);
+  instances_.count = static_cast<uint32_t>(bodies.size());
   instances_.keys = context.buffer<uint32_t>(instances_.count, "keys of instances");
   instances_.order = context.buffer<uint32_t>(instances_.count, "order of instances");
   boxes_ = context.buffer<float>(8 * size_t{instances_.count}, "boxes of instances");

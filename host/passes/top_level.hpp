@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "passes/device_scene.hpp"
+#include "wavetracer/device/moving.h"
 
 namespace wavetracer {
 
@@ -19,7 +20,7 @@ struct InstanceOrder {
 class TopLevelTree {
  public:
   // bodies: those of Place.
-  TopLevelTree(gpu::Context& context, const std::vector<float>& bodies);
+  TopLevelTree(gpu::Context& context, const std::vector<wt_body>& bodies);
   // A key an instance, those of absent ones last. Assumes that Place has moved the instances.
   InstanceOrder& keys(const DeviceScene& scene);
   // Writes tree and records of the first `present` instances of the sorted order, which are all that are present.
@@ -28,7 +29,7 @@ class TopLevelTree {
  private:
   uint32_t local_, group_;
   gpu::Kernel instance_keys_, leaves_, inner_boxes_, top_nodes_;
-  gpu::Buffer<float> bodies_;
+  gpu::Buffer<wt_body> bodies_;
   InstanceOrder instances_;
   gpu::Buffer<float> boxes_, tree_;  // of instances, of nodes and leaves; eight floats each
 };

@@ -1,12 +1,29 @@
-// Host side of kernels/trace.cl.
+// Host side of kernels/trace_bvh2.cl, trace_bvh8.cl and trace_packet16.cl.
 // On CPUs a work-item is a block of 16 rays, on GPUs a ray.
 #include "passes/trace.hpp"
 
+#include <stdexcept>
 #include <string>
 
 #include "passes/tuning.hpp"
 
 namespace wavetracer {
+
+namespace {
+
+const char* program_of(TraceShape shape) {
+  switch (shape) {
+    case TraceShape::bvh2:
+      return "trace_bvh2";
+    case TraceShape::bvh8:
+      return "trace_bvh8";
+    case TraceShape::packet16:
+      return "trace_packet16";
+  }
+  throw std::invalid_argument("trace: no such shape");
+}
+
+}  // namespace
 
 Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch, Scope scope)
     : shape_(shape),
@@ -19,10 +36,7 @@ Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, 
   launch.define(definitions);
   if (counts_blocks_) definitions["WT_COUNT_BLOCKS"] = "1";
   definitions["WT_BLOCK"] = std::to_string(block_);
-  definitions[shape == TraceShape::bvh2   ? "WT_SHAPE_BVH2"
-              : shape == TraceShape::bvh8 ? "WT_SHAPE_BVH8"
-                                          : "WT_SHAPE_PACKET16"] = "1";
-  kernel_ = context.kernel("trace", "trace", definitions);
+  kernel_ = context.kernel(program_of(shape), "trace", definitions);
 }
 
 void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits) {

@@ -4,6 +4,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -15,8 +16,9 @@ class Transmissions {
   void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
 
  private:
-  gpu::Kernel kernel_;
   uint32_t most_;
+  Work work_;
+  gpu::Kernel kernel_;
 };
 
 }  // namespace wavetracer

@@ -96,16 +96,17 @@ std::vector<std::string> faults(const Bvh2& bvh, std::span<const AccelTriangle> 
     slots += count;
     for (uint32_t slot = first; slot < first + count; slot++) {
       for (size_t kz = 0; kz < 3; kz++) {
-        const float* t = &bvh.triangles.at(12 * (kz * bvh.triangle_slots + slot));
+        const wt_bvh2_triangle& t = bvh.triangles.at(kz * bvh.triangle_slots + slot);
+        const wt_float4* const corners[3] = {&t.a, &t.b, &t.c};
         float v[3][3];
         for (size_t vertex = 0; vertex < 3; vertex++) {
-          v[vertex][(kz + 1) % 3] = t[4 * vertex];
-          v[vertex][(kz + 2) % 3] = t[4 * vertex + 1];
-          v[vertex][kz] = t[4 * vertex + 2];
+          v[vertex][(kz + 1) % 3] = corners[vertex]->s[0];
+          v[vertex][(kz + 2) % 3] = corners[vertex]->s[1];
+          v[vertex][kz] = corners[vertex]->s[2];
         }
-        const auto primitive = std::bit_cast<uint32_t>(t[3]);
-        check_vertices(faults, primitive, triangles, v, std::bit_cast<uint32_t>(t[7]));
-        faults.check(t[11] == 0, "the last float of a triangle is not zero");
+        const auto primitive = std::bit_cast<uint32_t>(t.a.s[3]);
+        check_vertices(faults, primitive, triangles, v, std::bit_cast<uint32_t>(t.b.s[3]));
+        faults.check(t.c.s[3] == 0, "the last float of a triangle is not zero");
         if (kz == 0) faults.meet(primitive, triangles, box, exact);
       }
     }
@@ -114,13 +115,14 @@ std::vector<std::string> faults(const Bvh2& bvh, std::span<const AccelTriangle> 
                                                                       const Box& parent) {
     faults.check(static_cast<size_t>(index) == nodes++, "not in depth-first order: node " + std::to_string(index));
     deepest = std::max(deepest, depth);
-    const float* n = &bvh.nodes.at(static_cast<size_t>(index) * WT_BVH2_NODE_FLOATS);
+    const wt_bvh2_node& n = bvh.nodes.at(static_cast<size_t>(index));
     for (int side = 0; side < 2; side++) {
-      const float *xy = n + 4 * side, *z = n + 8 + 2 * side;
-      const Box box{{xy[0], xy[2], z[0]}, {xy[1], xy[3], z[1]}};
+      const wt_planes_xy& xy = side == 0 ? n.left : n.right;
+      const float(&z)[2] = side == 0 ? n.left_z : n.right_z;
+      const Box box{{xy.x[0], xy.y[0], z[0]}, {xy.x[1], xy.y[1], z[1]}};
       faults.check(box.empty() || parent.contains(box),
                    "box larger than its parent's at node " + std::to_string(index));
-      const auto child = std::bit_cast<int32_t>(n[12 + side]);
+      const int32_t child = n.child[side];
       faults.check(!box.empty() || child == ~0, "an unused child is not the leaf of nothing");
       if (child >= 0) {
         walk(child, depth + 1, box);
@@ -132,8 +134,8 @@ std::vector<std::string> faults(const Bvh2& bvh, std::span<const AccelTriangle> 
   Box everything;
   for (int axis = 0; axis < 3; axis++) std::swap(everything.lower[axis], everything.upper[axis]);
   walk(0, 1, everything);
-  faults.check(nodes * WT_BVH2_NODE_FLOATS == bvh.nodes.size(), "nodes that nothing refers to");
-  faults.check(slots == bvh.triangle_slots && bvh.triangles.size() == 36 * slots, "triangles in no leaf");
+  faults.check(nodes == bvh.nodes.size(), "nodes that nothing refers to");
+  faults.check(slots == bvh.triangle_slots && bvh.triangles.size() == 3 * slots, "triangles in no leaf");
   faults.check(deepest == bvh.max_depth, "wrong depth: " + std::to_string(deepest));
   faults.all_met(triangles);
   return faults.found;
@@ -148,14 +150,14 @@ std::vector<std::string> faults(const Bvh8& bvh, std::span<const AccelTriangle> 
     blocks += count;
     faults.check(count > 0, "leaf of no block");
     for (uint32_t k = first; k < first + count; k++) {
-      const float* block = &bvh.blocks.at(static_cast<size_t>(k) * WT_BLOCK_FLOATS);
+      const wt_triangle_block& block = bvh.blocks.at(k);
       for (size_t lane = 0; lane < 4; lane++) {
         float v[3][3];
-        for (size_t row = 0; row < 9; row++) v[row / 3][row % 3] = block[4 * row + lane];
-        const auto primitive = std::bit_cast<uint32_t>(block[36 + lane]);
-        check_vertices(faults, primitive, triangles, v, std::bit_cast<uint32_t>(block[40 + lane]));
-        faults.check(block[44 + lane] == 0, "the last row of a block is not zero");
-        const bool padding = lane > 0 && primitive == std::bit_cast<uint32_t>(block[36]);
+        for (size_t row = 0; row < 9; row++) v[row / 3][row % 3] = block.corner[row].s[lane];
+        const uint32_t primitive = block.primitive.s[lane];
+        check_vertices(faults, primitive, triangles, v, block.surface.s[lane]);
+        faults.check(block.padding.s[lane] == 0, "the last row of a block is not zero");
+        const bool padding = lane > 0 && primitive == block.primitive.s[0];
         if (!padding) faults.meet(primitive, triangles, box, exact);
       }
     }
@@ -165,10 +167,11 @@ std::vector<std::string> faults(const Bvh8& bvh, std::span<const AccelTriangle> 
     faults.check(static_cast<size_t>(index) == nodes++, "not in depth-first order: node " + std::to_string(index));
     deepest = std::max(deepest, depth);
     for (int lane = 0; lane < 8; lane++) {
-      const float* p = &bvh.nodes.at(static_cast<size_t>(index) * WT_BVH8_NODE_FLOATS) + lane;
-      const Box box{{p[0], p[8], p[16]}, {p[24], p[32], p[40]}};
-      const auto child = std::bit_cast<int32_t>(p[48]);
-      faults.check(p[56] == 0, "the last row of a node is not zero");
+      const wt_bvh8_node& n = bvh.nodes.at(static_cast<size_t>(index));
+      const auto plane = [&](int row) { return n.planes[row].s[lane]; };
+      const Box box{{plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)}};
+      const int32_t child = n.child[lane];
+      faults.check(n.padding[lane] == 0, "the last row of a node is not zero");
       faults.check(child != 0, "the root is a child of node " + std::to_string(index));
       if (child == ~0) {
         faults.check(box.empty(), "an unused child has a box");
@@ -186,8 +189,8 @@ std::vector<std::string> faults(const Bvh8& bvh, std::span<const AccelTriangle> 
   Box everything;
   for (int axis = 0; axis < 3; axis++) std::swap(everything.lower[axis], everything.upper[axis]);
   walk(0, 1, everything);
-  faults.check(nodes * WT_BVH8_NODE_FLOATS == bvh.nodes.size(), "nodes that nothing refers to");
-  faults.check(blocks * WT_BLOCK_FLOATS == bvh.blocks.size(), "blocks in no leaf");
+  faults.check(nodes == bvh.nodes.size(), "nodes that nothing refers to");
+  faults.check(blocks == bvh.blocks.size(), "blocks in no leaf");
   faults.check(deepest == bvh.max_depth, "wrong depth: " + std::to_string(deepest));
   faults.all_met(triangles);
   return faults.found;

@@ -67,15 +67,15 @@ std::vector<OracleRay> rays_for(const Soup& soup, size_t count, uint32_t seed) {
 
 // Half areas of a BVH8's children times what entering them costs, with all below them, and the root's own cost.
 double cost_of(const Bvh8& bvh, int32_t index, float node_cost) {
-  const float* n = &bvh.nodes.at(static_cast<size_t>(index) * WT_BVH8_NODE_FLOATS);
+  const wt_bvh8_node& n = bvh.nodes.at(static_cast<size_t>(index));
   Box all;
   double cost = 0;
   for (int lane = 0; lane < 8; lane++) {
-    const float* p = n + lane;
-    const Box box{{p[0], p[8], p[16]}, {p[24], p[32], p[40]}};
+    const auto plane = [&](int row) { return n.planes[row].s[lane]; };
+    const Box box{{plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)}};
     if (box.empty()) continue;
     all.grow(box);
-    const auto child = std::bit_cast<int32_t>(p[48]);
+    const int32_t child = n.child[lane];
     cost += child >= 0 ? cost_of(bvh, child, node_cost) : (~child & ((1 << WT_LEAF_BITS) - 1)) * box.half_area();
   }
   return cost + static_cast<double>(node_cost) * all.half_area();
@@ -147,8 +147,8 @@ TEST_CASE("traversal finds what brute force finds") {
 
 TEST_CASE("no ray enters an empty scene, and its root is an inner node") {
   const Both bvh({}, false);
-  CHECK(bvh.two.nodes.size() == WT_BVH2_NODE_FLOATS);
-  CHECK(bvh.eight.nodes.size() == WT_BVH8_NODE_FLOATS);
+  CHECK(bvh.two.nodes.size() == 1);
+  CHECK(bvh.eight.nodes.size() == 1);
   CHECK(bvh.two.triangle_slots == 0);
   CHECK(bvh.two.max_depth == 1);
   CHECK(bvh.eight.max_depth == 1);
@@ -175,8 +175,8 @@ TEST_CASE("the collapse is at least as good as opening the largest child first")
 
 TEST_CASE("most slots of wide nodes are used and the tree is shallow") {
   const Both bvh(random_soup(20000, 100, 1, 61), false);
-  const auto nodes = static_cast<double>(bvh.eight.nodes.size() / WT_BVH8_NODE_FLOATS);
-  const auto blocks = static_cast<double>(bvh.eight.blocks.size() / WT_BLOCK_FLOATS);
+  const auto nodes = static_cast<double>(bvh.eight.nodes.size());
+  const auto blocks = static_cast<double>(bvh.eight.blocks.size());
   CHECK((nodes - 1 + blocks) / (8 * nodes) > 0.5);  // children a slot; leaves have one block each
   CHECK(bvh.eight.max_depth <= 8);
 }

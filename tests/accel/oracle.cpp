@@ -64,19 +64,18 @@ bool enters(const OracleRay& ray, const Box& box, double t_max) {
   return near <= far + 1e-13 * std::abs(far);
 }
 
-int32_t integer(float x) { return std::bit_cast<int32_t>(x); }
-
 struct Walk2 {
   const Bvh2& bvh;
   const OracleRay& ray;
   Shear shear;
   OracleHit hit;
   void node(int32_t index) {
-    const float* n = &bvh.nodes.at(static_cast<size_t>(index) * WT_BVH2_NODE_FLOATS);
+    const wt_bvh2_node& n = bvh.nodes.at(static_cast<size_t>(index));
     for (int side = 0; side < 2; side++) {
-      const float *xy = n + 4 * side, *z = n + 8 + 2 * side;
-      if (!enters(ray, Box{{xy[0], xy[2], z[0]}, {xy[1], xy[3], z[1]}}, hit.t)) continue;
-      const int32_t child = integer(n[12 + side]);
+      const wt_planes_xy& xy = side == 0 ? n.left : n.right;
+      const float(&z)[2] = side == 0 ? n.left_z : n.right_z;
+      if (!enters(ray, Box{{xy.x[0], xy.y[0], z[0]}, {xy.x[1], xy.y[1], z[1]}}, hit.t)) continue;
+      const int32_t child = n.child[side];
       if (child >= 0) {
         node(child);
       } else {
@@ -87,12 +86,12 @@ struct Walk2 {
   void leaf(uint32_t reference) {
     const uint32_t first = reference >> WT_LEAF_BITS, count = reference & ((1u << WT_LEAF_BITS) - 1);
     for (uint32_t slot = first; slot < first + count; slot++) {
-      const size_t at = 12 * (shear.kz * bvh.triangle_slots + slot);
+      const wt_bvh2_triangle& triangle = bvh.triangles.at(shear.kz * bvh.triangle_slots + slot);
+      const wt_float4* const corners[3] = {&triangle.a, &triangle.b, &triangle.c};
       Vertices v;
       for (size_t vertex = 0; vertex < 3; vertex++)
-        for (size_t axis = 0; axis < 3; axis++)
-          v[vertex][(shear.kz + 1 + axis) % 3] = bvh.triangles.at(at + 4 * vertex + axis);
-      intersect(ray, shear, v, std::bit_cast<uint32_t>(bvh.triangles[at + 3]), hit);
+        for (size_t axis = 0; axis < 3; axis++) v[vertex][(shear.kz + 1 + axis) % 3] = corners[vertex]->s[axis];
+      intersect(ray, shear, v, std::bit_cast<uint32_t>(triangle.a.s[3]), hit);
     }
   }
 };
@@ -103,11 +102,11 @@ struct Walk8 {
   Shear shear;
   OracleHit hit;
   void node(int32_t index) {
-    const float* n = &bvh.nodes.at(static_cast<size_t>(index) * WT_BVH8_NODE_FLOATS);
+    const wt_bvh8_node& n = bvh.nodes.at(static_cast<size_t>(index));
     for (int lane = 0; lane < 8; lane++) {
-      const float* p = n + lane;
-      if (!enters(ray, Box{{p[0], p[8], p[16]}, {p[24], p[32], p[40]}}, hit.t)) continue;
-      const int32_t child = integer(p[48]);
+      const auto plane = [&](int row) { return n.planes[row].s[lane]; };
+      if (!enters(ray, Box{{plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)}}, hit.t)) continue;
+      const int32_t child = n.child[lane];
       if (child >= 0) {
         node(child);
       } else {
@@ -118,11 +117,11 @@ struct Walk8 {
   void leaf(uint32_t reference) {
     const uint32_t first = reference >> WT_LEAF_BITS, count = reference & ((1u << WT_LEAF_BITS) - 1);
     for (uint32_t k = first; k < first + count; k++) {
-      const float* block = &bvh.blocks.at(static_cast<size_t>(k) * WT_BLOCK_FLOATS);
+      const wt_triangle_block& block = bvh.blocks.at(k);
       for (size_t lane = 0; lane < 4; lane++) {
         Vertices v;
-        for (size_t row = 0; row < 9; row++) v[row / 3][row % 3] = block[4 * row + lane];
-        intersect(ray, shear, v, std::bit_cast<uint32_t>(block[36 + lane]), hit);
+        for (size_t row = 0; row < 9; row++) v[row / 3][row % 3] = block.corner[row].s[lane];
+        intersect(ray, shear, v, block.primitive.s[lane], hit);
       }
     }
   }

@@ -9,6 +9,7 @@
 #include "gpu/gpu.hpp"
 #include "gpu/temporary.hpp"
 #include "wavetracer/device/cache.h"
+#include "wavetracer/device/moving.h"
 #include "wavetracer/device/records.h"
 #include "wavetracer/device/waypoints.h"
 
@@ -32,6 +33,36 @@ struct Record {
   { #field, offsetof(record, field) }
 
 const std::vector<Record> records{
+    {"wt_planes_xy", sizeof(wt_planes_xy), {FIELD(wt_planes_xy, x), FIELD(wt_planes_xy, y)}},
+    {"wt_bvh2_node",
+     sizeof(wt_bvh2_node),
+     {FIELD(wt_bvh2_node, left), FIELD(wt_bvh2_node, right), FIELD(wt_bvh2_node, left_z), FIELD(wt_bvh2_node, right_z),
+      FIELD(wt_bvh2_node, child), FIELD(wt_bvh2_node, padding)}},
+    {"wt_centred_node",
+     sizeof(wt_centred_node),
+     {FIELD(wt_centred_node, left), FIELD(wt_centred_node, right), FIELD(wt_centred_node, z),
+      FIELD(wt_centred_node, child)}},
+    {"wt_bvh2_triangle",
+     sizeof(wt_bvh2_triangle),
+     {FIELD(wt_bvh2_triangle, a), FIELD(wt_bvh2_triangle, b), FIELD(wt_bvh2_triangle, c)}},
+    {"wt_bvh8_node",
+     sizeof(wt_bvh8_node),
+     {FIELD(wt_bvh8_node, planes), FIELD(wt_bvh8_node, child), FIELD(wt_bvh8_node, padding)}},
+    {"wt_triangle_block",
+     sizeof(wt_triangle_block),
+     {FIELD(wt_triangle_block, corner), FIELD(wt_triangle_block, primitive), FIELD(wt_triangle_block, surface),
+      FIELD(wt_triangle_block, padding)}},
+    {"wt_moving_head",
+     sizeof(wt_moving_head),
+     {FIELD(wt_moving_head, instances), FIELD(wt_moving_head, nodes), FIELD(wt_moving_head, triangles),
+      FIELD(wt_moving_head, triangle_slots), FIELD(wt_moving_head, padding)}},
+    {"wt_instance",
+     sizeof(wt_instance),
+     {FIELD(wt_instance, row), FIELD(wt_instance, root), FIELD(wt_instance, first_surface),
+      FIELD(wt_instance, first_primitive), FIELD(wt_instance, number)}},
+    {"wt_body",
+     sizeof(wt_body),
+     {FIELD(wt_body, lower), FIELD(wt_body, root), FIELD(wt_body, upper), FIELD(wt_body, first_primitive)}},
     {"wt_surface",
      sizeof(wt_surface),
      {FIELD(wt_surface, normal), FIELD(wt_surface, offset), FIELD(wt_surface, lower), FIELD(wt_surface, upper)}},
@@ -100,7 +131,7 @@ const std::vector<Record> records{
 
 #undef FIELD
 
-const std::vector<std::string> headers{"cache.h", "records.h", "waypoints.h"};
+const std::vector<std::string> headers{"bvh.h", "cache.h", "moving.h", "records.h", "waypoints.h"};
 
 // Record name -> field names, as the headers declare them.
 std::map<std::string, std::vector<std::string>> declared_records() {

@@ -37,10 +37,11 @@ class NaiveTracer {
         leaf(static_cast<uint32_t>(~node), ray, nearest, hit);
         continue;
       }
-      const float* n = &bvh_.nodes[static_cast<size_t>(node) * WT_BVH2_NODE_FLOATS];
+      const wt_bvh2_node& n = bvh_.nodes[static_cast<size_t>(node)];
       for (int side = 0; side < 2 && top < stack_size; ++side) {
-        const float* box[] = {n + 4 * side, n + 4 * side + 2, n + 8 + 2 * side};
-        if (enters(box, inverse, offset, nearest)) stack[top++] = std::bit_cast<int>(n[12 + side]);
+        const wt_planes_xy& xy = side == 0 ? n.left : n.right;
+        const float* box[] = {xy.x, xy.y, side == 0 ? n.left_z : n.right_z};
+        if (enters(box, inverse, offset, nearest)) stack[top++] = n.child[side];
       }
     }
     return hit;
@@ -78,8 +79,9 @@ class NaiveTracer {
     const auto minus = [](const Float3& a, const Float3& b) { return Float3{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
     for (uint32_t k = first; k < first + count; ++k) {
       // The copy for axis 2 holds the vertices unrotated.
-      const float* t = &bvh_.triangles[12 * (2 * size_t{bvh_.triangle_slots} + k)];
-      const Float3 a{t[0], t[1], t[2]}, b{t[4], t[5], t[6]}, c{t[8], t[9], t[10]};
+      const wt_bvh2_triangle& t = bvh_.triangles[2 * size_t{bvh_.triangle_slots} + k];
+      const auto corner = [](const wt_float4& v) { return Float3{v.s[0], v.s[1], v.s[2]}; };
+      const Float3 a = corner(t.a), b = corner(t.b), c = corner(t.c);
       const Float3 ab = minus(b, a), ac = minus(c, a), p = cross(ray.direction, ac);
       const float determinant = dot(ab, p);
       if (std::abs(determinant) < 1e-8f) continue;
@@ -88,7 +90,7 @@ class NaiveTracer {
       const float distance = dot(ac, q) / determinant;
       if (u < 0 || v < 0 || u + v > 1 || distance <= 0 || distance > nearest) continue;
       nearest = distance;
-      hit = {distance, std::bit_cast<uint32_t>(t[3]), std::bit_cast<uint32_t>(t[7])};
+      hit = {distance, std::bit_cast<uint32_t>(t.a.s[3]), std::bit_cast<uint32_t>(t.b.s[3])};
     }
   }
 };

@@ -138,6 +138,6 @@ TEST_CASE("the top level holds every box once, in a tree no deeper than it need 
     std::vector<uint32_t> sorted = top.order;
     std::sort(sorted.begin(), sorted.end());
     for (uint32_t i = 0; i < count; ++i) CHECK(sorted[i] == i);
-    CHECK(top.nodes.size() == 16 * std::max<size_t>(count < 2 ? 1 : count - 1, 1));
+    CHECK(top.nodes.size() == std::max<size_t>(count < 2 ? 1 : count - 1, 1));
   }
 }

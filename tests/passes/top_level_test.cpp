@@ -4,19 +4,16 @@
 
 #include <doctest/doctest.h>
 
-#include <bit>
+#include <cstring>
 #include <set>
 
 #include "passes/traffic.hpp"
-#include "wavetracer/device/bvh.h"
 #include "wavetracer/device/moving.h"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
 
 namespace {
-
-uint32_t word(float x) { return std::bit_cast<uint32_t>(x); }
 
 struct Span {
   glm::dvec3 lower, upper;
@@ -36,16 +33,25 @@ class Walk {
   double most_slack_m = 0;            // by which the box of a leaf is larger than it need be
 
  private:
+  // Record number `index` of an array that begins at float4 number `first`.
+  template <class Record>
+  Record at(size_t first, size_t index) const {
+    Record record;
+    std::memcpy(&record, &moving_.at(first + index * (sizeof(Record) / 16)), sizeof record);
+    return record;
+  }
+
   // Returns what the node's corners span.
   Span visit(size_t node, size_t depth) {
     deepest = std::max(deepest, depth);
-    const float* at = &moving_[4 * WT_MOVING_TOP + WT_BVH2_NODE_FLOATS * node];
+    const wt_centred_node n = at<wt_centred_node>(sizeof(wt_moving_head) / 16, node);
     Span all{glm::dvec3(1e30), glm::dvec3(-1e30)};
     for (size_t side = 0; side < 2; ++side) {
-      const float *xy = at + 4 * side, *z = at + 8 + 2 * side;
+      const auto& xy = side == 0 ? n.left.s : n.right.s;
+      const float* z = n.z.s + 2 * side;
       const glm::dvec3 centre(xy[0], xy[2], z[0]), half_size(xy[1], xy[3], z[1]);
-      const auto child = std::bit_cast<int32_t>(at[12 + side]);
-      const uint32_t leaf = word(at[12 + side]) ^ 0xFFFFFFFFu;
+      const int32_t child = n.child.s[side];
+      const uint32_t leaf = static_cast<uint32_t>(child) ^ 0xFFFFFFFFu;
       if (child < 0 && (leaf & 15) == 0) {
         for (int axis = 0; axis < 3; ++axis) CHECK(half_size[axis] < 0);
         continue;
@@ -65,8 +71,8 @@ class Walk {
 
   // Of the box of an instance's model, turned and moved in double; checks the instance's record.
   Span corners(size_t leaf) {
-    const float* record = &moving_[4 * (word(moving_[WT_MOVING_INSTANCES]) + WT_INSTANCE_FLOAT4S * leaf)];
-    const uint32_t number = word(record[15]);
+    const auto record = at<wt_instance>(at<wt_moving_head>(0, 0).instances, leaf);
+    const uint32_t number = record.number;
     CHECK(leaf == instances.size());  // leaves follow each other from left to right, as instances do in memory
     instances.insert(number);
     REQUIRE(number < traffic_.instances.size());
@@ -74,13 +80,13 @@ class Walk {
     const Placement& placement = traffic_.placements[number];
     for (int row = 0; row < 3; ++row) {
       for (int axis = 0; axis < 3; ++axis)
-        CHECK(record[4 * row + axis] == static_cast<float>(placement.rotation[row][axis]));
-      CHECK(record[4 * row + 3] == static_cast<float>(placement.position_m[row]));
+        CHECK(record.row[row].s[axis] == static_cast<float>(placement.rotation[row][axis]));
+      CHECK(record.row[row].s[3] == static_cast<float>(placement.position_m[row]));
     }
-    CHECK(word(record[13]) == instance.first_surface);
-    CHECK(word(record[14]) == instance.first_surface);  // a surface a triangle
-    if (instance.model == 0) CHECK(word(record[12]) == 0);
-    if (instance.model == 1) CHECK(word(record[12]) > 0);
+    CHECK(record.first_surface == instance.first_surface);
+    CHECK(record.first_primitive == instance.first_surface);  // a surface a triangle
+    if (instance.model == 0) CHECK(record.root == 0);
+    if (instance.model == 1) CHECK(record.root > 0);
     const Scene& model = traffic_.models[instance.model];
     Span out{glm::dvec3(1e30), glm::dvec3(-1e30)};
     for (int corner = 0; corner < 8; ++corner) {
@@ -93,7 +99,7 @@ class Walk {
   }
 
   const Traffic& traffic_;
-  std::vector<float> moving_;
+  std::vector<wt_float4> moving_;
 };
 
 void check_tree(const Traffic& traffic, const DeviceScene& scene) {

@@ -1,28 +1,66 @@
 // Layouts of the acceleration structures, one definition for C++ (host/accel) and OpenCL C (kernels/lib).
-// Everything is float32 around the scene's origin. A child reference c >= 0 is an inner node's index; c < 0 is a leaf:
-// ~c packs (first << WT_LEAF_BITS) | count. An unused child has an inverted box (lower > upper) and is a leaf of
-// nothing, so that a ray whose slabs overflow, which meets every box, still enters each node once.
+// Everything is float32 around the scene's origin. A child reference c >= 0 is an inner node's index; c < 0 is a leaf
+// (wt_leaf). An unused child has an inverted box (lower > upper) and is a leaf of nothing, so that a ray whose slabs
+// overflow, which meets every box, still enters each node once.
 #ifndef WAVETRACER_DEVICE_BVH_H
 #define WAVETRACER_DEVICE_BVH_H
+#include "wavetracer/device/types.h"
 
 #define WT_LEAF_BITS 4
 
-// BVH2 (GPUs, ray packets on CPUs): 64 bytes a node, as 16 floats
-//   0 left.min.x   1 left.max.x   2 left.min.y   3 left.max.y
-//   4 right.min.x  5 right.max.x  6 right.min.y  7 right.max.y
-//   8 left.min.z   9 left.max.z  10 right.min.z 11 right.max.z
-//  12 left child  13 right child (int)  14, 15 zero
-// Packets read it so. For one ray a work-item the upload (host/passes/device_scene.cpp) turns each pair (min, max) into
-// (centre, half size), padded for rounding; there, an unused child has half size -1.
-// Its leaves count triangles; a triangle is three float4 (v0.xyz, primitive) (v1.xyz, surface) (v2.xyz, 0), integers as
-// bits, stored three times, with coordinates rotated so that axis kz comes last: copy kz holds (v[(kz+1)%3],
-// v[(kz+2)%3], v[kz]). Copy kz starts at float4 index kz * 3 * triangle_slots.
-#define WT_BVH2_NODE_FLOATS 16
+// The reference of a leaf of so many elements from `first` on, and back.
+inline wt_int wt_leaf(wt_uint first, wt_uint count) { return ~(wt_int)((first << WT_LEAF_BITS) | count); }
+inline wt_uint wt_leaf_first(wt_int reference) { return (wt_uint)~reference >> WT_LEAF_BITS; }
+inline wt_uint wt_leaf_end(wt_int reference) {
+  return wt_leaf_first(reference) + ((wt_uint)~reference & ((1u << WT_LEAF_BITS) - 1u));
+}
 
-// BVH8 (CPUs): 256 bytes a node, as 64 floats: min.x[8] min.y[8] min.z[8] max.x[8] max.y[8] max.z[8] child[8] (int)
-// zero[8]. Its leaves count blocks of four triangles, 48 floats a block: nine rows of four, row 3 * vertex + axis, then
-// primitive[4], surface[4] (uint), zero[4]. Incomplete blocks repeat their first triangle (never zeros).
-#define WT_BVH8_NODE_FLOATS 64
-#define WT_BLOCK_FLOATS 48
+// Lower and upper planes of a box.
+typedef struct {
+  float x[2];
+  float y[2];
+} wt_planes_xy;
+
+// BVH2 (GPUs, ray packets on CPUs) as it is built and as packets read it. Its leaves count triangles.
+typedef struct {
+  wt_planes_xy left;
+  wt_planes_xy right;
+  float left_z[2];
+  float right_z[2];
+  wt_int child[2];  // left, right
+  wt_uint padding[2];
+} wt_bvh2_node;
+
+// The same node for one ray per work-item: boxes as centre and half size, padded for rounding (centred_nodes of
+// host/accel/layout.hpp). An unused child has half size -1.
+typedef struct {
+  wt_float4 left;   // centre x, half size x, centre y, half size y
+  wt_float4 right;  // likewise
+  wt_float4 z;      // centre and half size of left, then of right
+  wt_int4 child;    // left, right, 0, 0
+} wt_centred_node;
+
+// A triangle of a BVH2. Stored three times, with coordinates rotated so that axis kz comes last: copy kz holds
+// (v[(kz+1)%3], v[(kz+2)%3], v[kz]) of each vertex, and begins at triangle kz * triangle_slots.
+typedef struct {
+  wt_float4 a;  // the last lane: the primitive, as bits
+  wt_float4 b;  // the surface, as bits
+  wt_float4 c;  // 0
+} wt_bvh2_triangle;
+
+// BVH8 (CPUs). Its leaves count blocks.
+typedef struct {
+  wt_float8 planes[6];  // lower x, y, z, then upper x, y, z, of eight children
+  wt_int child[8];
+  wt_uint padding[8];
+} wt_bvh8_node;
+
+// Four triangles; incomplete blocks repeat their first one (never zeros).
+typedef struct {
+  wt_float4 corner[9];  // 3 * vertex + axis
+  wt_uint4 primitive;
+  wt_uint4 surface;
+  wt_uint4 padding;
+} wt_triangle_block;
 
 #endif

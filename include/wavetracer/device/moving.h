@@ -1,21 +1,36 @@
-// Layout of what moves, one definition for C++ (host/passes/place.cpp, kernels/top_level.cl) and OpenCL C
-// (kernels/lib/moving*.clh): one buffer of float4 with a head, the top-level tree of the frame, its instances, and the
+// Layout of what moves, one definition for C++ (host/passes/place.cpp) and OpenCL C (kernels/top_level.cl,
+// kernels/lib/moving*.clh): one buffer of float4 with a head, the top-level tree of the frame, its instances, and the
 // trees of all models. Two-level traversal: the top level in scene coordinates, then the ray in the coordinates of a
 // model.
 #ifndef WAVETRACER_DEVICE_MOVING_H
 #define WAVETRACER_DEVICE_MOVING_H
+#include "wavetracer/device/bvh.h"
 
-// The head, as unsigned words: places of the parts, counted in float4.
-#define WT_MOVING_INSTANCES 0       // WT_INSTANCE_FLOAT4S each, in the order of the leaves of the top-level tree
-#define WT_MOVING_NODES 1           // of the models: BVH2 nodes, centred, on GPUs; BVH8 nodes on CPUs
-#define WT_MOVING_TRIANGLES 2       // of the models: triangles of the BVH2 on GPUs; blocks of the BVH8 on CPUs
-#define WT_MOVING_TRIANGLE_SLOTS 3  // of all models (BVH2)
-// The top-level tree, BVH2 nodes in the centred layout of bvh.h, root first; a leaf counts instances.
-#define WT_MOVING_TOP 2
+// The head: where the parts begin, counted in float4. The top-level tree follows it, root first; its leaves count
+// instances.
+typedef struct {
+  wt_uint instances;       // wt_instance, in the order of the leaves of the top-level tree
+  wt_uint nodes;           // of the models: wt_centred_node on GPUs, wt_bvh8_node on CPUs
+  wt_uint triangles;       // of the models: wt_bvh2_triangle on GPUs, wt_triangle_block on CPUs
+  wt_uint triangle_slots;  // of all models (wt_bvh2_triangle)
+  wt_uint padding[4];      // vectors of eight lanes begin at even float4
+} wt_moving_head;
 
-// An instance: row k of the rotation from scene to model axes, and component k of its position, for k = 0, 1, 2; then
-// the root node of its model, its first surface, its first primitive and its number, as unsigned words.
-#define WT_INSTANCE_FLOAT4S 4
+typedef struct {
+  wt_float4 row[3];  // k: row k of the rotation from scene to model axes, and component k of its position
+  wt_int root;       // node of its model
+  wt_uint first_surface;
+  wt_uint first_primitive;
+  wt_uint number;
+} wt_instance;
+
+// What of an instance stays the same in all frames: the box of its model, in model coordinates, and its tree.
+typedef struct {
+  float lower[3];
+  wt_int root;
+  float upper[3];
+  wt_uint first_primitive;
+} wt_body;
 
 // The surface that a launch ray "leaves": the antenna's own vehicle hides nothing from it (WT_NONE: no vehicle).
 #define WT_OWN 0x80000000u

@@ -3,14 +3,7 @@
 #ifndef WAVETRACER_DEVICE_RECORDS_H
 #define WAVETRACER_DEVICE_RECORDS_H
 
-#ifdef __OPENCL_VERSION__
-typedef uint wt_uint;
-typedef ulong wt_ulong;
-#else
-#include <cstdint>
-typedef uint32_t wt_uint;
-typedef uint64_t wt_ulong;
-#endif
+#include "wavetracer/device/types.h"
 
 // The longest chain of interactions; private arrays of the exact solve have this size.
 #define WT_MAX_DEPTH 32u

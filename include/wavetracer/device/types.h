@@ -1,0 +1,32 @@
+// Types of a fixed size for records that C++ and OpenCL C share. Lanes of a vector are s[0], s[1], ... in C++.
+#ifndef WAVETRACER_DEVICE_TYPES_H
+#define WAVETRACER_DEVICE_TYPES_H
+
+#ifdef __OPENCL_VERSION__
+typedef int wt_int;
+typedef uint wt_uint;
+typedef ulong wt_ulong;
+typedef float4 wt_float4;
+typedef float8 wt_float8;
+typedef int4 wt_int4;
+typedef uint4 wt_uint4;
+#else
+#include <cstdint>
+typedef int32_t wt_int;
+typedef uint32_t wt_uint;
+typedef uint64_t wt_ulong;
+struct alignas(16) wt_float4 {
+  float s[4];
+};
+struct alignas(32) wt_float8 {
+  float s[8];
+};
+struct alignas(16) wt_int4 {
+  int32_t s[4];
+};
+struct alignas(16) wt_uint4 {
+  uint32_t s[4];
+};
+#endif
+
+#endif
