@@ -59,7 +59,8 @@ std::string subject_of(const Scene& scene, const Config& config, const TraceConf
       std::bit_width(*sample.rays), sample.max_depth, sample.directions.word(), sample.seed,
       sample.batch_rays.value_or(0), config.order.bin_num, config.launch.shape.word(),
       config.launch.local_size.value_or(0));
-  for (const char* program : {"trace", "order_keys", "radix_sort", "radix_sort_cpu", "bitonic_sort", "interact"})
+  for (const char* program : {"trace_bvh2", "trace_bvh8", "trace_packet16", "order_keys", "radix_sort",
+                              "radix_sort_cpu", "bitonic_sort", "interact"})
     subject += gpu::program_source(program);
   return subject + std::string(bytes(scene.vertices)) + std::string(bytes(scene.triangles));
 }
