@@ -231,7 +231,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Frames with ray caches against frames without: time, and what is lost"};
   app.add_option("--device", options.device, "part of a platform's or device's name, or an index");
   app.add_option("--shared", options.shared, "folder that holds scenes/munich");
-  app.add_option("--rays", options.rays, "rays a transmitter")->delimiter(',');
+  app.add_option("--rays", options.rays, "rays per transmitter")->delimiter(',');
   app.add_option("--transmitters", options.transmitters, "standing, riding")
       ->delimiter(',')
       ->check(CLI::IsMember({"standing", "riding"}));

@@ -123,7 +123,7 @@ class Bench {
                 fmt::format("{}, {}", name, launch.setting),
                 device_,
                 launch.median_s,
-                "s a frame",
+                "s per frame",
                 Better::lower,
                 "",
                 {},
@@ -189,7 +189,7 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/");
   app.add_option("--cases", options.cases, "some of the cases")->check(CLI::IsMember(bench::study_case_names()));
-  app.add_option("--rays", options.rays, "fixed numbers of rays a transmitter")
+  app.add_option("--rays", options.rays, "fixed numbers of rays per transmitter")
       ->check(CLI::Range(uint64_t{100}, uint64_t{2'000'000'000}));
   app.add_option("--truth-rays", options.truth_rays, "of each of two launches, \"horizon\" and \"hilbert\"")
       ->check(CLI::Range(uint64_t{10'000}, uint64_t{2'000'000'000}));

@@ -119,12 +119,12 @@ class Bench {
     print_line(solve_standing(config), fmt::format("auto, recall {}", recall), plain, "");
   }
 
-  // The fewest rays a frame, a twentieth of those of the first frame, that suffice as the next more do.
+  // The fewest rays per frame, a twentieth of those of the first frame, that suffice as the next more do.
   void find_reuse(uint64_t plain) {
     std::optional<Measured> fewest;
     for (const uint64_t rays : launch_sizes(options_.most_rays / refresh_share)) {
       const Measured more = drive(refresh_share * rays, 0);
-      fmt::print(stderr, "{}: {} rays a frame of a drive: {:.4f} of the paths, {:.6f} of the power\n", name_, rays,
+      fmt::print(stderr, "{}: {} rays per frame of a drive: {:.4f} of the paths, {:.6f} of the power\n", name_, rays,
                  more.comparison.recall, more.comparison.power_recall);
       if (suffices(more.comparison) && fewest) break;
       fewest.reset();
@@ -190,7 +190,7 @@ class Bench {
     line.name = fmt::format("{}, {}", name_, what);
     line.device = device_;
     line.value = static_cast<double>(measured.rays);
-    line.unit = "rays a frame";
+    line.unit = "rays per frame";
     line.better = Better::lower;
     if (plain > 0) {
       line.baseline = "a plain launch that suffices";

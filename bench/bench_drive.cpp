@@ -184,7 +184,7 @@ void run_memory(const Options& options, const std::string& command) {
   line.baseline = fmt::format("after {} frames", settled);
   line.baseline_value = settled_bytes;
   line.error = (bytes - settled_bytes) / 0x1p20;
-  line.detail = fmt::format("{:.1f} MiB after {} frames, {:.1f} MiB after all; at most {} paths a frame",
+  line.detail = fmt::format("{:.1f} MiB after {} frames, {:.1f} MiB after all; at most {} paths per frame",
                             settled_bytes / 0x1p20, settled, bytes / 0x1p20, most_paths);
   line.extra = {{"resident_bytes", resident}};
   print(line, command);
@@ -230,13 +230,13 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"drive", "links", "top-level", "memory"}));
   app.add_option("--frames", options.frames, "frames of a drive, 0.04 s apart")->check(CLI::Range(2, 1000));
   app.add_option("--vehicles", options.vehicles, "vehicles of the case drive")->check(CLI::Range(2, 10000));
-  app.add_option("--rays", options.rays, "rays a transmitter of cold frames; the most of them for reuse, too");
-  app.add_option("--refresh", options.refresh, "rays a transmitter that frames launch anew where they reuse");
+  app.add_option("--rays", options.rays, "rays per transmitter of cold frames; the most of them for reuse, too");
+  app.add_option("--refresh", options.refresh, "rays per transmitter that frames launch anew where they reuse");
   app.add_option("--depth", options.depth, "depths of the case drive");
   app.add_option("--max-distance", options.max_distance_m, "metres of a link of the case drive");
-  app.add_option("--reference-rays", options.reference_rays, "rays a transmitter of frames that errors refer to");
+  app.add_option("--reference-rays", options.reference_rays, "rays per transmitter of frames that errors refer to");
   app.add_flag("--no-reference", options.no_reference, "do not measure errors");
-  app.add_option("--link-rays", options.link_rays, "rays a transmitter of the case links");
+  app.add_option("--link-rays", options.link_rays, "rays per transmitter of the case links");
   app.add_option("--runs", options.runs, "timed runs of the case top-level")->check(CLI::Range(3, 1000));
   app.add_option("--memory-frames", options.memory_frames, "frames of the case memory")->check(CLI::Range(11, 100000));
   CLI11_PARSE(app, argc, argv);

@@ -108,11 +108,16 @@ std::string longest_stages(const StageSeconds& seconds) {
 }
 
 Result result_of(const Group& group, size_t i, const Turns& first, const Turns& turn) {
-  Result result{"features",  fmt::format("{}: {}", group.name, group.variants[i].name),
-                turn.device, turn.median_s,
-                "s a frame", Better::lower,
-                "",          {},
-                0,           ""};
+  Result result{"features",
+                fmt::format("{}: {}", group.name, group.variants[i].name),
+                turn.device,
+                turn.median_s,
+                "s per frame",
+                Better::lower,
+                "",
+                {},
+                0,
+                ""};
   if (i > 0) {
     result.baseline = group.variants[0].name;
     result.baseline_value = first.median_s;
@@ -143,7 +148,7 @@ void print_listeners(Group group, const std::vector<uint64_t>& rays, const Optio
                      const std::string& command) {
   for (const uint64_t count : rays)
     group.variants.push_back(
-        {fmt::format("diffraction, {:.0e} rays a receiver", static_cast<double>(count)), [count](Config& c) {
+        {fmt::format("diffraction, {:.0e} rays per receiver", static_cast<double>(count)), [count](Config& c) {
            diffraction(true).change(c);
            c.trace.diffraction_rays = count;
          }});

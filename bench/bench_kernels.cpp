@@ -115,7 +115,7 @@ class Suite {
     result.value = n_ / seconds * 1e-9;
     result.unit = "Gelements/s";
     result.error = static_cast<double>(wrong);
-    result.detail = fmt::format("{:.4g} B an element, {:.0f}% of the copy", c.bytes, 100 * fraction);
+    result.detail = fmt::format("{:.4g} B per element, {:.0f}% of the copy", c.bytes, 100 * fraction);
     result.extra = {{"n", n_},
                     {"kernels_s", seconds},
                     {"element_bytes", c.bytes},

@@ -290,8 +290,8 @@ int main(int argc, char** argv) {
   app.add_option("--vehicles", options.vehicles, "vehicles in the streets, a line each")->check(CLI::Range(1, 1000));
   app.add_option("--frames", options.frames, "frames of a drive")->check(CLI::Range(6, 100000));
   app.add_option("--step", options.step_s, "seconds from frame to frame")->check(CLI::Range(0.001, 10.0));
-  app.add_option("--rays", options.rays, "rays a transmitter of cold frames")->check(CLI::Range(100, 1000000000));
-  app.add_option("--refresh", options.refresh, "rays a transmitter of frames that reuse");
+  app.add_option("--rays", options.rays, "rays per transmitter of cold frames")->check(CLI::Range(100, 1000000000));
+  app.add_option("--refresh", options.refresh, "rays per transmitter of frames that reuse");
   app.add_option("--detail", options.detail, "links, paths or vertices")
       ->check(CLI::IsMember({"links", "paths", "vertices"}));
   app.add_option("--compared", options.compared, "frames that errors are taken from")->check(CLI::Range(1, 1000));

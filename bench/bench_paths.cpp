@@ -1,4 +1,4 @@
-// bench_paths: seconds a frame from poses to fields, for one to a thousand links in munich, beside Sionna RT.
+// bench_paths: seconds per frame from poses to fields, for one to a thousand links in munich, beside Sionna RT.
 // Assumes a quiet machine. "error" is the share of paths that are missed, among those that many more rays find.
 #include <fmt/format.h>
 
@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 constexpr uint32_t max_depth = 5;
 constexpr size_t most_transmitters = 10, most_receivers = 100;
 
-// Our rays a transmitter, and those of the peer beside them: rays that are sent towards the horizon find more than ten
-// times as many of the peer's, so the fair pair is the one in which ours miss no more paths.
+// Our rays per transmitter, and those of the peer beside them: rays that are sent towards the horizon find more than
+// ten times as many of the peer's, so the fair pair is the one in which ours miss no more paths.
 struct Case {
   size_t transmitters, receivers;
   uint64_t rays, peer_rays;
@@ -209,9 +209,9 @@ void compare_with_peer(Result& result, const Case& c, const Paths& paths, const 
 
 std::string name_of(const Case& c, const Place& place, uint64_t reference_rays) {
   std::string name =
-      fmt::format("{}, {} links, {:.0e} rays a transmitter", place.name, c.links(), static_cast<double>(c.rays));
+      fmt::format("{}, {} links, {:.0e} rays per transmitter", place.name, c.links(), static_cast<double>(c.rays));
   if (c.diffraction())
-    name += fmt::format(", diffraction, {:.0e} rays a receiver", static_cast<double>(c.diffraction_rays));
+    name += fmt::format(", diffraction, {:.0e} rays per receiver", static_cast<double>(c.diffraction_rays));
   return fmt::format("{}, error against {:.0e}", name, static_cast<double>(reference_rays));
 }
 
@@ -239,7 +239,7 @@ void run(const Options& options, const std::string& command) {
                   name_of(c, place, options.reference_rays),
                   simulation.device().name,
                   frames.median_s,
-                  "s a frame",
+                  "s per frame",
                   Better::lower,
                   "",
                   {},
@@ -272,7 +272,7 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/munich/munich.xml");
   app.add_option("--frames", options.frames, "warm frames of which the median counts")->check(CLI::Range(5, 1000));
-  app.add_option("--reference-rays", options.reference_rays, "rays a transmitter of the launch that errors refer to");
+  app.add_option("--reference-rays", options.reference_rays, "rays per transmitter of the launch that errors refer to");
   app.add_option("--only", options.only, "reflection: no case with diffraction; diffraction: no other")
       ->check(CLI::IsMember({"reflection", "diffraction"}));
   app.add_option("--peer", options.peer, "lines printed by bench/peers/sionna_rt.py: the baseline of this machine");

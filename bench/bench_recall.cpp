@@ -63,7 +63,7 @@ void run(const Options& options, const std::string& command) {
                       fmt::format("{}, {}, {:.0e} rays", name, directions, static_cast<double>(rays)),
                       simulation.device().name,
                       frames.median_s,
-                      "s a frame",
+                      "s per frame",
                       Better::lower,
                       "",
                       {},

@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
   CLI::App app("Frames a second of a drive on 1, 2, 4, ... devices");
   bench::Options options;
   app.add_option("--program", options.program, "the wavetracer to run; default: beside this program");
-  app.add_option("--device-kind", options.device_kind, "gpu: a process a device; cpu: a process a core")
+  app.add_option("--device-kind", options.device_kind, "gpu: a process per device; cpu: a process per core")
       ->check(CLI::IsMember({"cpu", "gpu"}));
   app.add_option("--devices-list", options.devices_list,
                  "indices, as `wavetracer devices` counts them; default 0,1,...");

@@ -207,7 +207,7 @@ class Bench {
                     {"wall_s", m.seconds.wall}, {"kernels_s", m.seconds.device}, {"copy_gb_s", copy_ * 1e-9}};
     if (m.model_bytes > 0) {
       result.detail +=
-          fmt::format("; {:.0f} B a key, {:.0f}% of the copy", m.model_bytes, 100 * bytes_a_second / copy_);
+          fmt::format("; {:.0f} B per key, {:.0f}% of the copy", m.model_bytes, 100 * bytes_a_second / copy_);
       result.extra.update({{"model_bytes", m.model_bytes},
                            {"model_gb_s", bytes_a_second * 1e-9},
                            {"copy_fraction", bytes_a_second / copy_}});

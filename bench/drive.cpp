@@ -94,7 +94,7 @@ References solve_references(const Drive& drive, uint64_t rays, const std::string
   Simulation simulation = make_simulation(drive, {.reuse = false, .rays = rays}, device);
   for (const uint32_t frame : compared_frames(drive.frames)) {
     FrameResult result = simulation.run_frame(frame);
-    fmt::print(stderr, "{}: frame {} with {:.0e} rays a transmitter: {:.2f} s, {} paths\n", drive.name, frame,
+    fmt::print(stderr, "{}: frame {} with {:.0e} rays per transmitter: {:.2f} s, {} paths\n", drive.name, frame,
                static_cast<double>(rays), result.seconds.at("frame"), result.paths.size());
     references[frame] = std::move(result.paths);
   }
@@ -142,7 +142,7 @@ double measure(const Drive& drive, const Setting& setting, const References& ref
   line.name = fmt::format("{}: {}", drive.name, name_of(setting));
   line.device = simulation.device().name;
   line.value = median_s;
-  line.unit = "s a frame";
+  line.unit = "s per frame";
   line.better = Better::lower;
   line.baseline = setting.baseline;
   line.baseline_value = setting.baseline_s;

@@ -1,4 +1,4 @@
-// A drive, frame by frame, under one setting of rays after another: seconds a frame, and how many of the paths of
+// A drive, frame by frame, under one setting of rays after another: seconds per frame, and how many of the paths of
 // frames with many more rays are found. Assumes a quiet machine.
 #pragma once
 #include <cstdint>
@@ -34,7 +34,7 @@ std::vector<uint32_t> compared_frames(uint32_t frames);
 // Empty where rays is 0: then nothing is compared.
 References solve_references(const Drive& drive, uint64_t rays, const std::string& device);
 
-// Prints a line; returns the median seconds a frame. With reuse all frames are run in order, the first of them twice:
+// Prints a line; returns the median seconds per frame. With reuse all frames are run in order, the first of them twice:
 // to warm up, and as the cold frame. Without, all are cold and only the compared ones are run. The error is 1 - the
 // power recall of the last frame.
 double measure(const Drive& drive, const Setting& setting, const References& references, const std::string& device,

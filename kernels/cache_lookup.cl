@@ -1,15 +1,15 @@
 // cache_lookup: rays of a labelled queue ask the cache. Consumes rays; produces hits[i] where it answers, missed[i] = i
-// where ray i is to be traced, else WT_NONE. WT_RAYS_PER_ITEM rays a work-item (1 on GPUs).
+// where ray i is to be traced, else WT_NONE. WT_RAYS_PER_ITEM rays per work-item (1 on GPUs).
 //   WT_CACHE_OWN_POINT   an answer names the surface, and the ray meets its plane itself; else the ray is replaced by
 //                        the one that was traced
-//   WT_CACHE_STATISTICS  counts hits an entry and links entries along paths, by the plane WT_RAY_ENTRY
+//   WT_CACHE_STATISTICS  counts hits per entry and links entries along paths, by the plane WT_RAY_ENTRY
 //   WT_CACHE_ALL         entries hold what moves, too: those that movement has made wrong are withdrawn
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
 
 // What moves, with WT_CACHE_ALL; else placeholders.
 typedef struct {
-  const global float* receivers;  // four floats a receiver: centre and padding
+  const global float* receivers;  // four floats per receiver: centre and padding
   float radius;                   // m
   const global wt_exact_surface* surfaces;
   const global uint* instance_since;

@@ -37,7 +37,7 @@ inline void flush_tally(wt_cache cache, uint region) {
 }
 
 #ifdef WT_CPU
-// A run of rays a work-item.
+// A run of rays per work-item.
 kernel void cache_store(global float* rays, uint capacity, const global float* missed, const global float* missed_hits,
                         uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
                         global wt_cache_entry* entries, global uint* heads, global uint* used,

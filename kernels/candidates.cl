@@ -31,7 +31,7 @@ inline uint may_reach(const global wt_surface* s, float ix, float iy, float iz, 
 }
 
 // Of transmitters below transmitter_count alone, and of at most max_reflections surfaces: the trie may hold what other
-// ends see, and longer prefixes. One sequence and `groups_per_item` groups of 16 receivers a work-item. nodes[] holds
+// ends see, and longer prefixes. One sequence and `groups_per_item` groups of 16 receivers per work-item. nodes[] holds
 // the roots first, then the trie's nodes. receivers: three planes of receiver_capacity floats, padded to a multiple of
 // 16 with copies of the last one. links: a mask of the wanted receivers for each transmitter and 16 receivers.
 kernel void candidates(const global ulong* table, const global uint* nodes, uint node_count,

@@ -10,7 +10,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 #ifdef WT_CPU
-// 16 rays a work-item. Queues and lists are padded, so the last item may pass the count.
+// 16 rays per work-item. Queues and lists are padded, so the last item may pass the count.
 #define WT_RAYS_PER_ITEM 16
 inline ulong16 after(ulong index, ulong stride) {
   return index + stride * (ulong16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);

@@ -7,7 +7,7 @@ inline int carries(const global wt_exact_surface* s, double4 end) {
   return s->instance != WT_NONE && s->instance == wt_end_instance(end);
 }
 
-// One node and one group of 16 receivers a work-item. Consumes the trie, of transmitters below transmitter_count;
+// One node and one group of 16 receivers per work-item. Consumes the trie, of transmitters below transmitter_count;
 // tiles_of: of each surface the number of its first tile, where the centre of that is, and how many there are.
 // Appends (node, group, mask of receivers, tiles); *count is their number.
 kernel void lit(const global ulong* table, const global uint* nodes, uint node_count,
@@ -34,8 +34,8 @@ kernel void lit(const global ulong* table, const global uint* nodes, uint node_c
   if (slot < capacity) out[slot] = (uint4)(nodes[i], group, keep, tiles_of[surface].z);
 }
 
-// rows_per_item rows a work-item. first_row: of each of lit's entries, and row_count after the last; an entry's rows go
-// by tiles, then by receivers. centres: in the coordinates of the scene or model.
+// rows_per_item rows per work-item. first_row: of each of lit's entries, and row_count after the last; an entry's rows
+// go by tiles, then by receivers. centres: in the coordinates of the scene or model.
 kernel void scatter(const global ulong* table, const global uint* quarters, const global uint4* entries,
                     const global uint* first_row, uint entry_count, uint row_count, uint rows_per_item,
                     const global wt_exact_surface* surfaces, const global uint4* tiles_of, const global double* centres,

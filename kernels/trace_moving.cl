@@ -1,5 +1,5 @@
 // trace_moving: hits of the static scene against the instances: where one comes before a ray's hit, it takes its place.
-// With trace of the static scene alone it gives what trace of all there is gives. WT_RAYS_PER_ITEM rays a work-item.
+// With trace of the static scene alone it gives what trace of all there is gives. WT_RAYS_PER_ITEM rays per work-item.
 #include "lib/moving.clh"
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -10,7 +10,7 @@
 // Fewer lanes than this that agree in signs and dominant axis are traced one by one.
 #define WT_PACKET_MIN_LANES 4
 
-// One block of 16 rays a work-item: lanes that agree in the signs and the dominant axis of their directions go as a
+// One block of 16 rays per work-item: lanes that agree in the signs and the dominant axis of their directions go as a
 // packet. Queues are padded so that reading 16 rays never leaves a plane.
 kernel void trace(const global wt_bvh2_node* nodes, const global wt_bvh2_triangle* triangles, uint triangle_slots,
                   const global wt_bvh8_node* nodes8, const global wt_triangle_block* blocks,

@@ -27,7 +27,7 @@ import numpy as np
 import sionna.rt as rt
 from sionna.rt.constants import InteractionType
 
-# Transmitters, receivers, rays a transmitter: those of bench_paths.cpp. For each set of links the most rays come last.
+# Transmitters, receivers, rays per transmitter: those of bench_paths.cpp. For each set of links the most rays come last.
 CASES = [(1, 1, 10**5), (1, 1, 10**6), (1, 1, 10**7), (1, 10, 10**6),
          (1, 100, 10**6), (1, 100, 10**7), (10, 100, 10**6), (10, 100, 10**7)]
 LARGE = 10**7  # cases of so many rays, those of all transmitters together, are for GPUs, and for --large
@@ -84,7 +84,7 @@ def write_paths(file, paths, links, rays, interactions, tx_count, rx_count):
         "case": file.stem, "scene": links["scene"], "frequency_hz": links["frequency_hz"],
         "max_depth": links["max_depth"], "reflection": True, "transmission": "transmission" in interactions,
         "diffraction": "diffraction" in interactions,
-        "solver": f"Sionna RT {importlib.metadata.version('sionna-rt')}, {rays} rays a transmitter",
+        "solver": f"Sionna RT {importlib.metadata.version('sionna-rt')}, {rays} rays per transmitter",
         "tx_m": links["transmitters_m"][:tx_count], "rx_m": links["receivers_m"][:rx_count], "paths": rows}))
 
 
@@ -155,7 +155,7 @@ def main():
     parser.add_argument("--large", action="store_true", help="on a CPU, too, the cases of 1e7 rays and more")
     parser.add_argument("--only", metavar="TXxRX", action="append",
                         help="only cases of this many links, such as 1x100; may be given several times")
-    parser.add_argument("--rays", type=float, help="only cases of this many rays a transmitter, such as 1e6")
+    parser.add_argument("--rays", type=float, help="only cases of this many rays per transmitter, such as 1e6")
     parser.add_argument("--diffraction", action="store_true", help="paths with a diffraction at a wedge, too")
     parser.add_argument("--free-edges", action="store_true", help="with --diffraction: at edges of one face, too")
     parser.add_argument("--paths", type=pathlib.Path, metavar="FOLDER", help="write the paths of each case there")
@@ -189,10 +189,10 @@ def main():
         most_rays, most_paths = largest[name]
         print(json.dumps({
             "bench": "paths",
-            "case": ", ".join([links["scene"], f"{name} links", f"{rays:.0e} rays a transmitter"] + interactions[1:]),
+            "case": ", ".join([links["scene"], f"{name} links", f"{rays:.0e} rays per transmitter"] + interactions[1:]),
             "device": device_name(),
             "value": median,
-            "unit": "s a frame",
+            "unit": "s per frame",
             "baseline": None,
             "baseline_value": None,
             "ratio": None,

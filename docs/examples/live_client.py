@@ -72,7 +72,7 @@ def read_token(path):
 
 
 def print_links(answer, most=5):
-    """The strongest links of a frame, one a line."""
+    """The strongest links of a frame, one per line."""
     heard = sorted((link for link in answer["links"] if link["paths"]), key=lambda link: -(link["path_gain_db"] or -999))
     print(f"{answer['time_s']:.2f} s: {len(heard)} of {len(answer['links'])} links have paths, "
           f"solved in {1e3 * answer['seconds']['solve']:.1f} ms")

@@ -27,9 +27,10 @@ class Measurement {
   Measurement(const Request& request, const study::Host& host)
       : request_(request), host_(host), own_(load_config(request.file, request.sets)) {
     if (!own_.live_vehicles.empty())
-      throw ConfigError(request.file +
-                        ": its [[live_vehicle]] tables wait for poses, so there is no frame to measure; give "
-                        "trajectories instead of them");
+      throw ConfigError(
+          request.file +
+          ": its [[live_vehicle]] tables need a client that sends poses, so no frame can be measured; give "
+          "trajectories instead of them");
   }
 
   Study operator()() {
@@ -104,7 +105,7 @@ class Measurement {
     }
     out_.rows.push_back(row);
     host_.say(fmt::format("{} of {}: {} {}{}", out_.rows.size(), out_.planned, setting.axis, setting.name,
-                          row.measured() ? fmt::format(", {:.4g} ms a frame, {} paths", 1e3 * row.frame_s, row.paths)
+                          row.measured() ? fmt::format(", {:.4g} ms per frame, {} paths", 1e3 * row.frame_s, row.paths)
                                          : ": not measured: " + row.refusal));
   }
 

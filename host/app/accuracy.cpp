@@ -34,9 +34,10 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   const accuracy::Study study = accuracy::study(request, host);
   if (interrupted()) {
     invocation.code = ExitCode::interrupted;
-    progress.line(study.rows.empty() ? "interrupted before the first setting; nothing was written"
-                                     : fmt::format("interrupted; what is written is whole, after {} of {} settings",
-                                                   study.rows.size(), study.planned));
+    progress.line(study.rows.empty()
+                      ? "interrupted before the first setting; nothing was written"
+                      : fmt::format("interrupted after {} of {} settings; the written files are complete up to there",
+                                    study.rows.size(), study.planned));
   }
   if (study.rows.empty()) return;
   const accuracy::Written written = accuracy::write_files(study, request.command_line, folder);

@@ -65,8 +65,8 @@ void bench(const BenchOptions& options, Invocation& invocation) {
     invocation.code = ExitCode::interrupted;
     progress.line(report.files.empty()
                       ? "interrupted before the first point; nothing was written"
-                      : fmt::format("interrupted; what is written is whole, after {} of {} {}", report.points,
-                                    report.planned, all ? "figures" : "numbers of rays"));
+                      : fmt::format("interrupted after {} of {} {}; the written files are complete up to there",
+                                    report.points, report.planned, all ? "figures" : "numbers of rays"));
   }
   if (all && report.points < report.planned && !interrupted()) invocation.code = ExitCode::partial;
   if (report.files.empty()) return;

@@ -185,8 +185,7 @@ void add_convert(CLI::App& program) {
   command->add_flag("!--no-ground", import.ground, "Write buildings only, without ground")->group(maps);
   command->callback([options] {
     if (options->list) return print_list();
-    if (options->input.empty())
-      throw ConfigError("convert: give the name of what to convert: the folder of a run, or a map");
+    if (options->input.empty()) throw ConfigError("convert: give what to convert: the folder of a run, or a map");
     if (!options->format.empty() && options->format != "mitsuba") named_exporter(options->format);
     check_input(options->input);
     if (options->output.empty()) throw ConfigError("convert: give the file or folder to write with -o");

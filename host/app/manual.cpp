@@ -64,15 +64,15 @@ std::string program_manual(const CommandText& program, const std::string& versio
     if (!command->path.empty()) out += section(*command);
   out += ".SH EXIT STATUS\n" +
          list({{"0", "Success."},
-               {"1", "A limit was met: no memory, a full disk."},
+               {"1", "A limit of the machine was reached: memory or disk is full."},
                {"2", "The command line or the configuration is wrong; the message names file, line and key."},
                {"3", "A scene, antenna, trajectory or result file is wrong."},
                {"4", "No OpenCL device, no memory on it, or a kernel that does not build."},
-               {"5", "Some of what was asked for could not be done; the rest is written."},
-               {"130", "Interrupted; what is written is whole."}});
+               {"5", "A part of the request could not be done; the rest is written."},
+               {"130", "Interrupted; the written files are complete."}});
   out += ".SH FILES\n" +
          list({{"paths.h5", "Every path of a run (HDF5); each dataset says its units and meaning."},
-               {"links.csv", "One line a link and frame: path gain, delay spread, line of sight."},
+               {"links.csv", "One line per link and frame: path gain, delay spread, line of sight."},
                {"summary.json", "Device, counts, seconds of each stage, warnings."},
                {"shards/", "Finished parts of a drive, from which run --resume goes on."},
                {"$XDG_CACHE_HOME/wavetracer/programs", "Compiled kernels; may be removed at any time."},

@@ -26,7 +26,7 @@ struct MergeOptions {
 fs::path target_of(const MergeOptions& options) {
   if (options.output.empty()) {
     if (options.directories.size() > 1)
-      throw ConfigError("merge: several folders of parts; name the one for the results with -o");
+      throw ConfigError("merge: there are several folders of parts, so name a folder for the results with -o");
     return fs::absolute(options.directories.front()).lexically_normal();
   }
   const fs::path target = fs::absolute(options.output).lexically_normal();
@@ -73,7 +73,7 @@ void merge(const MergeOptions& options, Invocation& invocation) {
     progress.line("missing: " + missing_words(found));
     invocation.code = ExitCode::partial;
     if (!options.partial) {
-      progress.line("nothing was written; compute what is missing, or write what is there with --partial");
+      progress.line("nothing was written; compute the missing parts, or use --partial to write the parts that exist");
       return;
     }
   }
@@ -95,7 +95,7 @@ void add_merge(CLI::App& program, Invocation& invocation) {
       ->required();
   command->add_option("-o,--output", options->output,
                       "Folder for the results; with one DIR, the default is that folder");
-  command->add_flag("--partial", options->partial, "Join the parts that are there, even if others are missing");
+  command->add_flag("--partial", options->partial, "Join the parts that exist, even if others are missing");
   command->footer(
       "Exit code 5: parts are missing. All DIR must belong to one run, with the same configuration, input files, "
       "--frames, --repeat, version and kind of device.");

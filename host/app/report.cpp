@@ -27,14 +27,17 @@ std::string frame_line(const Run& run, const Totals& totals) {
   const uint32_t repeats = run.summary.repeat_count;
   if (totals.frames == 1)
     return fmt::format("frame      {} ({})\n", duration(median_s),
-                       repeats > 1 ? fmt::format("median of {}", repeats)
-                                   : "the first, so not warm: --repeat 5 gives the median of five");
+                       repeats > 1
+                           ? fmt::format("median of {}", repeats)
+                           : "the first frame, which includes start-up work; --repeat 5 gives the median of five");
   const double span_s = totals.end_s - totals.start_s;
   std::string line =
       fmt::format("frames     {} from {:g} to {:g} s in steps of {:.6g} s; median {}", totals.frames, totals.start_s,
                   totals.end_s, span_s / static_cast<double>(totals.frames - 1), duration(median_s));
   if (sum_s > 0) line += fmt::format(", {:.3g} frames/s", static_cast<double>(totals.frames) / sum_s);
-  if (repeats > 1) line += fmt::format("; each {} times{}", repeats, run.config.trace.reuse ? ", reusing nothing" : "");
+  if (repeats > 1)
+    line += fmt::format("; each {} times{}", repeats,
+                        run.config.trace.reuse ? ", and no frame reuses sequences of the one before" : "");
   return line + "\n";
 }
 
@@ -108,8 +111,8 @@ std::string missed_line(const Run& run, const Totals& totals) {
                      grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
                      missed.power_share.low, missed.power_share.high,
                      none                    ? ""
-                     : run.config.trace.rays ? ": more trace.rays find more"
-                                             : ": a higher trace.recall finds more");
+                     : run.config.trace.rays ? ": a higher number of trace.rays finds more of them"
+                                             : ": a higher trace.recall finds more of them");
 }
 
 // What tracing did, for whoever tunes it.

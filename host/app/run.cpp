@@ -45,12 +45,15 @@ bool has_vehicles(const Config& config) {
 Config configuration(const RunOptions& options, bool shared) {
   Config config = load_config(options.file, options.sets);
   if (!config.live_vehicles.empty())
-    throw ConfigError(options.file + ": its [[live_vehicle]] tables wait for poses: start `wavetracer serve -c " +
+    throw ConfigError(options.file +
+                      ": its [[live_vehicle]] tables need a client that sends poses: start `wavetracer serve -c " +
                       options.file + "`, or give trajectories instead of them");
   if (!has_vehicles(config)) {
     parse_frames(options.frames, 1);
     if (options.resume && !shared)
-      throw ConfigError("--resume: nothing to resume, because a run without trajectories is one frame; leave it out");
+      throw ConfigError(
+          "--resume: a run without trajectories has only one frame, so there is nothing to resume; leave the option "
+          "out");
   }
   if (!options.directory.empty()) config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return config;
@@ -60,9 +63,10 @@ Config configuration(const RunOptions& options, bool shared) {
 std::string unfinished(const Run& run, const Results& results, const RunOptions& options, bool moving) {
   if (results.totals.frames == 0) return "interrupted before the first frame; nothing was written";
   if (moving)
-    return fmt::format("interrupted; what is written is whole, {} of {} frames; go on with --resume",
-                       results.totals.frames, run.summary.frames_asked);
-  return fmt::format("interrupted; what is written is whole, after {} of {} repeats", run.summary.repeat_count,
+    return fmt::format(
+        "interrupted after {} of {} frames; the written files are complete up to there; continue with --resume",
+        results.totals.frames, run.summary.frames_asked);
+  return fmt::format("interrupted after {} of {} repeats; the written files are complete", run.summary.repeat_count,
                      options.repeat);
 }
 
@@ -75,7 +79,8 @@ void check_options(const RunOptions& options, const Ranks& ranks) {
   if (options.shard.empty()) return;
   parse_shard(options.shard);
   if (options.starts_processes())
-    throw ConfigError("--shard is for processes that are started one by one; leave out --devices and --processes");
+    throw ConfigError(
+        "--shard computes one part in one process; --devices and --processes start several: give one or the other");
   if (ranks.size > 1)
     throw ConfigError(
         fmt::format("--shard: this process is rank {} of {} already, which share the run by themselves; "
@@ -96,8 +101,9 @@ void start_children(const RunOptions& options, const Config& config, Invocation&
   plan.arguments.insert(plan.arguments.end(), {"--devices", fmt::format("{}", fmt::join(devices, ","))});
   plan.processes = options.processes > 0 ? options.processes : static_cast<uint32_t>(devices.size());
   if (plan.processes < devices.size())
-    throw ConfigError(
-        fmt::format("--processes {}: there are {} devices, which want one each", plan.processes, devices.size()));
+    throw ConfigError(fmt::format(
+        "--processes {}: there are {} devices, and each needs a process of its own; give at least that many",
+        plan.processes, devices.size()));
   plan.command_line = invocation.command_line;
   progress.line(devices.size() == 1 ? fmt::format("{} processes on device {}", plan.processes, devices[0])
                                     : fmt::format("{} processes on {} devices", plan.processes, devices.size()));
@@ -126,13 +132,14 @@ std::optional<Results> run_shared(const DriveTask& task, const RunOptions& optio
   const Shared shared = drive_part(task, part, progress);
   if (shared.missing > 0) {
     invocation.code = ExitCode::interrupted;
-    progress.line(fmt::format("interrupted; {} parts of --shard {} are left; go on with --resume", shared.missing,
-                              options.shard));
+    progress.line(fmt::format("interrupted; {} parts of --shard {} are not computed yet; continue with --resume",
+                              shared.missing, options.shard));
   } else {
     progress.line(
         fmt::format("--shard {} is done{}; when all are, `wavetracer merge {}` writes the results, of several "
                     "folders `wavetracer merge -o OUT DIR...`",
-                    options.shard, shared.units == 0 ? ", and empty: the run has fewer parts" : "", directory));
+                    options.shard, shared.units == 0 ? ", and it is empty, because the run has fewer parts than N" : "",
+                    directory));
   }
   return std::nullopt;
 }
@@ -189,7 +196,7 @@ void run(const RunOptions& options, Invocation& invocation) {
 
   const bool moving = simulation.frame_count() > 1, alone = sharing == Sharing::alone;
   if (options.resume && !moving && alone)
-    progress.line("--resume: nothing to go on with, because this drive has one frame");
+    progress.line("--resume: this drive has only one frame, so there is nothing to resume; leave the option out");
   const DriveTask task{simulation, run, identity_of(config, run.summary, range), options.resume,
                        moving || alone ? 1 : block_count(run.config)};
   Results results;

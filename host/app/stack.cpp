@@ -35,8 +35,8 @@ int with_enough_stack(const std::function<int()>& program) {
   const int failed = pthread_create(&thread, &attributes, run, &task);
   pthread_attr_destroy(&attributes);
   if (failed != 0)
-    throw RuntimeError(std::string("no thread with 8 MiB of stack can be started (") + std::strerror(failed) +
-                       "), and ulimit -s gives less to a program: raise it, as with ulimit -s 8192");
+    throw RuntimeError(std::string("cannot start a thread with 8 MiB of stack (") + std::strerror(failed) +
+                       "), and the limit of `ulimit -s` is lower: raise it, for example with `ulimit -s 8192`");
   pthread_join(thread, nullptr);
   return task.result;
 }

@@ -53,11 +53,11 @@ std::vector<std::string> option_names(const CLI::App& command) {
 std::string unknown_word(const CLI::App& command, const std::string& word) {
   if (word.starts_with('-')) {
     const std::string name = word.substr(0, word.find('='));
-    return fmt::format("no option is called {}{}", name, spelling_hint(name, option_names(command)));
+    return fmt::format("there is no option {}{}", name, spelling_hint(name, option_names(command)));
   }
   if (const std::vector<std::string> names = command_names(command); !names.empty())
-    return fmt::format("no command is called \"{}\"{}", word, spelling_hint(word, names));
-  return fmt::format("\"{}\" is one word too many", word);
+    return fmt::format("there is no command \"{}\"{}", word, spelling_hint(word, names));
+  return fmt::format("\"{}\" is not expected here", word);
 }
 
 // CLI11 says "--format: svh not in {svg,png,pdf}".
@@ -79,7 +79,7 @@ std::string problem(const CLI::App& command, const CLI::ParseError& error) {
   const std::string what = error.what();
   if (const std::vector<std::string> names = command_names(command);
       error.get_name() == "RequiredError" && !names.empty())
-    return fmt::format("say which: {}", fmt::join(names, " or "));
+    return fmt::format("name one of them: {}", fmt::join(names, " or "));
   // CLI11 says "--config: 1 required TEXT missing".
   if (const size_t missing = what.find(": 1 required "); missing != std::string::npos && what.ends_with(" missing"))
     return what.substr(0, missing) + " needs a value";
@@ -103,7 +103,7 @@ const CLI::App& find_command(const CLI::App& program, const std::vector<std::str
         known.push_back(config_topic);
         const std::string nearest_key = spelling_hint(word, key_names());
         if (word.find('.') != word.npos && !nearest_key.empty())
-          throw ConfigError(fmt::format("help: no key is called \"{}\"{}", word, nearest_key));
+          throw ConfigError(fmt::format("help: there is no key \"{}\"{}", word, nearest_key));
       }
       throw ConfigError(
           fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, spelling_hint(word, known),

@@ -29,7 +29,7 @@ fs::path without_slash(const fs::path& path) { return path.has_filename() ? path
 PendingFolder::PendingFolder(fs::path path) : path_(without_slash(path)) {
   std::error_code error;
   if (fs::exists(path_, error) && !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
-    throw InputError(fmt::format("{}: is there already; remove it or choose another folder with -o", path_.string()));
+    throw InputError(fmt::format("{}: exists already; remove it or choose another folder with -o", path_.string()));
   fs::path temporary = path_;
   temporary += fmt::format(".{}.tmp", ::getpid());
   if (!fs::create_directory(temporary, error)) fail(path_, error ? error.value() : EEXIST);

@@ -101,7 +101,7 @@ class KmlWriter {
   Projection projection_;
   Survey survey_;
   PendingFile file_;
-  size_t limit_ = 0;        // paths a frame
+  size_t limit_ = 0;        // paths per frame
   uint64_t left_out_ = 0;   // by the limit
   uint64_t not_drawn_ = 0;  // points that are not finite
 };

@@ -173,7 +173,7 @@ class Context {
 
   void finish();
 
-  // Sums of the profiling events since the last reset, seconds a stage; finishes the queue first.
+  // Sums of the profiling events since the last reset, seconds per stage; finishes the queue first.
   std::map<std::string, double> profile();
   void reset_profile();
   // Profiling is on at first. Off, profile() adds nothing, and launches that follow each other closely cost less (on an

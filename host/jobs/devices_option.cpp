@@ -30,12 +30,12 @@ std::vector<size_t> listed(const std::string& text) {
     const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), index);
     if (item.empty() || error != std::errc() || end != item.data() + item.size())
       throw ConfigError(
-          fmt::format("--devices {}: give all, gpu, cpu, or indices as 0,1,2 (`wavetracer devices` lists "
-                      "them); several processes on one device: --processes N",
+          fmt::format("--devices {}: give all, gpu, cpu, or indices such as 0,1,2 (`wavetracer devices` lists "
+                      "them); for several processes on one device use --processes N",
                       text));
     if (std::ranges::find(out, index) != out.end())
-      throw ConfigError(
-          fmt::format("--devices {}: {} is there twice; several processes on one device: --processes N", text, index));
+      throw ConfigError(fmt::format(
+          "--devices {}: {} is named twice; for several processes on one device use --processes N", text, index));
     out.push_back(index);
   }
   return out;
@@ -45,7 +45,7 @@ void check_listed(const std::vector<gpu::DeviceInfo>& there, const std::string& 
   for (const size_t index : list) gpu::choose_device(there, std::to_string(index));  // throws, naming those there are
   for (const size_t index : list)
     if (!same_kind(there[index], there[list.front()]))
-      throw ConfigError(fmt::format("--devices {}: {} and {} are not of one kind; give CPUs or GPUs alone", text,
+      throw ConfigError(fmt::format("--devices {}: {} and {} are of different kinds; name only CPUs or only GPUs", text,
                                     there[list.front()].name, there[index].name));
 }
 
@@ -128,8 +128,9 @@ std::vector<size_t> choose_devices(const std::vector<gpu::DeviceInfo>& there, co
   if (devices == "gpu" || devices == "cpu") {
     const auto out = indices(there, [&](const gpu::DeviceInfo& d) { return devices == "gpu" ? d.gpu : d.cpu; });
     if (out.empty())
-      throw DeviceError(
-          fmt::format("--devices {}: there is none; `wavetracer devices` lists those that there are", devices));
+      throw DeviceError(fmt::format(
+          "--devices {}: this machine has no such device; `wavetracer devices` lists the devices that it has",
+          devices));
     return out;
   }
   if (const std::vector<size_t> list = listed(devices); !list.empty()) {

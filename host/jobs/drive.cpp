@@ -21,11 +21,12 @@ void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std
                        Progress& progress) {
   const uint64_t done = shards.totals().frames, all = FrameRange{asked.first, asked.last}.count();
   if (done == 0)
-    progress.line(fmt::format("--resume: no finished shard in {}, so this starts from the beginning", directory));
+    progress.line(
+        fmt::format("--resume: {} contains no finished shard, so the run starts from the beginning", directory));
   else if (done == all)
-    progress.line("--resume: all frames are there; the outputs are written again");
+    progress.line("--resume: all frames are computed already; the outputs are written again");
   else
-    progress.line(fmt::format("--resume: {} of {} frames are there", done, all));
+    progress.line(fmt::format("--resume: {} of {} frames are computed already", done, all));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One row after the other, so memory holds two numbers a row and a sum a pair.
+// One row after the other, so memory holds two numbers per row and a sum per pair.
 // Columns are found by their names.
 #include "jobs/link_statistics.hpp"
 #include <fmt/format.h>
@@ -101,7 +101,7 @@ class Reader {
   double number(const std::string& text) const {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) fail("\"" + text + "\" is no number");
+    if (error != std::errc() || end != text.data() + text.size()) fail("\"" + text + "\" is not a number");
     return value;
   }
 

@@ -28,10 +28,10 @@ std::vector<uint64_t> whole_numbers(const Json& json) {
 // Names lead to files of the folder and nowhere else.
 void check_files(const Shard& shard) {
   const std::string stem = unit_name(shard.unit) + ".";
-  if (shard.files.size() < 2 || shard.files.size() > 3) refuse("not the files of a shard");
+  if (shard.files.size() < 2 || shard.files.size() > 3) refuse("the names of its files are not those of a shard");
   for (const ShardFile& file : shard.files)
     if (!file.name.starts_with(stem) || file.name.find('/') != std::string::npos)
-      refuse("\"" + file.name + "\" is no file of this shard");
+      refuse("\"" + file.name + "\" does not belong to this shard");
 }
 
 Json encode_missed(const MissedCounts& missed) {
@@ -46,10 +46,10 @@ MissedCounts decode_missed(const Json& json) {
   MissedCounts out;
   out.frames = whole<uint64_t>(json.at("frames"));
   const std::vector<uint64_t> paths = whole_numbers(json.at("paths"));
-  if (paths.size() != out.paths.size()) refuse("not the four numbers of paths that quarters of a launch found");
+  if (paths.size() != out.paths.size()) refuse("the counts of paths of the four quarters of a launch are wrong");
   std::ranges::copy(paths, out.paths.begin());
   if (json.at("powers").size() != out.powers.size())
-    refuse("not the four powers of paths that quarters of a launch found");
+    refuse("the powers of paths of the four quarters of a launch are wrong");
   out.powers = json.at("powers");
   out.amplitude = json.at("amplitude");
   out.power = json.at("power");
@@ -70,12 +70,12 @@ Shard decode(const Json& json) {
   t.first = whole<uint32_t>(json.at("first"));
   t.last = whole<uint32_t>(json.at("last"));
   if (t.first > t.last || t.first < shard.run.first || t.last > shard.run.last)
-    refuse("frames that are not of its run");
+    refuse("its frames are not among those of the run");
   shard.unit = {t.first, t.last, 0, 1};
   if (json.contains("blocks")) {
     shard.unit.block = whole<uint32_t>(json.at("block"));
     shard.unit.blocks = whole<uint32_t>(json.at("blocks"));
-    if (shard.unit.block >= shard.unit.blocks || t.first != t.last) refuse("a block that cannot be");
+    if (shard.unit.block >= shard.unit.blocks || t.first != t.last) refuse("its block of links cannot exist");
   }
   t.frames = uint64_t{t.last} - t.first + 1;
   t.start_s = json.at("start_s");
@@ -87,7 +87,7 @@ Shard decode(const Json& json) {
   t.counts = {count("rays"),       count("segments"), count("hits"),  count("sequences"),
               count("candidates"), count("solved"),   count("paths"), count("receptions")};
   const std::vector<uint64_t> kinds = whole_numbers(json.at("kinds"));
-  if (kinds.size() != t.kinds.size()) refuse("other kinds of paths than those of this version");
+  if (kinds.size() != t.kinds.size()) refuse("its kinds of paths are not those of this version");
   std::ranges::copy(kinds, t.kinds.begin());
   t.segments_per_depth = whole_numbers(json.at("segments_per_depth"));
   if (json.contains("left_out")) {
@@ -162,7 +162,7 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
     } catch (const Json::exception& error) {
       if (text.empty()) break;
       throw RuntimeError(
-          fmt::format("{}:{}: not a line that this version writes ({}); remove the file and run again, "
+          fmt::format("{}:{}: this version does not write such a line ({}); remove the file and run again, "
                       "or run without --resume",
                       name, number, error.what()));
     }

@@ -35,7 +35,7 @@ void check_same_run(const RunIdentity& a, const fs::path& folder_a, const RunIde
                                    folder_a.string(), folder_b.string(), what, one, other));
   };
   differs("version", a.version, b.version);
-  differs("hashes of the configuration", a.config, b.config);
+  differs("different hashes of the configuration", a.config, b.config);
   differs("device kinds", a.device_kind, b.device_kind);
   differs("--frames", fmt::format("{}:{}", a.first, a.last), fmt::format("{}:{}", b.first, b.last));
   differs("--repeat", a.repeat, b.repeat);
@@ -45,7 +45,7 @@ void check_same_run(const RunIdentity& a, const fs::path& folder_a, const RunIde
       fmt::format("{} and {} hold parts of different runs: {}; compute one of them again with the input files "
                   "of the other, or merge each by itself",
                   folder_a.string(), folder_b.string(),
-                  which.empty() ? "an input file of the second is not that of the first" : which + " in the first"));
+                  which.empty() ? "one of their input files differs" : which + " in the first"));
 }
 
 void add_missing(FoundParts& found, const Unit& unit) {
@@ -77,7 +77,7 @@ void check_cut(const FoundParts& found) {
         !before || (before->unit.blocks == shard.unit.blocks && before->files.size() == shard.files.size() &&
                     (shard.unit.blocks > 1 || before->unit.last < shard.unit.first));
     if (!fits)
-      throw InputError(fmt::format("{} and {} do not fit together: {} and {}", found.places.begin()->second.string(),
+      throw InputError(fmt::format("{} and {} cannot be merged: {} and {}", found.places.begin()->second.string(),
                                    found.places.at(key).string(), unit_words(before->unit), unit_words(shard.unit)));
     before = &shard;
   }
@@ -105,7 +105,8 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
     std::error_code none;
     const std::vector<fs::path> manifests = manifests_in(folder);
     if (manifests.empty())
-      throw InputError(fmt::format("{}: no parts of a run: {} holds no manifest", directory.string(), folder.string()));
+      throw InputError(fmt::format("{}: this folder contains no parts of a run, because {} contains no manifest",
+                                   directory.string(), folder.string()));
     if (found.record.empty() && fs::exists(folder / "run.json", none)) found.record = folder / "run.json";
     for (const fs::path& manifest : manifests) {
       for (Shard& shard : read_manifest(manifest)) {
@@ -127,7 +128,7 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
     }
   }
   if (found.shards.empty())
-    throw InputError(fmt::format("{}: no finished part of a run is there{}", directories.front().string(),
+    throw InputError(fmt::format("{}: this folder contains no finished part of a run{}", directories.front().string(),
                                  found.damaged.empty() ? "" : "; damaged: " + found.damaged.front()));
   check_cut(found);
   find_missing(found);

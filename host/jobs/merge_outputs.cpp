@@ -44,7 +44,7 @@ void send(const Pieces& pieces, LimitedChild::Reply& reply) {
 Pieces pieces_in(std::string_view bytes) {
   Pieces pieces;
   const auto take = [&bytes](void* to, uint64_t count, size_t size) {
-    if (count > bytes.size() / size) throw RuntimeError("the process that reads the parts answers too little");
+    if (count > bytes.size() / size) throw RuntimeError("the process that reads the parts ended its answer too early");
     std::memcpy(to, bytes.data(), count * size);
     bytes.remove_prefix(count * size);
   };

@@ -128,7 +128,7 @@ std::optional<ProcessInfo> decode_process(std::string_view text) {
                        .rank = json.at("rank"),
                        .pid = json.at("pid"),
                        .start = json.at("start"),
-                       .since = json.value("since", "a time that it does not tell")};
+                       .since = json.value("since", "an unknown time")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }

@@ -1,7 +1,7 @@
-// Who writes into the folder of a run: a file a process in DIR/shards, process_NAME, that says who it is and is touched
-// while it lives. Processes of one job (ranks) share a folder; those of different jobs must not.
-// On its own host a process is alive while its id and start time are those of a running one; elsewhere while its file
-// was touched in the last heartbeat_limit_s, by the clock of the file system.
+// Who writes into the folder of a run: a file per process in DIR/shards, process_NAME, that says who it is and is
+// touched while it lives. Processes of one job (ranks) share a folder; those of different jobs must not. On its own
+// host a process is alive while its id and start time are those of a running one; elsewhere while its file was touched
+// in the last heartbeat_limit_s, by the clock of the file system.
 #pragma once
 #include <chrono>
 #include <condition_variable>

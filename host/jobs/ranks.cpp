@@ -53,7 +53,7 @@ std::optional<Ranks> from(const Launcher& launcher, const Environment& variable)
   const auto rank = number_of(variable, launcher.rank), size = number_of(variable, launcher.size);
   if (!rank || !size || *size == 0 || *rank >= *size || *size > most_ranks)
     throw ConfigError(fmt::format(
-        "{}={}, {}={}: not a rank from 0 and a number of ranks up to {}; unset both to run one "
+        "{}={}, {}={}: these are not a rank and a number of ranks (up to {}); unset both variables to run one "
         "process",
         launcher.rank, text_of(variable, launcher.rank), launcher.size, text_of(variable, launcher.size), most_ranks));
   Ranks ranks;
@@ -129,7 +129,7 @@ ShardChoice parse_shard(const std::string& text) {
   const auto count = slash == std::string::npos ? std::nullopt : number(std::string_view(text).substr(slash + 1));
   if (!index || !count || *count == 0 || *count > most_ranks)
     throw ConfigError(
-        fmt::format("--shard {}: give K/N, the part K from 0 to N - 1 of N parts, N at most {}; parts are "
+        fmt::format("--shard {}: give K/N, that is part K (from 0 to N - 1) of N parts, with N up to {}; parts are "
                     "counted from 0",
                     text, most_ranks));
   if (*index >= *count)

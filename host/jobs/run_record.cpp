@@ -78,22 +78,21 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   out.scene.file = json.at("scene_file");
   out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
   const auto vehicles = whole<uint64_t>(json.at("vehicles"));
-  if (vehicles > most_vehicles) throw RuntimeError(name + ": \"vehicles\" is no number of vehicles");
+  if (vehicles > most_vehicles) throw RuntimeError(name + ": \"vehicles\" is not a number of vehicles");
   out.instances.resize(vehicles);
   for (const Json& input : json.at("inputs"))
     s.inputs.push_back(
         {input.at("name"), input.at("file"), whole<uint64_t>(input.at("bytes")), whole<uint64_t>(input.at("hash"))});
   return out;
 } catch (const Json::exception& error) {
-  throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
+  throw RuntimeError(fmt::format("{}: this version does not write such a file ({}); run again", name, error.what()));
 } catch (const ConfigError& error) {  // a word that this version does not have
-  throw RuntimeError(fmt::format("{}: not what this version writes ({}); run again", name, error.what()));
+  throw RuntimeError(fmt::format("{}: this version does not write such a file ({}); run again", name, error.what()));
 }
 
 RunRecord read_run_record(const std::filesystem::path& file) {
-  return decode_run_record(
-      read_text(file, most_record_bytes, "it is part of every run that was written in shards; run again"),
-      file.string());
+  return decode_run_record(read_text(file, most_record_bytes, "every run with shards writes it; run again"),
+                           file.string());
 }
 
 }  // namespace wavetracer

@@ -46,7 +46,7 @@ void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const
   throw InputError(
       fmt::format("{} since the shards in {} were written; put the input files back as they were, or choose "
                   "another folder with -o, or remove the shards",
-                  which.empty() ? "an input file is not what it was" : which, folder.string()));
+                  which.empty() ? "an input file has changed" : which, folder.string()));
 }
 
 // The keys that differ, by the record of the run that wrote the shards; empty where that does not tell.

@@ -44,9 +44,9 @@ std::optional<SolvedFrame> solve_frame(Simulation& simulation, uint32_t frame, u
     std::optional<FrameResult> next = solve_once(simulation, frame, block);
     if (!next) break;
     if (must_agree && solved.repeated > 0 && next->counts.paths != result.counts.paths)
-      next->warnings.push_back(
-          fmt::format("repeat {} found {} paths, the one before {}: the device is not to be trusted", solved.repeated,
-                      next->counts.paths, result.counts.paths));
+      next->warnings.push_back(fmt::format(
+          "repeat {} found {} paths, the one before {}: this device gives wrong results, so do not trust it",
+          solved.repeated, next->counts.paths, result.counts.paths));
     for (const auto& [stage, seconds] : next->seconds) samples[stage].push_back(seconds);
     next->warnings.insert(next->warnings.begin(), result.warnings.begin(), result.warnings.end());
     result = std::move(*next);

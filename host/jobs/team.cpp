@@ -84,7 +84,8 @@ class Team {
       if (prepared()) return true;
       claims_.look();
       if (claims_.state(claim) == ClaimState::failed)
-        throw RuntimeError("the processes that made " + shards_.folder().string() + " ready were killed; run again");
+        throw RuntimeError("the processes that prepared " + shards_.folder().string() +
+                           " ready were killed; run again");
       if (!claims_.take(claim)) continue;
       prepare();
       mark(false);
@@ -98,7 +99,7 @@ class Team {
     remove_claims(shards_.folder(), "prepare_");
     if (task_.resume) {
       shards_.resume();
-      progress_.line(fmt::format("--resume: {} of {} parts are there", shards_.count(), units_.count()));
+      progress_.line(fmt::format("--resume: {} of {} parts are computed already", shards_.count(), units_.count()));
     } else {
       shards_.clear();
     }
@@ -134,7 +135,7 @@ class Team {
         ++missing;
         if (interrupted()) continue;
         if (claims_.take(unit_name(unit))) {
-          progress_.line(unit_words(unit) + ": taken over from a process that died");
+          progress_.line(unit_words(unit) + ": taken over from a process that ended too early");
           if (compute_unit(task_, unit, writer_, progress_)) --missing;
           writer_.finish();
         } else if (claims_.state(unit_name(unit)) == ClaimState::taken) {
@@ -165,11 +166,11 @@ class Team {
     for (uint64_t index = 0, shown = 0; index < units_.count() && shown < 5; ++index)
       if (const Unit unit = units_.at(index); !shards_.finished(unit))
         which += (shown++ ? ", " : "") + unit_words(unit);
-    progress_.line(
-        fmt::format("missing: {}{}; the processes that computed them died. Go on with --resume, or see what is "
-                    "there with wavetracer merge --partial {}",
-                    which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
-                    task_.run.config.output.directory));
+    progress_.line(fmt::format(
+        "missing: {}{}; the processes that computed them ended too early. Continue with --resume, or write what is "
+        "computed with `wavetracer merge --partial {}`",
+        which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
+        task_.run.config.output.directory));
     return shared;
   }
 };

@@ -21,7 +21,7 @@ bool said(const std::vector<std::string>& warnings) {
 std::vector<std::string> advice(const Run& run, const Totals& totals) {
   const auto found = run.summary.features.find("diffraction");
   const bool edges_left_out = found != run.summary.features.end() && found->second.reason == diffraction_off;
-  const uint64_t sight = totals.kinds[0];  // at most one a link
+  const uint64_t sight = totals.kinds[0];  // at most one per link
   if (!edges_left_out || totals.counts.paths == 0 || 2 * sight >= totals.links) return {};
   if (said(run.summary.warnings) || said(totals.warnings)) return {};
   return {fmt::format(

@@ -132,7 +132,8 @@ double root_number(const File& file, const std::string& name) {
   const Id attribute = root_attribute(file, name);
   check_single(attribute, name);
   const Id type(H5Aget_type(attribute), H5Tclose, "find the type of attribute " + name);
-  if (H5Tget_class(type) != H5T_FLOAT && H5Tget_class(type) != H5T_INTEGER) refuse("attribute " + name, "is no number");
+  if (H5Tget_class(type) != H5T_FLOAT && H5Tget_class(type) != H5T_INTEGER)
+    refuse("attribute " + name, "is not a number");
   double value = 0;
   checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read attribute " + name);
   return value;

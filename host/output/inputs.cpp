@@ -18,7 +18,7 @@ std::vector<std::pair<std::string, size_t>> places_of(const std::vector<InputFil
 }  // namespace
 
 void write_inputs(hdf5::File& file, const std::vector<InputFile>& inputs) {
-  const auto group = file.make_group("/inputs", "one row a file that the run has read");
+  const auto group = file.make_group("/inputs", "one row per file that the run has read");
   std::vector<std::string> names, files;
   std::vector<uint64_t> bytes, hashes;
   for (const InputFile& input : inputs) {
@@ -44,7 +44,7 @@ std::string changed_input(const std::vector<InputFile>& before, const std::vecto
     if (found == were.end()) return fmt::format("{} ({}) is new", now[i].file, now[i].name);
     const InputFile& was = before[static_cast<size_t>(found - were.begin())];
     if (was.bytes != now[i].bytes || was.hash != now[i].hash)
-      return fmt::format("{} ({}) is not what it was", now[i].file, now[i].name);
+      return fmt::format("{} ({}) has changed", now[i].file, now[i].name);
   }
   for (size_t i = 0; i < before.size(); ++i)
     if (std::ranges::find(are, were[i]) == are.end())

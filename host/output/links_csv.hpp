@@ -1,4 +1,4 @@
-// links.csv: one row a frame and link, also for links without a path.
+// links.csv: one row per frame and link, also for links without a path.
 // RFC 4180 with a header row and "\n" line ends; numbers are the shortest text that reads back to the same double.
 #pragma once
 #include <filesystem>

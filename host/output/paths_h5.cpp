@@ -1,4 +1,4 @@
-// paths.h5: /paths (one row a path) and /vertices (compressed rows); the world around them is in world_h5.cpp.
+// paths.h5: /paths (one row per path) and /vertices (compressed rows); the world around them is in world_h5.cpp.
 // Every dataset says its units and meaning in attributes; the root has the conventions, the config and the versions.
 #include "output/paths_h5.hpp"
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ void append_coefficients(const Paths& paths, FrameTables& tables, const std::str
 }
 
 void append_paths(const Paths& paths, FrameTables& tables) {
-  tables.group("/paths", "one row a path, sorted by frame, tx, rx, delay");
+  tables.group("/paths", "one row per path, sorted by frame, tx, rx, delay");
   const auto column = [&](const char* name, const char* units, const char* description, const auto& values) {
     tables.append(name, {units, description}, std::span(values));
   };

@@ -21,7 +21,7 @@ struct GrowingTable {
   std::string path;
   hdf5::Meaning meaning;
   hdf5::Id type;                   // in the file
-  std::vector<hsize_t> row_shape;  // () of a number a row
+  std::vector<hsize_t> row_shape;  // () of a number per row
   hsize_t rows = 0;
 
   // By part; where they go to is counted from the beginning of the table.

@@ -59,7 +59,7 @@ void append_motion(const Run& run, const std::vector<EndState>& ends, const std:
 }  // namespace
 
 void write_instances(hdf5::File& file, const Run& run) {
-  const auto group = file.make_group("/instances", "one row a vehicle, whatever the frame");
+  const auto group = file.make_group("/instances", "one row per vehicle, whatever the frame");
   const auto text = [&](const char* name, const char* meaning, auto value) {
     std::vector<std::string> values;
     for (const Instance& instance : run.instances) values.push_back(value(instance));
@@ -72,14 +72,14 @@ void write_instances(hdf5::File& file, const Run& run) {
 }
 
 void write_ends(hdf5::File& file, const Run& run) {
-  write_configured(file, "/transmitters", "one row a transmitter: those of the config, then those on vehicles",
+  write_configured(file, "/transmitters", "one row per transmitter: those of the config, then those on vehicles",
                    run.config.transmitters);
-  write_configured(file, "/receivers", "one row a receiver: those of the config, then those on vehicles",
+  write_configured(file, "/receivers", "one row per receiver: those of the config, then those on vehicles",
                    run.config.receivers);
 }
 
 void append_frame(const Run& run, const FrameResult& frame, FrameTables& tables) {
-  tables.group("/frames", "one row a frame");
+  tables.group("/frames", "one row per frame");
   const std::array<uint64_t, 2> offset{0, frame.paths.size()};
   tables.append<uint32_t>("frame", {"1", "number of the frame"}, {&frame.frame, 1});
   tables.append<double>("time_s", {"s", "time of the frame"}, {&frame.world.time_s, 1});
@@ -105,7 +105,7 @@ void append_poses(const Run& run, const FrameResult& frame, FrameTables& tables)
       for (int column = 0; column < 3; ++column) rotations.push_back(placed.rotation[column][row]);  // glm: by column
   }
   const std::vector<uint32_t> numbers(instances.size(), frame.frame);
-  tables.group("/poses", "one row a frame and vehicle that is present in it, sorted so");
+  tables.group("/poses", "one row per frame and vehicle that is present in it, sorted so");
   tables.append<uint32_t>("frame", {"1", "number of the frame, see /frames/frame"}, numbers);
   tables.append<uint32_t>("instance", {"1", "row of /instances"}, instances);
   tables.append<double>("position_m",
@@ -126,7 +126,8 @@ void append_links(const FrameResult& frame, FrameTables& tables) {
     tx.push_back(link.tx);
     rx.push_back(link.rx);
   }
-  tables.group("/links", "one row a frame and link that was asked for, with paths or without, sorted by frame, tx, rx");
+  tables.group("/links",
+               "one row per frame and link that was asked for, with paths or without, sorted by frame, tx, rx");
   tables.append<uint32_t>("frame", {"1", "number of the frame, see /frames/frame"}, numbers);
   tables.append<uint32_t>("tx", {"1", "row of /transmitters"}, tx);
   tables.append<uint32_t>("rx", {"1", "row of /receivers"}, rx);

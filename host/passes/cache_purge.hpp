@@ -17,7 +17,7 @@ class CachePurge {
   void clear_old_regions(gpu::Context& context, CacheTable& table);
 
   gpu::Kernel kernel_;
-  gpu::Buffer<uint32_t> old_;  // entries a region
+  gpu::Buffer<uint32_t> old_;  // entries per region
   Work work_;
 };
 

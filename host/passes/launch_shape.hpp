@@ -10,7 +10,7 @@ namespace wavetracer {
 struct LaunchShape {
   unsigned dimensions = 1;
   bool curve = false;       // 2D and 3D: squares or cubes walked along a Hilbert curve instead of rows
-  uint32_t local_size = 0;  // work-items a group, a power of two; 0: what the pass prefers
+  uint32_t local_size = 0;  // work-items per group, a power of two; 0: what the pass prefers
 
   bool plain() const { return dimensions == 1 && local_size == 0; }
   // A range of at least `count` work-items whose indices by wt_launch_index cover 0 .. count - 1.

@@ -1,5 +1,5 @@
 // Host side of kernels/refine.cl.
-// One sample or slot a work-item.
+// One sample or slot per work-item.
 #include "passes/refine.hpp"
 
 namespace wavetracer {

@@ -34,9 +34,9 @@ class Scatter {
   gpu::Kernel lit_, scatter_;
   uint32_t local_;
   Work tiles_work_;
-  gpu::Buffer<uint32_t> tiles_of_;  // four words a surface, see scatter.cl
+  gpu::Buffer<uint32_t> tiles_of_;  // four words per surface, see scatter.cl
   gpu::Buffer<double> centres_;
-  gpu::Buffer<uint32_t> entries_, first_row_, count_;  // four words an entry
+  gpu::Buffer<uint32_t> entries_, first_row_, count_;  // four words per entry
   SolvedList solved_;
 };
 

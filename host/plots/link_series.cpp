@@ -100,7 +100,7 @@ std::optional<uint32_t> find_end(const std::vector<RadioEnd>& ends, const std::s
                     [](const auto& a, const auto& b) { return a.first < b.first; });
   std::string nearest;
   for (size_t i = 0; i < shown; ++i) nearest += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", *near[i].second);
-  throw ConfigError(fmt::format("{} \"{}\" is the name of no {} of the run; {}", option, name,
+  throw ConfigError(fmt::format("{} \"{}\" is not the name of a {} of the run; {}", option, name,
                                 option == "--tx" ? "transmitter" : "receiver",
                                 nearest.empty() ? "there is none" : "the nearest are " + nearest));
 }

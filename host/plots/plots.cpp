@@ -57,7 +57,7 @@ class Plotter {
         throw ConfigError(fmt::format("--what \"{}\" is no plot, there are {}{}", name, fmt::join(known, ", "),
                                       spelling_hint(name, known)));
     if (!choice_.grid.empty() && std::ranges::find(grids_, choice_.grid) == grids_.end())
-      throw ConfigError(fmt::format("--grid \"{}\" is the name of no [[receiver_grid]] of the run, it has {}{}",
+      throw ConfigError(fmt::format("--grid \"{}\" is not the name of a [[receiver_grid]] of the run, which has {}{}",
                                     choice_.grid, grids_.empty() ? "none" : fmt::format("{}", fmt::join(grids_, ", ")),
                                     spelling_hint(choice_.grid, grids_)));
     if (run_.path_count() == 0)

@@ -54,7 +54,7 @@ std::map<Interaction, std::vector<Reason>> needs(const Config& config, const Sce
   return {{diffraction,
            {{!wedges, "no edge of the scene diffracts"},
             {!config.trace.free_edges && !closed, "all edges that diffract are free, and trace.free_edges = false"}}},
-          {transmission, {{!passable, "all materials are metals or half spaces, which nothing passes"}}},
+          {transmission, {{!passable, "all materials are metals or half spaces, and no wave passes through them"}}},
           {scattering, {{!rough, "no material of the scene has a scattering coefficient (material.scattering)"}}}};
 }
 

@@ -48,7 +48,9 @@ LivePlaces::LivePlaces(const Config& config, const VehicleModels& vehicles, cons
         "client; leave out trajectories.file, trajectories.generate and every [[track]]");
   for (const LiveVehicleConfig& row : config.live_vehicles) {
     if (std::ranges::any_of(types_, [&](const LiveType& type) { return type.name == row.type; }))
-      throw ConfigError(fmt::format("[[live_vehicle]] type = \"{}\" is there twice: add up their counts", row.type));
+      throw ConfigError(fmt::format(
+          "[[live_vehicle]] type = \"{}\" is listed twice: make one table of the two, with the sum of their counts",
+          row.type));
     const std::optional<VehicleType> known = vehicles.find_type(row.type);
     if (!known)
       throw ConfigError(
@@ -81,7 +83,7 @@ const LiveType& LivePlaces::type_of(const LivePose& pose) const {
   if (found != types_.end()) return *found;
   std::vector<std::string> names;
   for (const LiveType& type : types_) names.push_back(type.name);
-  throw PoseError("unknown_type", fmt::format("vehicle \"{}\": \"{}\" is the type of no [[live_vehicle]]{}", pose.id,
+  throw PoseError("unknown_type", fmt::format("vehicle \"{}\": \"{}\" is not the type of a [[live_vehicle]]{}", pose.id,
                                               pose.type, spelling_hint(pose.type, names)));
 }
 
@@ -112,7 +114,7 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, s
   std::vector<bool> taken(count_, false);
   for (const LivePose& pose : poses) {
     if (!ids.insert(pose.id).second)
-      throw PoseError("duplicate_id", fmt::format("vehicle \"{}\" is there twice in one frame", pose.id));
+      throw PoseError("duplicate_id", fmt::format("vehicle \"{}\" occurs twice in one frame", pose.id));
     check(pose);
     const LiveType& type = type_of(pose);
     const auto known = traffic.vehicles.find(pose.id);

@@ -120,8 +120,9 @@ MissingLinks explain_missing(const Config& config, const Features& features, con
         fmt::format("{} -> {} has no path", world.transmitters()[link.tx].name, world.receivers()[link.rx].name);
     const std::vector<Obstacle> obstacles = lines.obstacles(link);
     if (obstacles.empty())
-      return text + (config.trace.reception == "sphere" ? ": no ray passed the receiver's sphere, so trace more rays"
-                                                        : ", though nothing is on its direct line");
+      return text + (config.trace.reception == "sphere"
+                         ? ": no ray passed through the sphere of the receiver; use more rays (trace.rays)"
+                         : ", although nothing blocks its direct line");
     text += fmt::format(": its direct line meets {} ({}) after {:.4g} m", obstacles[0].name,
                         obstacles[0].material->name, obstacles[0].distance_m);
     const std::string through = through_walls(config, features, obstacles);

@@ -39,7 +39,7 @@ void require_match(std::string_view pattern, const std::vector<std::string>& nam
   const auto nearest = std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
     return edit_distance(plain, a) < edit_distance(plain, b);
   });
-  throw ConfigError(fmt::format("{}: \"{}\" is the name of no {}; {}", key, pattern, what,
+  throw ConfigError(fmt::format("{}: \"{}\" is not the name of a {}; {}", key, pattern, what,
                                 nearest == names.end() ? "there is none" : "the nearest is \"" + *nearest + "\""));
 }
 

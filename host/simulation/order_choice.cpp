@@ -85,7 +85,7 @@ std::string reason_of(std::vector<Candidate> measured, const Candidate& best, ui
 
 OrderChoice choose_order(gpu::Context& context, const Scene& scene, const DeviceScene& device_scene,
                          const Config& config, const std::vector<glm::dvec3>& transmitters) {
-  if (transmitters.empty()) return {plan_order({}, config.launch), "there is nothing to measure: no transmitter"};
+  if (transmitters.empty()) return {plan_order({}, config.launch), "no transmitter exists, so nothing was measured"};
   TraceConfig sample = config.trace;
   sample.rays = std::min(sample.rays.value_or(most_sample_rays), most_sample_rays);
   const std::string subject = subject_of(scene, config, sample);

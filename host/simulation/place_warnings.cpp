@@ -21,7 +21,7 @@ namespace {
 constexpr double outside_share = 0.05, above_share = 1;
 
 enum Kind { inside, below, outside, on_surface, near, kinds };
-constexpr std::array<const char*, kinds> words = {"inside of closed bodies", "below the ground",
+constexpr std::array<const char*, kinds> words = {"inside closed bodies", "below the ground",
                                                   "outside of the scene's box", "on a surface",
                                                   "within a wavelength of an end that they are linked to"};
 
@@ -48,8 +48,9 @@ Place look(const Surroundings& around, const glm::dvec3& p) {
   else
     out.body = around.body_at(p);
   if (const auto object = around.object_at(p))
-    out.findings[on_surface] = fmt::format(
-        "lies on a surface of {}, which may hide it by rounding: move it off by 1 mm", around.name_of(*object));
+    out.findings[on_surface] =
+        fmt::format("lies on a surface of {}; because of rounding, the surface may hide it: move it away by 1 mm",
+                    around.name_of(*object));
   return out;
 }
 
@@ -103,7 +104,7 @@ class Ends {
     for (size_t i = 0; i < places.size(); ++i)
       if (places[i]->body && parted_[i])
         places[i]->findings[inside] =
-            fmt::format("is inside of a closed body, {}", around_.name_of(places[i]->body->object));
+            fmt::format("is inside a closed body, {}", around_.name_of(places[i]->body->object));
   }
 
   const Surroundings& around_;
@@ -124,7 +125,7 @@ void say_named(const Config& config, const Ends& ends, const World& world, Kind 
   for (size_t i = 0; i < config.receivers.size(); ++i)
     if (world.transmitter_of_receiver()[i] == no_end)  // else it was named as a transmitter
       say("receiver", world.receivers(), i, ends.receiver(i));
-  few.end(fmt::format("more antennas are {}", words[kind]));
+  few.end(fmt::format("other antennas are {}", words[kind]));
 }
 
 void say_grids(const Config& config, const Surroundings& around, const Ends& ends, std::vector<std::string>& out) {
@@ -152,7 +153,7 @@ void say_links(const Config& config, const World& world, std::vector<std::string
                     world.transmitters().size(), world.receivers().size()));
   else if (world.frame_count() == 1 && !world.live() && world.state(0).links.empty())
     out.push_back(
-        fmt::format("no link is computed: no transmitter and receiver that [links] allows are there within "
+        fmt::format("no link is computed: no transmitter and receiver that [links] allows come within "
                     "links.max_distance_m = {:g} m of each other",
                     config.links.max_distance_m));
 }

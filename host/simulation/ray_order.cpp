@@ -54,11 +54,11 @@ OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch) {
   auto dimensions = static_cast<unsigned>(launch.shape.index());  // 0: auto
   if (dimensions == 0) dimensions = std::max(method->curve_dimensions, 1u);
   if (method->curve_dimensions > 0 && dimensions != method->curve_dimensions)
-    throw ConfigError(fmt::format("order.method = \"{}\" does not go with launch.shape = \"{}\"", order.method.word(),
-                                  launch.shape.word()));
+    throw ConfigError(fmt::format("order.method = \"{}\" cannot be used with launch.shape = \"{}\"",
+                                  order.method.word(), launch.shape.word()));
   const uint32_t local_size = launch.local_size.value_or(0);
   if (local_size > 1024 || (local_size & (local_size - 1)) != 0)
-    throw ConfigError(fmt::format("launch.local_size = {} is no power of two up to 1024", local_size));
+    throw ConfigError(fmt::format("launch.local_size = {} is not a power of two up to 1024", local_size));
   return {method->name.text(),
           method->key,
           order.each_depth && method->key,

@@ -24,11 +24,11 @@ std::optional<std::string> recall_warning(const DiscoveryCounts& found, const Tr
   if (found.end == LaunchEnd::recall || !(capped || cold)) return {};
   if (!capped && reached(trace.recall, missed)) return {};
   const std::string once = found.share_once < 0.005 ? "less than 1" : fmt::format("{:.0f}", 100 * found.share_once);
-  const std::string before =
-      fmt::format("before trace.recall = {}: {}% of the sequences found were met by one ray alone", trace.recall, once);
+  const std::string before = fmt::format(
+      "before it reached trace.recall = {}: {}% of the sequences found were met by only one ray", trace.recall, once);
   if (capped) return fmt::format("trace.max_rays = {} ended the launch of rays = \"auto\" {}", trace.max_rays, before);
-  const char* const why = found.end == LaunchEnd::finest ? "its rays are as close to each other as they get"
-                                                         : "the rays beside those met nothing that is rare";
+  const char* const why = found.end == LaunchEnd::finest ? "its rays cannot come closer to each other"
+                                                         : "the rays beside them met nothing rare";
   return fmt::format("the launch of rays = \"auto\" ended {}, and {}; give trace.rays a number to find more", before,
                      why);
 }

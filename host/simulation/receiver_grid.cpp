@@ -24,7 +24,7 @@ Axis axis(const ReceiverGridConfig& grid, const char* letter, double lower_m, do
   if (!(upper_m >= lower_m))
     throw ConfigError(
         fmt::format("[[receiver_grid]] \"{0}\": {1}_max_m = {2:g} is below {1}_min_m = {3:g} (not given, "
-                    "they are those of the scene): exchange them, or give both",
+                    "they are those of the scene): exchange the two, or give both",
                     grid.name, letter, upper_m, lower_m));
   constexpr double whole = 1e-9;  // so that 0.3 m are three cells of 0.1 m
   const double count = std::max(std::floor((upper_m - lower_m) / grid.step_m + whole), 1.0);
@@ -105,8 +105,8 @@ std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scen
             .orientation_deg = grid.orientation_deg};
         if (!taken.insert(end.name).second)
           throw ConfigError(
-              fmt::format("[[receiver_grid]] \"{}\": a radio end of the name \"{}\" is there already: "
-                          "rename one",
+              fmt::format("[[receiver_grid]] \"{}\": a radio end of the name \"{}\" exists already: "
+                          "rename one of them",
                           grid.name, end.name));
         out.push_back(std::move(end));
       }

@@ -19,7 +19,7 @@ constexpr double sunk_m = 0.5;           // or below it: kerbs, ramps and roundi
 
 enum Kind { through, below, above, beside, kinds };
 constexpr std::array<const char*, kinds> words = {"drive through closed bodies", "are below the ground",
-                                                  "are above the ground", "leave the ground"};
+                                                  "are above the ground", "drive off the ground"};
 constexpr const char* belong = "check trajectories.offset_m, and whether map and drive belong together";
 constexpr std::array<const char*, kinds> advice = {
     belong, belong, belong,

@@ -162,8 +162,8 @@ void World::State::add_mounts(const std::vector<MountConfig>& mounts, const glm:
       const bool by_id = !live && matches(mount.on, track.id);  // places have no ids that a user would know
       if (!by_id && !matches(mount.on, trajectories.types[track.type].name)) continue;
       if (const std::string name = track.id + "/" + mount.name; !taken.insert(name).second)
-        throw ConfigError(fmt::format("[[mount]] \"{}\": a radio end of the name \"{}\" is there already: rename one",
-                                      mount.name, name));
+        throw ConfigError(fmt::format(
+            "[[mount]] \"{}\": a radio end of the name \"{}\" exists already: rename one of them", mount.name, name));
       if (mount.role != "receiver") add_mounted(transmitters, k, mount, origin_m);
       if (mount.role != "transmitter") add_mounted(receivers, k, mount, origin_m);
     }
@@ -211,11 +211,12 @@ void World::State::set_clock(const TimeConfig& config) {
   if (start_s > last_s + time_tolerance_s || end_s < first_s - time_tolerance_s)
     throw ConfigError(
         fmt::format("[time] {}, and the trajectories go from {:g} to {:g} s: no frame would have a vehicle; "
-                    "give a time.start_s and a time.end_s among them, or leave both out",
+                    "give a time.start_s and a time.end_s within that range, or leave both out",
                     range_in_words(config), first_s, last_s));
   const double step_s = config.step_s.value_or(trajectories.step_s);
   if (!(step_s > 0) && start_s != end_s)
-    throw ConfigError("time.step_s is not given, and no vehicle has two samples to tell a step: give it");
+    throw ConfigError(
+        "time.step_s is not given, and no vehicle has two samples from which it follows: give time.step_s");
   clock.emplace(start_s, end_s, step_s > 0 ? step_s : 1);
   const double frames = static_cast<double>(clock->frame_count()), step = clock->step_s();
   const double before = std::clamp(std::ceil((first_s - time_tolerance_s - start_s) / step), 0.0, frames);
@@ -257,9 +258,9 @@ void World::State::warn_outside(const Scene& scene) {
                b.upper.y < scene.lower.y;
   }
   if (outside > 0)
-    warnings.push_back(fmt::format(
-        "{} of {} vehicles are never inside of the scene: check trajectories.offset_m and trajectories.scale", outside,
-        trajectories.tracks.size()));
+    warnings.push_back(
+        fmt::format("{} of {} vehicles are never inside the scene: check trajectories.offset_m and trajectories.scale",
+                    outside, trajectories.tracks.size()));
 }
 
 World::World(const Config& config, const Scene& scene) : state_(std::make_unique<State>()) {
@@ -332,7 +333,9 @@ WorldState World::state(uint64_t frame) const {
 bool World::live() const { return state_->live.has_value(); }
 
 const LivePlaces& World::places() const {
-  if (!live()) throw ConfigError("no [[live_vehicle]]: a live world declares how many vehicles of a type there may be");
+  if (!live())
+    throw ConfigError(
+        "there is no [[live_vehicle]] table: a live world says with it how many vehicles of each type there may be");
   return *state_->live;
 }
 

@@ -49,7 +49,7 @@ void Reach::add_track(const Track& track, double radius_m) {
   const double distance_m = std::max(farthest(bounds.lower), farthest(bounds.upper));
   if (!(distance_m <= farthest_m))
     throw InputError(
-        fmt::format("{}: its speeds carry it to {:.4g} km from the middle of the scene between two samples; "
+        fmt::format("{}: between two samples its speed takes it {:.4g} km away from the middle of the scene; "
                     "the limit is {:g} km: check the speeds, which are in m/s",
                     who, distance_m / 1000, farthest_m / 1000));
   if (!(radius_m <= farthest_m))

@@ -174,7 +174,7 @@ std::vector<CacheRow> measure_point(const CacheStudy& study, const Config& confi
   return rows;
 }
 
-// A row a depth: what a frame that ends there takes more than one that ends before. No clock runs inside a kernel, so
+// A row per depth: what a frame that ends there takes more than one that ends before. No clock runs inside a kernel, so
 // this is as far as a frame can be told apart.
 std::vector<CacheRow> measure_depths(const CacheStudy& study, const Config& config, const std::string& drive,
                                      uint64_t rays, uint64_t frames, const Request& request, const Host& host) {

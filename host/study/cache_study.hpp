@@ -21,7 +21,7 @@ struct CacheStudy {
   std::vector<std::string> drives = {"still"};
   size_t at_once = 16;         // settings that share a device besides the first, which is then measured again
   uint64_t most_frames = 500;  // of a drive, unless the request says how many
-  bool by_depth = false;       // also a row a depth
+  bool by_depth = false;       // also a row per depth
   bool centroids = false;      // rows keep the error of every frame
 };
 

@@ -144,12 +144,12 @@ CacheView hits_of_entries(std::vector<std::string> settings) {
 }
 
 CacheShown times_by_rays(const CacheMeasurement& measured) {
-  return {by_rays(measured, {{"time, table warm", "warm_s", "s a frame", "", true},
-                             {"time, table empty before", "cold_s", "s a frame", "", true}})};
+  return {by_rays(measured, {{"time, table warm", "warm_s", "s per frame", "", true},
+                             {"time, table empty before", "cold_s", "s per frame", "", true}})};
 }
 
 CacheShown savings_by_rays(const CacheMeasurement& measured) {
-  return {by_rays(measured, {{"time", "warm_s", "s a frame", "", true}, {"time saved", "saved_percent", "%", ""}})};
+  return {by_rays(measured, {{"time", "warm_s", "s per frame", "", true}, {"time saved", "saved_percent", "%", ""}})};
 }
 
 CacheShown errors_by_rays(const CacheMeasurement& measured) {

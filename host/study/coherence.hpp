@@ -48,7 +48,7 @@ struct DepthCoherence {
   PointCorrelation points;           // of the pairs
 };
 
-// One entry a depth, of as many depths as both have. The frames must have launched the same rays: throws
+// One entry per depth, of as many depths as both have. The frames must have launched the same rays: throws
 // std::invalid_argument where their numbers differ.
 std::vector<DepthCoherence> compare_frames(const FrameHits& a, const FrameHits& b);
 

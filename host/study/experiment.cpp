@@ -113,10 +113,10 @@ void check_experiment(const Experiment& experiment, const Config& config) {
     throw ConfigError(
         fmt::format("{}trace.max_depth = 0: {} looks at what rays hit; give 1 or more", where, experiment.name));
   if (!config.live_vehicles.empty())
-    throw ConfigError(
-        fmt::format("{}{} needs to know where vehicles are, and [[live_vehicle]] tables wait for poses; "
-                    "give trajectories instead of them",
-                    where, experiment.name));
+    throw ConfigError(fmt::format(
+        "{}{} needs to know where vehicles are, and [[live_vehicle]] tables need a client that sends poses; "
+        "give trajectories instead of them",
+        where, experiment.name));
 }
 
 Config point_config(const OrderFigure& figure, const Config& config, uint64_t rays, bool gpu) {

@@ -24,7 +24,7 @@ constexpr const char* script_grid = "set grid linecolor '#dddddd'\nset border 3\
 // Of figures of orders: one panel without and one with the time of ordering, each a line a series.
 std::string order_script(const std::string& name, const std::string& title, const std::vector<Series>& series);
 
-// Panels with a line a setting, or its points, of tables in which every row has a drive and a setting.
+// Panels with a line per setting, or its points, of tables in which every row has a drive and a setting.
 struct LinePanel {
   std::string title, y, y_label;  // y: a column
   std::string drive;              // rows of this drive alone; empty: all
@@ -49,7 +49,7 @@ struct LinePlot {
 
 std::string line_script(const LinePlot& plot);
 
-// Panels with a line a depth, of tables with a column `depth`.
+// Panels with a line per depth, of tables with a column `depth`.
 struct DepthPanel {
   std::string title;
   std::string x, y;          // columns

@@ -123,7 +123,7 @@ typedef struct wavetracer_column {
      vertex_interaction                                      uint8      its kind: 1, 2, 4, ... as in docs/formats.md
      vertex_surface                                          uint32     in its scene or model; of a diffraction the edge
      vertex_instance                                         uint32     the vehicle; 0xFFFFFFFF: the static scene
-   One row a pair of ends between which paths were wanted:
+   One row per pair of ends between which paths were wanted:
      link                                                    uint32 x 2: tx, rx
      link_paths                                              uint32     how many
      link_los                                                uint8      1 where one of them has no interaction

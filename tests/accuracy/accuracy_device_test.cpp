@@ -100,7 +100,8 @@ TEST_CASE("a box: a million rays lose nothing, and a depth loses what its images
   }
   // A closed room of metal needs nothing else: its edges are convex outside only.
   CHECK(row(box, "diffraction", "off").error.lost == 0);
-  CHECK(row(box, "transmission", "on").refusal == "all materials are metals or half spaces, which nothing passes");
+  CHECK(row(box, "transmission", "on").refusal ==
+        "all materials are metals or half spaces, and no wave passes through them");
   CHECK(row(box, "scattering", "on").refusal.find("no material of the scene") == 0);
 }
 

@@ -53,8 +53,8 @@ TEST_CASE("the fastest setting within a loss is recommended, never the reference
   CHECK(cheapest(study, {"rays", "auto"}, 1e-5)->setting.name == "1000000");
   CHECK(cheapest(study, {"auto"}, 1e-3)->setting.name == "recall 0.99");
   CHECK(cheapest(study, {"rays"}, 1e-7) == nullptr);
-  CHECK(has(recommendations(study), "10^-3 of the power lost: trace.rays=100000 (20 ms a frame"));
-  CHECK(has(recommendations(study), "10^-5 of the power lost: trace.rays=1000000 (100 ms a frame"));
+  CHECK(has(recommendations(study), "10^-3 of the power lost: trace.rays=100000 (20 ms per frame"));
+  CHECK(has(recommendations(study), "10^-5 of the power lost: trace.rays=1000000 (100 ms per frame"));
   study.rows[2].error.lost_power = 1e-5;
   CHECK(has(recommendations(study), "Rays, at most 10^-3 and 10^-5 of the power lost: trace.rays=100000 (20 ms"));
   study = made();
@@ -116,7 +116,7 @@ TEST_CASE("a row of the table has every column; a refusal says why, quoted, and 
   const std::string page = page_html(study, "wavetracer accuracy -c a<b", "<svg></svg>");
   CHECK(page.find("a&lt;b") != std::string::npos);
   CHECK(page.find("<td>100000</td>") != std::string::npos);
-  CHECK(page.find("trace.rays=100000 (20 ms a frame") != std::string::npos);
+  CHECK(page.find("trace.rays=100000 (20 ms per frame") != std::string::npos);
 }
 
 TEST_CASE("a mechanism is described by what is missing without it") {

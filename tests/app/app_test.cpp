@@ -65,20 +65,20 @@ TEST_CASE("help is about what was asked: a command on a page, the keys of config
   const Outcome scene = run_program({"help", "scene"});  // a command and a table
   CHECK(contains(scene.out, "Usage: wavetracer scene"));
   CHECK(contains(scene.out, "\n  scene.file\n"));
-  check(run_program({"help", "trace.ray"}), 2, "help: no key is called \"trace.ray\"; did you mean \"trace.rays\"?");
+  check(run_program({"help", "trace.ray"}), 2, "help: there is no key \"trace.ray\"; did you mean \"trace.rays\"?");
   check(run_program({"help", "confg"}), 2, "help: there is nothing about \"confg\"; did you mean \"config\"?");
 }
 
 TEST_CASE("misspelt commands, options and choices are answered with what was meant") {
   check(run_program({"rum"}), 2,
-        "wavetracer: no command is called \"rum\"; did you mean \"run\"? See `wavetracer help`\n");
+        "wavetracer: there is no command \"rum\"; did you mean \"run\"? See `wavetracer help`\n");
   check(run_program({"run", "--devise", "x"}), 2,
-        "wavetracer: run: no option is called --devise; did you mean \"--device\"? See `wavetracer help run`\n");
+        "wavetracer: run: there is no option --devise; did you mean \"--device\"? See `wavetracer help run`\n");
   check(run_program({"run", "--devise=x"}), 2, "did you mean \"--device\"?");
-  check(run_program({"scene", "inf"}), 2, "scene: no command is called \"inf\"; did you mean \"info\"?");
-  check(run_program({"scene"}), 2, "scene: say which: info or city; see `wavetracer help scene`");
+  check(run_program({"scene", "inf"}), 2, "scene: there is no command \"inf\"; did you mean \"info\"?");
+  check(run_program({"scene"}), 2, "scene: name one of them: info or city; see `wavetracer help scene`");
   check(run_program({"run", "-c"}), 2, "run: --config needs a value");
-  check(run_program({"init", "x"}), 2, "init: \"x\" is one word too many");
+  check(run_program({"init", "x"}), 2, "init: \"x\" is not expected here");
   check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");
   check(run_program({"convert", "x", "-o", "y", "--to", "vkt"}), 2, "did you mean \"vtk\"?");
   check(run_program({"convert", "nope.osm", "-o", "y"}), 3, "nope.osm: there is no such file or folder");
@@ -95,7 +95,7 @@ TEST_CASE("usage errors exit 2") {
   check(run_program({"run", "-c", file, "--repeat", "0"}), 2, "--repeat");
   check(run_program({"run", "-c", file, "--nonsense"}), 2, "--nonsense");
   check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: this run has frame 0 only");
-  check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: nothing to resume");
+  check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: a run without trajectories has only one frame");
   check(run_program({"bench", "rays"}), 2, "no experiment \"rays\"");
   check(run_program({"bench"}), 2, "no experiment given");
   check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");

@@ -120,7 +120,7 @@ TEST_CASE("inputs that changed are named by --resume and merge, and may have mov
     const Outcome refused = run(file, out, how);
     CAPTURE(refused.err);
     CHECK(refused.code == 3);
-    CHECK(contains(refused.err, mesh + " (scene.file: room.ply) is not what it was"));
+    CHECK(contains(refused.err, mesh + " (scene.file: room.ply) has changed"));
     CHECK(contains(refused.err, "put the input files back"));
   }
   std::ofstream(mesh, std::ios::binary) << content;
@@ -129,7 +129,7 @@ TEST_CASE("inputs that changed are named by --resume and merge, and may have mov
   REQUIRE(run(folder.file("other.toml", drive(other)), folder.path("rest"), {"--shard", "1/2"}).code == 0);
   const Outcome mixed = run_program({"merge", "-o", folder.path("all"), out, folder.path("rest")});
   CHECK(mixed.code == 3);
-  CHECK(contains(mixed.err, "other/room.xml (scene.file) is not what it was"));
+  CHECK(contains(mixed.err, "other/room.xml (scene.file) has changed"));
   CHECK_FALSE(fs::exists(folder.path("all")));
 
   // The same contents elsewhere are the same inputs.

@@ -145,7 +145,7 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   CHECK(contains(other.err, "--frames 20:32, this run has 0:59"));
   const Outcome again = run_program({"run", "-c", file, "-o", folder.path("all"), "--resume"});
   CHECK(again.code == 0);
-  CHECK(contains(again.err, "all frames are there"));
+  CHECK(contains(again.err, "all frames are computed already"));
   CHECK(Reader(folder.path("all/waypoints.h5")).shape("/waypoints/frame") == waypoints);
   const Outcome fewer =
       run_program({"run", "-c", file, "-o", folder.path("all"), "--frames", "0:4", "--set", "output.waypoints=0"});
@@ -176,7 +176,7 @@ TEST_CASE("an interrupted drive exits 130 with the frames so far and goes on wit
   CHECK(Reader(folder.path("out/paths.h5")).shape("/frames/frame")[0] == frames);
   const Outcome resumed = run_program({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3", "--resume"});
   CHECK(resumed.code == 0);
-  CHECK(contains(resumed.err, "of 60 frames are there"));
+  CHECK(contains(resumed.err, "of 60 frames are computed already"));
   check_same(folder.path("out"), folder.path("expected"));
 }
 

@@ -101,5 +101,5 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   sample.config.trace.rays = {};
   CHECK(contains(report(), "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.03)\n"));
   results.totals.missed.paths = {6, 3, 2, 9};
-  CHECK(contains(report(), ": a higher trace.recall finds more\n"));
+  CHECK(contains(report(), ": a higher trace.recall finds more of them\n"));
 }

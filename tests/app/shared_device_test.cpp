@@ -153,7 +153,7 @@ TEST_CASE("two processes, or parts in two folders, write what one process writes
   REQUIRE(run(file, folder.path("full"), first).code == 0);
   const Outcome empty = run(file, folder.path("empty"), second);
   CHECK(empty.code == 0);
-  CHECK(contains(empty.err, "--shard 1/2 is done, and empty: the run has fewer parts"));
+  CHECK(contains(empty.err, "--shard 1/2 is done, and it is empty, because the run has fewer parts than N"));
   const Outcome joined = run_program({"merge", "-o", folder.path("joined"), folder.path("empty"), folder.path("full")});
   CAPTURE(joined.err);
   CHECK(joined.code == 0);
@@ -256,7 +256,7 @@ TEST_CASE("a process that is killed loses its part, which another takes over; --
   const Outcome resumed = run(file, out, {"--processes", "3", "--repeat", "150", "--resume"});
   CAPTURE(resumed.err);
   CHECK(resumed.code == 0);
-  CHECK(contains(resumed.err, "of 7 parts are there"));
+  CHECK(contains(resumed.err, "of 7 parts are computed already"));
   check_same(out, folder.path("one"), true);
   check_tidy(out);
 }

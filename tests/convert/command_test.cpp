@@ -85,7 +85,7 @@ TEST_CASE("errors say what to do, and leave nothing behind") {
                  "this is a file, but the format ns3 is a folder"));
   const Outcome full = convert({run, "--to", "ns3", "-o", run});
   CHECK(full.code == 3);
-  CHECK(contains(full.err, "is there already"));
+  CHECK(contains(full.err, "exists already"));
   const Outcome nothing = convert({folder.path("nowhere"), "-o", folder.path("out.npz")});
   CHECK(nothing.code == 3);
   CHECK(contains(nothing.err, "there is no such file"));

@@ -98,7 +98,7 @@ TEST_CASE("a folder appears whole or not at all, and replaces nothing") {
   }
   CHECK(entries(folder.path()) == 1);
   CHECK(fs::file_size(folder.path() / "new/a/b.txt") == 2);
-  CHECK_THROWS_WITH_AS(PendingFolder(folder.path() / "new"), doctest::Contains("is there already"), InputError);
+  CHECK_THROWS_WITH_AS(PendingFolder(folder.path() / "new"), doctest::Contains("exists already"), InputError);
   fs::create_directory(folder.path() / "void");
   PendingFolder(folder.path() / "void").commit();
   CHECK_THROWS_AS(PendingFolder(folder.path() / "no/parent"), RuntimeError);

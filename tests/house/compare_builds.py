@@ -4,7 +4,7 @@
 usage: compare_builds.py BEFORE AFTER [--only TEXT] [--exports-of-all]
 
 BEFORE and AFTER are the two programs. Every case, one of the files in configs/ with some keys set, is run by both; then
-paths.h5, waypoints.h5, links.csv and the exports of the run must be the same bytes. Prints a line a case; the exit code
+paths.h5, waypoints.h5, links.csv and the exports of the run must be the same bytes. Prints a line per case; the exit code
 is 1 where a file differs. Run it from the project's folder.
 """
 import argparse
@@ -34,7 +34,7 @@ CASES = {
     "random directions": ("city", FEW + ["trace.directions=random"]),
     "fibonacci directions": ("city", FEW + ["trace.directions=fibonacci"]),
     "hilbert directions": ("city", FEW + ["trace.directions=hilbert"]),
-    "few paths a link": ("demo", FEW + ["output.max_paths_per_link=3", "time.end_s=0.2"]),
+    "few paths per link": ("demo", FEW + ["output.max_paths_per_link=3", "time.end_s=0.2"]),
     "no reflection": ("edges", FEW + ["trace.reflection=false"]),
 }
 FILES = ("paths.h5", "waypoints.h5", "links.csv")

@@ -82,5 +82,5 @@ TEST_CASE("a file that no run wrote is an error that names it and what is wrong"
   fails("", "links.csv: it is empty");
   fails("time_s,tx\n", "it has no column rx");
   fails(header + "0,a,b\n", "rows differ in length");
-  fails(header + "0,a,b,x,-80,-80,0,0,1\n", "\"x\" is no number");
+  fails(header + "0,a,b,x,-80,-80,0,0,1\n", "\"x\" is not a number");
 }

@@ -96,13 +96,14 @@ TEST_CASE("what is missing is named, and what is there can be merged") {
 TEST_CASE("folders without parts, of different runs, or that contradict each other are refused") {
   const TemporaryFolder folder;
   const fs::path a = folder.path() / "a", b = folder.path() / "b";
-  CHECK_THROWS_WITH_AS(find_parts({a}), doctest::Contains("holds no manifest"), InputError);
+  CHECK_THROWS_WITH_AS(find_parts({a}), doctest::Contains("contains no manifest"), InputError);
   write_part(a, "0_of_2", {0});
   RunIdentity other = identity;
   other.config = "4567";
   write_part(b, "1_of_2", {1}, other);
   CHECK_THROWS_WITH_AS(find_parts({a, b}),
-                       doctest::Contains("different runs: hashes of the configuration 0123 and 4567"), InputError);
+                       doctest::Contains("different runs: different hashes of the configuration 0123 and 4567"),
+                       InputError);
   fs::remove_all(b);
   write_part(b, "1_of_2", {0});
   const fs::path manifest = b / "shards/manifest.1_of_2.jsonl";
@@ -123,7 +124,7 @@ TEST_CASE("a hostile part is an error that names it, and nothing is written") {
     std::ofstream(manifest) << text.substr(0, at) << to << text.substr(at + from.size());
   };
   with("\"name\":\"frames_000003_000009.h5\"", "\"name\":\"../../../../etc/passwd\"");
-  CHECK_THROWS_WITH_AS(find_parts({a}), doctest::Contains("is no file of this shard"), RuntimeError);
+  CHECK_THROWS_WITH_AS(find_parts({a}), doctest::Contains("does not belong to this shard"), RuntimeError);
   with("\"first\":3", "\"first\":-3");
   CHECK_THROWS_WITH_AS(find_parts({a}), doctest::Contains("manifest.0_of_1.jsonl:1:"), RuntimeError);
   with("\"last\":9", "\"last\":4000000000");

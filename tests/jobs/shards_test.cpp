@@ -238,7 +238,7 @@ TEST_CASE("resuming another run is an error that says what differs, and touches 
     CHECK_THROWS_WITH_AS(Shards(folder.path(), changed, inputs).resume(), doctest::Contains(message), InputError);
   };
   inputs[1].hash = 1;
-  refused_as("/data/a.ply (scene.file: a.ply) is not what it was since the shards in ");
+  refused_as("/data/a.ply (scene.file: a.ply) has changed since the shards in ");
   inputs.pop_back();
   refused_as("/data/a.ply (scene.file: a.ply) is no longer read since");
   inputs[0].name = "trajectories.file";

@@ -1,5 +1,5 @@
 // Kernels that only bench_cache runs: what a table of the ray cache does in a second, and what memory would allow.
-// Questions are arrays, read in order, one a work-item. All regard region 0.
+// Questions are arrays, read in order, one per work-item. All regard region 0.
 #include "probe_question.clh"
 
 // What is stored under a key.

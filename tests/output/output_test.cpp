@@ -119,7 +119,7 @@ TEST_CASE("links.csv quotes what RFC 4180 wants quoted, and changes no name") {
   }
 }
 
-TEST_CASE("links.csv has a row a link, quoted names, and -inf where no path is") {
+TEST_CASE("links.csv has a row per link, quoted names, and -inf where no path is") {
   const SampleRun sample;
   std::istringstream csv(slurp(write_outputs(folder, sample.run(), sample.frames())[1]));
   std::vector<std::string> lines;

@@ -1,4 +1,4 @@
-// The concurrent table: every operation beside every other, one entry a key, holes, full regions, whole keys.
+// The concurrent table: every operation beside every other, one entry per key, holes, full regions, whole keys.
 // Small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
 #include <set>
 
@@ -25,7 +25,7 @@ TEST_CASE("concurrent cache: more keys than entries") {
   for (const TableKind& kind : table_kinds("concurrent")) check_mixed(kind, 4096, 96, 4);
 }
 
-// Balls into bins, simulated: of 0.8 * 8 keys a bucket 0.8% meet four full buckets in a row.
+// Balls into bins, simulated: of 0.8 * 8 keys per bucket 0.8% meet four full buckets in a row.
 TEST_CASE("concurrent cache: at load 0.8 nearly every key finds a place, and is found there") {
   CacheProbe probe(quantised.config(2560), 1);
   const std::vector<uint32_t> slots = probe.put_keys(0, 2048, 0);

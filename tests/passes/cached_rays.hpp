@@ -28,7 +28,7 @@ struct CachedRay {
   uint32_t surface = WT_NONE, left = WT_NONE, region = 0, entry = WT_NONE;
 };
 
-// Random rays of many primitives, two a surface, and some of the transmitter.
+// Random rays of many primitives, two per surface, and some of the transmitter.
 inline uint32_t surface_of(uint32_t left) { return left == WT_NONE ? WT_NONE : left / 2; }
 
 inline CachedRay random_ray(Random& random, uint32_t region = 0) {
@@ -136,7 +136,7 @@ class Cache {
     scene.exact_surfaces = context().buffer<wt_exact_surface>(1, "exact surfaces");
   }
 
-  // Returns what the plane WT_RAY_ENTRY then holds; hits and receptions one a ray.
+  // Returns what the plane WT_RAY_ENTRY then holds; hits and receptions one per ray.
   std::vector<uint32_t> put(std::span<const CachedRay> rays, std::span<const Hit> hits,
                             std::vector<uint32_t> receptions = {}) {
     RayQueue queue = upload(rays);

@@ -311,14 +311,16 @@ TEST_CASE("what the run does not have is an error that names what it has") {
   PlotChoice choice;
   choice.link.tx = "rsv";
   check_contains(refused(drive, choice),
-                 "--tx \"rsv\" is the name of no transmitter of the run; the nearest are \"rsu\"");
+                 "--tx \"rsv\" is not the name of a transmitter of the run; the nearest are \"rsu\"");
   choice.link = {.tx = {}, .rx = "cat", .frame = {}};
-  check_contains(refused(drive, choice), "--rx \"cat\" is the name of no receiver of the run; the nearest are \"car\"");
+  check_contains(refused(drive, choice),
+                 "--rx \"cat\" is not the name of a receiver of the run; the nearest are \"car\"");
   choice.link = {.tx = {}, .rx = {}, .frame = 99};
   check_contains(refused(drive, choice), "--frame 99: the run has frames 0 to 11");
   choice.link = {};
   choice.grid = "map";
-  check_contains(refused(drive, choice), "--grid \"map\" is the name of no [[receiver_grid]] of the run, it has none");
+  check_contains(refused(drive, choice),
+                 "--grid \"map\" is not the name of a [[receiver_grid]] of the run, which has none");
   check_contains(refused(grid, choice), "it has g");
   choice.grid.clear();
   choice.what = {"gian"};

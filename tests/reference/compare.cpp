@@ -1,5 +1,5 @@
 // Reads reference lists with nlohmann/json and matches paths against them.
-// Quadratic within one link, which is small: the largest lists have some hundred paths a link.
+// Quadratic within one link, which is small: the largest lists have some hundred paths per link.
 #include "reference/compare.hpp"
 #include <fmt/format.h>
 #include <algorithm>

@@ -94,7 +94,7 @@ TEST_CASE("one, two and three reflectors: the same paths") {
   }
 }
 
-TEST_CASE("box: 63 paths a receiver up to order 3, all of them in the list") {
+TEST_CASE("box: 63 paths per receiver up to order 3, all of them in the list") {
   const auto [result, expected] = compare("box_depth5", 3);
   CAPTURE(to_string(result));
   CHECK(result.mine == 2 * 63);

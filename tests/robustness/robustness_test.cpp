@@ -92,7 +92,7 @@ TEST_CASE("a device that is lost on the way is error 4, and the drive goes on be
     CHECK(fs::exists(out + "/shards/frames_000000_000001.h5"));
     const Outcome resumed = run_program({"run", "-c", file, "-o", out, "--resume"});
     CHECK(resumed.code == 0);
-    CHECK(contains(resumed.err, "of 10 frames are there"));
+    CHECK(contains(resumed.err, "of 10 frames are computed already"));
     check_same(out, folder.path("expected"));
   }
 }

@@ -37,9 +37,9 @@ TEST_CASE("a launch that ends before its recall says so, and why, once a drive")
   REQUIRE(warnings.size() == 1);
   CAPTURE(warnings[0]);
   CHECK(warnings[0].starts_with("the launch of rays = \"auto\" ended before trace.recall = 1: "));
-  CHECK(warnings[0].ends_with(
-      "% of the sequences found were met by one ray alone, and its rays are as close to each other "
-      "as they get; give trace.rays a number to find more"));
+  CHECK(
+      warnings[0].ends_with("% of the sequences found were met by only one ray, and its rays cannot come closer "
+                            "to each other; give trace.rays a number to find more"));
   // A frame that knows what earlier ones met does not tell by its own rays what is missed.
   Config config = city({}, 4);
   config.trace.recall = 1;

@@ -61,7 +61,7 @@ void check_box(const glm::dvec3& corner, double scale = 1) {
 
 }  // namespace
 
-TEST_CASE("a box to depth 5: 231 paths a receiver, as long as their images are far") { check_box({0, 0, 0}); }
+TEST_CASE("a box to depth 5: 231 paths per receiver, as long as their images are far") { check_box({0, 0, 0}); }
 
 TEST_CASE("the same box in UTM coordinates") { check_box({691000, 5335000, 500}); }
 

@@ -60,7 +60,7 @@ TEST_CASE("inside a closed box nothing is heard from outside") {
   CHECK(rows_of(frame.paths, 1, 0).size() == 2);  // the line of sight, and the wall x = 4 from outside
 }
 
-TEST_CASE("1,000 receivers and 3 transmitters over a ground: two paths a link, each of its own length") {
+TEST_CASE("1,000 receivers and 3 transmitters over a ground: two paths per link, each of its own length") {
   const SceneFile file({ground});
   Points receivers;
   for (int i = 0; i < 1000; ++i) receivers.push_back({-40 + 0.08 * i, 30 - 0.05 * i, 1.5});

@@ -61,7 +61,7 @@ TEST_CASE("nothing to say of ends over the ground, on roofs, at one place, or al
 
 TEST_CASE("each kind by name") {
   const Config config = ends({{15, 22, 2}, {0, 0, -1.5}, {3100, 0, 2}}, {{-40, 0, 0}, {50, 50, 300}, {-60, 10, 2}});
-  CHECK(warnings_of(town, config) == Texts{"transmitter \"tx0\" is inside of a closed body, \"part-1\"",
+  CHECK(warnings_of(town, config) == Texts{"transmitter \"tx0\" is inside a closed body, \"part-1\"",
                                            "transmitter \"tx1\" is 1.5 m below the ground there, \"part-0\"",
                                            "transmitter \"tx2\" is 3000 m outside of the scene's box",
                                            "receiver \"rx1\" is 291 m above the scene's box",
@@ -71,7 +71,7 @@ TEST_CASE("each kind by name") {
 
 TEST_CASE("in a house that is the scene: a word only where a link goes out of it") {
   const Texts out = warnings_of({{house()}}, ends({{15, 22, 2}}, {{28, 26, 3}, {30.5, 24, 3}}));
-  CHECK(out == Texts{"transmitter \"tx0\" is inside of a closed body, \"part-0\""});
+  CHECK(out == Texts{"transmitter \"tx0\" is inside a closed body, \"part-0\""});
 }
 
 TEST_CASE("within a wavelength of another end; an end and its twin are one") {
@@ -90,19 +90,19 @@ TEST_CASE("many ends: five by name, then their number; an end that sends and rec
   const Texts out = warnings_of(town, ends(inside, outside));
   REQUIRE(out.size() == 6);
   CHECK(out[4].find("transmitter \"tx4\" is inside") == 0);
-  CHECK(out[5] == "7 more antennas are inside of closed bodies");
+  CHECK(out[5] == "7 other antennas are inside closed bodies");
   const Texts twins = warnings_of(town, ends({inside[0], outside[0]}, {inside[0]}));
-  CHECK(twins == Texts{"transmitter \"tx0\" is inside of a closed body, \"part-1\""});
+  CHECK(twins == Texts{"transmitter \"tx0\" is inside a closed body, \"part-1\""});
 }
 
 TEST_CASE("receivers of grids are counted: by cells in the house, and whole grids in it") {
   Config config = ends({{0, 0, 6}}, {});
   config.receiver_grids = {{.name = "g", .x_min_m = 0, .x_max_m = 40, .y_min_m = 10, .y_max_m = 40, .step_m = 1}};
-  CHECK(warnings_of(town, config) == Texts{"160 of 1200 receivers of grid \"g\" are inside of closed bodies"});
+  CHECK(warnings_of(town, config) == Texts{"160 of 1200 receivers of grid \"g\" are inside closed bodies"});
   config.receiver_grids[0].height_m = -0.5;
   CHECK(warnings_of(town, config) == Texts{"all of 1200 receivers of grid \"g\" are below the ground"});
   config.receiver_grids = {{.name = "rooms", .x_min_m = 11, .x_max_m = 29, .y_min_m = 21, .y_max_m = 27, .step_m = 1}};
-  CHECK(warnings_of(town, config) == Texts{"all of 108 receivers of grid \"rooms\" are inside of closed bodies"});
+  CHECK(warnings_of(town, config) == Texts{"all of 108 receivers of grid \"rooms\" are inside closed bodies"});
 }
 
 TEST_CASE("vehicles: through a house from when on, below and above the ground; none on it, and none in a garage") {
@@ -129,7 +129,7 @@ TEST_CASE("vehicles: through a house from when on, below and above the ground; n
   // The ground ends at 100 m.
   const Texts off = warnings_of(town, drive({{0, 60, -3, 0}, {4, 100.5, -3, 0}, {8, 140, -3, 0}}));
   REQUIRE(off.size() == 1);
-  CHECK(off[0].find("1 of 1 vehicles leave the ground, the first one \"ego\" at (100, -3) m from 4 s on: nothing "
+  CHECK(off[0].find("1 of 1 vehicles drive off the ground, the first one \"ego\" at (100, -3) m from 4 s on: nothing "
                     "reflects there") == 0);
   CHECK(warnings_of({{house()}, {reference::box_walls({-90, -90, 0}, {-80, -80, 9})}},
                     drive({{0, 50, -3, 0}, {4, 90, -3, 0}}))

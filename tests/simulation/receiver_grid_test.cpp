@@ -126,10 +126,10 @@ TEST_CASE("what cannot be a grid says which and why") {
   config.receiver_grids[1].name = "h";
   CHECK(error_of(config, box_scene()).find("\"h\": its cells of 1 m make 1000001 receivers") != std::string::npos);
   config.receiver_grids = {grid_of(0, 1, 0, 1, 1), grid_of(5, 6, 0, 1, 1)};
-  CHECK(error_of(config, box_scene()).find("a radio end of the name \"g/0,0\" is there already") != std::string::npos);
+  CHECK(error_of(config, box_scene()).find("a radio end of the name \"g/0,0\" exists already") != std::string::npos);
   config.receiver_grids.pop_back();
   config.receivers = {{.name = "g/0,0"}};
-  CHECK(error_of(config, box_scene()).find("is there already") != std::string::npos);
+  CHECK(error_of(config, box_scene()).find("exists already") != std::string::npos);
 }
 
 TEST_CASE("grids stand behind the receivers of the configuration, and the world has them") {

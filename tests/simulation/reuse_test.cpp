@@ -63,7 +63,7 @@ TEST_CASE("nothing is carried over unchecked: every path of a frame that reuses 
   CHECK(by_vehicles > 20);
 }
 
-TEST_CASE("a tenth of the rays a frame finds what cold frames find") {
+TEST_CASE("a tenth of the rays in each frame finds what cold frames find") {
   Config config = city(200000, 4, 2, 0.1);
   Simulation reusing(config);
   config.trace.reuse = false;

@@ -86,7 +86,7 @@ TEST_CASE("one mirror: paths are too long by what their rays miss the receiver b
     const double angle = 2.399963 * i, far = 20 + 0.1 * i;  // a sunflower: at least 1.5 m from each other
     receivers.push_back({far * std::cos(angle), far * std::sin(angle), 4 + 10 * std::fmod(0.618 * i, 1.0)});
   }
-  // From a few rays a path to one in some paths.
+  // From a few rays per path to one in some paths.
   using Case = std::pair<uint64_t, double>;
   for (const auto& [rays, radius_m] : {Case{1000000, 1}, Case{60000, 1}, Case{10000, 1}, Case{10000, 0.25}}) {
     CAPTURE(rays);

@@ -95,13 +95,13 @@ TEST_CASE("types, names and steps that are not known") {
   config = drive(folder);
   config.links.receivers = {"*", "truck1/rof"};
   check_contains(error_of<ConfigError>(config),
-                 "links.receivers: \"truck1/rof\" is the name of no receiver; the nearest is \"truck1/roof\"");
+                 "links.receivers: \"truck1/rof\" is not the name of a receiver; the nearest is \"truck1/roof\"");
   config = drive(folder);
   config.mounts[0].on = "trck*";
   check_contains(error_of<ConfigError>(config), "the nearest is \"truck");
   config = drive(folder);
   config.transmitters[0].name = "turner/roof";
-  check_contains(error_of<ConfigError>(config), "\"turner/roof\" is there already");
+  check_contains(error_of<ConfigError>(config), "\"turner/roof\" exists already");
   config = drive(folder);
   config.time = {.start_s = 5, .end_s = std::nullopt, .step_s = std::nullopt};
   check_contains(error_of<ConfigError>(config), "[time] begins at 5 s, and the trajectories go from 0 to 2 s");
@@ -166,7 +166,7 @@ TEST_CASE("positions beyond 1000 km from the middle of the scene are errors by n
   CHECK(World(config, static_scene()).reach_m() == 9.9e5 - 100);
   config.trajectories.file = folder.write("fast.csv", "time,id,x,y,speed\n0,a,0,0,0\n1,a,1,0,1e30\n").string();
   config.mounts[0].on = "a";
-  check_contains(error_of<InputError>(config), "vehicle \"a\": its speeds carry it to ");
+  check_contains(error_of<InputError>(config), "vehicle \"a\": between two samples its speed takes it ");
 }
 
 TEST_CASE("frames outside of the trajectories: all of them are an error, some a warning with their number") {

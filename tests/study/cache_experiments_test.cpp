@@ -307,7 +307,7 @@ TEST_CASE("figure-6.4: classes of hits, unused entries, entries that never answe
   CHECK(contains(text, "| some entries are left unused | confirmed |\n| some entries never answer | confirmed |"));
 }
 
-TEST_CASE("all figures of caching: a script with a line a setting, whose columns are in the table") {
+TEST_CASE("all figures of caching: a script with a line per setting, whose columns are in the table") {
   for (const Experiment& experiment : study::experiments()) {
     if (!experiment.study()) continue;
     CAPTURE(experiment.name);

@@ -136,7 +136,7 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
   CHECK(contains(encode(lag_columns(), rows), "\nhilbert,1,2,0,0.4,nan,0.9,nan\n"));
 }
 
-TEST_CASE("depth plots: a line a depth and panel, columns by number") {
+TEST_CASE("depth plots: a line per depth and panel, columns by number") {
   DepthPlot plot{.name = "a",
                  .title = "A device's",
                  .columns = {"kind", "depth", "lag", "value"},

@@ -147,7 +147,7 @@ TEST_CASE("frames of which no ray hits, of other numbers of rays and of other de
 TEST_CASE("coherence along the launch order: surfaces of ten rays, every third a miss") {
   std::vector<glm::dvec3> points;
   for (int i = 0; i < 3000; ++i) points.emplace_back(i % 2, 0, 0);
-  std::vector<Hit> hits = hits_at(points);  // ten rays a surface
+  std::vector<Hit> hits = hits_at(points);  // ten rays per surface
   const std::vector<uint32_t> lags = {1, 4, 10, 3000};
   const auto full = coherence_along(hits, lags);
   CHECK(full[0].pairs == 2999);

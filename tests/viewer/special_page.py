@@ -51,7 +51,7 @@ for row in (0, 1, 1499, 2997, 2999):
     assert f"frame {row}" in page.text("clock")
 took = page.js("const start = performance.now(); for (let i = 0; i < 1000; ++i) wavetracer.setFrame(3 * i);"
                "return (performance.now() - start) / 1000")
-print(f"long: {took:.2f} ms a frame of 3000")
+print(f"long: {took:.2f} ms per frame of 3000")
 page.check_clean()
 
 # No scene file: the rest, and why.

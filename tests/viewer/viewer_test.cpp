@@ -228,7 +228,7 @@ TEST_CASE("no paths, one frame, thousands of frames") {
   CHECK(page.html.size() < 10e6);
 }
 
-TEST_CASE("a hundred vehicles, a hundred thousand paths a frame") {
+TEST_CASE("a hundred vehicles, a hundred thousand paths per frame") {
   test::write_made_run({.vehicles = 100, .frames = 2, .paths_a_link = 10}, folder / "large");
   const ViewPage page = write_page("large");
   CHECK(page.paths == 200000);

@@ -98,7 +98,7 @@ def _missed(of):
 
 
 class Frame:
-    """The results of one frame: frame["delay_s"] is a column, one row a path. See wavetracer.h for all of them.
+    """The results of one frame: frame["delay_s"] is a column, one row per path. See wavetracer.h for all of them.
 
     missed["paths"] and missed["power_share"] say what the rays of the frame may have missed ("estimate", and "low" to
     "high", where the truth is in 95 cases of 100); it is None where that is not known. The column "link_missed_power_share"

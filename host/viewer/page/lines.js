@@ -1,6 +1,6 @@
 // The visible paths of a frame as one object of line segments, in buffers that are written anew on every filter.
 // Frames hold the weakest path first, so the strongest lie on top.
-// A path with a point that is no number, or an absent end, is counted but not drawn.
+// A path with a point that is not a number, or an absent end, is counted but not drawn.
 "use strict";
 
 // Opacities of a quarter each of the scale of power, the weakest first. Thousands of paths would be one blot otherwise.
