@@ -33,9 +33,9 @@ std::string decibels(const study::PathError& error) {
 
 // What a limit asks of rays or depth, or that nothing keeps it.
 std::string limit_text(const Row* best, const Row& whole) {
-  if (!best) return fmt::format("only the reference, {} ({} a frame)", keys(whole), milliseconds(whole));
+  if (!best) return fmt::format("only the reference, {} ({} per frame)", keys(whole), milliseconds(whole));
   return fmt::format(
-      "{} ({} a frame; loses {} of the power and {} of the paths). {}, which is what this is measured against, takes "
+      "{} ({} per frame; loses {} of the power and {} of the paths). {}, which is what this is measured against, takes "
       "{:.3g} times as long",
       keys(*best), milliseconds(*best), share_text(best->error.lost_power), share_text(best->error.lost_share),
       keys(whole), whole.frame_s / best->frame_s);
@@ -82,7 +82,7 @@ void add_reuse(const Study& study, std::vector<std::string>& out) {
   const Row *on = find(study, "reuse", "on"), *off = find(study, "reuse", "off");
   if (!on || !off || !reference(study, "rays")) return;
   out.push_back(fmt::format(
-      "Reuse from frame to frame, trace.reuse=true: {} a frame and {} of the power lost; without "
+      "Reuse from frame to frame, trace.reuse=true: {} per frame and {} of the power lost; without "
       "it {} and {}",
       milliseconds(*on), share_text(on->error.lost_power), milliseconds(*off), share_text(off->error.lost_power)));
 }

@@ -168,7 +168,7 @@ TEST_CASE("an interrupted drive exits 130 with the frames so far and goes on wit
   const Outcome stopped = run.wait();
   CAPTURE(stopped.err);
   CHECK(stopped.code == 130);
-  CHECK(contains(stopped.err, "go on with --resume"));
+  CHECK(contains(stopped.err, "continue with --resume"));
   const auto summary = nlohmann::json::parse(slurp(folder.path("out/summary.json")));
   const size_t frames = summary["frames"];
   CHECK(frames >= 10);

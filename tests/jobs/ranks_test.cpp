@@ -90,7 +90,7 @@ TEST_CASE("--shard K/N counts from 0; mistakes exit 2 before anything is loaded"
     CHECK(folder.entries() == 1);
   };
   check({"--shard", "2/2"}, "counted from 0");
-  check({"--shard", "0/2", "--processes", "2"}, "leave out --devices and --processes");
+  check({"--shard", "0/2", "--processes", "2"}, "start several: give one or the other");
   check({"--shard", "0/2"}, "is rank 1 of 2 already", {"WAVETRACER_RANK=1", "WAVETRACER_RANKS=2", "WAVETRACER_JOB=j"});
   check({}, "PMI_RANK=7", {"PMI_RANK=7", "PMI_SIZE=2"});
 }

@@ -321,7 +321,7 @@ TEST_CASE("what the run does not have is an error that names what it has") {
   choice.grid = "map";
   check_contains(refused(drive, choice),
                  "--grid \"map\" is not the name of a [[receiver_grid]] of the run, which has none");
-  check_contains(refused(grid, choice), "it has g");
+  check_contains(refused(grid, choice), "which has g");
   choice.grid.clear();
   choice.what = {"gian"};
   check_contains(

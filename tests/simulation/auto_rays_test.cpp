@@ -36,7 +36,7 @@ TEST_CASE("a launch that ends before its recall says so, and why, once a drive")
   const std::vector<std::string> warnings = warnings_of(1);
   REQUIRE(warnings.size() == 1);
   CAPTURE(warnings[0]);
-  CHECK(warnings[0].starts_with("the launch of rays = \"auto\" ended before trace.recall = 1: "));
+  CHECK(warnings[0].starts_with("the launch of rays = \"auto\" ended before it reached trace.recall = 1: "));
   CHECK(
       warnings[0].ends_with("% of the sequences found were met by only one ray, and its rays cannot come closer "
                             "to each other; give trace.rays a number to find more"));

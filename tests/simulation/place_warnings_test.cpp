@@ -65,8 +65,8 @@ TEST_CASE("each kind by name") {
                                            "transmitter \"tx1\" is 1.5 m below the ground there, \"part-0\"",
                                            "transmitter \"tx2\" is 3000 m outside of the scene's box",
                                            "receiver \"rx1\" is 291 m above the scene's box",
-                                           "receiver \"rx0\" lies on a surface of \"part-0\", which may hide it by "
-                                           "rounding: move it off by 1 mm"});
+                                           "receiver \"rx0\" lies on a surface of \"part-0\"; because of rounding, the "
+                                           "surface may hide it: move it away by 1 mm"});
 }
 
 TEST_CASE("in a house that is the scene: a word only where a link goes out of it") {
