@@ -35,15 +35,6 @@ inline bool outdated(wt_cache_movement movement, const wt_cache_entry* e, uint l
 }
 #endif
 
-// Where the ray meets the plane of a surface, if in front of it and within the surface's bounds.
-inline bool meets(wt_cache_question q, const global wt_surface* surface, float* t) {
-  const float3 n = vload3(0, surface->normal);
-  *t = (surface->offset - dot(n, q.origin)) / dot(n, q.direction);
-  if (!(*t > 0.0f)) return false;
-  const float3 p = q.origin + *t * q.direction, slack = 1e-3f + 1e-6f * fabs(p);
-  return all(p >= vload3(0, surface->lower) - slack) && all(p <= vload3(0, surface->upper) + slack);
-}
-
 // The entry that answers ray i, or WT_NONE.
 inline uint look_up(wt_cache cache, wt_cache_question q, uint left_surface, uint static_surfaces,
                     const global wt_surface* surfaces, wt_cache_movement movement, wt_cache_entry* e) {
@@ -57,7 +48,7 @@ inline uint look_up(wt_cache cache, wt_cache_question q, uint left_surface, uint
   }
 #endif
 #if defined(WT_CACHE_OWN_POINT) && !defined(WT_CACHE_EXACT)
-  if (e->surface != WT_NONE && !meets(q, surfaces + e->surface, &e->t)) return WT_NONE;
+  if (e->surface != WT_NONE && !wt_cache_meets(q, surfaces + e->surface, &e->t)) return WT_NONE;
 #endif
   return slot;
 }

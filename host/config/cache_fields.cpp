@@ -103,6 +103,12 @@ Table cache_table() {
            .doc = "The first segment of a ray that the cache may answer; earlier segments are always traced. "
                   "Neighbouring rays are launched together, so a cache saves least at the first segments. 1: all "
                   "segments may be answered."},
+          {.name = "innerframe",
+           .slot = c(&CacheConfig::innerframe),
+           .doc = "Coherence inside a frame: of the rays of one depth that have the same key and are not in the table, "
+                  "only one is traced, and the others take its hit, as hit_point and purge say. false: all of them are "
+                  "traced and then stored, because finding the groups costs time, and few rays share a key unless "
+                  "division is small. With key = \"exact\" the paths are the same in both cases."},
           {.name = "statistics",
            .slot = c(&CacheConfig::statistics),
            .doc = "Count the hits of each entry, and how often a ray follows the entries of an earlier ray, for "

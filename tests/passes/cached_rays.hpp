@@ -147,7 +147,9 @@ class Cache {
     std::iota(every.begin(), every.end(), 0u);
     receptions.resize(rays.size(), WT_NONE);
     const auto received = context().buffer(receptions, "receptions");
-    store_(queue, missed, list, context().buffer(every, "indices"), all, table, static_surfaces, now, &received);
+    auto receivers = context().buffer<uint32_t>(rays.size(), "receivers");
+    store_(queue, missed, list, context().buffer(every, "indices"), all, table, static_surfaces, now, &received,
+           &receivers);
     return entries_of(queue);
   }
 
