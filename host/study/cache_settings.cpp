@@ -111,7 +111,7 @@ const std::vector<std::string>& cache_keys() {
   static const std::vector<std::string> keys = {
       "trace.reuse",           "cache.kind",           "cache.key",     "cache.hash_method",    "cache.division",
       "cache.buffer_size",     "cache.load_factor",    "cache.locking", "cache.readers_number", "cache.purge",
-      "cache.position_step_m", "cache.residual_value", "cache.scope",   "cache.hit_point"};
+      "cache.position_step_m", "cache.residual_value", "cache.scope",   "cache.hit_point",      "cache.innerframe"};
   return keys;
 }
 
