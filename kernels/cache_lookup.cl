@@ -3,7 +3,8 @@
 //   WT_CACHE_OWN_POINT   an answer names the surface, and the ray meets its plane itself; else the ray is replaced by
 //                        the one that was traced
 //   WT_CACHE_STATISTICS  counts hits an entry and links entries along paths, by the plane WT_RAY_ENTRY
-//   WT_CACHE_ALL         entries hold what moves, too: those that movement has made wrong are withdrawn
+//   WT_CACHE_ALL         entries hold what moves, too: those that movement has made wrong are withdrawn, but by the
+//                        thesis' tables as printed (WT_CACHE_THESIS)
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
 
@@ -40,7 +41,7 @@ inline uint look_up(wt_cache cache, wt_cache_question q, uint left_surface, uint
                     const global wt_surface* surfaces, wt_cache_movement movement, wt_cache_entry* e) {
   uint slot;
   if (!wt_cache_may_ask(q, left_surface, static_surfaces) || !wt_cache_find(cache, q, e, &slot)) return WT_NONE;
-#ifdef WT_CACHE_ALL
+#if defined(WT_CACHE_ALL) && !defined(WT_CACHE_THESIS)  // whose listings never ask
   if (outdated(movement, e, left_surface)) {
     wt_cache_withdraw(cache, slot);
     wt_fetch_add_u32(&cache.counters->stale, 1u);

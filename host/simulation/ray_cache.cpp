@@ -95,9 +95,9 @@ void RayCache::begin_frame(const WorldState& world) {
   frame_summary_.on = true;
   table_.counters.write(std::vector<device::wt_cache_counters>(1), 0, "cache_purge");
   if (touch_) purge();
-  const bool evicts = table_.config.kind != "open";
-  touch_ = evicts && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()),
-                                         [this](size_t r) { return used_[r] > filling * table_.regions[r].entries; });
+  touch_ = table_.evicts() && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
+             return used_[r] > filling * table_.regions[r].entries;
+           });
   note_positions(world.transmitters);
   note_movement(world.instances);
   note_receivers(world.receivers);
@@ -120,8 +120,9 @@ void RayCache::note_positions(const std::vector<EndState>& transmitters) {
     if (key == keys_[r] && frame_ > 1) continue;
     keys_[r] = key;
     table_.regions[r].since = frame_;
+    table_.regions[r].stamp = device::wt_cache_tag(key, 0);
     changed = true;
-    if (config.kind == "open" || used_[r] == 0) continue;  // an open table writes over stale entries
+    if (!table_.evicts() || used_[r] == 0) continue;  // an open table writes over stale entries
     frame_summary_.evicted += used_[r];
     table_.clear(context_, static_cast<uint32_t>(r));
   }

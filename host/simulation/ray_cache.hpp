@@ -41,6 +41,8 @@ class RayCache final : public HitFinder {
   RayCache(gpu::Context& context, const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world,
            TraceShape shape, const LaunchShape& launch, CachedReception reception = {});
   void reserve(uint64_t rays) override;
+  // The thesis' table with its faults, whose answers may be those of other keys.
+  bool as_printed() const { return table_.as_printed(); }
   // Forgets everything: the next frame meets an empty table.
   void clear();
   // A frame begins: purges regions of transmitters that have moved away and, if room is short, entries without use.

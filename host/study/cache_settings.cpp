@@ -87,6 +87,13 @@ Setting precision(double residual, uint32_t hash_method) {
   });
 }
 
+Setting as_printed(Setting setting) {
+  return {"printed " + setting.name, [apply = std::move(setting.apply)](Config& config) {
+            apply(config);
+            config.cache.kind = config.cache.kind == "chained" ? CacheKind("thesis-chained") : CacheKind("thesis");
+          }};
+}
+
 Setting ours() { return ours_with("concurrent", nothing_else); }
 Setting exact() {
   return ours_with("concurrent exact", [](CacheConfig& cache) { cache.key = "exact"; });

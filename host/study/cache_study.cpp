@@ -15,8 +15,6 @@ namespace wavetracer::study {
 namespace {
 
 constexpr uint64_t cpu_frames = 20;
-constexpr double frame_step_s = 0.01;  // 100 frames a second
-constexpr uint32_t vehicles = 20;
 
 // What a setting's frames add up to.
 struct Subject {
@@ -241,29 +239,6 @@ uint64_t study_frames(const CacheStudy& study, const Request& request, bool gpu)
   if (request.frames > 0) return request.frames;
   const uint64_t frames = gpu ? study.most_frames : cpu_frames;
   return request.quick ? frames / 5 : frames;
-}
-
-Config with_traffic(const Config& city, const std::string& drive, uint64_t frames) {
-  Config config = city;
-  // The cold frame, and those that are counted.
-  config.time = {.start_s = 0.0, .end_s = frame_step_s * static_cast<double>(frames), .step_s = frame_step_s};
-  config.trajectories.generate = fmt::format("{} --vehicles {} --seconds {:g} --step 0.1", city.scene.generate,
-                                             vehicles, std::ceil(*config.time.end_s) + 1);
-  MountConfig roof;
-  roof.name = "roof";
-  roof.role = "receiver";
-  roof.offset_m = {0, 0, 1.6};
-  config.mounts.push_back(roof);
-  if (drive == "spheres") config.trace.reception = "sphere";
-  if (drive == "moving") {
-    MountConfig sender = roof;
-    sender.name = "sender";
-    sender.on = "veh0";
-    sender.role = "transmitter";
-    config.mounts.push_back(sender);
-    config.transmitters.clear();
-  }
-  return config;
 }
 
 CacheMeasurement measure_study(const CacheStudy& study, const Request& request, const Host& host) {

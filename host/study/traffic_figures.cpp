@@ -14,6 +14,8 @@ constexpr const char *none = "no cache", *position_uniform = "position uniform",
                      *position_mixed = "position mixed", *precision_uniform = "precision 0.0125 uniform",
                      *precision_morton = "precision 0.0125 Morton", *precision_mixed = "precision 0.0125 mixed",
                      *precision_of_errors = "precision 0.093 mixed";
+std::string printed(const std::string& setting) { return "printed " + setting; }
+
 // The thesis' caches of by_hash().
 const std::vector<std::string> caches = {position_uniform,  position_morton,  position_mixed,
                                          precision_uniform, precision_morton, precision_mixed};
@@ -30,6 +32,8 @@ std::vector<Setting> by_hash() {
   std::vector<Setting> settings = {no_cache()};
   for (const uint32_t hash : {1u, 2u, 3u}) settings.push_back(position(hash));
   for (const uint32_t hash : {1u, 2u, 3u}) settings.push_back(precision(thesis_residual, hash));
+  for (const uint32_t hash : {1u, 2u, 3u}) settings.push_back(as_printed(position(hash)));
+  for (const uint32_t hash : {1u, 2u, 3u}) settings.push_back(as_printed(precision(thesis_residual, hash)));
   settings.push_back(ours());
   return settings;
 }
@@ -43,17 +47,19 @@ std::vector<Setting> with_orders(std::vector<Setting> settings) {
   return settings;
 }
 
-const auto centroid_study =
-    std::make_shared<const CacheStudy>(CacheStudy{.name = "centroids",
-                                                  .settings = {no_cache(), position(), precision(thesis_residual)},
-                                                  .rays = {claimed_many},
-                                                  .few_rays = {claimed_many},
-                                                  .drives = {"fixed", "moving", "spheres"},
-                                                  .centroids = true});
+const auto centroid_study = std::make_shared<const CacheStudy>(
+    CacheStudy{.name = "centroids",
+               .settings = {no_cache(), position(), precision(thesis_residual), as_printed(position()),
+                            as_printed(precision(thesis_residual))},
+               .rays = {claimed_many},
+               .few_rays = {claimed_many},
+               .drives = {"fixed", "moving", "spheres"},
+               .centroids = true});
 const auto purging = std::make_shared<const CacheStudy>(
     CacheStudy{.name = "purging",
                .settings = {no_cache(), position(), precision(thesis_residual), precision(thesis_residual_of_errors),
-                            ours(), exact(), reuse_instead()},
+                            as_printed(position()), as_printed(precision(thesis_residual)),
+                            as_printed(precision(thesis_residual_of_errors)), ours(), exact(), reuse_instead()},
                .rays = {1000, 5000, 10000, 20000, 30000, 49000, 70000, 90000, 200000, 500000, 900000},
                .few_rays = {1000, 10000, 49000},
                .drives = {"fixed", "moving", "spheres"}});
@@ -78,7 +84,9 @@ const std::vector<Experiment> traffic = {
      .paragraph = "Figure 6.10 of the thesis shows its program at work: the centroids of two clouds of points, their "
                   "distance in the frame and its average so far (equations 6.2 and 6.3). Here both are drawn frame "
                   "by frame, of path vertices with a cache against none. Measured on {device} at {rays} rays.",
-     .figure = CacheFigure{.study = centroid_study, .view = centroids({position_mixed, precision_mixed})}},
+     .figure = CacheFigure{.study = centroid_study,
+                           .view = centroids(
+                               {position_mixed, precision_mixed, printed(position_mixed), printed(precision_mixed)})}},
     {.name = "figure-6.11",
      .doc = "traffic: time with position purging, precision purging and no cache",
      .title = "Frames in traffic by purging",

@@ -159,7 +159,7 @@ struct LaunchConfig {
   std::optional<uint32_t> local_size = {};  // work-items per work-group; not given: chosen for the device
 };
 
-using CacheKind = Choice<"none", "chained", "open", "concurrent">;
+using CacheKind = Choice<"none", "chained", "open", "concurrent", "thesis", "thesis-chained">;
 using CacheKey = Choice<"quantised", "exact">;
 using CacheLocking = Choice<"mutex", "readers">;
 using CachePurging = Choice<"position", "precision">;

@@ -183,6 +183,11 @@ class Cache {
     table.counters.write(std::vector<device::wt_cache_counters>(1));
     return counts;
   }
+  // Of the transmitter's position key.
+  void set_stamp(uint32_t region, uint32_t stamp) {
+    table.regions[region].stamp = stamp;
+    table.device_regions.write(table.regions);
+  }
   void set_since(uint32_t region, uint32_t frame) {
     table.regions[region].since = frame;
     table.device_regions.write(table.regions);
