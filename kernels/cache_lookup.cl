@@ -3,7 +3,8 @@
 //   WT_CACHE_OWN_POINT   an answer names the surface, and the ray meets its plane itself; else the ray is replaced by
 //                        the one that was traced
 //   WT_CACHE_STATISTICS  counts hits per entry and links entries along paths, by the plane WT_RAY_ENTRY
-//   WT_CACHE_ALL         entries hold what moves, too: those that movement has made wrong are withdrawn
+//   WT_CACHE_ALL         entries hold what moves, too: those that movement has made wrong are withdrawn, but by the
+//                        thesis' tables as printed (WT_CACHE_THESIS)
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
 
@@ -35,21 +36,12 @@ inline bool outdated(wt_cache_movement movement, const wt_cache_entry* e, uint l
 }
 #endif
 
-// Where the ray meets the plane of a surface, if in front of it and within the surface's bounds.
-inline bool meets(wt_cache_question q, const global wt_surface* surface, float* t) {
-  const float3 n = vload3(0, surface->normal);
-  *t = (surface->offset - dot(n, q.origin)) / dot(n, q.direction);
-  if (!(*t > 0.0f)) return false;
-  const float3 p = q.origin + *t * q.direction, slack = 1e-3f + 1e-6f * fabs(p);
-  return all(p >= vload3(0, surface->lower) - slack) && all(p <= vload3(0, surface->upper) + slack);
-}
-
 // The entry that answers ray i, or WT_NONE.
 inline uint look_up(wt_cache cache, wt_cache_question q, uint left_surface, uint static_surfaces,
                     const global wt_surface* surfaces, wt_cache_movement movement, wt_cache_entry* e) {
   uint slot;
   if (!wt_cache_may_ask(q, left_surface, static_surfaces) || !wt_cache_find(cache, q, e, &slot)) return WT_NONE;
-#ifdef WT_CACHE_ALL
+#if defined(WT_CACHE_ALL) && !defined(WT_CACHE_THESIS)  // whose listings never ask
   if (outdated(movement, e, left_surface)) {
     wt_cache_withdraw(cache, slot);
     wt_fetch_add_u32(&cache.counters->stale, 1u);
@@ -57,7 +49,7 @@ inline uint look_up(wt_cache cache, wt_cache_question q, uint left_surface, uint
   }
 #endif
 #if defined(WT_CACHE_OWN_POINT) && !defined(WT_CACHE_EXACT)
-  if (e->surface != WT_NONE && !meets(q, surfaces + e->surface, &e->t)) return WT_NONE;
+  if (e->surface != WT_NONE && !wt_cache_meets(q, surfaces + e->surface, &e->t)) return WT_NONE;
 #endif
   return slot;
 }

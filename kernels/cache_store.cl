@@ -1,27 +1,27 @@
 // cache_store: rays that were traced because the cache had no answer. Consumes missed[k], its hit, and indices[k],
 // which ray of the whole queue it is; produces that ray's hit, and an entry. One missed ray a work-item.
 // With WT_CACHE_STATISTICS entries are linked along paths; with WT_CACHE_ALL they keep receptions[k], the first
-// receiver that the segment passed.
+// receiver that the segment passed, and so does receivers[i].
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
 
 // Ray k of the missed ones: its hit to the whole queue, and into the table.
 inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, uint capacity,
                       const global float* missed, const global float* missed_hits, uint missed_capacity, uint k, uint i,
-                      global float* hits, uint static_surfaces, const global uint* receptions) {
+                      global float* hits, uint static_surfaces, const global uint* receptions, global uint* receivers) {
   const float t = missed_hits[k];
   const uint primitive = wt_load_word(missed_hits, missed_capacity, WT_HIT_PRIMITIVE, k);
   const uint surface = wt_load_word(missed_hits, missed_capacity, WT_HIT_SURFACE, k);
   hits[i] = t;
   wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, primitive);
   wt_store_word(hits, capacity, WT_HIT_SURFACE, i, surface);
+#ifdef WT_CACHE_ALL
+  const uint receiver = receivers[i] = receptions[k];
+#else
+  const uint receiver = WT_NONE;
+#endif
   uint slot = WT_NONE;
   if (wt_cache_may_ask(q, wt_load_word(missed, missed_capacity, WT_RAY_SURFACE, k), static_surfaces)) {
-#ifdef WT_CACHE_ALL
-    const uint receiver = receptions[k];
-#else
-    const uint receiver = WT_NONE;
-#endif
     const wt_cache_entry e = wt_cache_answer(q, t, primitive, surface, receiver);
     slot = wt_cache_put(cache, q, &e);
   }
@@ -42,7 +42,8 @@ kernel void cache_store(global float* rays, uint capacity, const global float* m
                         uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
                         global wt_cache_entry* entries, global uint* heads, global uint* used,
                         const global wt_cache_region* regions, global wt_cache_counters* counters,
-                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions) {
+                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions,
+                        global uint* receivers) {
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
@@ -63,7 +64,7 @@ kernel void cache_store(global float* rays, uint capacity, const global float* m
         region = questions[j].region;
       }
       store_hit(cache, questions[j], rays, capacity, missed, missed_hits, missed_capacity, next + j, indices[next + j],
-                hits, static_surfaces, receptions);
+                hits, static_surfaces, receptions, receivers);
     }
   }
   flush_tally(cache, region);
@@ -74,7 +75,8 @@ kernel void cache_store(global float* rays, uint capacity, const global float* m
                         uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
                         global wt_cache_entry* entries, global uint* heads, global uint* used,
                         const global wt_cache_region* regions, global wt_cache_counters* counters,
-                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions) {
+                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions,
+                        global uint* receivers) {
   local uint stored, claimed, region;
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
@@ -87,7 +89,7 @@ kernel void cache_store(global float* rays, uint capacity, const global float* m
   if (k < missed_count) {
     const wt_cache_question q = wt_cache_ask(missed, missed_capacity, k, widths, now);
     store_hit(cache, q, rays, capacity, missed, missed_hits, missed_capacity, k, indices[k], hits, static_surfaces,
-              receptions);
+              receptions, receivers);
     if (q.region != region) flush_tally(cache, q.region);
   }
   if (tally.stored) atomic_add(&stored, tally.stored);

@@ -42,13 +42,14 @@ study::Request request(const BenchOptions& options, const study::Experiment& exp
 }
 
 std::string listed() {
-  return study::experiment_list() + fmt::format("  {:<16} {}\n", all_figures, "all figures, as one page: thesis.html");
+  return study::experiment_list() + fmt::format("  {:<18} {}\n", all_figures, "all figures, as one page: thesis.html");
 }
 
 void bench(const BenchOptions& options, Invocation& invocation) {
-  if (options.experiment.empty())
-    throw ConfigError("bench: no experiment given; there are\n" + listed() +
-                      "and `./dev bench` measures the parts of the program");
+  if (options.experiment.empty()) {
+    std::cout << "Experiments, run by `wavetracer bench NAME -o FOLDER`:\n" << listed();
+    return;
+  }
   const bool all = options.experiment == all_figures;
   const study::Experiment& experiment =
       all ? *study::thesis_experiments().front() : study::find_experiment(options.experiment);

@@ -47,9 +47,13 @@ std::string cache_line(const CacheSummary& cache) {
   const auto percent = [](uint64_t part, uint64_t whole) {
     return whole > 0 ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
-  return fmt::format("cache      {:.3g}% of {} look-ups answered, {:.3g}% of {} entries in use\n",
-                     percent(cache.hits, cache.lookups), grouped(cache.lookups), percent(cache.used, cache.entries),
-                     grouped(cache.entries));
+  std::string line = fmt::format("cache      {:.3g}% of {} look-ups answered, {:.3g}% of {} entries in use\n",
+                                 percent(cache.hits, cache.lookups), grouped(cache.lookups),
+                                 percent(cache.used, cache.entries), grouped(cache.entries));
+  if (cache.groups > 0)
+    line += fmt::format("           {} groups of equal keys inside of frames: {} segments traced, {} took their hits\n",
+                        grouped(cache.groups), grouped(cache.traced), grouped(cache.shared));
+  return line;
 }
 
 // What became of sequences: paths are solved for, or are what the spheres of receivers caught.

@@ -18,7 +18,9 @@ Table cache_table() {
                "The hash table. chained: buckets with binary trees; keeps every segment until it is full. open: one "
                "place per key, protected by locks; the last segment replaces the one before. concurrent: buckets of 8 "
                "entries, which rays read without locks and which fill evenly. none: no cache, because a cache saves "
-               "time only if many rays need the same segments, and sorting the rays makes tracing faster without one."},
+               "time only if many rays need the same segments, and sorting the rays makes tracing faster without one. "
+               "thesis, thesis-chained: the open and the chained table as A. Zhdanov's thesis prints them, with their "
+               "faults, for comparison only: they compare no keys, so some rays get the results of others."},
           {.name = "key",
            .slot = c(&CacheConfig::key),
            .doc = "Which rays share an entry. quantised: rays that leave the same primitive into the same cell of "
@@ -50,11 +52,13 @@ Table cache_table() {
            .slot = c(&CacheConfig::load_factor),
            .unit = "entries per bucket",
            .range = {1, 64},
-           .doc = "Only with kind = \"chained\": the average number of entries per bucket in a full table. A larger "
+           .doc = "Only with kind = \"chained\" or \"thesis-chained\": the average number of entries per bucket in a "
+                  "full table. A larger "
                   "number takes less memory and makes deeper trees. 3, as in the thesis."},
           {.name = "locking",
            .slot = c(&CacheConfig::locking),
-           .doc = "Only with kind = \"open\". mutex: one ray at a time uses an entry; other rays that ask for it "
+           .doc = "Only with kind = \"open\" or \"thesis\". mutex: one ray at a time uses an entry; other rays that "
+                  "ask for it "
                   "meanwhile are traced. readers: the lock for readers and writers of the thesis; an entry must be "
                   "renewed after readers_number reads."},
           {.name = "readers_number",
@@ -103,6 +107,12 @@ Table cache_table() {
            .doc = "The first segment of a ray that the cache may answer; earlier segments are always traced. "
                   "Neighbouring rays are launched together, so a cache saves least at the first segments. 1: all "
                   "segments may be answered."},
+          {.name = "innerframe",
+           .slot = c(&CacheConfig::innerframe),
+           .doc = "Coherence inside a frame: of the rays of one depth that have the same key and are not in the table, "
+                  "only one is traced, and the others take its hit, as hit_point and purge say. false: all of them are "
+                  "traced and then stored, because finding the groups costs time, and few rays share a key unless "
+                  "division is small. With key = \"exact\" the paths are the same in both cases."},
           {.name = "statistics",
            .slot = c(&CacheConfig::statistics),
            .doc = "Count the hits of each entry, and how often a ray follows the entries of an earlier ray, for "

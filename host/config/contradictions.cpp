@@ -127,6 +127,12 @@ void check_cache(const Config& config, Found& out) {
     out.push_back({{"cache.key", "cache.scope"},
                    "cache.key = \"exact\" gives the same paths as no cache, but with cache.scope = \"all\" moving "
                    "vehicles would change them: remove cache.scope, or use cache.key = \"quantised\""});
+  if (cache.key == "exact" && (cache.kind == "thesis" || cache.kind == "thesis-chained"))
+    out.push_back({{"cache.key", "cache.kind"},
+                   fmt::format("cache.key = \"exact\" with cache.kind = \"{}\": the tables as the thesis prints them "
+                               "compare no keys, so that no answer is exact: use cache.key = \"quantised\", or "
+                               "another kind",
+                               cache.kind.text())});
   if (cache.first_depth > config.trace.max_depth)
     out.push_back({{"cache.first_depth", "trace.max_depth", "cache.kind"},
                    fmt::format("cache.first_depth = {} is larger than trace.max_depth = {}, so the cache would never "

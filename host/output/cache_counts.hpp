@@ -7,9 +7,12 @@
 
 namespace wavetracer {
 
-inline constexpr std::array<std::pair<const char*, uint64_t CacheSummary::*>, 11> cache_counts{{
+inline constexpr std::array<std::pair<const char*, uint64_t CacheSummary::*>, 14> cache_counts{{
     {"lookups", &CacheSummary::lookups},
     {"hits", &CacheSummary::hits},
+    {"traced", &CacheSummary::traced},
+    {"groups", &CacheSummary::groups},
+    {"shared", &CacheSummary::shared},
     {"conflicts", &CacheSummary::conflicts},
     {"stale", &CacheSummary::stale},
     {"stored", &CacheSummary::stored},

@@ -13,6 +13,7 @@ nlohmann::ordered_json encode_cache(const CacheSummary& cache) {
   json["bytes"] = cache.bytes;
   json["lookups_per_depth"] = cache.lookups_per_depth;
   json["hits_per_depth"] = cache.hits_per_depth;
+  json["shared_per_depth"] = cache.shared_per_depth;
   json["entries_by_hits"] = cache.entries_by_hits;
   return json;
 }
@@ -26,6 +27,7 @@ CacheSummary decode_cache(const nlohmann::ordered_json& json) {
   cache.bytes = json.at("bytes");
   cache.lookups_per_depth = json.at("lookups_per_depth").get<std::vector<uint64_t>>();
   cache.hits_per_depth = json.at("hits_per_depth").get<std::vector<uint64_t>>();
+  cache.shared_per_depth = json.at("shared_per_depth").get<std::vector<uint64_t>>();
   cache.entries_by_hits = json.at("entries_by_hits").get<std::vector<uint64_t>>();
   return cache;
 }

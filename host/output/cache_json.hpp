@@ -5,7 +5,8 @@
 
 namespace wavetracer {
 
-// Counts by their names, then entries, used, bytes, lookups_per_depth, hits_per_depth and entries_by_hits.
+// Counts by their names, then entries, used, bytes, lookups_per_depth, hits_per_depth, shared_per_depth and
+// entries_by_hits.
 nlohmann::ordered_json encode_cache(const CacheSummary& cache);
 // The way back, of a cache that was on. Throws nlohmann::json::exception where something is missing.
 CacheSummary decode_cache(const nlohmann::ordered_json& json);

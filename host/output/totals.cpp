@@ -36,6 +36,7 @@ void add(CacheSummary& sum, const CacheSummary& later) {
   for (const auto& [name, count] : cache_counts) total.*count += sum.*count;
   add(total.lookups_per_depth, sum.lookups_per_depth);
   add(total.hits_per_depth, sum.hits_per_depth);
+  add(total.shared_per_depth, sum.shared_per_depth);
   sum = std::move(total);
 }
 
@@ -148,7 +149,9 @@ Totals totals_of(Frames frames) {
   return sum;
 }
 
-uint64_t traced_segments(const Totals& totals) { return totals.counts.segments - totals.cache.hits; }
+uint64_t traced_segments(const Totals& totals) {
+  return totals.counts.segments - totals.cache.hits - totals.cache.shared;
+}
 
 double median_seconds(const Totals& totals, const std::string& stage) {
   const auto found = totals.seconds.find(stage);

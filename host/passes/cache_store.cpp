@@ -15,13 +15,15 @@ CacheStore::CacheStore(gpu::Context& context, const CacheTable& table) : work_(t
 
 void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitList& missed_hits,
                             const gpu::Buffer<uint32_t>& indices, HitList& hits, CacheTable& table,
-                            uint32_t static_surfaces, uint32_t now, const gpu::Buffer<uint32_t>* receptions) {
-  if (table.config.scope == "all" && !receptions)
-    throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions");
+                            uint32_t static_surfaces, uint32_t now, const gpu::Buffer<uint32_t>* receptions,
+                            gpu::Buffer<uint32_t>* receivers) {
+  if (table.config.scope == "all" && (!receptions || !receivers))
+    throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions or receivers");
   if (missed.count == 0) return;
   kernel_(work_.range(missed.count), "cache_store", rays.planes, rays.capacity, missed.planes, missed_hits.planes,
           missed.capacity, missed.count, indices, hits.planes, table.entries, table.heads, table.used,
-          table.device_regions, table.counters, table.widths, now, static_surfaces, receptions ? *receptions : indices);
+          table.device_regions, table.counters, table.widths, now, static_surfaces, receptions ? *receptions : indices,
+          receivers ? *receivers : table.used);
 }
 
 }  // namespace wavetracer

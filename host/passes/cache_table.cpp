@@ -19,18 +19,23 @@ namespace {
 constexpr uint64_t least_share = 16;
 constexpr uint64_t most_entries = uint64_t{1} << 31;  // slots are 32-bit words, of which WT_NONE is none
 
+bool as_printed(const CacheConfig& config) { return config.kind == "thesis" || config.kind == "thesis-chained"; }
+
 uint32_t buckets_of(const CacheConfig& config, uint32_t entries) {
-  if (config.kind == "open") return entries;
+  if (config.kind == "open" || config.kind == "thesis") return entries;
   const double load = config.kind == "concurrent" ? WT_CACHE_BUCKET : config.load_factor;
   return static_cast<uint32_t>(std::max(1.0, std::floor(entries / load)));
 }
 
 double head_words_an_entry(const CacheConfig& config) {
-  return config.kind == "chained" ? 2 + 1 / config.load_factor : config.kind == "open" ? 2 : 1;
+  if (config.kind == "chained") return 2 + 1 / config.load_factor;
+  return as_printed(config) ? 3 : config.kind == "open" ? 2 : 1;
 }
 
 // Of links and roots WT_NONE says that there is none; locks, counts and tags begin at 0.
-uint32_t empty_head(const CacheConfig& config) { return config.kind == "chained" ? WT_NONE : 0; }
+uint32_t empty_head(const CacheConfig& config) {
+  return config.kind == "chained" || config.kind == "thesis-chained" ? WT_NONE : 0;
+}
 
 double bytes_an_entry(const CacheConfig& config) {
   return sizeof(wt_cache_entry) + 4 * (head_words_an_entry(config) + 1) + (config.statistics ? 4 : 0);
@@ -83,11 +88,10 @@ CacheTable make_cache_table(gpu::Context& context, const CacheConfig& config, ui
   CacheTable table;
   table.config = config;
   table.widths = {bits_of(division_of(config)), bits_of(surface_count), bits_of(primitive_count)};
-  for (uint32_t r = 0; r < count; ++r) table.regions.push_back({r * share, share, r * buckets, buckets, 0, 0});
+  for (uint32_t r = 0; r < count; ++r) table.regions.push_back({r * share, share, r * buckets, buckets, 0, 1});
   const size_t entries = size_t{share} * count;
   const size_t heads = config.kind == "chained" ? 2 * entries + size_t{buckets} * count
-                       : config.kind == "open"  ? 2 * entries
-                                                : entries;
+                                                : static_cast<size_t>(head_words_an_entry(config)) * entries;
   table.entries = context.buffer<wt_cache_entry>(entries, "cache entries (cache.buffer_size)");
   table.heads = context.buffer<uint32_t>(heads, "cache heads (cache.buffer_size)");
   table.used = context.buffer<uint32_t>(count, "cache regions in use");
@@ -109,8 +113,10 @@ gpu::Definitions CacheTable::definitions(bool bulk) const {
   if (config.kind == "chained") {
     d["WT_CACHE_CHAINED"] = "1";
     d["WT_CACHE_BUCKETS_TOTAL"] = fmt::format("{}u", regions.size() * regions.front().buckets);
-  } else if (config.kind == "open") {
-    d["WT_CACHE_OPEN"] = "1";
+  } else if (config.kind == "thesis-chained") {
+    d["WT_CACHE_THESIS"] = d["WT_CACHE_THESIS_CHAINED"] = "1";
+  } else if (config.kind == "open" || config.kind == "thesis") {
+    d[config.kind == "open" ? "WT_CACHE_OPEN" : "WT_CACHE_THESIS"] = "1";
     if (config.locking == "mutex") {
       d["WT_CACHE_MUTEX"] = "1";
     } else {
@@ -146,7 +152,7 @@ void CacheTable::clear(gpu::Context& context, uint32_t region) {
     fill(context, heads, head, r.first_bucket, r.buckets);
     fill(context, heads, head, all_buckets + 2 * uint64_t{r.first_entry}, 2 * uint64_t{r.entries});
   } else {
-    const uint64_t words = config.kind == "open" ? 2 : 1;
+    const auto words = static_cast<uint64_t>(head_words_an_entry(config));
     fill(context, heads, head, words * r.first_entry, words * r.entries);
   }
   fill(context, used, 0, region, 1);

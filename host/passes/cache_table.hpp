@@ -21,6 +21,10 @@ struct CacheTable {
   // With config.statistics: answers of each slot since its region was cleared; else a placeholder.
   gpu::Buffer<uint32_t> hits;
 
+  // One of the thesis' tables, faults and all.
+  bool as_printed() const { return config.kind == "thesis" || config.kind == "thesis-chained"; }
+  // Does it count what is used and give room up? Others are written over, or as the thesis prints them never cleared.
+  bool evicts() const { return config.kind == "chained" || config.kind == "concurrent"; }
   // Of kernels that use lib/cache_table.clh. bulk: nobody writes while the kernel reads.
   gpu::Definitions definitions(bool bulk) const;
   uint64_t bytes() const;

@@ -45,7 +45,8 @@ void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t fi
 }
 
 void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, uint32_t count,
-                           const gpu::Buffer<float>& launchers, const LaunchDirections& directions, Turn turn) {
+                           const gpu::Buffer<float>& launchers, const LaunchDirections& directions,
+                           DirectionTurn turn) {
   queue.count = 0;
   check_room(queue, count);
   generate_samples_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first, count, list.samples,

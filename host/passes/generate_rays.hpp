@@ -20,7 +20,7 @@ struct Launcher {
 };
 
 // A rotation of all directions about z.
-struct Turn {
+struct DirectionTurn {
   float cosine = 1, sine = 0;
 };
 
@@ -39,7 +39,7 @@ class GenerateRays {
   // Fills the empty queue, which has the plane of samples, with samples first .. first + count - 1 of the list, and
   // sets their ends to the roots. launchers: two float4 each, see the kernel.
   void samples(RayQueue& queue, SampleList& list, uint32_t first, uint32_t count, const gpu::Buffer<float>& launchers,
-               const LaunchDirections& directions, Turn turn = {});
+               const LaunchDirections& directions, DirectionTurn turn = {});
 
  private:
   gpu::Kernel generate_, generate_ordered_, generate_samples_;

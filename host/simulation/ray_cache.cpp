@@ -1,5 +1,6 @@
 // Stamps and eviction on the host, answers on the device.
-// Two host reads for each depth: the rays that were not answered, and (by the caller) those that hit.
+// Two host reads for each depth: the rays that were not answered, and (by the caller) those that hit; one or two more
+// with cache.innerframe.
 #include "simulation/ray_cache.hpp"
 
 #include <algorithm>
@@ -53,27 +54,24 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
       table_(make_cache_table(context, config, world.transmitters, world.surfaces, world.primitives)),
       movement_(make_cache_movement(context)),
       lookup_(context, table_),
-      store_(context, table_),
       purge_(context, table_),
+      trails_(config.scope == "all" ? reception.trails : nullptr),
+      misses_(make_cache_misses(context, table_, world.static_surfaces,
+                                {context, scene, table_, world.static_surfaces, shape, launch, trails_})),
       compact_(context),
-      scan_(context),
-      gather_(context, "cache_gather"),
       traced_(context, scene, shape, launch),
-      trace_(context, scene, shape, launch, config.scope == "static" ? Trace::Scope::fixed : Trace::Scope::all),
       static_surfaces_(world.static_surfaces),
       keys_(world.transmitters),
       instance_since_(world.instances),
       used_(world.transmitters) {
   if (world.instances > 0 && config.scope == "static") trace_moving_.emplace(context, scene);
   if (world.instances > 0) movement_.instance_since = context.buffer(instance_since_, "instances moved");
-  if (!reception.trails || config.scope != "all") return;
-  trails_ = reception.trails;
-  movement_.radius_m = static_cast<float>(reception.radius_m);
+  if (trails_) movement_.radius_m = static_cast<float>(reception.radius_m);
 }
 
 std::optional<AnsweredRays> RayCache::answered(uint32_t depth) const {
   if (!trails_ || !asked(depth)) return {};
-  return AnsweredRays{missed_, answers_};
+  return AnsweredRays{answers_.missed, answers_.receivers};
 }
 
 void RayCache::count_blocks(const RayQueue& rays, HitList& hits, uint32_t depth) {
@@ -97,9 +95,9 @@ void RayCache::begin_frame(const WorldState& world) {
   frame_summary_.on = true;
   table_.counters.write(std::vector<device::wt_cache_counters>(1), 0, "cache_purge");
   if (touch_) purge();
-  const bool evicts = table_.config.kind != "open";
-  touch_ = evicts && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()),
-                                         [this](size_t r) { return used_[r] > filling * table_.regions[r].entries; });
+  touch_ = table_.evicts() && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
+             return used_[r] > filling * table_.regions[r].entries;
+           });
   note_positions(world.transmitters);
   note_movement(world.instances);
   note_receivers(world.receivers);
@@ -122,8 +120,9 @@ void RayCache::note_positions(const std::vector<EndState>& transmitters) {
     if (key == keys_[r] && frame_ > 1) continue;
     keys_[r] = key;
     table_.regions[r].since = frame_;
+    table_.regions[r].stamp = device::wt_cache_tag(key, 0);
     changed = true;
-    if (config.kind == "open" || used_[r] == 0) continue;  // an open table writes over stale entries
+    if (!table_.evicts() || used_[r] == 0) continue;  // an open table writes over stale entries
     frame_summary_.evicted += used_[r];
     table_.clear(context_, static_cast<uint32_t>(r));
   }
@@ -157,41 +156,35 @@ void RayCache::note_receivers(const std::vector<EndState>& receivers) {
 }
 
 void RayCache::reserve(uint64_t rays) {
-  missed_rays_ = make_ray_queue(context_, rays, "missed rays", WT_RAY_ENTRY);
-  missed_hits_ = make_hit_list(context_, rays);
-  const uint32_t capacity = missed_rays_.capacity;
-  missed_ = context_.buffer<float>(capacity, "missed");
-  missed_blocks_ = context_.buffer<uint32_t>(compact_.blocks(capacity) + 1, "missed blocks");
-  indices_ = context_.buffer<uint32_t>(capacity, "missed indices");
-  if (table_.config.scope != "all") return;
-  answers_ = context_.buffer<uint32_t>(capacity, "cached receptions");
-  first_ = context_.buffer<uint32_t>(capacity, "receptions");
-  context_.fill(first_, WT_NONE);  // as it stays where receptions are not kept
+  misses_->reserve(rays);
+  answers_.missed = context_.buffer<float>(misses_->capacity(), "missed");
+  if (table_.config.scope == "all")
+    answers_.receivers = context_.buffer<uint32_t>(misses_->capacity(), "cached receptions");
 }
 
 void RayCache::find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) {
   if (!asked(depth)) return traced_.find(scene, rays, hits, depth);
-  if (rays.capacity != missed_rays_.capacity) throw std::logic_error("ray_cache: no room for the rays");
-  lookup_(scene, rays, hits, missed_, table_, movement_, static_surfaces_, frame_, touch_,
-          answers_ ? &answers_ : nullptr);
-  compact_.count_blocks(missed_, 0, rays.count, missed_blocks_);
-  const uint32_t missed = scan_(missed_blocks_, compact_.blocks(rays.count));
-  if (missed > 0) {
-    compact_(missed_, 0, rays.count, missed_blocks_, indices_);
-    gather_(rays, indices_, missed, missed_rays_);
-    trace_(scene, missed_rays_, missed_hits_);
-    if (trails_) trails_->first_receivers(missed_rays_, missed_hits_, first_);
-    store_(rays, missed_rays_, missed_hits_, indices_, hits, table_, static_surfaces_, frame_,
-           first_ ? &first_ : nullptr);
-  }
+  if (rays.capacity != misses_->capacity()) throw std::logic_error("ray_cache: no room for the rays");
+  lookup_(scene, rays, hits, answers_.missed, table_, movement_, static_surfaces_, frame_, touch_,
+          answers_.receivers ? &answers_.receivers : nullptr);
+  account(depth, rays.count, misses_->find(scene, rays, hits, table_, frame_, answers_));
   if (trace_moving_) (*trace_moving_)(scene, rays, hits);
+}
+
+void RayCache::account(uint32_t depth, uint64_t lookups, const MissCounts& misses) {
   CacheSummary& s = frame_summary_;
+  const uint64_t hits = lookups - misses.traced - misses.shared;
   s.lookups_per_depth.resize(std::max<size_t>(s.lookups_per_depth.size(), depth));
   s.hits_per_depth.resize(s.lookups_per_depth.size());
-  s.lookups_per_depth[depth - 1] += rays.count;
-  s.hits_per_depth[depth - 1] += rays.count - missed;
-  s.lookups += rays.count;
-  s.hits += rays.count - missed;
+  s.shared_per_depth.resize(s.lookups_per_depth.size());
+  s.lookups_per_depth[depth - 1] += lookups;
+  s.hits_per_depth[depth - 1] += hits;
+  s.shared_per_depth[depth - 1] += misses.shared;
+  s.lookups += lookups;
+  s.hits += hits;
+  s.traced += misses.traced;
+  s.groups += misses.groups;
+  s.shared += misses.shared;
 }
 
 CacheSummary RayCache::summary() {

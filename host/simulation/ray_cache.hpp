@@ -9,10 +9,8 @@
 
 #include "passes/cache_lookup.hpp"
 #include "passes/cache_purge.hpp"
-#include "passes/cache_store.hpp"
-#include "passes/gather_rays.hpp"
-#include "passes/scan.hpp"
 #include "passes/trace_moving.hpp"
+#include "simulation/cache_misses.hpp"
 #include "simulation/hit_finder.hpp"
 #include "simulation/ray_trails.hpp"
 #include "simulation/world.hpp"
@@ -43,6 +41,8 @@ class RayCache final : public HitFinder {
   RayCache(gpu::Context& context, const DeviceScene& scene, const CacheConfig& config, const CacheWorld& world,
            TraceShape shape, const LaunchShape& launch, CachedReception reception = {});
   void reserve(uint64_t rays) override;
+  // The thesis' table with its faults, whose answers may be those of other keys.
+  bool as_printed() const { return table_.as_printed(); }
   // Forgets everything: the next frame meets an empty table.
   void clear();
   // A frame begins: purges regions of transmitters that have moved away and, if room is short, entries without use.
@@ -57,6 +57,7 @@ class RayCache final : public HitFinder {
  private:
   bool asked(uint32_t depth) const { return depth >= table_.config.first_depth; }
   void purge();
+  void account(uint32_t depth, uint64_t lookups, const MissCounts& misses);
   void note_positions(const std::vector<EndState>& transmitters);
   void note_movement(std::span<const Placement> instances);
   void note_receivers(const std::vector<EndState>& receivers);
@@ -66,21 +67,14 @@ class RayCache final : public HitFinder {
   CacheTable table_;
   CacheMovement movement_;
   CacheLookup lookup_;
-  CacheStore store_;
   CachePurge purge_;
+  RayTrails* trails_;  // where receptions are kept, else null
+  std::unique_ptr<CacheMisses> misses_;
   Compact compact_;
-  Scan scan_;
-  GatherRays gather_;
   TracedHits traced_;  // before cache.first_depth
-  Trace trace_;        // of what is missed
   std::optional<TraceMoving> trace_moving_;
   uint32_t static_surfaces_, frame_ = 0;
-  RayQueue missed_rays_;
-  HitList missed_hits_;
-  gpu::Buffer<float> missed_;
-  gpu::Buffer<uint32_t> missed_blocks_, indices_;
-  RayTrails* trails_ = nullptr;            // where receptions are kept
-  gpu::Buffer<uint32_t> answers_, first_;  // scope = "all": receivers of answered rays, and of missed ones
+  CacheAnswers answers_;
   bool touch_ = false;
   std::vector<uint64_t> keys_;            // position key per transmitter
   std::vector<Placement> placements_;     // where instances were when they last counted as moved

@@ -28,7 +28,7 @@ uint32_t level_of(uint64_t frame, uint64_t max_rays) {
 }
 
 // Turns by atan(4 / 3), which is no rational part of a full turn, one per frame; + and * only, the same everywhere.
-Turn turn_of(uint64_t frame) {
+DirectionTurn turn_of(uint64_t frame) {
   double cosine = 1, sine = 0;
   for (uint64_t i = 0; i < frame % 1000; ++i) {
     const double c = 0.6 * cosine - 0.8 * sine;

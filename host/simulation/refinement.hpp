@@ -46,7 +46,7 @@ class Refinement {
   SampleList lists_[3];           // the first level, kept for the next frame, and two that take turns
   uint64_t first_launchers_ = 0;  // that lists_[0] has the samples of, at its level
   size_t current_ = 0;
-  Turn turn_;
+  DirectionTurn turn_;
   uint32_t rare_ = 0;
   uint64_t most_ = 0, launched_ = 0;  // rays of all launchers
   double share_once_ = 0;

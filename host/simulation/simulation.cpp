@@ -1,6 +1,8 @@
 // Simulation: the public face of setup and frames.
 #include "wavetracer/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include "simulation/frame.hpp"
 #include "simulation/missing_paths.hpp"
 #include "wavetracer/error.hpp"
@@ -42,6 +44,13 @@ const Scene& Simulation::scene() const { return state_->setup.scene; }
 std::vector<std::string> Simulation::warnings() const {
   const Setup& s = state_->setup;
   std::vector<std::string> out = s.scene.report.warnings;
+  if (s.cache && s.cache->as_printed())
+    out.push_back(
+        fmt::format("cache.kind = \"{}\" is the table as A. Zhdanov's thesis prints it, with its faults: rays get "
+                    "results of others, "
+                    "so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
+                    s.config.cache.kind.text(), s.config.trace.reception == "sphere" ? " or wrong" : "",
+                    s.config.cache.kind == "thesis" ? "open" : "chained"));
   for (const std::vector<std::string>* more : {&s.world.warnings(), &s.place_warnings})
     out.insert(out.end(), more->begin(), more->end());
   return out;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include "study/ray_counts.hpp"
+#include "study/statistics.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -19,12 +20,37 @@ const CacheRow* fastest(const CacheRows& rows, const std::vector<std::string>& s
   return best;
 }
 
+// Over the numbers of rays at which all of these settings have it; none where there is no such number.
+std::vector<RunningMean> means_of(const CacheRows& rows, const std::string& drive, CacheValue value,
+                                  const std::vector<std::string>& settings) {
+  std::vector<RunningMean> means(settings.size());
+  for (const uint64_t rays : rays_of(rows)) {
+    std::vector<double> values;
+    for (const std::string& setting : settings)
+      if (const CacheRow* row = find_cached(rows, setting, rays, drive); row && std::isfinite(value(*row)))
+        values.push_back(value(*row));
+    if (values.size() < settings.size()) continue;
+    for (size_t i = 0; i < means.size(); ++i) means[i].add(values[i]);
+  }
+  return means;
+}
+
+// "fixed transmitter: TEXT; moving transmitter: TEXT"
+template <class OfDrive>
+std::string of_each_drive(const CacheRows& rows, const OfDrive& of_drive) {
+  std::string text;
+  for (const std::string& drive : drives_of(rows))
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", drive_words(drive), of_drive(drive));
+  return text;
+}
+
 CachePoint first_point(const CacheRows& rows) { return {rows.front().drive, rows.front().rays}; }
 
 }  // namespace
 
 double warm_s(const CacheRow& row) { return row.warm.loop_s; }
 double l2_m(const CacheRow& row) { return row.error.l2_m; }
+double l2_relative(const CacheRow& row) { return row.error.l2_relative; }
 
 AtPoint saves(std::vector<std::string> settings) {
   return [=](const CacheRows& rows, const CachePoint& at) {
@@ -91,10 +117,31 @@ Judge<CacheRow> where(AtPoint holds, CacheValue defined) {
       if (rays.empty()) return "no path has a vertex";
       return where_words(rays, [&](uint64_t n) { return holds(rows, {drive, n}); });
     };
-    std::string text;
-    for (const std::string& drive : drives_of(rows))
-      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", drive_words(drive), of_drive(drive));
-    return text;
+    return of_each_drive(rows, of_drive);
+  };
+}
+
+Judge<CacheRow> on_average(CacheValue value, const std::string& setting, const std::string& than, double low,
+                           double high) {
+  return [=](const CacheRows& rows) {
+    return of_each_drive(rows, [&](const std::string& drive) -> std::string {
+      const std::vector<RunningMean> means = means_of(rows, drive, value, {setting, than});
+      const double a = means[0].mean(), b = means[1].mean();
+      if (std::isnan(a)) return "not measured";
+      if (b == 0) return a == 0 ? "both are 0" : "not confirmed, the other is 0";
+      return fmt::format("{}, a factor of {}", verdict(a / b >= low && a / b <= high), plain(a / b));
+    });
+  };
+}
+
+Judge<CacheRow> mean_between(CacheValue value, const std::string& setting, double low, double high,
+                             const std::string& unit) {
+  return [=](const CacheRows& rows) {
+    return of_each_drive(rows, [&](const std::string& drive) -> std::string {
+      const double mean = means_of(rows, drive, value, {setting})[0].mean();
+      if (std::isnan(mean)) return "not measured";
+      return fmt::format("{}, {} {}", verdict(mean >= low && mean <= high), plain(mean), unit);
+    });
   };
 }
 

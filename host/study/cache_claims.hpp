@@ -14,6 +14,7 @@ using CacheValue = double (*)(const CacheRow&);
 
 double warm_s(const CacheRow& row);
 double l2_m(const CacheRow& row);
+double l2_relative(const CacheRow& row);  // to the mean length of paths
 
 // A world at a number of rays: what most claims are about.
 struct CachePoint {
@@ -49,6 +50,13 @@ Judge<CacheRow> where(AtPoint holds, CacheValue defined = nullptr);
 Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds);
 // Of all of these settings: "confirmed", "not confirmed", or "not measured" where there is none.
 Judge<CacheRow> of_all(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds);
+// Of each world, the mean of a value over the numbers of rays where both settings have it, as a factor of that of
+// another setting: "fixed transmitter: confirmed, a factor of 3.2; ..." where it is from `low` to `high`.
+Judge<CacheRow> on_average(CacheValue value, const std::string& setting, const std::string& than, double low,
+                           double high);
+// Likewise the mean itself, in `unit`: "fixed transmitter: not confirmed, 1.3 m".
+Judge<CacheRow> mean_between(CacheValue value, const std::string& setting, double low, double high,
+                             const std::string& unit);
 // One setting's value below that of another at the first number of rays: "confirmed", "not confirmed".
 Judge<CacheRow> is_less(CacheValue value, const std::string& setting, const std::string& than);
 

@@ -6,14 +6,15 @@
 #include <initializer_list>
 #include <numeric>
 #include "output/median.hpp"
+#include "study/control_equation.hpp"
 #include "wavetracer/stages.hpp"
 
 namespace wavetracer::study {
 namespace {
 
-constexpr std::initializer_list<double CacheTimes::*> stages = {&CacheTimes::loop_s,   &CacheTimes::lookup_s,
-                                                                &CacheTimes::gather_s, &CacheTimes::store_s,
-                                                                &CacheTimes::purge_s,  &CacheTimes::trace_s};
+constexpr std::initializer_list<double CacheTimes::*> stages = {
+    &CacheTimes::loop_s,  &CacheTimes::lookup_s, &CacheTimes::gather_s, &CacheTimes::store_s,
+    &CacheTimes::group_s, &CacheTimes::purge_s,  &CacheTimes::trace_s};
 
 double a_segment_ns(double seconds, double segments) { return segments > 0 ? 1e9 * seconds / segments : undefined; }
 
@@ -33,6 +34,7 @@ CacheTimes cache_times(const StageSeconds& seconds) {
           .lookup_s = stage_seconds(seconds, "cache_lookup"),
           .gather_s = stage_seconds(seconds, "cache_gather"),
           .store_s = stage_seconds(seconds, "cache_store"),
+          .group_s = stage_seconds(seconds, "cache_groups"),
           .purge_s = stage_seconds(seconds, "cache_purge"),
           .trace_s = stage_seconds(seconds, "trace") + stage_seconds(seconds, "trace_moving")};
 }
@@ -56,13 +58,10 @@ CacheTimes operator-(const CacheTimes& a, const CacheTimes& b) {
 double hit_rate(const CacheRow& row) {
   return row.counts.lookups > 0 ? row.counts.hits / row.counts.lookups : undefined;
 }
-double write_ns(const CacheRow& row) { return a_segment_ns(row.cold.store_s, row.cold_counts.missed()); }
+double write_ns(const CacheRow& row) { return a_segment_ns(row.cold.store_s, row.cold_counts.traced()); }
 double read_ns(const CacheRow& row) { return a_segment_ns(row.warm.lookup_s, row.counts.lookups); }
-double gather_ns(const CacheRow& row) { return a_segment_ns(row.cold.gather_s, row.cold_counts.missed()); }
-double trace_ns(const CacheRow& row) {
-  const bool cached = row.cold_counts.lookups > 0;
-  return a_segment_ns(row.cold.trace_s, cached ? row.cold_counts.missed() : row.cold_counts.segments);
-}
+double gather_ns(const CacheRow& row) { return a_segment_ns(row.cold.gather_s, row.cold_counts.traced()); }
+double trace_ns(const CacheRow& row) { return a_segment_ns(row.cold.trace_s, row.cold_counts.traced()); }
 
 uint64_t entries_used(const CacheRow& row) {
   return std::accumulate(row.cache.entries_by_hits.begin(), row.cache.entries_by_hits.end(), uint64_t{0});
@@ -103,10 +102,17 @@ const Columns<CacheRow>& cache_columns() {
       {"read_ns", read_ns},
       {"gather_ns", gather_ns},
       {"trace_ns", trace_ns},
+      {"group_s", [](const R& r) { return r.warm.group_s; }},
       {"purge_s", [](const R& r) { return r.warm.purge_s; }},
       {"segments", [](const R& r) { return r.counts.segments; }},
       {"lookups", [](const R& r) { return r.counts.lookups; }},
       {"hit_rate", hit_rate},
+      {"control_error", [](const R& r) { return control_error(static_cast<double>(r.rays), r.division); }},
+      {"groups", [](const R& r) { return r.counts.groups; }},
+      {"shared", [](const R& r) { return r.counts.shared; }},
+      {"traced", [](const R& r) { return r.counts.traced(); }},
+      {"traced_share",
+       [](const R& r) { return r.counts.segments > 0 ? r.counts.traced() / r.counts.segments : undefined; }},
       {"conflicts", [](const R& r) { return r.cache.conflicts; }},
       {"stale", [](const R& r) { return r.cache.stale; }},
       {"dropped", [](const R& r) { return r.cache.dropped; }},

@@ -16,6 +16,7 @@ struct CacheTimes {
   double lookup_s = 0;  // read
   double gather_s = 0;  // missed rays side by side for tracing
   double store_s = 0;   // write
+  double group_s = 0;   // missed rays of one key brought together (cache.innerframe)
   double purge_s = 0;
   double trace_s = 0;  // nearest hits
 };
@@ -28,7 +29,8 @@ CacheTimes operator-(const CacheTimes& a, const CacheTimes& b);
 // Segments of a frame.
 struct CacheCounts {
   double segments = 0, lookups = 0, hits = 0;
-  double missed() const { return lookups - hits; }
+  double groups = 0, shared = 0;  // with cache.innerframe, see CacheSummary
+  double traced() const { return lookups > 0 ? lookups - hits - shared : segments; }
 };
 
 struct CentroidError {

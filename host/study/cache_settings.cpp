@@ -87,6 +87,13 @@ Setting precision(double residual, uint32_t hash_method) {
   });
 }
 
+Setting as_printed(Setting setting) {
+  return {"printed " + setting.name, [apply = std::move(setting.apply)](Config& config) {
+            apply(config);
+            config.cache.kind = config.cache.kind == "chained" ? CacheKind("thesis-chained") : CacheKind("thesis");
+          }};
+}
+
 Setting ours() { return ours_with("concurrent", nothing_else); }
 Setting exact() {
   return ours_with("concurrent exact", [](CacheConfig& cache) { cache.key = "exact"; });
@@ -111,7 +118,7 @@ const std::vector<std::string>& cache_keys() {
   static const std::vector<std::string> keys = {
       "trace.reuse",           "cache.kind",           "cache.key",     "cache.hash_method",    "cache.division",
       "cache.buffer_size",     "cache.load_factor",    "cache.locking", "cache.readers_number", "cache.purge",
-      "cache.position_step_m", "cache.residual_value", "cache.scope",   "cache.hit_point"};
+      "cache.position_step_m", "cache.residual_value", "cache.scope",   "cache.hit_point",      "cache.innerframe"};
   return keys;
 }
 

@@ -35,6 +35,8 @@ Setting open_readers(uint32_t hash_method);
 // For traffic: open, readers, what the thesis caches (scope "all") and returns (the other ray's hit point).
 Setting position(uint32_t hash_method = 3);
 Setting precision(double residual, uint32_t hash_method = 3);
+// The same in the thesis' chained or open table as it is printed, with its faults: "printed chained mixed".
+Setting as_printed(Setting setting);
 // The concurrent table, with what the static scene decides alone: by quantised key, or by the ray itself.
 Setting ours();
 Setting exact();

@@ -15,8 +15,6 @@ namespace wavetracer::study {
 namespace {
 
 constexpr uint64_t cpu_frames = 20;
-constexpr double frame_step_s = 0.01;  // 100 frames a second
-constexpr uint32_t vehicles = 20;
 
 // What a setting's frames add up to.
 struct Subject {
@@ -25,7 +23,7 @@ struct Subject {
   Simulation simulation;
   std::vector<CacheTimes> cold, warm;
   std::vector<double> frame_s;
-  RunningMean loop_s, segments, lookups, hits, paths, sequences;
+  RunningMean loop_s, segments, lookups, hits, groups, shared, paths, sequences;
   PathErrorMean error;
   RunningMean centroid_m;
   std::vector<CentroidError> centroids;
@@ -34,14 +32,17 @@ struct Subject {
 
 CacheCounts counts_of(const FrameResult& frame) {
   return {static_cast<double>(frame.counts.segments), static_cast<double>(frame.cache.lookups),
-          static_cast<double>(frame.cache.hits)};
+          static_cast<double>(frame.cache.hits), static_cast<double>(frame.cache.groups),
+          static_cast<double>(frame.cache.shared)};
 }
 
 CacheCounts counts_of(const FrameResult& frame, uint32_t depth) {
   const auto at = [depth](const std::vector<uint64_t>& counts) {
     return depth <= counts.size() ? static_cast<double>(counts[depth - 1]) : 0.0;
   };
-  return {at(frame.segments_per_depth), at(frame.cache.lookups_per_depth), at(frame.cache.hits_per_depth)};
+  CacheCounts counts{at(frame.segments_per_depth), at(frame.cache.lookups_per_depth), at(frame.cache.hits_per_depth)};
+  counts.shared = at(frame.cache.shared_per_depth);
+  return counts;
 }
 
 void note_cold(Subject& subject, FrameResult frame) {
@@ -57,6 +58,8 @@ void note_warm(Subject& subject, FrameResult frame, const PathError& error) {
   subject.segments.add(counts.segments);
   subject.lookups.add(counts.lookups);
   subject.hits.add(counts.hits);
+  subject.groups.add(counts.groups);
+  subject.shared.add(counts.shared);
   subject.paths.add(static_cast<double>(frame.counts.paths));
   subject.sequences.add(static_cast<double>(frame.counts.sequences));
   subject.error.add(error);
@@ -73,20 +76,26 @@ double mean(std::vector<double> values) {
   return mean.mean();
 }
 
-// Runs a frame of every subject, another one first each time. False: stopped.
-bool run_round(std::vector<Subject>& subjects, uint64_t round, uint32_t frame, bool cold, const Host& host) {
+// A frame of all subjects: with an empty table, or the one that earlier frames left, or (both) counted as either.
+struct Round {
+  uint64_t number;
+  uint32_t frame;
+  bool cold, warm;
+};
+
+// Another subject runs first each time. False: stopped.
+bool run_round(std::vector<Subject>& subjects, const Round& round, const Host& host) {
   std::vector<FrameResult> results(subjects.size());
   for (size_t i = 0; i < subjects.size(); ++i) {
     if (host.interrupted()) return false;
-    const size_t at = (i + round) % subjects.size();
-    if (cold) subjects[at].simulation.forget();
-    results[at] = subjects[at].simulation.run_frame(frame);
+    const size_t at = (i + round.number) % subjects.size();
+    if (round.cold) subjects[at].simulation.forget();
+    results[at] = subjects[at].simulation.run_frame(round.frame);
   }
   const Paths reference = results.front().paths;
   for (size_t i = 0; i < subjects.size(); ++i) {
-    if (cold) {
-      note_cold(subjects[i], std::move(results[i]));
-    } else {
+    if (round.cold) note_cold(subjects[i], results[i]);
+    if (round.warm) {
       const PathError error = path_error(reference, results[i].paths);
       note_warm(subjects[i], std::move(results[i]), error);
     }
@@ -94,18 +103,20 @@ bool run_round(std::vector<Subject>& subjects, uint64_t round, uint32_t frame, b
   return true;
 }
 
-// A standing world `repeats` times, cold and warm; else `frames` frames after the cold one. False: stopped.
-bool run_frames(std::vector<Subject>& subjects, uint64_t frames, uint32_t repeats, const Host& host) {
+// A standing world `repeats` times, cold and warm; else `frames` frames after the cold one. With empty tables all are
+// cold, and count as warm ones do. False: stopped.
+bool run_frames(std::vector<Subject>& subjects, uint64_t frames, bool empty_tables, const Request& request,
+                const Host& host) {
   if (frames <= 1) {
-    if (!run_round(subjects, 0, 0, true, host)) return false;  // warms the device up, and is not counted
+    if (!run_round(subjects, {0, 0, true, false}, host)) return false;  // warms the device up, and is not counted
     for (Subject& subject : subjects) subject.cold.clear();
-    for (uint32_t repeat = 0; repeat < repeats; ++repeat)
+    for (uint32_t repeat = 0; repeat < request.repeats; ++repeat)
       for (const bool cold : {true, false})
-        if (!run_round(subjects, repeat, 0, cold, host)) return false;
+        if (!run_round(subjects, {repeat, 0, cold || empty_tables, !cold}, host)) return false;
     return true;
   }
   for (uint32_t frame = 0; frame < frames; ++frame)
-    if (!run_round(subjects, frame, frame, frame == 0, host)) return false;
+    if (!run_round(subjects, {frame, frame, frame == 0 || empty_tables, frame > 0}, host)) return false;
   return true;
 }
 
@@ -145,7 +156,8 @@ CacheRow row_of(const CacheStudy& study, const Setting& setting, const Subject& 
                .warm = summarised(subject.warm, still ? median : mean),
                .frame_s = median(subject.frame_s),
                .cold_counts = counts_of(subject.first),
-               .counts = {subject.segments.mean(), subject.lookups.mean(), subject.hits.mean()},
+               .counts = {subject.segments.mean(), subject.lookups.mean(), subject.hits.mean(), subject.groups.mean(),
+                          subject.shared.mean()},
                .cache = subject.last.cache,
                .paths = subject.paths.mean(),
                .sequences = subject.sequences.mean(),
@@ -164,7 +176,7 @@ std::vector<CacheRow> measure_point(const CacheStudy& study, const Config& confi
     std::vector<Setting> group = {study.settings.front()};
     group.insert(group.end(), study.settings.begin() + begin, study.settings.begin() + end);
     std::vector<Subject> subjects = make_subjects(group, config, rays, request.device);
-    if (!run_frames(subjects, frames, request.repeats, host)) return {};
+    if (!run_frames(subjects, frames, study.empty_tables, request, host)) return {};
     require_segments(subjects.front().segments.mean(), config);
     std::vector<CacheRow> found;
     for (size_t i = 0; i < group.size(); ++i) found.push_back(row_of(study, group[i], subjects[i], drive, rays));
@@ -184,7 +196,7 @@ std::vector<CacheRow> measure_depths(const CacheStudy& study, const Config& conf
     Config cut = config;
     cut.trace.max_depth = depth;
     std::vector<Subject> subjects = make_subjects(study.settings, cut, rays, request.device);
-    if (!run_frames(subjects, frames, request.repeats, host)) return {};
+    if (!run_frames(subjects, frames, study.empty_tables, request, host)) return {};
     for (size_t i = 0; i < subjects.size(); ++i) {
       CacheRow row = row_of(study, study.settings[i], subjects[i], drive, rays);
       row.depth = depth;
@@ -227,29 +239,6 @@ uint64_t study_frames(const CacheStudy& study, const Request& request, bool gpu)
   if (request.frames > 0) return request.frames;
   const uint64_t frames = gpu ? study.most_frames : cpu_frames;
   return request.quick ? frames / 5 : frames;
-}
-
-Config with_traffic(const Config& city, const std::string& drive, uint64_t frames) {
-  Config config = city;
-  // The cold frame, and those that are counted.
-  config.time = {.start_s = 0.0, .end_s = frame_step_s * static_cast<double>(frames), .step_s = frame_step_s};
-  config.trajectories.generate = fmt::format("{} --vehicles {} --seconds {:g} --step 0.1", city.scene.generate,
-                                             vehicles, std::ceil(*config.time.end_s) + 1);
-  MountConfig roof;
-  roof.name = "roof";
-  roof.role = "receiver";
-  roof.offset_m = {0, 0, 1.6};
-  config.mounts.push_back(roof);
-  if (drive == "spheres") config.trace.reception = "sphere";
-  if (drive == "moving") {
-    MountConfig sender = roof;
-    sender.name = "sender";
-    sender.on = "veh0";
-    sender.role = "transmitter";
-    config.mounts.push_back(sender);
-    config.transmitters.clear();
-  }
-  return config;
 }
 
 CacheMeasurement measure_study(const CacheStudy& study, const Request& request, const Host& host) {

@@ -22,6 +22,7 @@ struct CacheStudy {
   size_t at_once = 16;         // settings that share a device besides the first, which is then measured again
   uint64_t most_frames = 500;  // of a drive, unless the request says how many
   bool by_depth = false;       // also a row per depth
+  bool empty_tables = false;   // every frame finds the table empty: what it saves, it saves within itself
   bool centroids = false;      // rows keep the error of every frame
 };
 

@@ -72,7 +72,8 @@ bool Experiment::needs_transmitter() const {
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> all = [] {
     std::vector<Experiment> list;
-    for (const auto* more : {&standing_figures(), &traffic_figures(), &further_experiments()})
+    for (const auto* more :
+         {&standing_figures(), &traffic_figures(), &further_experiments(), &innerframe_experiments()})
       list.insert(list.end(), more->begin(), more->end());
     return list;
   }();
@@ -92,7 +93,7 @@ const Experiment& find_experiment(const std::string& name) {
 std::string experiment_list() {
   std::string text;
   for (const Experiment& experiment : experiments())
-    text += fmt::format("  {:<16} {}\n", experiment.name, experiment.doc);
+    text += fmt::format("  {:<18} {}\n", experiment.name, experiment.doc);
   return text;
 }
 

@@ -61,9 +61,10 @@ struct Experiment {
   bool needs_transmitter() const;
 };
 
-const std::vector<Experiment>& standing_figures();     // 6.1 to 6.9
-const std::vector<Experiment>& traffic_figures();      // 6.10 to 6.18, and coherence-frames
-const std::vector<Experiment>& further_experiments();  // beyond the thesis' figures
+const std::vector<Experiment>& standing_figures();        // 6.1 to 6.9
+const std::vector<Experiment>& traffic_figures();         // 6.10 to 6.18, and coherence-frames
+const std::vector<Experiment>& further_experiments();     // beyond the thesis' figures
+const std::vector<Experiment>& innerframe_experiments();  // coherence inside a frame, answered by a cache
 
 // All of them, in this order.
 const std::vector<Experiment>& experiments();

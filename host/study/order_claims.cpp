@@ -25,8 +25,20 @@ Judge<OrderRow> both_gains(Holds holds) {
   };
 }
 
+double gain_at(const Rows& rows, const std::string& method, uint64_t rays, Gain gain) {
+  return find_row(rows, ordered(method), rays)->*gain;
+}
+
 double gain_of(const Rows& rows, const std::string& method, Gain gain) {
-  return find_row(rows, ordered(method), rows.back().rays)->*gain;
+  return gain_at(rows, method, rows.back().rays, gain);
+}
+
+// The numbers of rays that were measured, from `first` to `last`.
+std::set<uint64_t> counts_between(const Rows& rows, uint64_t first, uint64_t last) {
+  std::set<uint64_t> counts;
+  for (const OrderRow& row : rows)
+    if (row.rays >= first && row.rays <= last) counts.insert(row.rays);
+  return counts;
 }
 
 std::string reason(const Rows& rows) {
@@ -72,6 +84,41 @@ Judge<OrderRow> none_slower_than_ws(std::vector<std::string> methods) {
   return both_gains([=](const Rows& rows, Gain gain) {
     return std::ranges::all_of(methods, [&](const std::string& method) { return gain_of(rows, method, gain) >= 1; });
   });
+}
+
+Judge<OrderRow> no_slower(const std::string& method, const std::string& than, uint64_t first, uint64_t last) {
+  return [=](const Rows& rows) -> std::string {
+    const std::set<uint64_t> counts = counts_between(rows, first, last);
+    if (counts.empty()) return "not measured";
+    return both_gains([=](const Rows& all, Gain gain) {
+      return std::ranges::all_of(counts, [&](uint64_t rays) {
+        return gain_at(all, method, rays, gain) * 1.05 >= gain_at(all, than, rays, gain);
+      });
+    })(rows);
+  };
+}
+
+Judge<OrderRow> degrades_beyond(const std::string& method, const std::string& against, uint64_t bound) {
+  return [=](const Rows& rows) -> std::string {
+    const std::set<uint64_t> below = counts_between(rows, 0, bound),
+                             beyond = counts_between(rows, bound + 1, UINT64_MAX);
+    if (below.empty() || beyond.empty()) return "not measured";
+    return both_gains([=](const Rows& all, Gain gain) {
+      const auto speed = [&](uint64_t rays) {
+        return gain_at(all, method, rays, gain) / gain_at(all, against, rays, gain);
+      };
+      return std::ranges::any_of(beyond, [&](uint64_t rays) { return speed(rays) < 0.8 * speed(*below.rbegin()); });
+    })(rows);
+  };
+}
+
+Judge<OrderRow> gain_grows(const std::string& method) {
+  return [=](const Rows& rows) -> std::string {
+    if (rows.front().rays == rows.back().rays) return "not measured";
+    return both_gains([=](const Rows& all, Gain gain) {
+      return gain_of(all, method, gain) > gain_at(all, method, all.front().rays, gain);
+    })(rows);
+  };
 }
 
 Judge<OrderRow> shapes_gain() {

@@ -17,6 +17,14 @@ Claims<OrderRow> h3dh_gains();
 Judge<OrderRow> fastest_are(std::vector<std::string> best, std::vector<std::string> others);
 // Likewise: each of these takes no more time than WS.
 Judge<OrderRow> none_slower_than_ws(std::vector<std::string> methods);
+// "yes with the sort not paid, no with it paid": at every measured number of rays from `first` to `last`, the order
+// takes no more than a twentieth more time than another one; "not measured" where there is none.
+Judge<OrderRow> no_slower(const std::string& method, const std::string& than, uint64_t first, uint64_t last);
+// Likewise: beyond `bound` rays an order loses a fifth of its speed against another one, by that at the numbers of rays
+// up to it.
+Judge<OrderRow> degrades_beyond(const std::string& method, const std::string& against, uint64_t bound);
+// Likewise: the gain over WS at the most rays is larger than at the fewest.
+Judge<OrderRow> gain_grows(const std::string& method);
 // "a factor of 1.03 at most", at the most rays: what launches in two or three dimensions gain over one.
 Judge<OrderRow> shapes_gain();
 

@@ -159,7 +159,7 @@ struct LaunchConfig {
   std::optional<uint32_t> local_size = {};  // work-items per work-group; not given: chosen for the device
 };
 
-using CacheKind = Choice<"none", "chained", "open", "concurrent">;
+using CacheKind = Choice<"none", "chained", "open", "concurrent", "thesis", "thesis-chained">;
 using CacheKey = Choice<"quantised", "exact">;
 using CacheLocking = Choice<"mutex", "readers">;
 using CachePurging = Choice<"position", "precision">;
@@ -181,6 +181,7 @@ struct CacheConfig {
   CacheScope scope = "static";      // static: vehicles and receivers are tested every time; all: they are cached too
   CacheHitPoint hit_point = "own";  // of an answered ray: own (its line meets the surface), cached (of the other ray)
   uint32_t first_depth = 1;         // segments before this one of a ray, counted from 1, are always traced
+  bool innerframe = false;          // trace one ray of each group of equal keys at a depth; the others take its hit
   bool statistics = false;          // count hits per entry, and entries linked along paths
 };
 

@@ -27,9 +27,12 @@ struct FrameCounts {
 
 // What the ray cache did in a frame. Counts are of this frame alone.
 struct CacheSummary {
-  bool on = false;          // false: the frame had no cache, and everything below is 0 or empty
-  uint64_t lookups = 0;     // look-ups by rays, at all depths
-  uint64_t hits = 0;        // look-ups that were answered; the other rays were traced
+  bool on = false;       // false: the frame had no cache, and everything below is 0 or empty
+  uint64_t lookups = 0;  // look-ups by rays, at all depths
+  uint64_t hits = 0;     // look-ups that were answered by the table
+  uint64_t traced = 0;   // segments that were traced because the table did not answer them
+  uint64_t groups = 0;   // with cache.innerframe: groups of equal keys in the frame, of which one ray each was traced
+  uint64_t shared = 0;   // with cache.innerframe: segments that took the hit of the ray that was traced for their group
   uint64_t conflicts = 0;   // misses because another look-up or a write used the entry at that moment
   uint64_t stale = 0;       // misses although the key was found, because its entry is out of date
   uint64_t stored = 0;      // entries written
@@ -41,7 +44,7 @@ struct CacheSummary {
   uint64_t linked = 0;      // with cache.statistics: hits on the entry that the ray's previous entry links to
   // The table at the end of the frame: its size in entries, the entries that contain a segment, its device memory.
   uint64_t entries = 0, used = 0, bytes = 0;
-  std::vector<uint64_t> lookups_per_depth, hits_per_depth;  // [0]: segments from transmitters
+  std::vector<uint64_t> lookups_per_depth, hits_per_depth, shared_per_depth;  // [0]: segments from transmitters
   // With cache.statistics: how many of the used entries have answered 0, 1, 2, 3-4, 5-8, 9-16, ... times. Else empty.
   std::vector<uint64_t> entries_by_hits;
 };

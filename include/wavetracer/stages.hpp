@@ -29,17 +29,17 @@ struct FrameStage {
 };
 
 inline constexpr auto frame_stages = std::to_array<FrameStage>({
-    {"frame", FramePart::whole},        {"poses", FramePart::world},          {"place", FramePart::world},
-    {"order", FramePart::order},        {"sort", FramePart::order},           {"generate_rays", FramePart::discovery},
-    {"refine", FramePart::discovery},   {"trace", FramePart::discovery},      {"trace_moving", FramePart::discovery},
-    {"compact", FramePart::discovery},  {"scan", FramePart::discovery},       {"interact", FramePart::discovery},
-    {"cache_lookup", FramePart::cache}, {"cache_gather", FramePart::cache},   {"cache_store", FramePart::cache},
-    {"cache_purge", FramePart::cache},  {"receive", FramePart::reception},    {"waypoints", FramePart::reception},
-    {"sequences", FramePart::paths},    {"candidates", FramePart::paths},     {"solve", FramePart::paths},
-    {"visible", FramePart::paths},      {"occlusion", FramePart::paths},      {"transmissions", FramePart::paths},
-    {"wedges", FramePart::paths},       {"wedge_prefixes", FramePart::paths}, {"wedge_join", FramePart::paths},
-    {"wedge_solve", FramePart::paths},  {"scatter", FramePart::paths},        {"paths", FramePart::paths},
-    {"fields", FramePart::fields},      {"transfer", FramePart::transfer},
+    {"frame", FramePart::whole},         {"poses", FramePart::world},        {"place", FramePart::world},
+    {"order", FramePart::order},         {"sort", FramePart::order},         {"generate_rays", FramePart::discovery},
+    {"refine", FramePart::discovery},    {"trace", FramePart::discovery},    {"trace_moving", FramePart::discovery},
+    {"compact", FramePart::discovery},   {"scan", FramePart::discovery},     {"interact", FramePart::discovery},
+    {"cache_lookup", FramePart::cache},  {"cache_gather", FramePart::cache}, {"cache_store", FramePart::cache},
+    {"cache_groups", FramePart::cache},  {"cache_purge", FramePart::cache},  {"receive", FramePart::reception},
+    {"waypoints", FramePart::reception}, {"sequences", FramePart::paths},    {"candidates", FramePart::paths},
+    {"solve", FramePart::paths},         {"visible", FramePart::paths},      {"occlusion", FramePart::paths},
+    {"transmissions", FramePart::paths}, {"wedges", FramePart::paths},       {"wedge_prefixes", FramePart::paths},
+    {"wedge_join", FramePart::paths},    {"wedge_solve", FramePart::paths},  {"scatter", FramePart::paths},
+    {"paths", FramePart::paths},         {"fields", FramePart::fields},      {"transfer", FramePart::transfer},
 });
 
 constexpr const FrameStage* find_frame_stage(std::string_view name) {

@@ -52,6 +52,11 @@ TEST_CASE("help is about what was asked: a command on a page, the keys of config
   }
   CHECK(run_program({"help", "run"}).out == run_program({"run", "--help"}).out);
   CHECK(run_program({"help", "scene", "city"}).out == run_program({"scene", "city", "--help"}).out);
+  const Outcome experiments = run_program({"bench"});
+  CHECK(experiments.code == 0);
+  CHECK(experiments.err.empty());
+  CHECK(contains(experiments.out, "  figure-6.18 "));
+  CHECK(contains(experiments.out, "  thesis "));
   const Outcome keys = run_program({"help", "config"});
   CHECK(keys.code == 0);
   CHECK(contains(keys.out, "trace.max_depth"));
@@ -97,7 +102,6 @@ TEST_CASE("usage errors exit 2") {
   check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: this run has frame 0 only");
   check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: a run without trajectories has only one frame");
   check(run_program({"bench", "rays"}), 2, "no experiment \"rays\"");
-  check(run_program({"bench"}), 2, "no experiment given");
   check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");
   CHECK(folder.entries() == 1);
 }

@@ -24,6 +24,12 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
   cache.used = 50;
   CHECK(contains(report(cache), "\nrays       2,000 launched, 3,570 traced over all depths, 3,000 hits, 3.57 krays/s"));
   CHECK(contains(report(cache), "\ncache      71.5% of 2,000 look-ups answered, 12.5% of 400 entries in use\n"));
+  CHECK_FALSE(contains(report(cache), "groups"));
+  cache.groups = 60;
+  cache.traced = 70;
+  cache.shared = 500;
+  CHECK(contains(report(cache), "60 groups of equal keys inside of frames: 70 segments traced, 500 took their hits\n"));
+  CHECK(contains(report(cache), "\nrays       2,000 launched, 3,070 traced over all depths"));
 }
 
 TEST_CASE("the report names what was computed, and why not what was asked for beyond it") {

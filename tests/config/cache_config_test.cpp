@@ -32,6 +32,7 @@ residual_value = 0.093
 scope = "all"
 hit_point = "cached"
 first_depth = 2
+innerframe = true
 statistics = true
 [output]
 waypoints = 1e9
@@ -52,6 +53,7 @@ waypoints = 1e9
     CHECK(cache.scope.word() == "all");
     CHECK(cache.hit_point.word() == "cached");
     CHECK(cache.first_depth == 2);
+    CHECK(cache.innerframe);
     CHECK(cache.statistics);
   };
   check(c.cache);

@@ -118,7 +118,7 @@ const std::vector<Record> records{
     {"wt_cache_region",
      sizeof(wt_cache_region),
      {FIELD(wt_cache_region, first_entry), FIELD(wt_cache_region, entries), FIELD(wt_cache_region, first_bucket),
-      FIELD(wt_cache_region, buckets), FIELD(wt_cache_region, since), FIELD(wt_cache_region, padding)}},
+      FIELD(wt_cache_region, buckets), FIELD(wt_cache_region, since), FIELD(wt_cache_region, stamp)}},
     {"wt_cache_counters",
      sizeof(wt_cache_counters),
      {FIELD(wt_cache_counters, conflicts), FIELD(wt_cache_counters, stale), FIELD(wt_cache_counters, stored),

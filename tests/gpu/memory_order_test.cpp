@@ -72,6 +72,26 @@ TEST_CASE("a set claimed by 64-bit compare-and-swap inserts each word once") {
   CHECK(std::equal(kept.begin(), kept.end(), expected.begin(), expected.end()));
 }
 
+TEST_CASE("the lowest of many words stays, and one work-item is the first") {
+  gpu::Context context;
+  const uint32_t count = scaled(context, 1u << 20), slots = 37;
+  std::mt19937 random(2);
+  std::vector<uint32_t> words(count), lowest(slots, 0xFFFFFFFFu);
+  for (uint32_t i = 0; i < count; ++i) {
+    words[i] = static_cast<uint32_t>(random());
+    lowest[i % slots] = std::min(lowest[i % slots], words[i]);
+  }
+  auto table = context.buffer(std::vector<uint32_t>(slots, 0xFFFFFFFFu), "table");
+  auto first = context.buffer(std::vector<uint32_t>(slots, 0xFFFFFFFFu), "first");
+  auto firsts = context.buffer(std::vector<uint32_t>(1), "firsts");
+  context.kernel("probe_memory_order", "keep_lowest")({count, group}, "probe", context.buffer(words, "words"), count,
+                                                      table, slots, first, firsts);
+  CHECK(table.read() == lowest);
+  CHECK(firsts.read_one(0) == slots);
+  const std::vector<uint32_t> came = first.read();
+  for (uint32_t slot = 0; slot < slots; ++slot) CHECK(came[slot] % slots == slot);
+}
+
 TEST_CASE("a full set loses words and says how many") {
   gpu::Context context;
   const uint32_t count = 100, slots = 64;

@@ -29,6 +29,15 @@ kernel void insert_words(global const ulong* words, uint count, global ulong* sl
   wt_fetch_add_u32(lost, 1u);
 }
 
+// slots[i % slot_count] keeps the lowest word that came, and first[...] the number of the work-item that came first.
+kernel void keep_lowest(global const uint* words, uint count, global uint* slots, uint slot_count, global uint* first,
+                        global uint* firsts) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  wt_fetch_min_u32(slots + i % slot_count, words[i]);
+  if (wt_compare_swap_relaxed_u32(first + i % slot_count, 0xFFFFFFFFu, i) == 0xFFFFFFFFu) wt_fetch_add_u32(firsts, 1u);
+}
+
 // The pair that this work-item shares with one of the work-group `distance` (a power of two) away. Which distance makes
 // two items meet depends on how a device spreads its groups over cores, and on whether it runs a group's items in turn.
 inline uint pair_of_item(uint distance) {

@@ -24,24 +24,29 @@ std::vector<FrameResult> cached_drive(const SampleRun& sample, uint32_t first, u
     frame.cache = {.on = true,
                    .lookups = n,
                    .hits = 2 * n,
-                   .conflicts = 3 * n,
-                   .stale = 4 * n,
-                   .stored = 5 * n,
-                   .replaced = 6 * n,
-                   .duplicates = 7 * n,
-                   .dropped = 8 * n,
-                   .exhausted = 9 * n,
-                   .evicted = 10 * n,
-                   .linked = 11 * n,
+                   .traced = 3 * n,
+                   .groups = 4 * n,
+                   .shared = 5 * n,
+                   .conflicts = 6 * n,
+                   .stale = 7 * n,
+                   .stored = 8 * n,
+                   .replaced = 9 * n,
+                   .duplicates = 10 * n,
+                   .dropped = 11 * n,
+                   .exhausted = 12 * n,
+                   .evicted = 13 * n,
+                   .linked = 14 * n,
                    .entries = 4096,
                    .used = 100 + n,
                    .bytes = 300000,
                    .lookups_per_depth = {10 * n, n},
                    .hits_per_depth = {n, 0},
+                   .shared_per_depth = {2 * n, 0},
                    .entries_by_hits = {n, 5, 1}};
     if (n % 2 == 0) continue;
     frame.cache.lookups_per_depth.push_back(1);
     frame.cache.hits_per_depth.push_back(1);
+    frame.cache.shared_per_depth.push_back(2);
   }
   return frames;
 }
@@ -61,8 +66,9 @@ void check_summary(const Json& cache) {
   CHECK(cache["kind"] == "open");
   CHECK(cache["key"] == "exact");
   CHECK(cache["hit_rate"] == 2.0);
-  const std::vector<std::string> counts = {"lookups",    "hits",    "conflicts", "stale",   "stored", "replaced",
-                                           "duplicates", "dropped", "exhausted", "evicted", "linked"};
+  const std::vector<std::string> counts = {"lookups",   "hits",      "traced",  "groups",   "shared",
+                                           "conflicts", "stale",     "stored",  "replaced", "duplicates",
+                                           "dropped",   "exhausted", "evicted", "linked"};
   for (size_t k = 0; k < counts.size(); ++k) {
     CAPTURE(counts[k]);
     CHECK(cache[counts[k]] == 75 * (k + 1));
@@ -72,18 +78,20 @@ void check_summary(const Json& cache) {
   CHECK(cache["bytes"] == 300000);
   CHECK(cache["lookups_per_depth"] == std::vector<int>{750, 75, 5});
   CHECK(cache["hits_per_depth"] == std::vector<int>{75, 0, 5});
+  CHECK(cache["shared_per_depth"] == std::vector<int>{150, 0, 10});
   CHECK(cache["entries_by_hits"] == std::vector<int>{12, 5, 1});
 }
 
 }  // namespace
 
-TEST_CASE("rays that the cache answered do not count as traced") {
+TEST_CASE("rays that the cache answered, or another ray of the frame, do not count as traced") {
   const TemporaryFolder folder;
   const SampleRun sample = cached_run();
   std::vector<FrameResult> frames = sample.frames();  // 5000 segments, 1 s of tracing
   frames[0].cache.on = frames[1].cache.on = true;
   frames[1].cache.lookups = 2000;
-  frames[1].cache.hits = 1500;
+  frames[1].cache.hits = 1100;
+  frames[1].cache.shared = 400;
   const Json summary = summary_of(write_outputs(folder.path(), sample.run(), frames));
   CHECK(summary["rays_per_second"] == 3500.0);
   CHECK(summary["counts"]["segments"] == 5000);

@@ -147,7 +147,9 @@ class Cache {
     std::iota(every.begin(), every.end(), 0u);
     receptions.resize(rays.size(), WT_NONE);
     const auto received = context().buffer(receptions, "receptions");
-    store_(queue, missed, list, context().buffer(every, "indices"), all, table, static_surfaces, now, &received);
+    auto receivers = context().buffer<uint32_t>(rays.size(), "receivers");
+    store_(queue, missed, list, context().buffer(every, "indices"), all, table, static_surfaces, now, &received,
+           &receivers);
     return entries_of(queue);
   }
 
@@ -180,6 +182,11 @@ class Cache {
     const device::wt_cache_counters counts = table.counters.read_one(0);
     table.counters.write(std::vector<device::wt_cache_counters>(1));
     return counts;
+  }
+  // Of the transmitter's position key.
+  void set_stamp(uint32_t region, uint32_t stamp) {
+    table.regions[region].stamp = stamp;
+    table.device_regions.write(table.regions);
   }
   void set_since(uint32_t region, uint32_t frame) {
     table.regions[region].since = frame;

@@ -73,6 +73,13 @@ inline uint32_t getBucketIndex(uint32_t hash, int num_of_buckets) {
                                static_cast<float>(num_of_buckets - 1) / 2);
 }
 
+// The same of the chained table, whose hash is signed and gets one more before it is halved (section 5.2.2).
+inline uint32_t getSignedBucketIndex(uint32_t hash, int num_of_buckets) {
+  return static_cast<uint32_t>(
+      (static_cast<float>(static_cast<int32_t>(hash)) / static_cast<float>(std::numeric_limits<int32_t>::max()) + 1) *
+      static_cast<float>(num_of_buckets - 1) / 2);
+}
+
 // Listing C.2 for one stream at a time, with what it stores as one number. Nodes know their key's hash, not the key.
 class ChainedTable {
  public:
@@ -89,7 +96,7 @@ class ChainedTable {
 
   // previous: cachedNodeWrite, the node of the segment before.
   void writeToCache(const CacheKey& key, uint32_t data, int& previous) {
-    const int bucket = static_cast<int>(getBucketIndex(key.hash, buckets_));
+    const int bucket = static_cast<int>(getSignedBucketIndex(key.hash, buckets_));
     int root = bucket, node = -1;
     if (!at(root).used) {
       fill(root, key, data);
@@ -113,7 +120,7 @@ class ChainedTable {
   }
 
   std::optional<uint32_t> getFromCache(const CacheKey& key) const {
-    int root = static_cast<int>(getBucketIndex(key.hash, buckets_));
+    int root = static_cast<int>(getSignedBucketIndex(key.hash, buckets_));
     if (!at(root).used) return {};
     for (;;) {
       if (at(root).hash == key.hash) return at(root).data;  // "equals"
@@ -136,6 +143,72 @@ class ChainedTable {
 
 struct Point {
   float x, y, z;
+};
+
+inline float calculateResidual(Point a, Point b) {
+  return std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.z - b.z);
+}
+
+// Listing C.3 for one stream at a time. What is stored is a number, and where the result begins (data.nextOrigin).
+class OpenTable {
+ public:
+  struct Node {
+    uint32_t hash = 0, data = 0, pos_hash = 0;
+    Point nextOrigin{};
+    int writeLock = 0, readLock = 0;
+    uint32_t readN = 0;
+    bool used = false;  // what an unused node holds is not said; here it is no answer
+  };
+
+  OpenTable(int buckets, uint32_t readers, float residual)
+      : nodes_(static_cast<size_t>(buckets)), readers_(readers), residual_(residual) {}
+
+  bool writeToCache(const CacheKey& key, uint32_t data, Point nextOrigin, uint32_t pos_hash) {
+    Node& node = at(key);
+    if (node.writeLock != 0) return false;
+    node.writeLock = 1;
+    node.hash = key.hash;
+    node.data = data;
+    node.nextOrigin = nextOrigin;
+    node.pos_hash = pos_hash;
+    node.used = true;
+    node.readLock = 0;
+    return true;
+  }
+
+  std::optional<uint32_t> getFromCache(const CacheKey& key, uint32_t pos_hash) {
+    return read(at(key), at(key).pos_hash == pos_hash);
+  }
+
+  std::optional<uint32_t> getFromCacheRes(const CacheKey& key, Point nextOrigin) {
+    Node& node = at(key);
+    return read(node, node.hash == key.hash || calculateResidual(node.nextOrigin, nextOrigin) <= residual_);
+  }
+
+ private:
+  std::vector<Node> nodes_;
+  uint32_t readers_;
+  float residual_;
+  Node& at(const CacheKey& key) { return nodes_[getBucketIndex(key.hash, static_cast<int>(nodes_.size()))]; }
+
+  std::optional<uint32_t> read(Node& node, bool valid) {
+    if (node.readLock != 0) return {};
+    node.readLock = 1;
+    if (!valid) {
+      node.readN = 0;
+      node.writeLock = 0;
+      return {};
+    }
+    const uint32_t i = node.readN++;
+    if (i < readers_ - 1) {
+      node.readLock = 0;
+    } else {
+      node.readN = 0;
+      node.writeLock = 0;
+    }
+    if (!node.used) return {};
+    return node.data;
+  }
 };
 
 // Algorithm 4: it computes a distance and tests one component.

@@ -2,7 +2,9 @@
 // figures 6.2 to 6.17 that are made of them.
 #include "study/cache_claims.hpp"
 #include <doctest/doctest.h>
+#include <array>
 #include <cmath>
+#include <stdexcept>
 #include "study/experiment.hpp"
 #include "study/made_cache_rows.hpp"
 
@@ -34,6 +36,38 @@ std::vector<std::string> verdicts_of(const std::string& name, const std::vector<
   for (const Claim<CacheRow>& claim : experiment.as<CacheFigure>()->claims) out.push_back(claim.judge(rows));
   return out;
 }
+
+// The verdict on one claim of a figure, by its words.
+std::string verdict_of(const std::string& name, const std::string& words, const std::vector<uint64_t>& rays,
+                       const CacheCost& cost) {
+  const Experiment& experiment = find_experiment(name);
+  for (const Claim<CacheRow>& claim : experiment.as<CacheFigure>()->claims)
+    if (claim.words == words) return claim.judge(made_measurement(*experiment.study(), rays, cost).rows);
+  throw std::logic_error(name + " has no claim \"" + words + "\"");
+}
+
+// Of one setting seconds and metres, of all others a second and nothing.
+CacheCost only(const std::string& setting, double seconds, double off_m = 0) {
+  return [=](const std::string& one, uint64_t) {
+    return one == setting ? std::pair{seconds, off_m} : std::pair{1.0, 0.0};
+  };
+}
+
+// Metres of two settings.
+CacheCost errors(const std::string& a, double a_m, const std::string& b, double b_m) {
+  return [=](const std::string& one, uint64_t) { return std::pair{1.0, one == a ? a_m : one == b ? b_m : 0.0}; };
+}
+
+// In the worlds of figures 6.14 to 6.17, and of 6.10 to 6.12.
+std::string in_both(const std::string& words) {
+  return "fixed transmitter: " + words + "; fixed transmitter, reception by spheres: " + words;
+}
+std::string in_all(const std::string& words) {
+  return "fixed transmitter: " + words + "; moving transmitter: " + words +
+         "; fixed transmitter, reception by spheres: " + words;
+}
+
+const std::string never = "at none of the numbers of rays", always = "at 1,000 rays";
 
 using Verdicts = std::vector<std::string>;
 
@@ -95,7 +129,7 @@ TEST_CASE("figures 6.2, 6.3, 6.6 and 6.7: writes, reads and tracing of a segment
       one.cold.gather_s = 80e-9 * gather;
       one.cold.trace_s = 80e-9 * trace;
       one.warm.lookup_s = 100e-9 * read;
-      if (one.setting.starts_with("chained")) one.cold.store_s *= 2;
+      if (one.setting.find("chained") != std::string::npos) one.cold.store_s *= 2;
     };
   };
   CHECK(verdicts_of("figure-6.2", {50000}, same, times(30, 20, 1, 0)) ==
@@ -118,34 +152,146 @@ TEST_CASE("figure-6.9: a gain beyond 16,000 rays, of a mutex alone") {
       return std::pair{setting == winner && rays > 16000 ? 0.9 : 1.0, 0.0};
     };
   };
-  CHECK(verdicts_of("figure-6.9", {1000, 32000}, with("mutex Morton")) == Verdicts{"confirmed"});
-  CHECK(verdicts_of("figure-6.9", {1000, 32000}, with("concurrent")) == Verdicts{"not confirmed"});
-  CHECK(verdicts_of("figure-6.9", {1000, 16000}, with("mutex Morton")) == Verdicts{"not measured"});
+  const auto verdict = [&](const std::vector<uint64_t>& rays, const std::string& winner, const char* claim) {
+    return verdict_of("figure-6.9", claim, rays, with(winner));
+  };
+  const char *ours = "a gain beyond 16,000 rays", *printed = "as printed: a gain beyond 16,000 rays";
+  CHECK(verdict({1000, 32000}, "mutex Morton", ours) == "confirmed");
+  CHECK(verdict({1000, 32000}, "concurrent", ours) == "not confirmed");
+  CHECK(verdict({1000, 32000}, "printed mutex Morton", ours) == "not confirmed");
+  CHECK(verdict({1000, 16000}, "mutex Morton", ours) == "not measured");
+  CHECK(verdict({1000, 32000}, "printed mutex Morton", printed) == "confirmed");
+  CHECK(verdict({1000, 32000}, "mutex Morton", printed) == "not confirmed");
 }
 
-TEST_CASE("figures 6.14 to 6.17: hash functions") {
-  const std::string never = "at none of the numbers of rays", always = "at 1,000 rays";
-  const auto both = [](const std::string& words) {
-    return "fixed transmitter: " + words + "; fixed transmitter, reception by spheres: " + words;
+TEST_CASE("figures 6.5 and 6.8: the same claims of the tables as printed") {
+  const auto late = [](const std::string& setting) {
+    return [setting](const std::string& one, uint64_t rays) {
+      return std::pair{one == setting && rays >= 2560000 ? 0.9 : 1.0, 0.0};
+    };
   };
-  const auto as_claimed = [](const std::string& setting, uint64_t) {
-    if (setting == "position Morton") return std::pair{0.8, 4.2};
-    if (setting == "position uniform") return std::pair{1.0, 2.0};
-    if (setting == "precision 0.0125 Morton") return std::pair{1.1, 1.0};
-    if (setting == "precision 0.0125 uniform") return std::pair{0.9, 5.0};
-    return std::pair{1.0, 0.0};
+  const std::vector<uint64_t> rays = {1000, 2560000}, beyond = {1000, 2560000, 20480000};
+  const char *inside = "as printed: a gain from 2,560,000 to 10,240,000 rays",
+             *outside = "as printed: no gain below 2,560,000 and beyond 10,240,000 rays";
+  CHECK(verdict_of("figure-6.5", inside, rays, late("printed chained uniform")) == "confirmed");
+  CHECK(verdict_of("figure-6.5", inside, rays, late("chained uniform")) == "not confirmed");
+  CHECK(verdict_of("figure-6.5", outside, rays, late("printed chained uniform")) == "confirmed");
+  CHECK(verdict_of("figure-6.5", outside, beyond, late("printed chained uniform")) == "not confirmed");
+  const char* claim = "as printed: a gain beyond 50,000 rays";
+  CHECK(verdict_of("figure-6.8", claim, rays, late("printed readers mixed")) == "confirmed");
+  CHECK(verdict_of("figure-6.8", claim, rays, late("readers mixed")) == "not confirmed");
+}
+
+TEST_CASE("judges of averages") {
+  CHECK(on_average(l2_m, "b", "a", 1, 1.3)(two_counts) == "fixed transmitter: confirmed, a factor of 1.20");
+  CHECK(on_average(l2_m, "b", "a", 2, 3)(two_counts) == "fixed transmitter: not confirmed, a factor of 1.20");
+  CHECK(on_average(l2_m, "b", "c", 2, 3)(two_counts) == "fixed transmitter: not measured");
+  CHECK(on_average(l2_m, "b", "none", 2, 3)(two_counts) == "fixed transmitter: not confirmed, the other is 0");
+  CHECK(on_average(l2_m, "none", "none", 2, 3)(two_counts) == "fixed transmitter: both are 0");
+  CHECK(mean_between(l2_m, "a", 2, 3, "m")(two_counts) == "fixed transmitter: confirmed, 2.50 m");
+  CHECK(mean_between(l2_m, "a", 3, 4, "m")(two_counts) == "fixed transmitter: not confirmed, 2.50 m");
+  CHECK(mean_between(l2_m, "c", 3, 4, "m")(two_counts) == "fixed transmitter: not measured");
+}
+
+TEST_CASE("figure-6.11: claims on time by purging, of ours and as printed") {
+  const auto check = [](const char* words, const std::string& setting, double claimed_s) {
+    CAPTURE(words);
+    CHECK(verdict_of("figure-6.11", words, {1000}, only(setting, claimed_s - 0.01)) == in_all(always));
+    CHECK(verdict_of("figure-6.11", words, {1000}, only(setting, claimed_s + 0.01)) == in_all(never));
   };
-  CHECK(verdicts_of("figure-6.14", {1000}, as_claimed) == Verdicts{both(always), both(always)});
-  CHECK(verdicts_of("figure-6.15", {1000}, as_claimed) == Verdicts{both(always), both(always), both(always)});
-  CHECK(verdicts_of("figure-6.16", {1000}, as_claimed) == Verdicts{both(always), both(always)});
-  CHECK(verdicts_of("figure-6.17", {1000}, as_claimed) == Verdicts{both(always)});
-  CHECK(verdicts_of("figure-6.14", {1000}, same) == Verdicts{both(never), both(never)});
-  CHECK(verdicts_of("figure-6.15", {1000}, same) == Verdicts{both(never), both(never), both(never)});
-  CHECK(verdicts_of("figure-6.16", {1000}, same) == Verdicts{both(never), both(never)});
-  CHECK(verdicts_of("figure-6.17", {1000}, same) == Verdicts{both(never)});
+  const std::string position = "position mixed", precision = "precision 0.0125 mixed";
+  check("10% less time if purged by position", position, 0.9);
+  check("15% less time if purged by position, for many rays", position, 0.85);
+  check("17% less time if purged by precision", precision, 0.83);
+  check("30% less time if purged by precision, for few and medium numbers of rays", precision, 0.7);
+  check("less time by precision than by position", precision, 1);
+  check("as printed: 10% less time if purged by position", "printed " + position, 0.9);
+  check("as printed: 17% less time if purged by precision", "printed " + precision, 0.83);
+}
+
+TEST_CASE("figure-6.12: claims on errors by purging, of ours and as printed") {
+  const auto check_at = [](const std::string& words, const std::string& setting, double bound_m) {
+    CAPTURE(words);
+    CHECK(verdict_of("figure-6.12", words, {1000}, only(setting, 1, bound_m)) == in_all(always));
+    CHECK(verdict_of("figure-6.12", words, {1000}, only(setting, 1, bound_m + 0.1)) == in_all(never));
+  };
+  const std::string position = "position mixed", precision = "precision 0.093 mixed";
+  check_at("off by 2 m at most if purged by position", position, 2);
+  check_at("off by 7 m at most by precision 0.093", precision, 7);
+  check_at("as printed: off by 2 m at most if purged by position", "printed " + position, 2);
+  check_at("as printed: off by 7 m at most by precision 0.093", "printed " + precision, 7);
+  check_at("reasonable, within 10% of the mean path, if purged by position", position, 10);  // of 100 m
+  check_at("reasonable, within 10% of the mean path, by precision 0.093", precision, 10);
+  const std::string farther = "off farther by precision than by position";
+  CHECK(verdict_of("figure-6.12", farther, {1000}, errors(precision, 2, position, 1)) == in_all(always));
+  CHECK(verdict_of("figure-6.12", farther, {1000}, errors(precision, 1, position, 2)) == in_all(never));
+  for (const std::string kind : {"", "printed "}) {
+    const std::string thrice =
+        (kind.empty() ? "" : "as printed: ") + std::string("on average three times as far by precision as by position");
+    CHECK(verdict_of("figure-6.12", thrice, {1000}, errors(kind + precision, 6, kind + position, 2)) ==
+          in_all("confirmed, a factor of 3.00"));
+    CHECK(verdict_of("figure-6.12", thrice, {1000}, errors(kind + precision, 2, kind + position, 2)) ==
+          in_all("not confirmed, a factor of 1.00"));
+  }
+}
+
+TEST_CASE("figures 6.14 and 6.16: claims on time by hash") {
+  const auto check = [](const char* figure, const char* words, const std::string& setting, double holds_s,
+                        double fails_s) {
+    CAPTURE(words);
+    CHECK(verdict_of(figure, words, {1000}, only(setting, holds_s)).find("none") == std::string::npos);
+    CHECK(verdict_of(figure, words, {1000}, only(setting, holds_s)).find("not confirmed") == std::string::npos);
+    const std::string fails = verdict_of(figure, words, {1000}, only(setting, fails_s));
+    CHECK((fails == in_both(never) || fails.find("not confirmed") != std::string::npos));
+  };
+  check("figure-6.14", "by position, Morton codes take 15% less time than the uniform hash", "position Morton", 0.8,
+        0.9);
+  check("figure-6.14", "by position, the mixed hash takes the time of the uniform one", "position mixed", 1.04, 0.9);
+  check("figure-6.14", "by precision, Morton codes take more time than no cache", "precision 0.0125 Morton", 1.1, 0.9);
+  check("figure-6.14", "by precision, the uniform hash takes the time of Morton codes by position",
+        "precision 0.0125 uniform", 0.95, 1.2);
+  check("figure-6.14", "by precision, the mixed hash takes the time of Morton codes by position",
+        "precision 0.0125 mixed", 0.95, 1.2);
+  check("figure-6.16", "one of the caches saves time", "position Morton", 0.9, 1.1);
+  check("figure-6.16", "by precision, the uniform hash is faster than no cache", "precision 0.0125 uniform", 0.9, 1.1);
+  check("figure-6.16", "by precision, the mixed hash is faster than no cache", "precision 0.0125 mixed", 0.9, 1.1);
   // Ours is not one of the thesis'.
-  const auto ours_alone = [](const std::string& setting, uint64_t) {
-    return std::pair{setting == "concurrent" ? 0.5 : 1.0, 0.0};
+  CHECK(verdict_of("figure-6.16", "one of the caches saves time", {1000}, only("concurrent", 0.5)) == in_both(never));
+}
+
+TEST_CASE("figures 6.15 and 6.17: claims on errors by hash and by sorting") {
+  // Metres of two settings where the claim holds, and where it does not.
+  const auto check = [](const char* figure, const char* words, const std::string& a, const std::string& b,
+                        std::array<double, 2> holds_m, std::array<double, 2> fails_m) {
+    CAPTURE(words);
+    const std::string holds = verdict_of(figure, words, {1000}, errors(a, holds_m[0], b, holds_m[1])),
+                      fails = verdict_of(figure, words, {1000}, errors(a, fails_m[0], b, fails_m[1]));
+    CHECK((holds == in_both(always) || holds.starts_with("fixed transmitter: confirmed")));
+    CHECK((fails == in_both(never) || fails.starts_with("fixed transmitter: not confirmed")));
   };
-  CHECK(verdicts_of("figure-6.16", {1000}, ours_alone).front() == both(never));
+  const std::string position = "position ", precision = "precision 0.0125 ", printed = "printed ";
+  check("figure-6.15", "by position, the centroid is off farther with Morton codes than with the uniform hash",
+        position + "Morton", position + "uniform", {3, 2}, {2, 3});
+  check("figure-6.15", "by position, twice as far off with Morton codes as with the uniform hash", position + "Morton",
+        position + "uniform", {4.1, 2}, {3.9, 2});
+  check("figure-6.15", "by position, as far with the mixed hash as with the uniform one", position + "mixed",
+        position + "uniform", {2.2, 2}, {4, 2});
+  check("figure-6.15", "by precision, less far with Morton codes than with the uniform hash", precision + "Morton",
+        precision + "uniform", {1, 2}, {2, 1});
+  check("figure-6.15", "by precision, as far with the mixed hash as with the uniform one", precision + "mixed",
+        precision + "uniform", {2, 2}, {4, 2});
+  check("figure-6.15", "as printed: by position, twice as far off with Morton codes as with the uniform hash",
+        printed + position + "Morton", printed + position + "uniform", {4, 2}, {2, 2});
+  check("figure-6.15", "as printed: by position, as far with the mixed hash as with the uniform one",
+        printed + position + "mixed", printed + position + "uniform", {2, 2}, {4, 2});
+  check("figure-6.15", "as printed: by precision, less far with Morton codes than with the uniform hash",
+        printed + precision + "Morton", printed + precision + "uniform", {1, 2}, {2, 1});
+  check("figure-6.17", "the centroid is off farther by precision than by position, with the uniform hash",
+        precision + "uniform", position + "uniform", {3, 2}, {2, 3});
+  check("figure-6.17", "around 5 m by precision with the uniform hash", precision + "uniform", "", {5, 0}, {9, 0});
+  check("figure-6.17", "around 5 m by precision with the mixed hash", precision + "mixed", "", {5, 0}, {9, 0});
+  check("figure-6.17", "sorting reduces the error by position", position + "mixed", "unsorted " + position + "mixed",
+        {1, 2}, {2, 1});
+  check("figure-6.17", "sorting reduces the error by precision", precision + "mixed", "unsorted " + precision + "mixed",
+        {1, 2}, {2, 1});
 }

@@ -3,6 +3,7 @@
 #include "study/order_claims.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
+#include <functional>
 #include "study/made_order_rows.hpp"
 #include "study/run.hpp"
 #include "study/squeezed.hpp"
@@ -114,4 +115,51 @@ TEST_CASE("the reason: what the device takes for a few rays already") {
   CHECK(contains(with(220e-6, 245e-6), "WS takes 90% of its time at 49,000 rays at 1,000 already, which is what"));
   CHECK(contains(with(30e-6, 300e-6), "WS takes 10% of its time at 49,000 rays at 1,000 already, so most"));
   CHECK(order_fields(made_rows(experiment, {1000, 2000}, costs(2, 2)), "a").at("reason").empty());
+}
+
+namespace {
+
+// Rows of figure 6.1 whose orders take the seconds that `time` gives, without the sort.
+std::vector<OrderRow> rows_with(const std::vector<uint64_t>& rays,
+                                const std::function<double(const std::string& method, uint64_t)>& time) {
+  return made_rows(find_experiment("figure-6.1"), rays, [&](const Series& series, uint64_t count) {
+    return std::pair{time(series.method, count), 0.0};
+  });
+}
+
+constexpr const char *both_yes = "yes with the sort not paid, yes with it paid",
+                     *both_no = "no with the sort not paid, no with it paid";
+
+}  // namespace
+
+TEST_CASE("an order that is no slower than another one, up to a number of rays") {
+  const auto slow_beyond = [](uint64_t bound) {
+    return [bound](const std::string& method, uint64_t rays) { return method == "morton" && rays > bound ? 2.0 : 1.0; };
+  };
+  const Judge<OrderRow> judge = no_slower("morton", "hilbert3d-histogram", 0, 20000);
+  CHECK(judge(rows_with({1000, 20000, 50000}, slow_beyond(20000))) == both_yes);
+  CHECK(judge(rows_with({1000, 20000, 50000}, slow_beyond(10000))) == both_no);
+  CHECK(judge(rows_with({50000}, slow_beyond(20000))) == "not measured");
+}
+
+TEST_CASE("an order that degrades beyond a number of rays") {
+  const auto time = [](const std::string& method, uint64_t rays) {
+    return method == "hilbert3d-histogram-hilbert2d" && rays > 50000000 ? 1.5 : 1.0;
+  };
+  const Judge<OrderRow> judge = degrades_beyond("hilbert3d-histogram-hilbert2d", "hilbert3d-histogram", 50000000);
+  CHECK(judge(rows_with({1000000, 50000000, 90000000}, time)) == both_yes);
+  CHECK(judge(rows_with({1000000, 90000000}, [](const std::string&, uint64_t) { return 1.0; })) == both_no);
+  CHECK(judge(rows_with({1000000, 50000000}, time)) == "not measured");
+}
+
+TEST_CASE("a gain that grows with the number of rays") {
+  const auto gaining = [](double few, double many) {
+    return [=](const std::string& method, uint64_t rays) {
+      return method == "none" ? 1.0 : 1 / (rays == 1000 ? few : many);
+    };
+  };
+  const Judge<OrderRow> judge = gain_grows("hilbert3d-histogram");
+  CHECK(judge(rows_with({1000, 49000}, gaining(1.3, 2.5))) == both_yes);
+  CHECK(judge(rows_with({1000, 49000}, gaining(2.5, 1.3))) == both_no);
+  CHECK(judge(rows_with({1000}, gaining(1.3, 2.5))) == "not measured");
 }

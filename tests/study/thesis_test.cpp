@@ -60,10 +60,12 @@ ThesisPage page() {
 
 TEST_CASE("the page has figures 6.1 to 6.18 in order, then what goes beyond them") {
   const std::vector<const Experiment*> figures = thesis_experiments();
-  REQUIRE(figures.size() == 20);
+  REQUIRE(figures.size() == 22);
   for (size_t i = 0; i < 18; ++i) CHECK(figures[i]->name == "figure-6." + std::to_string(i + 1));
   CHECK(figures[18]->name == "cache-division");
   CHECK(figures[19]->name == "cache-step");
+  CHECK(figures[20]->name == "innerframe");
+  CHECK(figures[21]->name == "innerframe-ordered");
 }
 
 TEST_CASE("the page is well formed, names every figure, and refers to nothing outside of it") {

@@ -36,7 +36,7 @@ typedef struct {
   wt_uint first_entry, entries;
   wt_uint first_bucket, buckets;
   wt_uint since;  // frame since which the transmitter's position key is what it is; entries of before are stale
-  wt_uint padding;
+  wt_uint stamp;  // hash of that key, never 0: what the thesis' table as printed compares
 } wt_cache_region;
 
 // What happened, besides plain hits and misses.

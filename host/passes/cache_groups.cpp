@@ -1,0 +1,59 @@
+// Host side of kernels/cache_groups.cl.
+// The table of ray numbers is made as large as the missed rays need, and emptied for each queue.
+#include "passes/cache_groups.hpp"
+
+#include <bit>
+#include <stdexcept>
+
+namespace wavetracer {
+
+namespace {
+
+constexpr const char* stage = "cache_groups";
+
+// Twice the rays at least, so that a search takes few steps; a power of two.
+uint64_t places_for(uint64_t rays) { return std::bit_ceil(2 * rays); }
+
+}  // namespace
+
+CacheGroups::CacheGroups(gpu::Context& context, const CacheTable& table)
+    : context_(context), work_(tuning_of(context.info()).cache_rays), words_(table.config.key == "exact" ? 4 : 2) {
+  gpu::Definitions definitions = table.definitions(false);
+  definitions["WT_RAYS_PER_ITEM"] = work_.option();
+  keys_ = context.kernel("cache_groups", "cache_keys", definitions);
+  elect_ = context.kernel("cache_groups", "cache_elect", definitions);
+  follow_ = context.kernel("cache_groups", "cache_follow", definitions);
+  share_ = context.kernel("cache_groups", "cache_share", definitions);
+}
+
+void CacheGroups::reserve(uint32_t capacity) {
+  key_words_ = context_.buffer<uint64_t>(size_t{capacity} * words_, "keys of rays");
+  numbers_ = context_.buffer<uint32_t>(places_for(capacity), "rays by the places of their keys");
+  representatives_ = context_.buffer<uint32_t>(capacity, "representatives");
+}
+
+void CacheGroups::elect(const RayQueue& rays, gpu::Buffer<float>& missed, uint32_t missed_count,
+                        const CacheTable& table, uint32_t static_surfaces) {
+  const uint64_t places = places_for(missed_count);
+  if (missed_count > rays.count || places > numbers_.size() || rays.count > representatives_.size())
+    throw std::invalid_argument("cache_groups: no room for the rays");
+  const uint32_t none = WT_NONE;
+  context_.fill(numbers_, &none, sizeof none, 0, places * sizeof none, stage);
+  const gpu::Range range = work_.range(rays.count);
+  keys_(range, stage, rays.planes, rays.capacity, rays.count, missed, table.widths, static_surfaces, key_words_,
+        representatives_);
+  elect_(range, stage, rays.count, key_words_, numbers_, static_cast<uint32_t>(places - 1), representatives_);
+  follow_(range, stage, rays.count, missed, numbers_, representatives_);
+}
+
+void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
+                        gpu::Buffer<float>& refused, CacheTable& table, uint32_t now,
+                        gpu::Buffer<uint32_t>* receivers) {
+  if (table.config.scope == "all" && !receivers)
+    throw std::invalid_argument("cache_groups: cache.scope = \"all\" without receivers");
+  share_(work_.range(rays.count), stage, rays.planes, rays.capacity, rays.count, hits.planes, missed, refused,
+         representatives_, table.entries, table.heads, table.used, table.device_regions, table.counters, table.widths,
+         now, scene.surfaces, receivers ? *receivers : table.used);
+}
+
+}  // namespace wavetracer
