@@ -22,6 +22,8 @@ void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std
   const uint64_t done = shards.totals().frames, all = FrameRange{asked.first, asked.last}.count();
   if (done == 0)
     progress.line(fmt::format("--resume: no finished shard in {}, so this starts from the beginning", directory));
+  else if (shards.complete())
+    progress.line("--resume: the run is complete, all frames are in the outputs; nothing is left to do");
   else if (done == all)
     progress.line("--resume: all frames are there; the outputs are written again");
   else
@@ -107,6 +109,7 @@ Results drive(const DriveTask& task, Progress& progress) {
     shards.resume();
     say_what_is_there(shards, task.identity, directory, progress);
   }
+  if (shards.complete()) return {shards.totals(), {}, shards.outputs()};
   Results results;
   UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);
@@ -123,6 +126,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
     results.files = shards.merge(task.run, std::move(unfinished));
+    shards.remove_merged();
   }
   return results;
 }
