@@ -10,6 +10,7 @@
 #include "scene/load.hpp"
 #include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
+#include "simulation/ray_cache.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
@@ -18,20 +19,22 @@ namespace wavetracer::app {
 
 namespace {
 
-// Throws what the fields of a run would: a material that is not known at the frequency, a pattern file that is none.
-void check_radio(const Config& config, const Scene& scene, const World& world) {
+// Throws what a run would: for a material that is not known at the frequency, a pattern file that is none, a cache that
+// is too small for its transmitters.
+void check_run(const Config& config, const Scene& scene, const World& world) {
   Config radio = config;
   radio.transmitters = world.transmitters();
   radio.receivers = world.receivers();
   radio.trace = with_features(config.trace, choose_features(radio, scene, world));
   const FieldModel fields(scene, radio, world.models(), world.instances());
+  check_cache(radio, world);
 }
 
 // What a run would say of the scene and of who stands and drives in it, which has to be loaded for that.
 std::vector<std::string> world_warnings(const Config& config) {
   const Scene scene = load_scene(config);
   const World world(config, scene);
-  check_radio(config, scene, world);
+  check_run(config, scene, world);
   std::vector<std::string> out = scene.report.warnings;
   for (const auto& more : {world.warnings(), place_warnings(config, Surroundings(scene), world)})
     out.insert(out.end(), more.begin(), more.end());

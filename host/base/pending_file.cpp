@@ -10,6 +10,7 @@
 #include <cstring>
 #include <set>
 #include <utility>
+#include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -68,6 +69,7 @@ PendingDirectory::PendingDirectory(fs::path path) : path_(path.empty() ? fs::pat
   }
   std::reverse(missing.begin(), missing.end());
   for (const fs::path& p : missing) {
+    const auto hold = hold_pending();
     if (fs::create_directory(p, error)) {
       created_.push_back(p);
     } else if (error) {
@@ -94,6 +96,7 @@ PendingFile::PendingFile(fs::path path) : path_(std::move(path)) {
   if (fs::is_directory(path_, ignored)) fail(path_, "write", EISDIR);
   temporary_ = path_;
   temporary_ += fmt::format(".{}.tmp", ::getpid());
+  const auto hold = hold_pending();
   descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(path_, "write", errno);
 }
@@ -139,6 +142,7 @@ void PendingFile::sync() {
 }
 
 void PendingFile::rename() {
+  const auto hold = hold_pending();
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "write", errno);
   temporary_.clear();
 }

@@ -8,14 +8,13 @@
 #include <cstring>
 #include <fstream>
 #include "base/pending_file.hpp"
+#include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::mutex adding;
 
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw RuntimeError(
@@ -32,6 +31,7 @@ PendingFolder::PendingFolder(fs::path path) : path_(without_slash(path)) {
     throw InputError(fmt::format("{}: exists already; remove it or choose another folder with -o", path_.string()));
   fs::path temporary = path_;
   temporary += fmt::format(".{}.tmp", ::getpid());
+  const auto hold = hold_pending();
   if (!fs::create_directory(temporary, error)) fail(path_, error ? error.value() : EEXIST);
   temporary_ = temporary;
 }
@@ -42,7 +42,7 @@ PendingFolder::~PendingFolder() {
 }
 
 void PendingFolder::append(const fs::path& name, std::span<const std::byte> bytes) const {
-  const std::lock_guard lock(adding);
+  const auto hold = hold_pending();
   const fs::path file = temporary_ / name;
   std::error_code error;
   if (name.has_parent_path()) fs::create_directories(file.parent_path(), error);
@@ -54,16 +54,17 @@ void PendingFolder::append(const fs::path& name, std::span<const std::byte> byte
   if (!out) fail(path_ / name, errno != 0 ? errno : EIO);
 }
 
-std::unique_lock<std::mutex> hold_pending_folders() { return std::unique_lock(adding); }
-
 fs::path PendingFolder::commit() {
   const int descriptor = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) fail(path_, errno);
   const int error = ::syncfs(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   if (error != 0) fail(path_, error);
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
-  temporary_.clear();
+  {
+    const auto hold = hold_pending();
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
+    temporary_.clear();
+  }
   sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
   return path_;
 }

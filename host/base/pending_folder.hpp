@@ -3,7 +3,6 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
-#include <mutex>
 #include <span>
 #include <string_view>
 
@@ -29,8 +28,5 @@ class PendingFolder {
  private:
   std::filesystem::path path_, temporary_;  // temporary_ is empty once committed
 };
-
-// While it is held nothing is added to any pending folder, so that another thread can remove one.
-std::unique_lock<std::mutex> hold_pending_folders();
 
 }  // namespace wavetracer

@@ -108,8 +108,9 @@ std::string resolved_config(const Config& config) {
 
 std::string echoed_config(const Config& config) {
   return text_of(config, [&](const Table& table, const Field& field) {
-    return table.name != "output" || (field.name != "directory" && field.name != "keep_shards" &&
-                                      (field.name != "shard_frames" || config.trace.reuse));
+    return table.name != "output" ||
+           (field.name != "directory" && field.name != "keep_shards" && field.name != "compression" &&
+            (field.name != "shard_frames" || config.trace.reuse));
   });
 }
 

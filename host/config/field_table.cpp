@@ -270,12 +270,19 @@ const std::vector<Table>& tables() {
              .range = {0, 4294967295.0},
              .none = "0",
              .doc = "Only this many paths, the strongest, are written to paths.h5. 0: all."},
+            {.name = "compression",
+             .slot = at(&Config::output, &OutputConfig::compression),
+             .range = {0, 9},
+             .doc = "Level of compression (deflate) of the columns of paths.h5 and waypoints.h5, from 1, fast, to 9, "
+                    "slow; 0: none. All readers of HDF5 undo it by themselves. Level 1 takes most of what can be saved "
+                    "and costs little time on any number of cores. The shards of a drive are never compressed."},
             {.name = "keep_shards",
              .slot = at(&Config::output, &OutputConfig::keep_shards),
-             .doc = "Keep the shards (part files) of a drive beside the merged files, so that a later --resume or "
-                    "merge finds them. false: if one process has computed all frames, the shards are removed after the "
-                    "merged files have been read back and checked, which halves the space on the disk; a later "
-                    "--resume then starts again from the first frame."}}},
+             .doc =
+                 "Keep the shards (part files) of a drive beside the merged files. false: when the run has merged all "
+                 "its frames, it reads the merged files back, compares them with the shards byte by byte and "
+                 "removes the shards. A later --resume knows that the run is complete. Parts that `run --shard` "
+                 "writes, and those of a run that is interrupted, are always kept."}}},
       material_table(),
       transmitter_table(),
       receiver_table(),

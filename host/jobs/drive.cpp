@@ -23,6 +23,8 @@ void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std
   if (done == 0)
     progress.line(
         fmt::format("--resume: {} contains no finished shard, so the run starts from the beginning", directory));
+  else if (shards.complete())
+    progress.line("--resume: the run is complete, all frames are in the outputs; nothing is left to do");
   else if (done == all)
     progress.line("--resume: all frames are computed already; the outputs are written again");
   else
@@ -108,6 +110,7 @@ Results drive(const DriveTask& task, Progress& progress) {
     shards.resume();
     say_what_is_there(shards, task.identity, directory, progress);
   }
+  if (shards.complete()) return {shards.totals(), {}, shards.outputs()};
   Results results;
   UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);
@@ -124,6 +127,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
     results.files = shards.merge(task.run, std::move(unfinished));
+    shards.remove_merged();
   }
   return results;
 }

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> output_names{"paths.h5", "waypoints.h5", "links.csv", "summary.json",
                                                        "view.html"};
-constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_name = "run.json";
+constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_name = "run.json",
+                           merged_name = "merged.json";
 
 // Files of the folder for which `which` holds of their names.
 template <typename Which>
@@ -40,6 +41,7 @@ bool is_output(const std::string& name) { return std::ranges::find(output_names,
 bool is_temporary(const std::string& name) {
   if (!name.ends_with(".tmp")) return false;
   return name.starts_with(manifest_prefix) || name.starts_with(shard_prefix) || name.starts_with(record_name) ||
+         name.starts_with(merged_name) ||
          std::ranges::any_of(output_names, [&](std::string_view output) { return name.starts_with(output); });
 }
 
@@ -56,7 +58,10 @@ std::string earlier_results(const fs::path& directory) {
   return fmt::format("{} of an earlier run in {}", fmt::join(names, ", "), directory.string());
 }
 
+fs::path merged_record(const fs::path& directory) { return directory / "shards" / merged_name; }
+
 void remove_outputs(const fs::path& directory, std::span<const PendingFile> replaced) {
+  remove_files(directory / "shards", [](const std::string& name) { return name == merged_name; });
   remove_files(directory, [replaced](const std::string& name) {
     return is_output(name) &&
            std::ranges::none_of(replaced, [&](const PendingFile& file) { return file.path().filename() == name; });
@@ -67,13 +72,21 @@ void remove_shards(const fs::path& directory, std::span<const PendingFile> excep
   const fs::path folder = directory / "shards";
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return;
-  remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_prefix); });
+  remove_files(folder,
+               [](const std::string& name) { return name.starts_with(manifest_prefix) || name == merged_name; });
   sync_folder(folder);  // no manifest may list the files that go now
   remove_files(folder, [except](const std::string& name) {
     return (name.starts_with(shard_prefix) || name == record_name) &&
            std::ranges::none_of(except, [&](const PendingFile& file) { return file.temporary().filename() == name; });
   });
   fs::remove(folder, ignored);  // not if there is something else in it
+}
+
+void remove_merged_shards(const fs::path& directory) {
+  const fs::path folder = directory / "shards";
+  remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_prefix); });
+  sync_folder(folder);  // likewise
+  remove_files(folder, [](const std::string& name) { return name.starts_with(shard_prefix); });
 }
 
 void remove_temporaries(const fs::path& folder) { remove_files(folder, is_temporary); }

@@ -14,11 +14,19 @@ namespace wavetracer {
 // Empty where there is nothing.
 std::string earlier_results(const std::filesystem::path& directory);
 
-// Outputs of a run, and the page that `view` made of them, but for those that these files are about to replace.
+// Outputs of a run, and the page that `view` made of them, but for those that these files are about to replace; and the
+// record that they are whole.
 void remove_outputs(const std::filesystem::path& directory, std::span<const PendingFile> replaced = {});
 
 // The manifests, then the shards that they list, but for these files on their way; then their folder, if that is all.
 void remove_shards(const std::filesystem::path& directory, std::span<const PendingFile> except = {});
+
+// The same of a run whose outputs are whole, once its record says so (jobs/merged_record.hpp), which stays with
+// run.json. No other process may need the shards.
+void remove_merged_shards(const std::filesystem::path& directory);
+
+// Where that record is.
+std::filesystem::path merged_record(const std::filesystem::path& directory);
 
 // What killed runs were writing into this very folder. No file may be on its way there.
 void remove_temporaries(const std::filesystem::path& folder);

@@ -18,8 +18,10 @@ std::string hash_of(const std::vector<InputFile>& inputs) {
 
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
   Config elsewhere = config;
-  elsewhere.output.directory.clear();   // a folder that was moved is still that of its run
-  elsewhere.output.keep_shards = true;  // what becomes of shards changes none
+  elsewhere.output.directory.clear();  // a folder that was moved is still that of its run
+  // What becomes of shards changes none.
+  elsewhere.output.keep_shards = OutputConfig().keep_shards;
+  elsewhere.output.compression = OutputConfig().compression;
   for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
   return {summary.version,
           fnv1a_128(resolved_config(elsewhere)),

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <string_view>
 #include <vector>
-#include "base/pending_folder.hpp"
+#include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -40,7 +40,7 @@ void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, con
   const timespec tenth{0, 100'000'000};
   while (!stop.stop_requested()) {
     if (sigtimedwait(&set, nullptr, &tenth) < 0) continue;
-    const auto hold = hold_pending_folders();  // to the end of the process
+    const auto hold = hold_pending();  // to the end of the process
     std::error_code ignored;
     fs::remove_all(temporary, ignored);
     for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty

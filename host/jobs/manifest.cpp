@@ -26,6 +26,11 @@ std::vector<uint64_t> whole_numbers(const Json& json) {
 [[noreturn]] void refuse(const std::string& what) { throw Json::other_error::create(501, what, nullptr); }
 
 // Names lead to files of the folder and nowhere else.
+void check_outputs(const Shard& whole) {
+  for (const ShardFile& file : whole.files)
+    if (file.name.empty() || file.name.find('/') != std::string::npos) refuse("\"" + file.name + "\" is no output");
+}
+
 void check_files(const Shard& shard) {
   const std::string stem = unit_name(shard.unit) + ".";
   if (shard.files.size() < 2 || shard.files.size() > 3) refuse("the names of its files are not those of a shard");
@@ -56,7 +61,7 @@ MissedCounts decode_missed(const Json& json) {
   return out;
 }
 
-Shard decode(const Json& json) {
+Shard decode(const Json& json, ManifestOf what) {
   Shard shard;
   const Json& run = json.at("run");
   shard.run = {run.at("version"),
@@ -105,7 +110,7 @@ Shard decode(const Json& json) {
                  missing.at("why_in_grids").get<std::vector<std::string>>()};
   }
   for (const Json& file : json.at("files")) shard.files.push_back({file.at("name"), whole<uint64_t>(file.at("bytes"))});
-  check_files(shard);
+  what == ManifestOf::shards ? check_files(shard) : check_outputs(shard);
   return shard;
 }
 
@@ -150,7 +155,7 @@ std::string encode_manifest_line(const Shard& shard) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::vector<Shard> decode_manifest(std::string_view text, const std::string& name) {
+std::vector<Shard> decode_manifest(std::string_view text, const std::string& name, ManifestOf what) {
   std::vector<Shard> shards;
   for (size_t number = 1; !text.empty(); ++number) {
     const size_t end = text.find('\n');
@@ -158,7 +163,7 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end + 1);
     try {
-      shards.push_back(decode(Json::parse(line)));
+      shards.push_back(decode(Json::parse(line), what));
     } catch (const Json::exception& error) {
       if (text.empty()) break;
       throw RuntimeError(

@@ -35,9 +35,13 @@ struct Shard {
 
 std::string encode_manifest_line(const Shard& shard);
 
+// Which files its lines name: those of shards beside it, or the outputs of a whole run (jobs/merged_record.hpp).
+enum class ManifestOf { shards, outputs };
+
 // text: of a whole manifest, any bytes. name: for messages. Throws RuntimeError where a line other than the last is
 // none.
-std::vector<Shard> decode_manifest(std::string_view text, const std::string& name);
+std::vector<Shard> decode_manifest(std::string_view text, const std::string& name,
+                                   ManifestOf what = ManifestOf::shards);
 
 // Empty where there is no manifest. Throws RuntimeError where it cannot be read, or decode_manifest() does.
 std::vector<Shard> read_manifest(const std::filesystem::path& file);

@@ -104,6 +104,12 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
     const fs::path folder = directory / "shards";
     std::error_code none;
     const std::vector<fs::path> manifests = manifests_in(folder);
+    if (manifests.empty() && fs::exists(merged_record(directory), none))
+      throw InputError(
+          fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, and its parts were removed "
+                      "when that was "
+                      "proved (output.keep_shards = true keeps them)",
+                      directory.string()));
     if (manifests.empty())
       throw InputError(fmt::format("{}: this folder contains no parts of a run, because {} contains no manifest",
                                    directory.string(), folder.string()));
@@ -149,8 +155,8 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   if (parts.files.size() != outputs.size() + 1)
     throw RuntimeError(found.record.string() + " does not belong to the parts beside it: output.waypoints differs");
   PendingDirectory folder(directory);
-  std::vector<PendingFile> files =
-      merge_outputs(record.config, parts, Parts::foreign, directory, [&](const H5Output& output, hdf5::File& head) {
+  std::vector<PendingFile> files = merge_outputs(
+      record.config, parts, Parts::foreign, Proof::none, directory, [&](const H5Output& output, hdf5::File& head) {
         const fs::path& first = parts.files.at(static_cast<size_t>(&output - outputs.data())).front();
         reading_part(first, [&] { copy_head(output, first, head); });
       });

@@ -6,6 +6,7 @@
 #include "output/limited_child.hpp"
 #include "output/links_csv.hpp"
 #include "output/merge_h5.hpp"
+#include "output/packed_rows.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -21,6 +22,7 @@ struct Draft {
   bool of_one_frame;
   const WriteHead& write_head;
   PendingFile& file;
+  uint32_t compression;
 
   Pieces tables(const BeginPart& begin) const {
     begin(parts.front());
@@ -28,7 +30,7 @@ struct Draft {
     write_head(output, head);
     const auto groups = of_one_frame ? groups_of_blocks(parts, output.growing_groups, begin)
                                      : growing_groups_of(parts, output.growing_groups, begin);
-    return make_tables(file, head, groups, parts.size());
+    return make_tables(file, head, groups, parts.size(), compression);
   }
 };
 
@@ -64,24 +66,24 @@ Pieces foreign_tables(const Draft& draft) {
   return pieces_in(child.request("tables"));
 }
 
-PendingFile merge_h5(const H5Output& output, std::span<const fs::path> parts, bool of_one_frame, Parts whose,
-                     const fs::path& path, const WriteHead& write_head) {
-  PendingFile file(path);
-  const Draft draft{output, parts, of_one_frame, write_head, file};
-  copy_pieces(parts, whose == Parts::own ? draft.tables([](const fs::path&) {}) : foreign_tables(draft), file);
-  file.sync();
-  return file;
+void merge_h5(const Draft& draft, Parts whose, Proof proof) {
+  const Pieces pieces = whose == Parts::own ? draft.tables([](const fs::path&) {}) : foreign_tables(draft);
+  write_rows(draft.parts, pieces, draft.file, draft.compression);
+  draft.file.sync();
+  if (proof == Proof::rows) prove_rows(draft.parts, pieces, draft.file.temporary());
 }
 
 }  // namespace
 
-std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose,
+std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose, Proof proof,
                                        const fs::path& directory, const WriteHead& write_head) {
   std::vector<PendingFile> files;
   const std::span<const H5Output> outputs = h5_outputs(config);
-  for (size_t i = 0; i < outputs.size(); ++i)
-    files.push_back(
-        merge_h5(outputs[i], parts.files.at(i), parts.of_one_frame, whose, directory / outputs[i].name, write_head));
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    PendingFile& file = files.emplace_back(directory / outputs[i].name);
+    merge_h5({outputs[i], parts.files.at(i), parts.of_one_frame, write_head, file, config.output.compression}, whose,
+             proof);
+  }
   join_links_csv(parts.files.at(outputs.size()), files.emplace_back(directory / "links.csv"));
   files.back().sync();
   return files;

@@ -16,9 +16,12 @@ using WriteHead = std::function<void(const H5Output&, hdf5::File&)>;
 // Whose parts they are: those of others are read in a child process (limited_child.hpp).
 enum class Parts { own, foreign };
 
-// Synced, but not in place: the HDF5 outputs, then links.csv. config: output.waypoints alone is used. Throws
-// InputError that names the part that cannot be merged, and RuntimeError.
-std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose,
+// Whether all rows are read back and compared with those of the parts.
+enum class Proof { none, rows };
+
+// Synced, but not in place: the HDF5 outputs, then links.csv. config: output.waypoints and output.compression alone are
+// used. Throws InputError that names the part that cannot be merged, and RuntimeError.
+std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose, Proof proof,
                                        const std::filesystem::path& directory, const WriteHead& write_head);
 
 }  // namespace wavetracer

@@ -7,6 +7,7 @@
 #include "jobs/config_changes.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/merge_outputs.hpp"
+#include "jobs/merged_record.hpp"
 #include "jobs/run_record.hpp"
 #include "output/hdf5_read.hpp"
 #include "output/head_h5.hpp"
@@ -22,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 const char* const manifest_name = "manifest.jsonl";
 const char* const record_name = "run.json";
+constexpr uint32_t shard_compression = 0;  // they are read again soon, and merging copies their bytes
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -93,7 +95,7 @@ void check_merged(const fs::path& directory, const Run& run, const Totals& total
     const hdf5::File file = hdf5::File::open_to_read(directory / output.name);
     const auto check = [&](const char* table, uint64_t wanted) {
       const hdf5::Column column(file, table);
-      if (const uint64_t rows = column.extent().rows; rows != wanted)
+      if (const uint64_t rows = column.shape().at(0); rows != wanted)
         throw RuntimeError(
             fmt::format("{}: {} has {} rows, the shards have {}; the shards are kept: run again with --resume",
                         (directory / output.name).string(), table, rows, wanted));
@@ -158,7 +160,21 @@ void Shards::take(std::vector<Shard> lines) {
     if (!finished(shard.unit) && is_whole(shard, folder_)) shards_.emplace(key(shard.unit), std::move(shard));
 }
 
+bool Shards::find_complete() {
+  complete_ = read_merged_record(directory_);
+  if (!complete_) return false;
+  check_same_run(complete_->run, run_, folder_, config_);
+  check_same_inputs(complete_->run, run_, folder_, inputs_);
+  return true;
+}
+
 size_t Shards::resume() {
+  if (find_complete()) {
+    remove_merged_shards(directory_);  // of a run that was killed over that, some may be left
+    remove_temporaries(folder_);
+    remove_temporaries(directory_);
+    return 0;
+  }
   std::vector<Shard> lines = all_lines(folder_);
   if (lines.empty()) return 0;
   take(std::move(lines));
@@ -202,7 +218,13 @@ void Shards::note_empty(const Run& run) const {
 
 void Shards::look() { take(all_lines(folder_)); }
 
-Totals Shards::totals() const { return totals_of(shards_); }
+Totals Shards::totals() const { return complete_ ? complete_->totals : totals_of(shards_); }
+
+std::vector<fs::path> Shards::outputs() const {
+  std::vector<fs::path> out;
+  for (const ShardFile& file : complete_->files) out.push_back(directory_ / file.name);
+  return out;
+}
 
 void Shards::save(const std::vector<Shard>& lines) const {
   std::string text;
@@ -234,7 +256,7 @@ std::unique_ptr<OpenUnit> Shards::open(const Run& run, const Unit& unit) const {
 
 Shard Shards::close(OpenUnit& unit) {
   const Clock::time_point start = Clock::now();
-  std::vector<PendingFile> files = unit.files_.finish();
+  std::vector<PendingFile> files = unit.files_.finish(shard_compression);
   Shard shard{run_, unit.unit_, unit.totals(), {}};
   for (const PendingFile& file : files)
     shard.files.push_back({file.path().filename().string(), fs::file_size(file.temporary())});
@@ -272,13 +294,14 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
   std::vector<PendingFile> parts_on_the_way;
   Totals totals = this->totals();
   if (unfinished && unfinished->totals().frames > 0) {
-    parts_on_the_way = unfinished->files_.finish();
+    parts_on_the_way = unfinished->files_.finish(shard_compression);
     parts.files.resize(parts_on_the_way.size());
     for (size_t i = 0; i < parts_on_the_way.size(); ++i) parts.files[i].push_back(parts_on_the_way[i].temporary());
     add(totals, unfinished->totals());
   }
+  const bool removes = !run.config.output.keep_shards && !unfinished && totals.frames == run.summary.frames_asked;
   std::vector<PendingFile> files =
-      merge_outputs(run.config, parts, Parts::own, directory_,
+      merge_outputs(run.config, parts, Parts::own, removes ? Proof::rows : Proof::none, directory_,
                     [&run](const H5Output& output, hdf5::File& head) { make_head(output, run, head); });
   const std::string summary = encode_summary_json(run, totals, write_seconds_ + since(start), shards_.size());
   files.emplace_back(directory_ / "summary.json", bytes(summary));
@@ -286,13 +309,18 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
   remove_outputs(directory_, files);
   commit_together(files);
   directory.keep();
-  if (!run.config.output.keep_shards && !shared_ && totals.frames == run.summary.frames_asked) {
+  if (removes) {
     check_merged(directory_, run, totals);
-    remove_shards(directory_);
+    write_merged_record(directory_, run_, totals, files);
+    proved_ = true;
   }
   std::vector<fs::path> written;
   for (const PendingFile& file : files) written.push_back(file.path());
   return written;
+}
+
+void Shards::remove_merged() {
+  if (proved_) remove_merged_shards(directory_);
 }
 
 }  // namespace wavetracer

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 #include "base/pending_file.hpp"
@@ -50,7 +51,8 @@ class Shards {
   // config: the text of the run's configuration (Config::text), so that a message can name the keys that differ.
   Shards(std::filesystem::path directory, RunIdentity run, std::vector<InputFile> inputs = {}, std::string config = {});
 
-  // Takes over the finished shards of the run that was interrupted in this folder; 0 where there is none. A shard whose
+  // Takes over what the run that was interrupted in this folder has finished: its shards, or the whole run, see
+  // complete(). Returns the number of shards; 0 where there is none. A shard whose
   // files are gone or cut short is not finished. Throws ConfigError where they are of another run, InputError where an
   // input file has changed since. No other process may
   // be writing there.
@@ -68,9 +70,15 @@ class Shards {
   // Reads again what other processes have finished.
   void look();
 
-  bool finished(const Unit& unit) const { return shards_.contains(key(unit)); }
+  // Whether the outputs in the folder hold the whole run, whose shards were removed. Throws as resume() does.
+  bool find_complete();
+  // After find_complete() or resume(): the outputs hold the whole run, so there is nothing to compute or to merge.
+  bool complete() const { return complete_.has_value(); }
+  bool finished(const Unit& unit) const { return complete() || shards_.contains(key(unit)); }
   // Of the finished shards.
   Totals totals() const;
+  // Of a complete run: its outputs.
+  std::vector<std::filesystem::path> outputs() const;
   size_t count() const { return shards_.size(); }
   const std::filesystem::path& folder() const { return folder_; }
 
@@ -86,8 +94,11 @@ class Shards {
 
   // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
   // the first frames of the one that was interrupted, if any. At least one frame is needed. Of finished shards, memory
-  // holds a block of rows at most.
+  // holds a block of rows at most. Where the run is whole and output.keep_shards is off, all rows were read back and
+  // compared with those of the shards, and a record says so: remove_merged() is next.
   std::vector<std::filesystem::path> merge(const Run& run, std::unique_ptr<OpenUnit> unfinished);
+  // Removes the shards that merge() has proved to be in the outputs. No other process may look for them any more.
+  void remove_merged();
 
  private:
   static ShardMap::key_type key(const Unit& unit) { return {unit.first, unit.block}; }
@@ -100,8 +111,10 @@ class Shards {
   bool shared_ = false;
   bool recorded_ = false;  // run.json is of this run
   ShardMap shards_;
-  std::vector<Shard> own_;  // lines of manifest_, where it is shared
+  std::optional<Shard> complete_;  // the whole run, its files the outputs
+  std::vector<Shard> own_;         // lines of manifest_, where it is shared
   double write_seconds_ = 0;
+  bool proved_ = false;  // that the outputs hold the shards
 
   void take(std::vector<Shard> shards);
   void save(const std::vector<Shard>& lines) const;

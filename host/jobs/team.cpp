@@ -37,6 +37,7 @@ class Team {
     if (!wait_until_prepared()) return {{}, units_.count()};
     claims_.look();  // before the manifests: who is gone by now has written its last line
     shards_.share(name_, true);
+    if (merged()) return {};  // asked after the shards were looked at, as they go once it is true
     say_if_idle();
     first_pass();
     Shared shared{{}, last_passes()};
@@ -46,6 +47,7 @@ class Team {
     progress_.line("writing to " + task_.run.config.output.directory);
     shared.results.files = shards_.merge(task_.run, {});
     mark(true);
+    shards_.remove_merged();
     remove_claims(shards_.folder());
     return shared;
   }
@@ -84,11 +86,10 @@ class Team {
       if (prepared()) return true;
       claims_.look();
       if (claims_.state(claim) == ClaimState::failed)
-        throw RuntimeError("the processes that prepared " + shards_.folder().string() +
-                           " ready were killed; run again");
+        throw RuntimeError("the processes that prepared " + shards_.folder().string() + " were killed; run again");
       if (!claims_.take(claim)) continue;
       prepare();
-      mark(false);
+      mark(shards_.complete());
       return true;
     }
     return false;
@@ -99,7 +100,11 @@ class Team {
     remove_claims(shards_.folder(), "prepare_");
     if (task_.resume) {
       shards_.resume();
-      progress_.line(fmt::format("--resume: {} of {} parts are computed already", shards_.count(), units_.count()));
+      progress_.line(
+          shards_.complete()
+              ? "--resume: the run is complete, all parts are in the outputs; nothing is left to do"
+              : fmt::format("--resume: {} of {} parts are computed already", shards_.count(), units_.count()));
+      if (shards_.complete()) return;
     } else {
       shards_.clear();
     }
@@ -118,7 +123,9 @@ class Team {
     const uint64_t count = units_.count(), start = count * ranks_.rank / ranks_.size;
     for (uint64_t i = 0; i < count && !interrupted(); ++i) {
       const Unit unit = units_.at((start + i) % count);
-      if (!shards_.finished(unit) && claims_.take(unit_name(unit))) compute_unit(task_, unit, writer_, progress_);
+      if (shards_.finished(unit) || !claims_.take(unit_name(unit))) continue;
+      if (merged()) break;  // the claims of the others are gone, as all is done
+      compute_unit(task_, unit, writer_, progress_);
     }
     writer_.finish();
   }
@@ -128,6 +135,7 @@ class Team {
     for (;; std::this_thread::sleep_for(poll_interval)) {
       claims_.look();  // likewise
       shards_.look();
+      if (merged()) return 0;  // likewise asked after the look
       uint64_t taken = 0, missing = 0;
       for (uint64_t index = 0; index < units_.count(); ++index) {
         const Unit unit = units_.at(index);
@@ -143,7 +151,6 @@ class Team {
         }
       }
       if (taken == 0 || interrupted()) return missing;
-      if (merged()) return 0;
     }
   }
 
@@ -183,6 +190,7 @@ Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessIn
 
 Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
   Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text);
+  if (task.resume) shards.find_complete();
   shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
   UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);

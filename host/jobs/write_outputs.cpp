@@ -18,7 +18,7 @@ std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& di
   paths.push_back(folder.path() / "links.csv");
   FrameFiles on_the_way(run, paths);
   for (const FrameResult& frame : frames) on_the_way.add(frame);
-  std::vector<PendingFile> files = on_the_way.finish();
+  std::vector<PendingFile> files = on_the_way.finish(run.config.output.compression);
   const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = encode_summary_json(run, on_the_way.totals(), write_seconds, 0);
   files.emplace_back(folder.path() / "summary.json", std::as_bytes(std::span(summary)));

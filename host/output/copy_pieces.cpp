@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -23,18 +22,23 @@ void add(std::span<std::byte> numbers, uint64_t base) {
 
 void copy(std::ifstream& in, const std::filesystem::path& part, const Piece& piece, std::span<std::byte> block,
           const PendingFile& file) {
-  in.seekg(static_cast<std::streamoff>(piece.from));
   for (uint64_t done = 0; done < piece.bytes;) {
     const std::span<std::byte> some = block.first(std::min<uint64_t>(block.size(), piece.bytes - done));
-    if (!in.read(reinterpret_cast<char*>(some.data()), static_cast<std::streamsize>(some.size())))
-      throw RuntimeError(part.string() + ": cannot be read to its end; remove it and run again with --resume");
-    if (piece.base != 0) add(some, piece.base);
+    read_piece(in, part, piece, done, some);
     file.write_at(piece.to + done, some);
     done += some.size();
   }
 }
 
 }  // namespace
+
+void read_piece(std::ifstream& in, const std::filesystem::path& part, const Piece& piece, uint64_t from,
+                std::span<std::byte> bytes) {
+  in.seekg(static_cast<std::streamoff>(piece.from + from));
+  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+    throw RuntimeError(part.string() + ": cannot be read to its end; remove it and run again with --resume");
+  if (piece.base != 0) add(bytes, piece.base);
+}
 
 void copy_pieces(std::span<const std::filesystem::path> parts, const Pieces& pieces, const PendingFile& file) {
   tbb::parallel_for(size_t{0}, pieces.size(), [&](size_t i) {

@@ -37,13 +37,13 @@ void FrameFiles::append(const FrameResult& frame) {
   for (size_t i = 0; i < outputs.size(); ++i) outputs[i].append_frame(run_, frame, tables_[i]);
 }
 
-std::vector<PendingFile> FrameFiles::finish() {
+std::vector<PendingFile> FrameFiles::finish(uint32_t compression) {
   std::vector<PendingFile> files;
   const std::span<const H5Output> outputs = h5_outputs(run_.config);
   for (size_t i = 0; i < outputs.size(); ++i) {
     hdf5::File head;
     make_head(outputs[i], run_, head);
-    files.push_back(tables_[i].finish(head));
+    files.push_back(tables_[i].finish(head, compression));
   }
   files.push_back(links_.finish());
   return files;

@@ -16,8 +16,9 @@ class FrameFiles {
 
   // Throws RuntimeError where they cannot be written, or the frame contradicts itself or the run.
   void add(const FrameResult& frame);
-  // The files in the same order, synced but not in place. Nothing can be added then.
-  std::vector<PendingFile> finish();
+  // The files in the same order, synced but not in place. compression: of HDF5 files, the level of deflate from 0 to 9.
+  // Nothing can be added then.
+  std::vector<PendingFile> finish(uint32_t compression);
   // Of the frames so far.
   const Totals& totals() const { return totals_; }
 

@@ -3,6 +3,7 @@
 #include "output/frame_tables.hpp"
 #include <algorithm>
 #include <cstring>
+#include "output/packed_rows.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -54,10 +55,10 @@ void FrameTables::flush() {
   waiting_.clear();
 }
 
-PendingFile FrameTables::finish(hdf5::File& head) {
+PendingFile FrameTables::finish(hdf5::File& head, uint32_t compression) {
   flush();
   const std::filesystem::path part = rows_.temporary();
-  copy_pieces({&part, 1}, make_tables(out_, head, groups_, 1), out_);
+  write_rows({&part, 1}, make_tables(out_, head, groups_, 1, compression), out_, compression);
   out_.sync();
   return std::move(out_);
 }

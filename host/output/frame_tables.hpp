@@ -36,8 +36,9 @@ class FrameTables {
     append_rows(name, meaning, hdf5::Type<T>::file(), std::as_bytes(values), 1, row_shape);
   }
 
-  // The file, synced but not in place. Nothing can be appended then. Throws RuntimeError.
-  PendingFile finish(hdf5::File& head);
+  // The file, synced but not in place. compression: level of deflate, 0 to 9, 0 for none. Nothing can be appended then.
+  // Throws RuntimeError.
+  PendingFile finish(hdf5::File& head, uint32_t compression = 0);
 
  private:
   PendingFile out_, rows_;

@@ -186,6 +186,18 @@ uint64_t make_room(const File& file, const std::string& path, const Meaning& mea
   return offset == HADDR_UNDEF ? 0 : offset;
 }
 
+void make_packed(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
+                 const std::vector<hsize_t>& shape, Packing packing) {
+  const Id creation = untimed();
+  std::vector<hsize_t> chunk = shape;
+  chunk.at(0) = packing.chunk_rows;
+  checked(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()), "cut " + path + " into chunks");
+  checked(H5Pset_shuffle(creation), "compress " + path);
+  checked(H5Pset_deflate(creation, packing.level), "compress " + path);
+  checked(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), "compress " + path);
+  make_dataset(file.id(), path, meaning, type, simple_space(shape), creation);
+}
+
 void check_stored(hid_t dataset, const std::string& path) {
   constexpr hsize_t most_unpacked = 1032;  // bytes of one that is stored: deflate makes no more
   const Id properties(H5Dget_create_plist(dataset), H5Pclose, "read the layout of " + path);

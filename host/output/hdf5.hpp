@@ -109,7 +109,7 @@ class File {
 };
 
 // A dataset of rows, of the shape (rows, inner...), filled from its first row on, a block at a time.
-// Contiguous and not compressed: tools can map it, and path data hardly compresses.
+// Contiguous and not compressed.
 class Table {
  public:
   Table(const File& file, const std::string& path, const Meaning& meaning, hid_t file_type, std::vector<hsize_t> shape);
@@ -133,6 +133,15 @@ Id make_untimed(const File& file, const std::string& path, hid_t type, hid_t spa
 // closed; 0 where there are none.
 uint64_t make_room(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
                    const std::vector<hsize_t>& shape);
+
+// How a dataset is compressed: rows of a chunk, level of deflate.
+struct Packing {
+  hsize_t chunk_rows = 0;
+  uint32_t level = 0;
+};
+// A dataset of compressed chunks, none of which is there yet (packed_rows.hpp).
+void make_packed(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
+                 const std::vector<hsize_t>& shape, Packing packing);
 
 // Where a dataset of rows lies in its file.
 struct Extent {

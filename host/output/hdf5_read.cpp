@@ -1,5 +1,5 @@
 // Every size that a file states is compared with what it holds before anything is allocated for it.
-// Filters are not undone but by the library; our own files have none.
+// Filters are undone by the library alone.
 #include "output/hdf5_read.hpp"
 #include <fmt/format.h>
 #include "wavetracer/error.hpp"

@@ -2,32 +2,47 @@
 // Room is reserved before HDF5 writes, which may crash where a disk is full.
 #include "output/table_layout.hpp"
 #include <algorithm>
+#include <map>
+#include "output/packed_rows.hpp"
 
 namespace wavetracer {
 namespace {
 
 using hdf5::File;
 
-// More than the file grows by: rows, and what the library notes of groups, tables and attributes, with room to spare.
-uint64_t most_bytes(const std::vector<GrowingGroup>& groups) {
+// Whether its rows are compressed, in chunks of less than the 4 GiB that HDF5 allows.
+bool is_packed(const GrowingTable& table, uint32_t compression) {
+  return compression > 0 && table.rows > 0 && table.row_bytes() < packed_chunk_bytes &&
+         table.rows * table.row_bytes() >= smallest_packed_bytes;
+}
+
+// More than the file grows by: rows that are not compressed, and what the library notes of groups, tables and
+// attributes, with room to spare.
+uint64_t most_bytes(const std::vector<GrowingGroup>& groups, uint32_t compression) {
   constexpr uint64_t notes = 8192;
   uint64_t bytes = 0;
   for (const GrowingGroup& group : groups) {
     bytes += notes + 2 * group.description.size();
     for (const GrowingTable& table : group.tables)
-      bytes +=
-          notes + 2 * (table.meaning.units.size() + table.meaning.description.size()) + table.rows * table.row_bytes();
+      bytes += notes + 2 * (table.meaning.units.size() + table.meaning.description.size()) +
+               (is_packed(table, compression) ? 0 : table.rows * table.row_bytes());
   }
   return bytes;
 }
 
-// Makes the table, and adds its pieces to those of the parts.
-void make_table(const GrowingTable& table, const File& file, Pieces& pieces) {
-  std::vector<hsize_t> shape{table.rows};
-  shape.insert(shape.end(), table.row_shape.begin(), table.row_shape.end());
-  const uint64_t start = hdf5::make_room(file, table.path, table.meaning, table.type, shape);
-  for (const auto& [part, piece] : table.pieces)
-    if (piece.bytes > 0) pieces.at(part).push_back({piece.from, start + piece.to, piece.bytes, piece.base});
+// Where the rows of compressed tables go to: one after the other, by path.
+std::map<std::string, uint64_t> packed_places(const std::vector<GrowingGroup>& groups, uint32_t compression) {
+  std::map<std::pair<std::string, std::string>, uint64_t> sizes;  // by group and path
+  for (const GrowingGroup& group : groups)
+    for (const GrowingTable& table : group.tables)
+      if (is_packed(table, compression)) sizes[{group.path, table.path}] = table.rows * table.row_bytes();
+  std::map<std::string, uint64_t> places;
+  uint64_t next = packed_begin;
+  for (const auto& [name, bytes] : sizes) {
+    places[name.second] = next;
+    next += bytes;
+  }
+  return places;
 }
 
 }  // namespace
@@ -52,10 +67,12 @@ void GrowingTable::take(size_t part, uint64_t from, hsize_t count, uint64_t last
   if (offsets()) base_ += last;
 }
 
-Pieces make_tables(PendingFile& out, File& head, const std::vector<GrowingGroup>& groups, size_t parts) {
+Pieces make_tables(PendingFile& out, File& head, const std::vector<GrowingGroup>& groups, size_t parts,
+                   uint32_t compression) {
   const auto image = head.image();
   out.write(image);
-  out.reserve(image.size() + most_bytes(groups));
+  out.reserve(image.size() + most_bytes(groups, compression));
+  const std::map<std::string, uint64_t> packed = packed_places(groups, compression);
   Pieces pieces(parts);
   File file = File::open_to_write(out.temporary());
   for (const GrowingGroup& group : groups) {
@@ -63,7 +80,20 @@ Pieces make_tables(PendingFile& out, File& head, const std::vector<GrowingGroup>
     std::vector<const GrowingTable*> tables;
     for (const GrowingTable& table : group.tables) tables.push_back(&table);
     std::ranges::sort(tables, {}, &GrowingTable::path);
-    for (const GrowingTable* table : tables) make_table(*table, file, pieces);
+    for (const GrowingTable* table : tables) {
+      std::vector<hsize_t> shape{table->rows};
+      shape.insert(shape.end(), table->row_shape.begin(), table->row_shape.end());
+      uint64_t start = 0;
+      if (const auto place = packed.find(table->path); place != packed.end()) {
+        start = place->second;
+        const hsize_t chunk_rows = std::min<hsize_t>(table->rows, packed_chunk_bytes / table->row_bytes());
+        hdf5::make_packed(file, table->path, table->meaning, table->type, shape, {chunk_rows, compression});
+      } else {
+        start = hdf5::make_room(file, table->path, table->meaning, table->type, shape);
+      }
+      for (const auto& [part, piece] : table->pieces)
+        if (piece.bytes > 0) pieces.at(part).push_back({piece.from, start + piece.to, piece.bytes, piece.base});
+    }
   }
   file.flush();
   return pieces;

@@ -37,7 +37,8 @@ struct GrowingGroup {
 };
 
 // Makes an empty file one of this head and these tables, but for the rows: returns where those of so many parts belong
-// (copy_pieces.hpp). Throws RuntimeError.
-Pieces make_tables(PendingFile& out, hdf5::File& head, const std::vector<GrowingGroup>& groups, size_t parts);
+// (packed_rows.hpp). compression: level of deflate, 0 to 9; 0 stores rows as they are. Throws RuntimeError.
+Pieces make_tables(PendingFile& out, hdf5::File& head, const std::vector<GrowingGroup>& groups, size_t parts,
+                   uint32_t compression);
 
 }  // namespace wavetracer

@@ -42,12 +42,7 @@ double bytes_an_entry(const CacheConfig& config) {
 }
 
 uint32_t share_of(const CacheConfig& config, uint32_t transmitter_count, const gpu::DeviceInfo& device) {
-  const uint64_t least = least_share * transmitter_count;
-  if (config.buffer_size < least)
-    throw ConfigError(fmt::format(
-        "cache.buffer_size = {} is too small: {} transmitters share it evenly, and each needs {} entries; give {} or "
-        "more",
-        config.buffer_size, transmitter_count, least_share, least));
+  check_cache_share(config, transmitter_count);
   if (config.buffer_size > most_entries)
     throw ConfigError(fmt::format("cache.buffer_size = {} is too large: a table has {} entries at most",
                                   config.buffer_size, most_entries));
@@ -80,6 +75,15 @@ void fill(gpu::Context& context, gpu::Buffer<T>& buffer, uint32_t value, uint64_
 }
 
 }  // namespace
+
+void check_cache_share(const CacheConfig& config, uint32_t transmitter_count) {
+  const uint64_t least = least_share * transmitter_count;
+  if (config.buffer_size < least)
+    throw ConfigError(fmt::format(
+        "cache.buffer_size = {} is too small: {} transmitters share it evenly, and each needs {} entries; give {} or "
+        "more",
+        config.buffer_size, transmitter_count, least_share, least));
+}
 
 CacheTable make_cache_table(gpu::Context& context, const CacheConfig& config, uint32_t transmitter_count,
                             uint32_t surface_count, uint32_t primitive_count) {

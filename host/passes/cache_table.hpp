@@ -40,6 +40,9 @@ struct CacheMovement {
   gpu::Buffer<uint32_t> instance_since;  // frame in which each instance last moved
 };
 
+// Throws ConfigError where a transmitter's share of cache.buffer_size is too small, which no device is asked for.
+void check_cache_share(const CacheConfig& config, uint32_t transmitter_count);
+
 // Entries, heads and regions of this configuration, all empty. surface_count, primitive_count: of the world, for
 // hash_method 2. Throws ConfigError that names limit and value where the device cannot hold cache.buffer_size, or a
 // transmitter's share of it is too small.

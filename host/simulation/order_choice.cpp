@@ -1,6 +1,7 @@
 // A sample of the frame's own rays is traced in every order, sort paid; the best of two warm runs counts.
 // Ray counts are taken by powers of two: orders do not change places between a million rays and a million and a half.
 #include "simulation/order_choice.hpp"
+#include "base/digits.hpp"
 
 #include <fmt/format.h>
 
@@ -75,7 +76,7 @@ std::string reason_of(std::vector<Candidate> measured, const Candidate& best, ui
   char date[32];
   std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
   std::string text = fmt::format(
-      "{} was chosen by tracing {} rays in every order, sort paid, on {}:", name_of(best.order), rays, date);
+      "{} was chosen by tracing {} rays in every order, sort paid, on {}:", name_of(best.order), grouped(rays), date);
   for (const Candidate& c : measured) text += fmt::format(" {} {:.3g} ms,", name_of(c.order), c.seconds * 1e3);
   text.back() = '.';
   return text;

@@ -9,6 +9,9 @@
 #include <ranges>
 #include <stdexcept>
 
+#include "passes/cache_table.hpp"
+#include "simulation/listeners.hpp"
+
 namespace wavetracer {
 
 namespace {
@@ -33,6 +36,13 @@ bool moved(const Placement& a, const Placement& b, double step_m) {
 }
 
 }  // namespace
+
+void check_cache(const Config& config, const World& world) {
+  if (config.cache.kind == "none") return;
+  check_cache_share(
+      config.cache,
+      make_origins(world.receiver_of_transmitter(), world.transmitter_of_receiver(), config.trace.diffraction).count());
+}
 
 CacheWorld cache_world(const Scene& scene, const World& world, uint32_t transmitters) {
   CacheWorld out{.transmitters = transmitters,

@@ -192,7 +192,8 @@ struct OutputConfig {
   // Paths that are not written to paths.h5, see output/path_limits.hpp; not given: all are.
   std::optional<double> min_gain_db, dynamic_range_db;
   std::optional<uint32_t> max_paths_per_link = {};
-  bool keep_shards = true;  // of a drive that is complete and merged
+  uint32_t compression = 1;  // of the columns of HDF5 files: level of deflate, 0: none
+  bool keep_shards = false;  // of a drive that is complete and merged
 };
 
 struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer

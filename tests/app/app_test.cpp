@@ -132,6 +132,17 @@ TEST_CASE("validate refuses what only the radio part of a run reads: materials a
   CHECK(run_program({"validate", "-c", file}).code == 0);
 }
 
+TEST_CASE("validate refuses a cache that is too small for those who launch rays, in the words of a run") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + ends);
+  const auto validate = [&](const std::string& size) {
+    return run_program({"validate", "-c", file, "--set", "cache.kind=open", "--set", "cache.buffer_size=" + size});
+  };
+  check(validate("15"), 2,
+        "cache.buffer_size = 15 is too small: 1 transmitters share it evenly, and each needs 16 entries; give 16");
+  CHECK(validate("16").code == 0);
+}
+
 TEST_CASE("a vehicle type without a body needs no sizes, whatever its name is") {
   const Folder folder;
   folder.file(

@@ -108,7 +108,7 @@ TEST_CASE("an export that is interrupted leaves nothing behind") {
     const Folder folder;
     const std::string run = crowded_folder(folder, 500);  // a quarter of a million files
     Program program({"convert", run, "--to", "ns3", "-o", folder.path("out/")});
-    for (int i = 0; i < 500 && folder.entries() == 1; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int i = 0; i < 6000 && folder.entries() == 1; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     REQUIRE(folder.entries() > 1);
     program.signal(signal);
     const Outcome outcome = program.wait();

@@ -144,20 +144,3 @@ TEST_CASE("shards count what they leave out, and merge to the file of one run") 
   CHECK(left(drive.path())["paths"] == left(one.path())["paths"]);
   CHECK(left(one.path())["paths"] > 0);
 }
-
-TEST_CASE("shards that are not to be kept go once all is merged, and stay while a frame is missing") {
-  const TemporaryFolder folder;
-  SampleRun sample;
-  sample.config.output.keep_shards = false;
-  Run run = sample.run();
-  run.summary.frames_asked = 22;
-  const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 24, 1};
-  Shards shards(folder.path(), identity);
-  shards.write(run, sample.drive(3, 10));
-  shards.merge(run, {});
-  CHECK(std::filesystem::exists(folder.path() / "shards" / "manifest.jsonl"));
-  shards.write(run, sample.drive(13, 12));
-  shards.merge(run, {});
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "shards"));
-  CHECK(Reader(folder.path() / "paths.h5").shape("/frames/frame")[0] == 22);
-}

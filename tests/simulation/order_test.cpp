@@ -93,7 +93,7 @@ TEST_CASE("auto says what it chose and why, keeps it, and finds the same paths")
   const Paths plain = run(config).paths;
   config.order.method = "auto";
   Simulation first(config);
-  CHECK(first.order().reason.find("was chosen by tracing 60000 rays in every order") != std::string::npos);
+  CHECK(first.order().reason.find("was chosen by tracing 60,000 rays in every order") != std::string::npos);
   CHECK(first.order().reason.find("none ") != std::string::npos);
   CHECK(first.order().reason.find("direction-origin at each depth ") != std::string::npos);
   CHECK(identical(first.run_frame(0).paths, plain));
