@@ -7,6 +7,7 @@
 //                 rules are those of a look-up (WT_CACHE_OWN_POINT, WT_CACHE_PRECISION)
 // Rays that the cache is not for are alone. WT_RAYS_PER_ITEM rays a work-item (1 on GPUs).
 #include "lib/cache_path.clh"
+#include "wavetracer/device/arguments.h"
 
 // Words of a key: what wt_cache_same_key compares, and the transmitter.
 #ifdef WT_CACHE_EXACT
@@ -107,23 +108,22 @@ kernel void cache_follow(uint count, global float* missed, const global uint* ta
 }
 
 // refused[i] becomes i where ray i must be traced after all, else WT_NONE; so does missed[i] then.
-kernel void cache_share(global float* rays, uint capacity, uint count, global float* hits, global float* missed,
-                        global float* refused, const global uint* representatives, global wt_cache_entry* entries,
-                        global uint* heads, global uint* used, const global wt_cache_region* regions,
-                        global wt_cache_counters* counters, wt_cache_widths widths, uint now,
-                        const global wt_surface* surfaces, global uint* receivers) {
+kernel void cache_share(global float* rays, global float* hits, global float* missed, global float* refused,
+                        const global uint* representatives, global wt_cache_entry* entries, global uint* heads,
+                        global uint* used, const global wt_cache_region* regions, global wt_cache_counters* counters,
+                        const global wt_surface* surfaces, global uint* receivers, wt_cache_lookup_arguments args) {
   const wt_cache cache = {entries, heads, used, regions, counters};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
-  if (first >= count) return;
-  const uint end = first + min((uint)WT_RAYS_PER_ITEM, count - first);
+  if (first >= args.count) return;
+  const uint end = first + min((uint)WT_RAYS_PER_ITEM, args.count - first);
   for (uint i = first; i < end; ++i) {
     refused[i] = as_float(WT_NONE);
     const uint from = representatives[i];
     if (from == WT_NONE) continue;
-    const wt_cache_question q = wt_cache_ask(rays, capacity, i, widths, now),
-                            traced = wt_cache_ask(rays, capacity, from, widths, now);
-    wt_cache_entry e = wt_cache_answer(traced, hits[from], wt_load_word(hits, capacity, WT_HIT_PRIMITIVE, from),
-                                       wt_load_word(hits, capacity, WT_HIT_SURFACE, from), WT_NONE);
+    const wt_cache_question q = wt_cache_ask(rays, args.capacity, i, args.widths, args.now),
+                            traced = wt_cache_ask(rays, args.capacity, from, args.widths, args.now);
+    wt_cache_entry e = wt_cache_answer(traced, hits[from], wt_load_word(hits, args.capacity, WT_HIT_PRIMITIVE, from),
+                                       wt_load_word(hits, args.capacity, WT_HIT_SURFACE, from), WT_NONE);
     bool takes = wt_cache_stands(&e, q, regions[q.region]);
 #if defined(WT_CACHE_OWN_POINT) && !defined(WT_CACHE_EXACT)
     if (takes && e.surface != WT_NONE) takes = wt_cache_meets(q, surfaces + e.surface, &e.t);
@@ -133,17 +133,17 @@ kernel void cache_share(global float* rays, uint capacity, uint count, global fl
       continue;
     }
     hits[i] = e.t;
-    wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, e.primitive);
-    wt_store_word(hits, capacity, WT_HIT_SURFACE, i, e.surface);
+    wt_store_word(hits, args.capacity, WT_HIT_PRIMITIVE, i, e.primitive);
+    wt_store_word(hits, args.capacity, WT_HIT_SURFACE, i, e.surface);
 #if !defined(WT_CACHE_OWN_POINT) && !defined(WT_CACHE_EXACT)
-    wt_store_float3(rays, capacity, WT_RAY_ORIGIN, i, traced.origin);
-    wt_store_float3(rays, capacity, WT_RAY_DIRECTION, i, traced.direction);
+    wt_store_float3(rays, args.capacity, WT_RAY_ORIGIN, i, traced.origin);
+    wt_store_float3(rays, args.capacity, WT_RAY_DIRECTION, i, traced.direction);
 #endif
 #ifdef WT_CACHE_ALL
     receivers[i] = receivers[from];
 #endif
 #ifdef WT_CACHE_STATISTICS
-    wt_cache_link_path(cache, rays, capacity, i, wt_load_word(rays, capacity, WT_RAY_ENTRY, from));
+    wt_cache_link_path(cache, rays, args.capacity, i, wt_load_word(rays, args.capacity, WT_RAY_ENTRY, from));
 #endif
   }
 }

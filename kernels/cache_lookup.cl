@@ -7,6 +7,7 @@
 //                        thesis' tables as printed (WT_CACHE_THESIS)
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
+#include "wavetracer/device/arguments.h"
 
 // What moves, with WT_CACHE_ALL; else placeholders.
 typedef struct {
@@ -54,48 +55,47 @@ inline uint look_up(wt_cache cache, wt_cache_question q, uint left_surface, uint
   return slot;
 }
 
-kernel void cache_lookup(global float* rays, uint capacity, uint count, global float* hits, global float* missed,
-                         global wt_cache_entry* entries, global uint* heads, global uint* used,
-                         const global wt_cache_region* regions, global wt_cache_counters* counters,
-                         wt_cache_widths widths, uint now, uint touch, uint static_surfaces,
-                         const global wt_surface* surfaces, const global wt_exact_surface* exact_surfaces,
-                         const global float* receivers, float radius, const global uint* instance_since,
-                         global uint* receptions, global uint* entry_hits, global uint* uses) {
+kernel void cache_lookup(global float* rays, global float* hits, global float* missed, global wt_cache_entry* entries,
+                         global uint* heads, global uint* used, const global wt_cache_region* regions,
+                         global wt_cache_counters* counters, const global wt_surface* surfaces,
+                         const global wt_exact_surface* exact_surfaces, const global float* receivers,
+                         const global uint* instance_since, global uint* receptions, global uint* entry_hits,
+                         global uint* uses, wt_cache_lookup_arguments args) {
   const wt_cache cache = {entries, heads, used, regions, counters};
-  const wt_cache_movement movement = {receivers, radius, exact_surfaces, instance_since};
+  const wt_cache_movement movement = {receivers, args.radius_m, exact_surfaces, instance_since};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
-  if (first >= count) return;
-  const uint end = first + min((uint)WT_RAYS_PER_ITEM, count - first);
+  if (first >= args.count) return;
+  const uint end = first + min((uint)WT_RAYS_PER_ITEM, args.count - first);
   for (uint next = first; next < end; next += WT_AHEAD) {
     wt_cache_question questions[WT_AHEAD];
     const uint ahead = min((uint)WT_AHEAD, end - next);
     for (uint k = 0; k < ahead; ++k) {
-      questions[k] = wt_cache_ask(rays, capacity, next + k, widths, now);
+      questions[k] = wt_cache_ask(rays, args.capacity, next + k, args.widths, args.now);
       wt_cache_prefetch_home(cache, questions[k]);
     }
     if (WT_AHEAD > 1)
       for (uint k = 0; k < ahead; ++k) wt_cache_prefetch_entry(cache, questions[k], false);
     for (uint k = 0; k < ahead; ++k) {
-      const uint i = next + k, left_surface = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
+      const uint i = next + k, left_surface = wt_load_word(rays, args.capacity, WT_RAY_SURFACE, i);
       wt_cache_entry e;
-      const uint slot = look_up(cache, questions[k], left_surface, static_surfaces, surfaces, movement, &e);
-      wt_store_word(missed, capacity, 0, i, slot == WT_NONE ? i : WT_NONE);
+      const uint slot = look_up(cache, questions[k], left_surface, args.static_surfaces, surfaces, movement, &e);
+      wt_store_word(missed, args.capacity, 0, i, slot == WT_NONE ? i : WT_NONE);
 #ifdef WT_CACHE_ALL
       receptions[i] = slot == WT_NONE ? WT_NONE : e.receiver;
 #endif
       if (slot == WT_NONE) continue;
       hits[i] = e.t;
-      wt_store_word(hits, capacity, WT_HIT_PRIMITIVE, i, e.primitive);
-      wt_store_word(hits, capacity, WT_HIT_SURFACE, i, e.surface);
+      wt_store_word(hits, args.capacity, WT_HIT_PRIMITIVE, i, e.primitive);
+      wt_store_word(hits, args.capacity, WT_HIT_SURFACE, i, e.surface);
 #if !defined(WT_CACHE_OWN_POINT) && !defined(WT_CACHE_EXACT)
-      wt_store_float3(rays, capacity, WT_RAY_ORIGIN, i, vload3(0, e.origin));
-      wt_store_float3(rays, capacity, WT_RAY_DIRECTION, i, vload3(0, e.direction));
+      wt_store_float3(rays, args.capacity, WT_RAY_ORIGIN, i, vload3(0, e.origin));
+      wt_store_float3(rays, args.capacity, WT_RAY_DIRECTION, i, vload3(0, e.direction));
 #endif
 #ifdef WT_CACHE_STATISTICS
       wt_fetch_add_u32(entry_hits + slot, 1u);
-      wt_cache_link_path(cache, rays, capacity, i, slot);
+      wt_cache_link_path(cache, rays, args.capacity, i, slot);
 #endif
-      if (touch) wt_store_relaxed_u32(uses + slot, now);
+      if (args.touch) wt_store_relaxed_u32(uses + slot, args.now);
     }
   }
 }

@@ -4,6 +4,7 @@
 // receiver that the segment passed, and so does receivers[i].
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
+#include "wavetracer/device/arguments.h"
 
 // Ray k of the missed ones: its hit to the whole queue, and into the table.
 inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, uint capacity,
@@ -38,23 +39,22 @@ inline void flush_tally(wt_cache cache, uint region) {
 
 #ifdef WT_CPU
 // A run of rays per work-item.
-kernel void cache_store(global float* rays, uint capacity, const global float* missed, const global float* missed_hits,
-                        uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
-                        global wt_cache_entry* entries, global uint* heads, global uint* used,
-                        const global wt_cache_region* regions, global wt_cache_counters* counters,
-                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions,
-                        global uint* receivers) {
+kernel void cache_store(global float* rays, const global float* missed, const global float* missed_hits,
+                        const global uint* indices, global float* hits, global wt_cache_entry* entries,
+                        global uint* heads, global uint* used, const global wt_cache_region* regions,
+                        global wt_cache_counters* counters, const global uint* receptions, global uint* receivers,
+                        wt_cache_store_arguments args) {
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
-  if (first >= missed_count) return;
-  const uint end = first + min((uint)WT_RAYS_PER_ITEM, missed_count - first);
-  uint region = wt_load_word(missed, missed_capacity, WT_RAY_REGION, first);
+  if (first >= args.missed_count) return;
+  const uint end = first + min((uint)WT_RAYS_PER_ITEM, args.missed_count - first);
+  uint region = wt_load_word(missed, args.missed_capacity, WT_RAY_REGION, first);
   for (uint next = first; next < end; next += WT_AHEAD) {
     wt_cache_question questions[WT_AHEAD];
     const uint ahead = min((uint)WT_AHEAD, end - next);
     for (uint j = 0; j < ahead; ++j) {
-      questions[j] = wt_cache_ask(missed, missed_capacity, next + j, widths, now);
+      questions[j] = wt_cache_ask(missed, args.missed_capacity, next + j, args.widths, args.now);
       wt_cache_prefetch_home(cache, questions[j]);
     }
     for (uint j = 0; j < ahead; ++j) wt_cache_prefetch_entry(cache, questions[j], true);
@@ -63,33 +63,32 @@ kernel void cache_store(global float* rays, uint capacity, const global float* m
         flush_tally(cache, region);
         region = questions[j].region;
       }
-      store_hit(cache, questions[j], rays, capacity, missed, missed_hits, missed_capacity, next + j, indices[next + j],
-                hits, static_surfaces, receptions, receivers);
+      store_hit(cache, questions[j], rays, args.capacity, missed, missed_hits, args.missed_capacity, next + j,
+                indices[next + j], hits, args.static_surfaces, receptions, receivers);
     }
   }
   flush_tally(cache, region);
 }
 #else
 // One ray a work-item. Neighbours mostly belong to one region, for which the group adds up.
-kernel void cache_store(global float* rays, uint capacity, const global float* missed, const global float* missed_hits,
-                        uint missed_capacity, uint missed_count, const global uint* indices, global float* hits,
-                        global wt_cache_entry* entries, global uint* heads, global uint* used,
-                        const global wt_cache_region* regions, global wt_cache_counters* counters,
-                        wt_cache_widths widths, uint now, uint static_surfaces, const global uint* receptions,
-                        global uint* receivers) {
+kernel void cache_store(global float* rays, const global float* missed, const global float* missed_hits,
+                        const global uint* indices, global float* hits, global wt_cache_entry* entries,
+                        global uint* heads, global uint* used, const global wt_cache_region* regions,
+                        global wt_cache_counters* counters, const global uint* receptions, global uint* receivers,
+                        wt_cache_store_arguments args) {
   local uint stored, claimed, region;
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
   const uint k = get_global_id(0);
   if (get_local_id(0) == 0) {
     stored = claimed = 0;
-    region = wt_load_word(missed, missed_capacity, WT_RAY_REGION, min(k, missed_count - 1));
+    region = wt_load_word(missed, args.missed_capacity, WT_RAY_REGION, min(k, args.missed_count - 1));
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (k < missed_count) {
-    const wt_cache_question q = wt_cache_ask(missed, missed_capacity, k, widths, now);
-    store_hit(cache, q, rays, capacity, missed, missed_hits, missed_capacity, k, indices[k], hits, static_surfaces,
-              receptions, receivers);
+  if (k < args.missed_count) {
+    const wt_cache_question q = wt_cache_ask(missed, args.missed_capacity, k, args.widths, args.now);
+    store_hit(cache, q, rays, args.capacity, missed, missed_hits, args.missed_capacity, k, indices[k], hits,
+              args.static_surfaces, receptions, receivers);
     if (q.region != region) flush_tally(cache, q.region);
   }
   if (tally.stored) atomic_add(&stored, tally.stored);

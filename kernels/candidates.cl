@@ -2,6 +2,7 @@
 // surface. Roots (lines of sight) are candidates always. Conservative: each bound covers the rounding of everything it
 // is computed from.
 #include "lib/images.clh"
+#include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 // Which of 16 receivers the sequence with this image of the transmitter may reach by its last surface; a: how far the
@@ -34,31 +35,30 @@ inline uint may_reach(const global wt_surface* s, float ix, float iy, float iz, 
 // ends see, and longer prefixes. One sequence and `groups_per_item` groups of 16 receivers per work-item. nodes[] holds
 // the roots first, then the trie's nodes. receivers: three planes of receiver_capacity floats, padded to a multiple of
 // 16 with copies of the last one. links: a mask of the wanted receivers for each transmitter and 16 receivers.
-kernel void candidates(const global ulong* table, const global uint* nodes, uint node_count,
-                       const global double4* transmitters, const global wt_exact_surface* exact,
-                       const global wt_surface* surfaces, const global float* receivers, const global ushort* links,
-                       uint receiver_capacity, uint groups_per_item, uint transmitter_count, uint max_reflections,
-                       global wt_candidate* out, uint capacity, global wt_counters* counters) {
-  const uint groups = receiver_capacity / 16, items = (groups + groups_per_item - 1) / groups_per_item;
-  const uint i = get_global_id(0) / items, first = get_global_id(0) % items * groups_per_item;
-  if (i >= node_count) return;
+kernel void candidates(const global ulong* table, const global uint* nodes, const global double4* transmitters,
+                       const global wt_exact_surface* exact, const global wt_surface* surfaces,
+                       const global float* receivers, const global ushort* links, global wt_candidate* out,
+                       global wt_counters* counters, wt_candidates_arguments args) {
+  const uint groups = args.receiver_capacity / 16, items = (groups + args.groups_per_item - 1) / args.groups_per_item;
+  const uint i = get_global_id(0) / items, first = get_global_id(0) % items * args.groups_per_item;
+  if (i >= args.node_count) return;
   uint chain[WT_MAX_DEPTH], transmitter;
   const uint depth = wt_chain(table, nodes[i], chain, &transmitter);
-  if (transmitter >= transmitter_count || depth > max_reflections) return;
+  if (transmitter >= args.transmitter_count || depth > args.max_reflections) return;
   double3 image = transmitters[transmitter].xyz;
   for (uint k = 0; k < depth; ++k) image = wt_reflected(exact + chain[k], image);
   const uint last = depth > 0 ? chain[depth - 1] : 0u;
   const float above = (float)wt_above(exact + last, image);
 
-  for (uint group = first; group < min(first + groups_per_item, groups); ++group) {
+  for (uint group = first; group < min(first + args.groups_per_item, groups); ++group) {
     uint keep = links[(size_t)transmitter * groups + group];
     if (keep == 0) continue;
     if (depth > 0)
       keep &= may_reach(surfaces + last, (float)image.x, (float)image.y, (float)image.z, above, receivers + 16 * group,
-                        receiver_capacity);
+                        args.receiver_capacity);
     uint slot = keep ? atomic_add(&counters->candidates, popcount(keep)) : 0u;
     for (; keep; keep &= keep - 1, ++slot) {
-      if (slot >= capacity) continue;
+      if (slot >= args.capacity) continue;
       out[slot].node = nodes[i];
       out[slot].receiver = 16 * group + popcount((keep & (~keep + 1)) - 1u);
     }

@@ -7,6 +7,7 @@
 #include "lib/block_rank.clh"
 #include "lib/mirror.clh"
 #include "lib/trie.clh"
+#include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 // The end of a sample so far: the sequence that its ray has lived through.
@@ -15,8 +16,6 @@ inline void note_end(const global float* rays, uint capacity, uint i, uint node,
   ends[wt_load_word(rays, capacity, WT_RAY_SAMPLE, i)] = node;
 #endif
 }
-
-inline uint quarter_bit(uint word) { return 1u << (word >> WT_QUARTER_SHIFT & 3u); }
 
 // Ray i goes on as ray j of a queue, from o along d. word: its node and quarter.
 inline void store_ray(const global float* rays, const global float* hits, uint capacity, uint i, uint surface,
@@ -60,33 +59,34 @@ inline bool goes_on(uint last) {
 #ifdef WT_CPU
 // WT_BLOCKS_PER_ITEM blocks a work-item, their rays in turn. Neighbours mostly share their prefix: the last insertion
 // is kept.
-kernel void interact(const global float* rays, const global float* hits, uint capacity, uint ray_count,
-                     const global uint* block_offsets, const global wt_surface* surfaces, global ulong* table,
-                     uint mask, global uint* quarters, global wt_counters* counters, global float* next, uint last,
-                     global uint* ages, uint now, global uint* ends, global float* through) {
+kernel void interact(const global float* rays, const global float* hits, const global uint* block_offsets,
+                     const global wt_surface* surfaces, global ulong* table, global uint* quarters,
+                     global wt_counters* counters, global float* next, global uint* ages, global uint* ends,
+                     global float* through, wt_interact_arguments args) {
   const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
-  const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, ray_count);
-  if (first >= ray_count) return;
+  const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, args.ray_count);
+  if (first >= args.ray_count) return;
   uint j = block_offsets[first_block];
   uint last_parent = WT_NONE, last_surface = WT_NONE, last_node = WT_NONE, found = 0;
   for (uint i = first; i < end; ++i) {
-    const uint surface = wt_load_word(hits, capacity, WT_HIT_SURFACE, i);
+    const uint surface = wt_load_word(hits, args.capacity, WT_HIT_SURFACE, i);
     if (surface == WT_NONE) continue;
-    const uint word = wt_load_word(rays, capacity, WT_RAY_NODE, i), parent = wt_node_of(word);
+    const uint word = wt_load_word(rays, args.capacity, WT_RAY_NODE, i), parent = wt_node_of(word);
     if (parent != last_parent || surface != last_surface) {
       wt_note_quarters(quarters, last_node, found);
       found = 0;
-      last_node = wt_trie_insert(table, mask, parent, surface);
+      last_node = wt_trie_insert(table, args.trie_mask, parent, surface);
       last_parent = parent;
       last_surface = surface;
       if (last_node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
 #ifdef WT_AGES
-      if (last_node != WT_NONE) ages[last_node] = now;
+      if (last_node != WT_NONE) ages[last_node] = args.now;
 #endif
     }
-    found |= quarter_bit(word);
-    note_end(rays, capacity, i, last_node, ends);
-    if (goes_on(last)) store(surfaces, rays, hits, capacity, i, surface, word, last_node, last, next, through, j);
+    found |= wt_quarter_bit(word);
+    note_end(rays, args.capacity, i, last_node, ends);
+    if (goes_on(args.last))
+      store(surfaces, rays, hits, args.capacity, i, surface, word, last_node, args.last, next, through, j);
     ++j;
   }
   wt_note_quarters(quarters, last_node, found);
@@ -94,25 +94,24 @@ kernel void interact(const global float* rays, const global float* hits, uint ca
 #else
 // One ray a work-item, one block a work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
-    const global float* rays, const global float* hits, uint capacity, uint ray_count, const global uint* block_offsets,
-    const global wt_surface* surfaces, global ulong* table, uint mask, global uint* quarters,
-    global wt_counters* counters, global float* next, uint last, global uint* ages, uint now, global uint* ends,
-    global float* through) {
+    const global float* rays, const global float* hits, const global uint* block_offsets,
+    const global wt_surface* surfaces, global ulong* table, global uint* quarters, global wt_counters* counters,
+    global float* next, global uint* ages, global uint* ends, global float* through, wt_interact_arguments args) {
   local uint alive[WT_BLOCK_MASKS];
   const uint i = get_global_id(0);
-  const uint surface = i < ray_count ? wt_load_word(hits, capacity, WT_HIT_SURFACE, i) : WT_NONE;
+  const uint surface = i < args.ray_count ? wt_load_word(hits, args.capacity, WT_HIT_SURFACE, i) : WT_NONE;
   wt_mark_block(alive, surface != WT_NONE);
   if (surface == WT_NONE) return;
-  const uint word = wt_load_word(rays, capacity, WT_RAY_NODE, i);
-  const uint node = wt_trie_insert(table, mask, wt_node_of(word), surface);
+  const uint word = wt_load_word(rays, args.capacity, WT_RAY_NODE, i);
+  const uint node = wt_trie_insert(table, args.trie_mask, wt_node_of(word), surface);
   if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
-  wt_note_quarters(quarters, node, quarter_bit(word));
+  wt_note_quarters(quarters, node, wt_quarter_bit(word));
 #ifdef WT_AGES
-  if (node != WT_NONE) ages[node] = now;
+  if (node != WT_NONE) ages[node] = args.now;
 #endif
-  note_end(rays, capacity, i, node, ends);
-  if (!goes_on(last)) return;
+  note_end(rays, args.capacity, i, node, ends);
+  if (!goes_on(args.last)) return;
   const uint j = block_offsets[get_group_id(0)] + wt_block_rank(alive);
-  store(surfaces, rays, hits, capacity, i, surface, word, node, last, next, through, j);
+  store(surfaces, rays, hits, args.capacity, i, surface, word, node, args.last, next, through, j);
 }
 #endif

@@ -1,19 +1,20 @@
 // occlusion: is a leg of a solved path obstructed? One leg a work-item; lib/legs.clh has the rule.
 // Consumes solved paths; sets wt_solved::blocked.
 #include "lib/legs.clh"
+#include "wavetracer/device/arguments.h"
 
-kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, uint triangle_slots, float extent_m,
-                      const global float4* moving, const global double4* transmitters, const global double4* receivers,
-                      const global wt_exact_surface* surfaces, uint solved_count, uint max_depth,
-                      global wt_solved* solved, const global double* vertices, const global uint* sequences) {
-  const uint i = get_global_id(0) / (max_depth + 1), leg = get_global_id(0) % (max_depth + 1);
-  if (i >= solved_count || leg > solved[i].depth) return;
+kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
+                      const global double4* transmitters, const global double4* receivers,
+                      const global wt_exact_surface* surfaces, global wt_solved* solved, const global double* vertices,
+                      const global uint* sequences, wt_legs_arguments args) {
+  const uint i = get_global_id(0) / (args.max_depth + 1), leg = get_global_id(0) % (args.max_depth + 1);
+  if (i >= args.solved_count || leg > solved[i].depth) return;
   // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One
   // that comes too soon to see it does no harm.
   if (wt_load_relaxed_u32(&solved[i].blocked)) return;
-  const size_t row = (size_t)i * max_depth;
+  const size_t row = (size_t)i * args.max_depth;
   const wt_leg l = wt_leg_of(solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers);
   wt_walk walk = {0.0f, WT_NONE};
-  if (wt_next_blocking(nodes, triangles, triangle_slots, extent_m, moving, surfaces, &l, &walk) != WT_NONE)
+  if (wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &walk) != WT_NONE)
     atomic_or(&solved[i].blocked, 1u);
 }

@@ -3,6 +3,7 @@
 // With WT_ANSWERED some rays were answered by a ray cache, which then says what they pass.
 #include "lib/hit.clh"
 #include "lib/trie.clh"
+#include "wavetracer/device/arguments.h"
 #include "wavetracer/device/waypoints.h"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -53,60 +54,59 @@ inline void append(const global float* rays, uint capacity, uint i, uint receive
 
 // links: a mask of the wanted receivers for each transmitter and 16 receivers. answered: receivers by the cache;
 // traced[i] is WT_NONE where ray i was answered.
-kernel void receive(const global float* rays, const global float* hits, uint capacity, uint ray_count,
-                    const global float* receivers, const global ushort* links, uint receiver_capacity, float radius_m,
-                    uint depth, global wt_reception* out, uint out_capacity, global uint* counter,
-                    const global uint* traced, const global uint* answered) {
+kernel void receive(const global float* rays, const global float* hits, const global float* receivers,
+                    const global ushort* links, global wt_reception* out, global uint* counter,
+                    const global uint* traced, const global uint* answered, wt_receive_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= ray_count) return;
-  const segment s = load_segment(rays, hits, capacity, i);
+  if (i >= args.ray_count) return;
+  const segment s = load_segment(rays, hits, args.capacity, i);
   float16 along, apart;
   float apart_of[16];
 #ifdef WT_ANSWERED
   if (traced[i] == WT_NONE) {
     const uint receiver = answered[i];
     if (receiver == WT_NONE) return;
-    nearest_points(s, receivers + receiver / 16 * 16, receiver_capacity, &along, &apart);
+    nearest_points(s, receivers + receiver / 16 * 16, args.receiver_capacity, &along, &apart);
     vstore16(apart, 0, apart_of);
-    append(rays, capacity, i, receiver, depth, sqrt(apart_of[receiver % 16]), out, out_capacity, counter);
+    append(rays, args.capacity, i, receiver, args.depth, sqrt(apart_of[receiver % 16]), out, args.out_capacity,
+           counter);
     return;
   }
 #endif
-  const uint groups = receiver_capacity / 16;
-  const global ushort* wanted = links + (size_t)wt_load_word(rays, capacity, WT_RAY_REGION, i) * groups;
+  const uint groups = args.receiver_capacity / 16;
+  const global ushort* wanted = links + (size_t)wt_load_word(rays, args.capacity, WT_RAY_REGION, i) * groups;
   for (uint group = 0; group < groups; ++group) {
     if (wanted[group] == 0) continue;
-    nearest_points(s, receivers + 16 * group, receiver_capacity, &along, &apart);
-    uint passed = wanted[group] & within(apart, radius_m);
+    nearest_points(s, receivers + 16 * group, args.receiver_capacity, &along, &apart);
+    uint passed = wanted[group] & within(apart, args.radius_m);
     if (passed == 0) continue;
     vstore16(apart, 0, apart_of);
     for (; passed; passed &= passed - 1) {
       const uint k = popcount((passed & (~passed + 1)) - 1u);
-      append(rays, capacity, i, 16 * group + k, depth, sqrt(apart_of[k]), out, out_capacity, counter);
+      append(rays, args.capacity, i, 16 * group + k, args.depth, sqrt(apart_of[k]), out, args.out_capacity, counter);
     }
   }
 }
 
 // first[i] becomes the receiver whose sphere ray i enters first, of the wanted ones (the lowest of equals), or WT_NONE:
 // what a cache keeps of a segment.
-kernel void first_receiver(const global float* rays, const global float* hits, uint capacity, uint ray_count,
-                           const global float* receivers, const global ushort* links, uint receiver_capacity,
-                           float radius_m, global uint* first) {
+kernel void first_receiver(const global float* rays, const global float* hits, const global float* receivers,
+                           const global ushort* links, global uint* first, wt_receive_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= ray_count) return;
-  const segment s = load_segment(rays, hits, capacity, i);
-  const uint groups = receiver_capacity / 16;
-  const global ushort* wanted = links + (size_t)wt_load_word(rays, capacity, WT_RAY_REGION, i) * groups;
+  if (i >= args.ray_count) return;
+  const segment s = load_segment(rays, hits, args.capacity, i);
+  const uint groups = args.receiver_capacity / 16;
+  const global ushort* wanted = links + (size_t)wt_load_word(rays, args.capacity, WT_RAY_REGION, i) * groups;
   uint nearest = WT_NONE;
   float nearest_m = INFINITY;
   for (uint group = 0; group < groups; ++group) {
     if (wanted[group] == 0) continue;
     float16 along, apart;
-    nearest_points(s, receivers + 16 * group, receiver_capacity, &along, &apart);
-    uint passed = wanted[group] & within(apart, radius_m);
+    nearest_points(s, receivers + 16 * group, args.receiver_capacity, &along, &apart);
+    uint passed = wanted[group] & within(apart, args.radius_m);
     if (passed == 0) continue;
     float entry_m[16];
-    vstore16(along - sqrt(fmax(radius_m * radius_m - apart, 0.0f)), 0, entry_m);
+    vstore16(along - sqrt(fmax(args.radius_m * args.radius_m - apart, 0.0f)), 0, entry_m);
     for (; passed; passed &= passed - 1) {
       const uint k = popcount((passed & (~passed + 1)) - 1u);
       if (entry_m[k] >= nearest_m) continue;

@@ -1,6 +1,7 @@
 // scatter: paths transmitter - tile - receiver over the surfaces that a transmitter's rays saw directly. lit finds
 // which receivers each of them may serve, scatter writes a row for each of those and each tile. Legs are not tested.
 #include "lib/images.clh"
+#include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 inline int carries(const global wt_exact_surface* s, double4 end) {
@@ -10,20 +11,19 @@ inline int carries(const global wt_exact_surface* s, double4 end) {
 // One node and one group of 16 receivers per work-item. Consumes the trie, of transmitters below transmitter_count;
 // tiles_of: of each surface the number of its first tile, where the centre of that is, and how many there are.
 // Appends (node, group, mask of receivers, tiles); *count is their number.
-kernel void lit(const global ulong* table, const global uint* nodes, uint node_count,
-                const global double4* transmitters, uint transmitter_count, const global double4* receivers,
-                const global ushort* links, uint groups, const global wt_exact_surface* surfaces,
-                const global uint4* tiles_of, global uint4* out, uint capacity, global uint* count) {
-  const uint group = get_global_id(0) / node_count, i = get_global_id(0) % node_count;
-  if (group >= groups || (nodes[i] & WT_ROOT)) return;
+kernel void lit(const global ulong* table, const global uint* nodes, const global double4* transmitters,
+                const global double4* receivers, const global ushort* links, const global wt_exact_surface* surfaces,
+                const global uint4* tiles_of, global uint4* out, global uint* count, wt_lit_arguments args) {
+  const uint group = get_global_id(0) / args.node_count, i = get_global_id(0) % args.node_count;
+  if (group >= args.groups || (nodes[i] & WT_ROOT)) return;
   const ulong key = table[nodes[i]];
   const uint transmitter = wt_trie_parent(key) & ~WT_ROOT, surface = wt_trie_surface(key);
-  if (!(wt_trie_parent(key) & WT_ROOT) || transmitter >= transmitter_count || tiles_of[surface].z == 0) return;
+  if (!(wt_trie_parent(key) & WT_ROOT) || transmitter >= args.transmitter_count || tiles_of[surface].z == 0) return;
   const global wt_exact_surface* s = surfaces + surface;
   const double above = wt_above(s, transmitters[transmitter].xyz);
   if (!(fabs(above) > WT_ON_SURFACE_M) || carries(s, transmitters[transmitter])) return;
   uint keep = 0;
-  for (uint wanted = links[(size_t)transmitter * groups + group]; wanted; wanted &= wanted - 1) {
+  for (uint wanted = links[(size_t)transmitter * args.groups + group]; wanted; wanted &= wanted - 1) {
     const uint bit = wanted & (~wanted + 1);
     const double4 receiver = receivers[16 * group + popcount(bit - 1u)];
     const double b = wt_above(s, receiver.xyz);
@@ -31,27 +31,26 @@ kernel void lit(const global ulong* table, const global uint* nodes, uint node_c
   }
   if (keep == 0) return;
   const uint slot = atomic_inc(count);
-  if (slot < capacity) out[slot] = (uint4)(nodes[i], group, keep, tiles_of[surface].z);
+  if (slot < args.capacity) out[slot] = (uint4)(nodes[i], group, keep, tiles_of[surface].z);
 }
 
 // rows_per_item rows per work-item. first_row: of each of lit's entries, and row_count after the last; an entry's rows
 // go by tiles, then by receivers. centres: in the coordinates of the scene or model.
 kernel void scatter(const global ulong* table, const global uint* quarters, const global uint4* entries,
-                    const global uint* first_row, uint entry_count, uint row_count, uint rows_per_item,
-                    const global wt_exact_surface* surfaces, const global uint4* tiles_of, const global double* centres,
-                    const global wt_exact_instance* instances, uint max_depth, global wt_solved* solved,
-                    global double* vertices, global uint* sequences) {
-  const ulong begin = (ulong)get_global_id(0) * rows_per_item;
-  if (begin >= row_count) return;
+                    const global uint* first_row, const global wt_exact_surface* surfaces, const global uint4* tiles_of,
+                    const global double* centres, const global wt_exact_instance* instances, global wt_solved* solved,
+                    global double* vertices, global uint* sequences, wt_scatter_arguments args) {
+  const ulong begin = (ulong)get_global_id(0) * args.rows_per_item;
+  if (begin >= args.row_count) return;
   uint entry = 0;  // the last that begins at or before the first row
-  for (uint end = entry_count; end - entry > 1;) {
+  for (uint end = args.entry_count; end - entry > 1;) {
     const uint middle = entry + (end - entry) / 2;
     if (first_row[middle] <= begin)
       entry = middle;
     else
       end = middle;
   }
-  const uint end = (uint)min(begin + rows_per_item, (ulong)row_count);
+  const uint end = (uint)min(begin + args.rows_per_item, (ulong)args.row_count);
   for (uint row = (uint)begin; row < end; ++row) {
     if (row == first_row[entry + 1]) ++entry;  // none is empty
     const ulong key = table[entries[entry].x];
@@ -72,7 +71,7 @@ kernel void scatter(const global ulong* table, const global uint* quarters, cons
     solved[row].blocked = 0;
     solved[row].node = entries[entry].x;
     solved[row].quarters = wt_found_by(quarters, entries[entry].x);
-    vstore3(p, (size_t)row * max_depth, vertices);
-    sequences[(size_t)row * max_depth] = WT_STEP_SCATTERING | (tiles_of[surface].x + tile);
+    vstore3(p, (size_t)row * args.max_depth, vertices);
+    sequences[(size_t)row * args.max_depth] = WT_STEP_SCATTERING | (tiles_of[surface].x + tile);
   }
 }

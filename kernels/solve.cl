@@ -1,15 +1,16 @@
 // solve: the image method in double for every candidate; keeps those whose points lie inside their surfaces, on the lit
 // sides. Legs are not tested here (occlusion does that).
 #include "lib/reflections.clh"
+#include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 kernel void solve(const global ulong* table, const global uint* quarters, const global double4* transmitters,
                   const global double4* receivers, const global wt_exact_surface* surfaces,
                   const global double* triangles, const global wt_exact_instance* instances,
-                  const global wt_candidate* candidates, uint candidate_count, uint max_depth, global wt_solved* solved,
-                  global double* vertices, global uint* sequences, uint capacity, global wt_counters* counters) {
+                  const global wt_candidate* candidates, global wt_solved* solved, global double* vertices,
+                  global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= candidate_count) return;
+  if (i >= args.candidate_count) return;
   uint chain[WT_MAX_DEPTH], transmitter;
   const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
   // The vehicle that carries an antenna is no mirror to it, as it hides nothing from it.
@@ -25,7 +26,7 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
   const double3 to = receivers[candidates[i].receiver].xyz;
   if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, to, points)) return;
   const uint slot = atomic_inc(&counters->solved);
-  if (slot >= capacity) return;
+  if (slot >= args.capacity) return;
   solved[slot].transmitter = transmitter;
   solved[slot].receiver = candidates[i].receiver;
   solved[slot].depth = depth;
@@ -33,7 +34,7 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
   solved[slot].node = candidates[i].node;
   solved[slot].quarters = wt_found_by(quarters, candidates[i].node);
   for (uint k = 0; k < depth; ++k) {
-    const size_t at = (size_t)slot * max_depth + k;
+    const size_t at = (size_t)slot * args.max_depth + k;
     vstore3(points[k], at, vertices);
     sequences[at] = chain[k];
   }

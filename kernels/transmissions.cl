@@ -2,6 +2,7 @@
 // go straight on, so a path with transmissions is one without whose legs are obstructed. lib/legs.clh says by what.
 // Consumes solved paths; rewrites their rows, or sets wt_solved::blocked where that is more than the path may pass.
 #include "lib/legs.clh"
+#include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 typedef struct {
@@ -42,16 +43,16 @@ inline int passes_before(const global wt_exact_surface* surfaces, const global w
 }
 
 // One path a work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
-kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, uint triangle_slots,
-                          float extent_m, const global float4* moving, const global double4* transmitters,
-                          const global double4* receivers, const global wt_exact_surface* surfaces,
-                          const global wt_surface* boxes, uint solved_count, uint max_depth, uint most,
-                          global wt_solved* solved, global double* vertices, global uint* sequences) {
+kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
+                          const global double4* transmitters, const global double4* receivers,
+                          const global wt_exact_surface* surfaces, const global wt_surface* boxes,
+                          global wt_solved* solved, global double* vertices, global uint* sequences,
+                          wt_legs_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= solved_count) return;
-  const uint depth = solved[i].depth, allowed = min(most, max_depth - depth);
-  global double* v = vertices + 3 * (size_t)max_depth * i;
-  global uint* s = sequences + (size_t)max_depth * i;
+  if (i >= args.solved_count) return;
+  const uint depth = solved[i].depth, allowed = min(args.most, args.max_depth - depth);
+  global double* v = vertices + 3 * (size_t)args.max_depth * i;
+  global uint* s = sequences + (size_t)args.max_depth * i;
   wt_crossing crossings[WT_MAX_DEPTH];  // in order along the path
   uint count = 0;
   for (uint leg = 0; leg <= depth; ++leg) {
@@ -59,7 +60,8 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
     const uint first = count;
     wt_walk walk = {0.0f, WT_NONE};
     for (;;) {
-      const uint surface = wt_next_blocking(nodes, triangles, triangle_slots, extent_m, moving, surfaces, &l, &walk);
+      const uint surface =
+          wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &walk);
       if (surface == WT_NONE) break;
       uint known = first;
       while (known < count && !one_wall(surfaces, crossings + known, surface)) ++known;

@@ -3,6 +3,7 @@
 // surface. Conservative: the margin covers the rounding of what it is computed from.
 #include "lib/join.clh"
 #include "lib/wedge.clh"
+#include "wavetracer/device/arguments.h"
 
 inline float margin_of(float size) { return 1e-6f * size + 1e-3f; }
 
@@ -38,19 +39,18 @@ inline int may_reach(const global wt_wedge_prefix* a, const global wt_surface* s
 // where the unfolded one does: between both images' feet on its line, divided as their distances from it (Keller's
 // cone).
 kernel void wedge_join(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
-                       uint count, uint lanes, uint transmitter_count, const global uint* receiver_of_origin,
-                       const global ushort* links, uint groups, uint max_depth, const global wt_wedge* wedges,
-                       const global wt_surface* surfaces, global wt_wedge_candidate* out, uint capacity,
-                       global wt_counters* counters) {
-  const uint i = get_global_id(0) / lanes, lane = get_global_id(0) % lanes;
-  if (i >= count) return;
+                       const global uint* receiver_of_origin, const global ushort* links, const global wt_wedge* wedges,
+                       const global wt_surface* surfaces, global wt_wedge_candidate* out, global wt_counters* counters,
+                       wt_wedge_join_arguments args) {
+  const uint i = get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
+  if (i >= args.count) return;
   const global wt_wedge_prefix* a = prefixes + order[i];
-  if (a->origin >= transmitter_count || a->depth >= max_depth) return;
-  const uint wedge = keys[i] >> 5, last = WT_WEDGE_KEY(wedge, max_depth - 1 - a->depth);
-  const uint first = wt_lower_bound(keys, count, WT_WEDGE_KEY(wedge, 0));
-  for (uint j = first + lane; j < count && keys[j] <= last; j += lanes) {
+  if (a->origin >= args.transmitter_count || a->depth >= args.max_depth) return;
+  const uint wedge = wt_wedge_of(keys[i]), last = wt_wedge_key(wedge, args.max_depth - 1 - a->depth);
+  const uint first = wt_lower_bound(keys, args.count, wt_wedge_key(wedge, 0));
+  for (uint j = first + lane; j < args.count && keys[j] <= last; j += args.lanes) {
     const global wt_wedge_prefix* b = prefixes + order[j];
-    const uint receiver = wanted_receiver(a, b, 1, max_depth, receiver_of_origin, links, groups);
+    const uint receiver = wanted_receiver(a, b, 1, args.max_depth, receiver_of_origin, links, args.groups);
     if (receiver == WT_NONE) continue;
     const float legs = a->away + b->away, x = (a->along * b->away + b->along * a->away) / legs;
     const float margin = margin_of(fabs(a->along) + fabs(b->along) + legs);
@@ -61,7 +61,7 @@ kernel void wedge_join(const global uint* keys, const global uint* order, const 
                                 (float)(w->start[2] + x * w->along[2]));
       if (!may_reach(a, surfaces, p) || !may_reach(b, surfaces, p)) continue;
     }
-    emit(a, b, wedge, WT_NONE, receiver, out, capacity, counters);
+    emit(a, b, wedge, WT_NONE, receiver, out, args.capacity, counters);
   }
 }
 
@@ -73,21 +73,21 @@ inline int may_see(const global wt_wedge* w, const global wt_wedge* other) {
 }
 
 kernel void wedge_pairs(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
-                        uint count, uint lanes, uint transmitter_count, const global uint* receiver_of_origin,
-                        const global ushort* links, uint groups, uint max_depth, const global wt_wedge* wedges,
-                        global wt_wedge_candidate* out, uint capacity, global wt_counters* counters) {
-  const uint i = get_global_id(0) / lanes, lane = get_global_id(0) % lanes;
-  if (i >= count) return;
+                        const global uint* receiver_of_origin, const global ushort* links,
+                        const global wt_wedge* wedges, global wt_wedge_candidate* out, global wt_counters* counters,
+                        wt_wedge_join_arguments args) {
+  const uint i = get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
+  if (i >= args.count) return;
   const global wt_wedge_prefix* a = prefixes + order[i];
-  if (a->origin >= transmitter_count || a->depth + 2 > max_depth) return;
-  const uint wedge_a = keys[i] >> 5;
+  if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) return;
+  const uint wedge_a = wt_wedge_of(keys[i]);
   uint checked = WT_NONE;
   int seen = 0;
-  for (uint j = lane; j < count; j += lanes) {
-    const uint wedge_b = keys[j] >> 5;
+  for (uint j = lane; j < args.count; j += args.lanes) {
+    const uint wedge_b = wt_wedge_of(keys[j]);
     if (wedge_b == wedge_a) continue;
     const global wt_wedge_prefix* b = prefixes + order[j];
-    const uint receiver = wanted_receiver(a, b, 2, max_depth, receiver_of_origin, links, groups);
+    const uint receiver = wanted_receiver(a, b, 2, args.max_depth, receiver_of_origin, links, args.groups);
     if (receiver == WT_NONE) continue;
     if (wedge_b != checked) {
       checked = wedge_b;
@@ -95,6 +95,6 @@ kernel void wedge_pairs(const global uint* keys, const global uint* order, const
       const global wt_wedge* w = wedges + checked;
       seen = wt_share_face(v, w) || (may_see(v, w) && may_see(w, v));
     }
-    if (seen) emit(a, b, wedge_a, wedge_b, receiver, out, capacity, counters);
+    if (seen) emit(a, b, wedge_a, wedge_b, receiver, out, args.capacity, counters);
   }
 }

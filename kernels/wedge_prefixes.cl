@@ -2,6 +2,7 @@
 // next, so it sees the wedges of that surface; a wedge between two such surfaces is listed once. Images are exact, and
 // whether a prefix lies in the free sector of a wedge is decided here.
 #include "lib/wedge.clh"
+#include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 // Quarters whose rays see the wedge from here on its other face.
@@ -13,14 +14,14 @@ inline uint by_other_face(const global ulong* table, uint mask, const global uin
 }
 
 // One node a work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
-// entry WT_WEDGE_KEY is what to sort by, and its prefix is listed.
-kernel void wedge_prefixes(const global ulong* table, uint mask, const global uint* quarters, const global uint* nodes,
-                           uint node_count, const global double4* origins, const global wt_exact_surface* surfaces,
+// entry wt_wedge_key is what to sort by, and its prefix is listed.
+kernel void wedge_prefixes(const global ulong* table, const global uint* quarters, const global uint* nodes,
+                           const global double4* origins, const global wt_exact_surface* surfaces,
                            const global uint* first_wedges, const global uint* surface_wedges,
                            const global wt_wedge* wedges, global uint* keys, global wt_wedge_prefix* prefixes,
-                           uint capacity, global wt_counters* counters) {
+                           global wt_counters* counters, wt_wedge_prefixes_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= node_count || (nodes[i] & WT_ROOT)) return;
+  if (i >= args.node_count || (nodes[i] & WT_ROOT)) return;
   uint chain[WT_MAX_DEPTH], origin;
   const uint depth = wt_chain(table, nodes[i], chain, &origin) - 1, seen = chain[depth];
   const uint node = wt_trie_parent(table[nodes[i]]);
@@ -33,14 +34,14 @@ kernel void wedge_prefixes(const global ulong* table, uint mask, const global ui
     const uint number = surface_wedges[k];
     const global wt_wedge* w = wedges + number;
     if (own != WT_NONE && w->instance == own) continue;
-    if (w->surfaces[0] != seen && wt_trie_find(table, mask, node, w->surfaces[0]) != WT_NONE) continue;
+    if (w->surfaces[0] != seen && wt_trie_find(table, args.trie_mask, node, w->surfaces[0]) != WT_NONE) continue;
     const double3 q = wt_in_wedge(w, image);
     if (!(w->length > 0.0) || !wt_in_sector(w, q)) continue;
     const uint slot = atomic_inc(&counters->wedge_prefixes);
-    if (slot >= capacity) continue;
-    keys[slot] = WT_WEDGE_KEY(number, depth);
+    if (slot >= args.capacity) continue;
+    keys[slot] = wt_wedge_key(number, depth);
     prefixes[slot].quarters =
-        found == WT_ALL_QUARTERS ? found : found | by_other_face(table, mask, quarters, node, seen, w);
+        found == WT_ALL_QUARTERS ? found : found | by_other_face(table, args.trie_mask, quarters, node, seen, w);
     prefixes[slot].node = node;
     prefixes[slot].origin = origin;
     prefixes[slot].depth = depth;

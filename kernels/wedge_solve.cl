@@ -3,6 +3,7 @@
 // wedge. Legs are not tested here (occlusion does that).
 #include "lib/fermat.clh"
 #include "lib/reflections.clh"
+#include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 // A surface closer to the point of diffraction than this does not reflect on the way to it: its reflection and the
@@ -43,11 +44,10 @@ inline int solve_side(const global wt_exact_surface* surfaces, const global doub
 kernel void wedge_solve(const global ulong* table, const global double4* origins, const global double4* receivers,
                         const global wt_exact_surface* surfaces, const global double* triangles,
                         const global wt_exact_instance* instances, const global wt_wedge* wedges,
-                        const global wt_wedge_candidate* candidates, uint candidate_count, uint max_depth,
-                        global wt_solved* solved, global double* vertices, global uint* sequences, uint capacity,
-                        global wt_counters* counters) {
+                        const global wt_wedge_candidate* candidates, global wt_solved* solved, global double* vertices,
+                        global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= candidate_count) return;
+  if (i >= args.candidate_count) return;
   const wt_wedge_candidate c = candidates[i];
   uint chain[WT_MAX_DEPTH], back_chain[WT_MAX_DEPTH], transmitter, origin;
   double3 images[WT_MAX_DEPTH + 1], points[WT_MAX_DEPTH], back_images[WT_MAX_DEPTH + 1], back_points[WT_MAX_DEPTH];
@@ -72,7 +72,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;
 
   const uint slot = atomic_inc(&counters->solved);
-  if (slot >= capacity) return;
+  if (slot >= args.capacity) return;
   const uint diffractions = two ? 2 : 1, total = depth + diffractions + back;
   solved[slot].transmitter = transmitter;
   solved[slot].receiver = c.receiver;
@@ -80,7 +80,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   solved[slot].blocked = 0;
   solved[slot].node = WT_NONE;
   solved[slot].quarters = c.quarters;
-  size_t at = (size_t)slot * max_depth;
+  size_t at = (size_t)slot * args.max_depth;
   for (uint k = 0; k < depth; ++k, ++at) {
     vstore3(points[k], at, vertices);
     sequences[at] = WT_STEP_REFLECTION | chain[k];

@@ -1,6 +1,7 @@
 // Host side of kernels/cache_groups.cl.
 // The table of ray numbers is made as large as the missed rays need, and emptied for each queue.
 #include "passes/cache_groups.hpp"
+#include "wavetracer/device/arguments.h"
 
 #include <bit>
 #include <stdexcept>
@@ -51,9 +52,15 @@ void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits,
                         gpu::Buffer<uint32_t>* receivers) {
   if (table.config.scope == "all" && !receivers)
     throw std::invalid_argument("cache_groups: cache.scope = \"all\" without receivers");
-  share_(work_.range(rays.count), stage, rays.planes, rays.capacity, rays.count, hits.planes, missed, refused,
-         representatives_, table.entries, table.heads, table.used, table.device_regions, table.counters, table.widths,
-         now, scene.surfaces, receivers ? *receivers : table.used);
+  share_(work_.range(rays.count), stage, rays.planes, hits.planes, missed, refused, representatives_, table.entries,
+         table.heads, table.used, table.device_regions, table.counters, scene.surfaces, receivers,
+         wt_cache_lookup_arguments{.capacity = rays.capacity,
+                                   .count = rays.count,
+                                   .now = now,
+                                   .touch = 0,
+                                   .static_surfaces = 0,
+                                   .radius_m = 0,
+                                   .widths = table.widths});
 }
 
 }  // namespace wavetracer

@@ -1,6 +1,7 @@
 // Host side of kernels/cache_lookup.cl.
 // A work-item takes a run of rays.
 #include "passes/cache_lookup.hpp"
+#include "wavetracer/device/arguments.h"
 
 #include <stdexcept>
 
@@ -19,10 +20,16 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
                              bool touch, gpu::Buffer<uint32_t>* receptions) {
   if (table.config.scope == "all" && !receptions)
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
-  kernel_(work_.range(rays.count), "cache_lookup", rays.planes, rays.capacity, rays.count, hits.planes, missed,
-          table.entries, table.heads, table.used, table.device_regions, table.counters, table.widths, now,
-          static_cast<uint32_t>(touch), static_surfaces, scene.surfaces, scene.exact_surfaces, movement.receivers,
-          movement.radius_m, movement.instance_since, receptions ? *receptions : table.used, table.hits, table.uses);
+  kernel_(work_.range(rays.count), "cache_lookup", rays.planes, hits.planes, missed, table.entries, table.heads,
+          table.used, table.device_regions, table.counters, scene.surfaces, scene.exact_surfaces, movement.receivers,
+          movement.instance_since, receptions, table.hits, table.uses,
+          wt_cache_lookup_arguments{.capacity = rays.capacity,
+                                    .count = rays.count,
+                                    .now = now,
+                                    .touch = touch,
+                                    .static_surfaces = static_surfaces,
+                                    .radius_m = movement.radius_m,
+                                    .widths = table.widths});
 }
 
 }  // namespace wavetracer

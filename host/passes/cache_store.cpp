@@ -1,6 +1,7 @@
 // Host side of kernels/cache_store.cl.
 // A work-item takes a run of missed rays.
 #include "passes/cache_store.hpp"
+#include "wavetracer/device/arguments.h"
 
 #include <stdexcept>
 
@@ -20,10 +21,15 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
   if (table.config.scope == "all" && (!receptions || !receivers))
     throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions or receivers");
   if (missed.count == 0) return;
-  kernel_(work_.range(missed.count), "cache_store", rays.planes, rays.capacity, missed.planes, missed_hits.planes,
-          missed.capacity, missed.count, indices, hits.planes, table.entries, table.heads, table.used,
-          table.device_regions, table.counters, table.widths, now, static_surfaces, receptions ? *receptions : indices,
-          receivers ? *receivers : table.used);
+  kernel_(work_.range(missed.count), "cache_store", rays.planes, missed.planes, missed_hits.planes, indices,
+          hits.planes, table.entries, table.heads, table.used, table.device_regions, table.counters, receptions,
+          receivers,
+          wt_cache_store_arguments{.capacity = rays.capacity,
+                                   .missed_capacity = missed.capacity,
+                                   .missed_count = missed.count,
+                                   .now = now,
+                                   .static_surfaces = static_surfaces,
+                                   .widths = table.widths});
 }
 
 }  // namespace wavetracer

@@ -4,6 +4,7 @@
 
 #include "passes/growing_list.hpp"
 #include "passes/tuning.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -23,9 +24,14 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
       counters, &wt_counters::candidates, "candidates", [&] { return list_.size(); },
       [&] {
         kernel_(tuning.candidates.range(size_t{node_count} * (groups / groups_per_item)), "candidates", trie, nodes,
-                node_count, ends.transmitters, scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.links,
-                ends.receiver_capacity, groups_per_item, ends.transmitter_count, max_reflections_, list_,
-                static_cast<uint32_t>(list_.size()), counters);
+                ends.transmitters, scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.links, list_,
+                counters,
+                wt_candidates_arguments{.node_count = node_count,
+                                        .receiver_capacity = ends.receiver_capacity,
+                                        .groups_per_item = groups_per_item,
+                                        .transmitter_count = ends.transmitter_count,
+                                        .max_reflections = max_reflections_,
+                                        .capacity = static_cast<uint32_t>(list_.size())});
       },
       [&](size_t entries) { list_ = context_.buffer<wt_candidate>(entries, "candidates"); });
 }

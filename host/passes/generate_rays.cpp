@@ -1,6 +1,7 @@
 // Host side of kernels/generate_rays.cl.
 // Assumes the queue has room: the frame loop sizes its batches.
 #include "passes/generate_rays.hpp"
+#include "wavetracer/device/arguments.h"
 
 #include <stdexcept>
 #include <utility>
@@ -10,6 +11,18 @@ namespace wavetracer {
 namespace {
 void check_room(const RayQueue& queue, uint32_t count) {
   if (uint64_t{queue.count} + count + 16 > queue.capacity) throw std::logic_error("generate_rays: the queue is full");
+}
+
+wt_map_arguments arguments_of(const LaunchDirections& directions) {
+  return {directions.parameter, directions.level, directions.faces};
+}
+
+wt_launcher_arguments arguments_of(const Launcher& from, const LaunchHeights& heights) {
+  return {{static_cast<float>(from.position_m.x), static_cast<float>(from.position_m.y),
+           static_cast<float>(from.position_m.z)},
+          WT_ROOT | from.transmitter,
+          from.source,
+          heights.place(from.heights)};
 }
 }  // namespace
 
@@ -25,22 +38,28 @@ GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& direct
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
-  generate_(work_.range(count), "generate_rays", queue.planes, queue.capacity, queue.count, count, first, stride,
-            static_cast<uint32_t>(first / stride & 3), directions_.parameter, directions_.level, directions_.faces,
-            heights_->tables(), heights_->place(from.heights), static_cast<float>(from.position_m.x),
-            static_cast<float>(from.position_m.y), static_cast<float>(from.position_m.z), WT_ROOT | from.transmitter,
-            from.source);
+  generate_(work_.range(count), "generate_rays", queue.planes, heights_->tables(), arguments_of(directions_),
+            arguments_of(from, *heights_),
+            wt_launch_arguments{.first_index = first,
+                                .stride = stride,
+                                .number = static_cast<uint32_t>(first / stride & 3),
+                                .capacity = queue.capacity,
+                                .first_slot = queue.count,
+                                .count = count});
   queue.count += count;
 }
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
                               const gpu::Buffer<uint32_t>& order) {
   check_room(queue, count);
-  generate_ordered_(work_.range(count), "generate_rays", queue.planes, queue.capacity, queue.count, count, first, order,
-                    directions_.parameter, directions_.level, directions_.faces, heights_->tables(),
-                    heights_->place(from.heights), static_cast<float>(from.position_m.x),
-                    static_cast<float>(from.position_m.y), static_cast<float>(from.position_m.z),
-                    WT_ROOT | from.transmitter, from.source);
+  generate_ordered_(work_.range(count), "generate_rays", queue.planes, order, heights_->tables(),
+                    arguments_of(directions_), arguments_of(from, *heights_),
+                    wt_launch_arguments{.first_index = first,
+                                        .stride = 1,
+                                        .number = 0,
+                                        .capacity = queue.capacity,
+                                        .first_slot = queue.count,
+                                        .count = count});
   queue.count += count;
 }
 
@@ -49,9 +68,14 @@ void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, ui
                            DirectionTurn turn) {
   queue.count = 0;
   check_room(queue, count);
-  generate_samples_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first, count, list.samples,
-                    list.capacity, launchers, directions.parameter, directions.level, directions.faces,
-                    heights_->tables(), turn.cosine, turn.sine, list.ends);
+  generate_samples_(work_.range(count), "generate_rays", queue.planes, list.samples, launchers, heights_->tables(),
+                    list.ends, arguments_of(directions),
+                    wt_samples_arguments{.capacity = queue.capacity,
+                                         .first = first,
+                                         .count = count,
+                                         .sample_capacity = list.capacity,
+                                         .cosine = turn.cosine,
+                                         .sine = turn.sine});
   queue.count = count;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "passes/tuning.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -31,10 +32,13 @@ void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const 
   if (to.transmitted && !options_.transmission) throw std::logic_error("interact: it was made without transmission");
   gpu::Kernel& kernel = to.transmitted ? kernel_through_ : kernel_;
   const auto planes = [](const RayQueue* queue) { return queue ? &queue->planes : nullptr; };
-  kernel(work_.range(rays.count), "interact", rays.planes, hits.planes, rays.capacity, rays.count, hits.block_hits,
-         scene.surfaces, trie.table, static_cast<uint32_t>(trie.table.size() - 1), trie.quarters, trie.counters,
-         planes(to.reflected), static_cast<uint32_t>(!to.reflected), trie.ages, trie.now, to.ends,
-         planes(to.transmitted));
+  kernel(work_.range(rays.count), "interact", rays.planes, hits.planes, hits.block_hits, scene.surfaces, trie.table,
+         trie.quarters, trie.counters, planes(to.reflected), trie.ages, to.ends, planes(to.transmitted),
+         wt_interact_arguments{.capacity = rays.capacity,
+                               .ray_count = rays.count,
+                               .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
+                               .last = !to.reflected,
+                               .now = trie.now});
   for (RayQueue* const queue : {to.reflected, to.transmitted})
     if (queue) queue->count = hit_count;
 }

@@ -1,6 +1,7 @@
 // Host side of kernels/occlusion.cl.
 // One leg a work-item.
 #include "passes/occlusion.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -9,8 +10,13 @@ Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
 
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved) {
   kernel_(work_.range(size_t{solved.count} * (solved.max_depth + 1)), "occlusion", scene.leg_nodes(),
-          scene.leg_leaves(), scene.triangle_slots, scene.extent_m, scene.moving, ends.transmitters, ends.receivers,
-          scene.exact_surfaces, solved.count, solved.max_depth, solved.headers, solved.vertices, solved.sequences);
+          scene.leg_leaves(), scene.moving, ends.transmitters, ends.receivers, scene.exact_surfaces, solved.headers,
+          solved.vertices, solved.sequences,
+          wt_legs_arguments{.triangle_slots = scene.triangle_slots,
+                            .extent_m = scene.extent_m,
+                            .solved_count = solved.count,
+                            .max_depth = solved.max_depth,
+                            .most = 0});
 }
 
 }  // namespace wavetracer

@@ -3,6 +3,7 @@
 #include "passes/receive.hpp"
 
 #include "passes/growing_list.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -24,21 +25,26 @@ void Receive::begin_batch() {
 }
 
 void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth) {
-  append(receive_, ends, rays, hits, depth, counter_, counter_);
+  append(receive_, ends, rays, hits, depth, nullptr, nullptr);
 }
 
 void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth,
                          const gpu::Buffer<float>& traced, const gpu::Buffer<uint32_t>& answered) {
-  append(receive_answered_, ends, rays, hits, depth, traced, answered);
+  append(receive_answered_, ends, rays, hits, depth, &traced, &answered);
 }
 
 void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits,
-                     uint32_t depth, const gpu::Memory& traced, const gpu::Memory& answered) {
+                     uint32_t depth, const gpu::Memory* traced, const gpu::Memory* answered) {
   count_ = grow_until_filled(
       [&] {
-        kernel(work_.range(rays.count), "receive", rays.planes, hits.planes, rays.capacity, rays.count,
-               ends.receiver_planes, ends.links, ends.receiver_capacity, radius_m_, depth, list_,
-               static_cast<uint32_t>(list_.size()), counter_, traced, answered);
+        kernel(work_.range(rays.count), "receive", rays.planes, hits.planes, ends.receiver_planes, ends.links, list_,
+               counter_, traced, answered,
+               wt_receive_arguments{.capacity = rays.capacity,
+                                    .ray_count = rays.count,
+                                    .receiver_capacity = ends.receiver_capacity,
+                                    .radius_m = radius_m_,
+                                    .depth = depth,
+                                    .out_capacity = static_cast<uint32_t>(list_.size())});
       },
       [&] { return counter_.read_one(0, "receive"); }, [&] { return list_.size(); },
       [&](size_t entries) {
@@ -50,8 +56,8 @@ void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue&
 }
 
 void Receive::first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first) {
-  first_(work_.range(rays.count), "receive", rays.planes, hits.planes, rays.capacity, rays.count, ends.receiver_planes,
-         ends.links, ends.receiver_capacity, radius_m_, first);
+  first_(work_.range(rays.count), "receive", rays.planes, hits.planes, ends.receiver_planes, ends.links, first,
+         wt_receive_arguments{rays.capacity, rays.count, ends.receiver_capacity, radius_m_, 0, 0});
 }
 
 std::vector<wt_reception> Receive::list() const { return list_.read(0, count_, "receive"); }

@@ -28,7 +28,7 @@ class Receive {
 
  private:
   void append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth,
-              const gpu::Memory& traced, const gpu::Memory& answered);
+              const gpu::Memory* traced, const gpu::Memory* answered);
 
   gpu::Context& context_;
   gpu::Kernel receive_, receive_answered_, first_;

@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "passes/growing_list.hpp"
+#include "wavetracer/device/arguments.h"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -53,9 +54,9 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
   return grow_until_filled(
       [&] {
         context_.fill(count_, 0, "scatter");
-        lit_({size_t{node_count} * groups, local_}, "scatter", trie, nodes, node_count, ends.transmitters,
-             ends.transmitter_count, ends.receivers, ends.links, groups, scene.exact_surfaces, tiles_of_, entries_,
-             capacity(), count_);
+        lit_({size_t{node_count} * groups, local_}, "scatter", trie, nodes, ends.transmitters, ends.receivers,
+             ends.links, scene.exact_surfaces, tiles_of_, entries_, count_,
+             wt_lit_arguments{node_count, ends.transmitter_count, groups, capacity()});
       },
       [&] { return count_.read_one(0, "scatter"); }, capacity,
       [&](size_t larger) {
@@ -94,9 +95,9 @@ SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends,
   const std::vector<uint32_t> first_row = place_rows(entry_count);
   first_row_.write(first_row, 0, "scatter");
   solved_.count = first_row.back();
-  scatter_(tiles_work_.range(solved_.count), "scatter", trie, quarters, entries_, first_row_, entry_count,
-           solved_.count, tiles_work_.per_item, scene.exact_surfaces, tiles_of_, centres_, scene.exact_instances,
-           solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences);
+  scatter_(tiles_work_.range(solved_.count), "scatter", trie, quarters, entries_, first_row_, scene.exact_surfaces,
+           tiles_of_, centres_, scene.exact_instances, solved_.headers, solved_.vertices, solved_.sequences,
+           wt_scatter_arguments{entry_count, solved_.count, tiles_work_.per_item, solved_.max_depth});
   return solved_;
 }
 

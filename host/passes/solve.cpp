@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "passes/growing_list.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -21,9 +22,9 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
       counters, &wt_counters::solved, "solve", [&] { return solved_.headers.size(); },
       [&] {
         kernel_(work_.range(candidate_count), "solve", trie, quarters, ends.transmitters, ends.receivers,
-                scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, candidates, candidate_count,
-                solved_.max_depth, solved_.headers, solved_.vertices, solved_.sequences,
-                static_cast<uint32_t>(solved_.headers.size()), counters);
+                scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, candidates, solved_.headers,
+                solved_.vertices, solved_.sequences, counters,
+                wt_solve_arguments{candidate_count, solved_.max_depth, static_cast<uint32_t>(solved_.headers.size())});
       },
       [&](size_t rows) { solved_.reserve(context_, rows); });
   return solved_;

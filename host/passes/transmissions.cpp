@@ -1,6 +1,7 @@
 // Host side of kernels/transmissions.cl.
 // One path a work-item.
 #include "passes/transmissions.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -10,9 +11,14 @@ Transmissions::Transmissions(gpu::Context& context, const DeviceScene& scene, ui
       kernel_(context.kernel("transmissions", "transmissions", scene.definitions)) {}
 
 void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved) {
-  kernel_(work_.range(solved.count), "transmissions", scene.leg_nodes(), scene.leg_leaves(), scene.triangle_slots,
-          scene.extent_m, scene.moving, ends.transmitters, ends.receivers, scene.exact_surfaces, scene.surfaces,
-          solved.count, solved.max_depth, most_, solved.headers, solved.vertices, solved.sequences);
+  kernel_(work_.range(solved.count), "transmissions", scene.leg_nodes(), scene.leg_leaves(), scene.moving,
+          ends.transmitters, ends.receivers, scene.exact_surfaces, scene.surfaces, solved.headers, solved.vertices,
+          solved.sequences,
+          wt_legs_arguments{.triangle_slots = scene.triangle_slots,
+                            .extent_m = scene.extent_m,
+                            .solved_count = solved.count,
+                            .max_depth = solved.max_depth,
+                            .most = most_});
 }
 
 }  // namespace wavetracer

@@ -4,6 +4,7 @@
 
 #include "passes/growing_list.hpp"
 #include "passes/tuning.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -22,17 +23,19 @@ WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receive
 
 uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                                const RadioEnds& ends, gpu::Buffer<wt_counters>& counters) {
-  const uint32_t groups = ends.receiver_capacity / 16;
   const size_t items = size_t{prefixes.count} * lanes_;
   const auto run = [&] {
-    const auto capacity = static_cast<uint32_t>(list_.size());
-    join_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
-          ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges, scene.surfaces,
-          list_, capacity, counters);
+    const wt_wedge_join_arguments arguments{.count = prefixes.count,
+                                            .lanes = lanes_,
+                                            .transmitter_count = ends.transmitter_count,
+                                            .groups = ends.receiver_capacity / 16,
+                                            .max_depth = max_depth_,
+                                            .capacity = static_cast<uint32_t>(list_.size())};
+    join_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, receiver_of_origin_,
+          ends.links, wedges.wedges, scene.surfaces, list_, counters, arguments);
     if (with_pairs_)
-      pairs_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, prefixes.count, lanes_,
-             ends.transmitter_count, receiver_of_origin_, ends.links, groups, max_depth_, wedges.wedges, list_,
-             capacity, counters);
+      pairs_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, receiver_of_origin_,
+             ends.links, wedges.wedges, list_, counters, arguments);
   };
   return fill_list(
       counters, &wt_counters::wedge_candidates, "wedge_join", [&] { return list_.size(); }, run,

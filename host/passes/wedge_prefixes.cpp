@@ -3,6 +3,7 @@
 #include "passes/wedge_prefixes.hpp"
 
 #include "passes/growing_list.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -25,9 +26,11 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
   list_.count = fill_list(
       counters, &wt_counters::wedge_prefixes, "wedge_prefixes", [&] { return list_.keys.size(); },
       [&] {
-        kernel_(work_.range(node_count), "wedge_prefixes", trie, static_cast<uint32_t>(trie.size() - 1), quarters,
-                nodes, node_count, ends.transmitters, scene.exact_surfaces, wedges.first, wedges.of_surfaces,
-                wedges.wedges, list_.keys, list_.prefixes, static_cast<uint32_t>(list_.keys.size()), counters);
+        kernel_(work_.range(node_count), "wedge_prefixes", trie, quarters, nodes, ends.transmitters,
+                scene.exact_surfaces, wedges.first, wedges.of_surfaces, wedges.wedges, list_.keys, list_.prefixes,
+                counters,
+                wt_wedge_prefixes_arguments{static_cast<uint32_t>(trie.size() - 1), node_count,
+                                            static_cast<uint32_t>(list_.keys.size())});
       },
       [&](size_t entries) { reserve(entries); });
   return list_;

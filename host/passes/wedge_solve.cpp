@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "passes/growing_list.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -19,9 +20,9 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                    uint32_t candidate_count, gpu::Buffer<wt_counters>& counters) {
   const auto run = [&] {
     kernel_(work_.range(candidate_count), "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
-            scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates, candidate_count, solved_.max_depth,
-            solved_.headers, solved_.vertices, solved_.sequences, static_cast<uint32_t>(solved_.headers.size()),
-            counters);
+            scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates, solved_.headers, solved_.vertices,
+            solved_.sequences, counters,
+            wt_solve_arguments{candidate_count, solved_.max_depth, static_cast<uint32_t>(solved_.headers.size())});
   };
   zero_counter(context_, counters, offsetof(wt_counters, solved), "wedge_solve");
   solved_.count = fill_list(

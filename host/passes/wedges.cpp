@@ -68,7 +68,7 @@ Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scen
 }
 
 unsigned Wedges::key_bits() const {
-  return static_cast<unsigned>(std::bit_width(WT_WEDGE_KEY(static_count_ + moving_count_, 31u)));
+  return static_cast<unsigned>(std::bit_width(wt_wedge_key(static_cast<uint32_t>(static_count_ + moving_count_), 31u)));
 }
 
 void Wedges::operator()(const DeviceScene& scene) {

@@ -20,7 +20,7 @@ class Wedges {
   void operator()(const DeviceScene& scene);
 
   uint32_t diffracting() const { return diffracting_; }  // wedges that count
-  unsigned key_bits() const;                             // of WT_WEDGE_KEY
+  unsigned key_bits() const;                             // of wt_wedge_key
   const WedgeList& list() const { return list_; }
 
  private:

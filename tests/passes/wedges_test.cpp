@@ -108,7 +108,7 @@ TEST_CASE("each surface lists the wedges that it bounds, each once; without free
         CHECK(found.emplace(surface, listed[at]).second);
     CHECK(found == expected);
     CHECK(wedges.diffracting() == (free_edges ? 20 + 36 + 8 : 12 + 36));
-    CHECK((uint64_t{1} << wedges.key_bits()) > WT_WEDGE_KEY(uint64_t{records.size() - 1}, 31u));
+    CHECK((uint64_t{1} << wedges.key_bits()) > wt_wedge_key(static_cast<uint32_t>(records.size() - 1), 31u));
   }
 }
 

@@ -43,7 +43,9 @@
 // WT_RAY_NODE that no slot and no transmitter needs. A ray whose prefix found no slot has WT_NONE there.
 #define WT_QUARTER_SHIFT 29u
 #define WT_QUARTER_BITS 0x60000000u
-// What is known of a sequence or path: a bit a quarter that found it.
+inline wt_uint wt_with_quarter(wt_uint node, wt_uint number) { return node | (number & 3u) << WT_QUARTER_SHIFT; }
+inline wt_uint wt_quarter_bit(wt_uint word) { return 1u << (word >> WT_QUARTER_SHIFT & 3u); }
+// What is known of a sequence or path: a bit for each quarter that found it.
 #define WT_ALL_QUARTERS 15u
 
 // What discovery needs of a surface (float32, recentred).
@@ -127,7 +129,9 @@ typedef struct {
 } wt_wedge_prefix;
 
 // What such prefixes are sorted by: the wedge, then the depth, so that those that are short enough stand together.
-#define WT_WEDGE_KEY(wedge, depth) ((wedge) << 5 | (depth))
+#define WT_WEDGE_DEPTH_BITS 5u
+inline wt_uint wt_wedge_key(wt_uint wedge, wt_uint depth) { return wedge << WT_WEDGE_DEPTH_BITS | depth; }
+inline wt_uint wt_wedge_of(wt_uint key) { return key >> WT_WEDGE_DEPTH_BITS; }
 
 // A candidate of a diffracted path: prefixes of a transmitter and of the receiver's end, and one wedge or two (else
 // WT_NONE) between them, in the order from the transmitter.

@@ -1,0 +1,139 @@
+// What kernels take by value: the numbers of one launch of a pass, as one record for each kernel (or for kernels that
+// take the same), so that an argument list is its buffers and this record. Capacities are those of the lists written.
+#ifndef WAVETRACER_DEVICE_ARGUMENTS_H
+#define WAVETRACER_DEVICE_ARGUMENTS_H
+#include "wavetracer/device/cache.h"
+
+#ifndef __OPENCL_VERSION__
+using wavetracer::device::wt_cache_widths;
+#endif
+
+// Of a map from launch indices to directions (directions.h): its step or seed, and the Hilbert curve's level and faces.
+typedef struct {
+  wt_ulong parameter;
+  wt_uint level;
+  wt_uint faces;
+} wt_map_arguments;
+
+// Who launches: from where, the root of its sequences, what its rays leave (WT_OWN and the instance that carries the
+// antenna, or WT_NONE), and where its heights begin in their table.
+typedef struct {
+  float origin[3];
+  wt_uint root;
+  wt_uint source;
+  wt_uint heights;
+} wt_launcher_arguments;
+
+// Launch indices first_index + stride * k, of which the first has this number in the launch, into slots first_slot + k.
+typedef struct {
+  wt_ulong first_index;
+  wt_ulong stride;
+  wt_uint number;
+  wt_uint capacity;
+  wt_uint first_slot;
+  wt_uint count;
+} wt_launch_arguments;
+
+// Samples first .. first + count - 1; directions are turned about z by the angle of this cosine and sine.
+typedef struct {
+  wt_uint capacity;
+  wt_uint first;
+  wt_uint count;
+  wt_uint sample_capacity;
+  float cosine;
+  float sine;
+} wt_samples_arguments;
+
+typedef struct {
+  wt_uint capacity;
+  wt_uint ray_count;
+  wt_uint trie_mask;
+  wt_uint last;  // not 0: nothing is reflected
+  wt_uint now;   // of ages
+} wt_interact_arguments;
+
+typedef struct {
+  wt_uint capacity;
+  wt_uint ray_count;
+  wt_uint receiver_capacity;
+  float radius_m;
+  wt_uint depth;
+  wt_uint out_capacity;
+} wt_receive_arguments;
+
+typedef struct {
+  wt_uint node_count;
+  wt_uint receiver_capacity;
+  wt_uint groups_per_item;
+  wt_uint transmitter_count;
+  wt_uint max_reflections;
+  wt_uint capacity;
+} wt_candidates_arguments;
+
+// Of solve and wedge_solve.
+typedef struct {
+  wt_uint candidate_count;
+  wt_uint max_depth;
+  wt_uint capacity;
+} wt_solve_arguments;
+
+// Of occlusion and transmissions.
+typedef struct {
+  wt_uint triangle_slots;
+  float extent_m;
+  wt_uint solved_count;
+  wt_uint max_depth;
+  wt_uint most;  // transmissions of a path
+} wt_legs_arguments;
+
+typedef struct {
+  wt_uint node_count;
+  wt_uint transmitter_count;
+  wt_uint groups;  // of 16 receivers
+  wt_uint capacity;
+} wt_lit_arguments;
+
+typedef struct {
+  wt_uint entry_count;
+  wt_uint row_count;
+  wt_uint rows_per_item;
+  wt_uint max_depth;
+} wt_scatter_arguments;
+
+typedef struct {
+  wt_uint trie_mask;
+  wt_uint node_count;
+  wt_uint capacity;
+} wt_wedge_prefixes_arguments;
+
+// Of wedge_join and wedge_pairs: `lanes` work-items take one prefix.
+typedef struct {
+  wt_uint count;
+  wt_uint lanes;
+  wt_uint transmitter_count;
+  wt_uint groups;  // of 16 receivers
+  wt_uint max_depth;
+  wt_uint capacity;
+} wt_wedge_join_arguments;
+
+// Of cache_lookup and cache_share. touch: not 0 where the use of an entry is noted.
+typedef struct {
+  wt_uint capacity;
+  wt_uint count;
+  wt_uint now;
+  wt_uint touch;
+  wt_uint static_surfaces;
+  float radius_m;
+  wt_cache_widths widths;
+} wt_cache_lookup_arguments;
+
+typedef struct {
+  wt_uint capacity;
+  wt_uint missed_capacity;
+  wt_uint missed_count;
+  wt_uint now;
+  wt_uint static_surfaces;
+  wt_cache_widths widths;
+} wt_cache_store_arguments;
+
+#endif
