@@ -139,6 +139,11 @@ TEST_CASE("an exact key does not go with a cache that decides for what moves") {
   check_contains(of(all + "cache.kind = \"open\"\n" + exact),
                  "a.toml:4:13: cache.key = \"exact\" gives the same paths as no cache");
   CHECK(of(exact + all) == "no error");  // no cache
+  for (const std::string kind : {"thesis", "thesis-chained"}) {
+    check_contains(of("cache.kind = \"" + kind + "\"\n" + exact),
+                   "cache.key = \"exact\" with cache.kind = \"" + kind + "\": the tables as the thesis prints them");
+    CHECK(of("cache.kind = \"" + kind + "\"\n" + all) == "no error");
+  }
 }
 
 TEST_CASE("a cache that would never be asked is refused") {

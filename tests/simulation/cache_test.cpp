@@ -230,3 +230,34 @@ TEST_CASE("scope all: entries on a car that creeps are stale once it has come a 
   CHECK(frames[2].cache.stale == 0);
   CHECK(frames[3].cache.stale > 0);
 }
+
+TEST_CASE("the thesis' tables as printed: warned of; answers of other keys lose paths, and none of ours does") {
+  const SceneFile file(street());
+  Config config = drive(file, false);
+  const std::vector<FrameResult> plain = frames_of(config, 3);
+  config.cache.scope = "all";
+  config.cache.hit_point = "cached";
+  config.cache.buffer_size = 300;  // many keys a slot
+  const auto warned = [&] {
+    for (const std::string& text : Simulation(config).warnings())
+      if (text.find("as A. Zhdanov's thesis prints it") != std::string::npos) return true;
+    return false;
+  };
+  for (const Kind& kind :
+       std::vector<Kind>{{"thesis", "readers"}, {"thesis", "mutex"}, {"thesis-chained", "readers"}}) {
+    CAPTURE(kind.kind);
+    CAPTURE(kind.locking);
+    config.cache.kind = kind.kind;
+    config.cache.locking = kind.locking;
+    const std::vector<FrameResult> cached = frames_of(config, 3);
+    CHECK(cached[1].cache.hits > 0);
+    // With two locks most slots are closed to readers, and those that answer do so five times.
+    if (kind.locking == "mutex") CHECK(lost(cached, plain) > plain[0].counts.paths);  // of three frames
+    CHECK(lost(plain, cached) <= plain[0].counts.paths / 10);  // what is found is solved exactly all the same
+    CHECK(warned());
+  }
+  config.cache.kind = "open";
+  config.cache.locking = "mutex";
+  CHECK(lost(frames_of(config, 3), plain) <= plain[0].counts.paths / 20);
+  CHECK_FALSE(warned());
+}

@@ -6,6 +6,7 @@
 #include <sstream>
 #include "app/program.hpp"
 #include "study/experiment.hpp"
+#include "study/squeezed.hpp"
 #include "study/thesis.hpp"
 
 using namespace wavetracer::study;
@@ -150,5 +151,18 @@ TEST_CASE("thesis: a configuration of vehicles alone has a page, which names the
     CHECK(contains(page, "<section id=\"" + experiment->name + "\">"));
   CHECK(contains(page, "failed: " + config + ": figure-6.13 launches rays from the first [[transmitter]]"));
   CHECK(contains(page, "failed: " + config + ": figure-6.18 launches rays from the first [[transmitter]]"));
-  CHECK(contains(outcome.out, "16 of 20 figures are whole"));
+  CHECK(contains(outcome.out, "16 of 22 figures are whole"));
+}
+
+TEST_CASE("innerframe: frames that are each alone, and a page that says how many groups were traced") {
+  const Folder folder;
+  const Outcome outcome =
+      run_program({"bench", "innerframe", "-o", folder.path("out"), "--rays", "10000:10000", "--frames", "2"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK_FALSE(contains(outcome.err, "arning"));  // of gnuplot
+  const std::string page = squeezed(contents(folder.path("out/innerframe.md")));
+  CHECK(contains(page, "| of a group of coherent rays only one is traced | confirmed |"));
+  CHECK(contains(page, "| 10,000 | 1.0 | 46 | groups with one hit point | "));
+  CHECK(contains(page, "every frame finds its table empty"));
 }
