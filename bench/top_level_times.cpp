@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "accel/top_level.hpp"
+#include "accel/instance_tree.hpp"
 #include "json_line.hpp"
 #include "scene/load.hpp"
 #include "scene/vehicle_model.hpp"

@@ -6,7 +6,7 @@
 #include "accuracy/files.hpp"
 #include "accuracy/table.hpp"
 #include "app/commands.hpp"
-#include "app/inputs.hpp"
+#include "app/named_files.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "wavetracer/config_file.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "app/first_configs.hpp"
-#include "app/inputs.hpp"
+#include "app/named_files.hpp"
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/feature_choice.hpp"

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "app/inputs.hpp"
+#include "app/named_files.hpp"
 #include "jobs/folder_hold.hpp"
 #include "jobs/merge_folders.hpp"
 #include "jobs/progress.hpp"

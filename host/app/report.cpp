@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 #include "base/digits.hpp"
-#include "output/advice.hpp"
+#include "output/run_advice.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer::app {

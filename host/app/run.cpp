@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
-#include "app/inputs.hpp"
+#include "app/named_files.hpp"
 #include "app/report.hpp"
 #include "jobs/devices_option.hpp"
 #include "jobs/drive.hpp"

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "app/inputs.hpp"
+#include "app/named_files.hpp"
 #include "base/file.hpp"
 #include "motion/fcd_writer.hpp"
 #include "scene/city.hpp"

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "app/inputs.hpp"
+#include "app/named_files.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "wavetracer/config_file.hpp"

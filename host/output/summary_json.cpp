@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-#include "output/advice.hpp"
+#include "output/run_advice.hpp"
 #include "output/cache_json.hpp"
 #include "output/median.hpp"
 

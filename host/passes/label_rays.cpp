@@ -13,9 +13,12 @@ LabelRays::LabelRays(gpu::Context& context) : work_(tuning_of(context.info()).la
   label_samples_ = context.kernel("label_rays", "label_rays", {{"WT_RAYS_PER_ITEM", rays}, {"WT_KEEP_SAMPLES", "1"}});
 }
 
+namespace {
+const gpu::Buffer<uint32_t>* const unordered = nullptr;
+}
+
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample) {
-  label_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample,
-         queue.planes);
+  label_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample, unordered);
 }
 
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample,
@@ -26,7 +29,7 @@ void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count,
 
 void LabelRays::operator()(RayQueue& queue) {
   label_samples_(work_.range(queue.count), "generate_rays", queue.planes, queue.capacity, 0u, queue.count, 0u,
-                 queue.planes);
+                 unordered);
 }
 
 }  // namespace wavetracer

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "accel/instance_tree.hpp"
 #include "accel/layout.hpp"
-#include "accel/top_level.hpp"
 
 namespace wavetracer {
 

@@ -29,8 +29,10 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
 void Sequences::resize(uint64_t slots) {
   table_ = context_.buffer<uint64_t>(slots, "sequences");
   quarters_ = context_.buffer<uint32_t>(slots, "quarters of sequences");
-  ages_ = context_.buffer<uint32_t>(keep_ages_ ? slots : 1, "ages of sequences");
-  context_.fill(ages_, 0, "sequences");
+  if (keep_ages_) {
+    ages_ = context_.buffer<uint32_t>(slots, "ages of sequences");
+    context_.fill(ages_, 0, "sequences");
+  }
   clear();
 }
 
@@ -56,8 +58,8 @@ gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uin
     resize(slots);
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
       regrow_(work_.range(old_table.size()), "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth,
-              moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_, old_ages,
-              ages_, oldest);
+              moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_,
+              keep_ages_ ? &old_ages : nullptr, ages(), oldest);
     if (!overflowed()) return moved;
   }
 }
@@ -79,7 +81,7 @@ void Sequences::keep(const SolvedList& solved) {
 void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   for (;;) {
     commute_(work_.range(node_count), "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
-             surfaces, quarters_, counters_, ages_, now());
+             surfaces, quarters_, counters_, ages(), now());
     if (!overflowed()) return;
     // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
     // full.

@@ -16,7 +16,7 @@ class Sequences {
   // Empties the set and the counters.
   void clear();
   // For passes that enter sequences.
-  Trie trie() { return {table_, quarters_, counters_, keep_ages_ ? &ages_ : nullptr, now()}; }
+  Trie trie() { return {table_, quarters_, counters_, ages(), now()}; }
   gpu::Buffer<uint64_t>& table() { return table_; }
   // Of the slots: which quarters of the launches found them, see wt_found_by in kernels/lib/trie.clh. They live as long
   // as the sequence.
@@ -24,7 +24,7 @@ class Sequences {
   gpu::Buffer<wt_counters>& counters() { return counters_; }
   // Of the slots: twice the last frame, counted by begin_frame, in which a ray, an exchange or a path was there, and
   // one more if a ray was. One element if not kept.
-  gpu::Buffer<uint32_t>& ages() { return ages_; }
+  gpu::Buffer<uint32_t>* ages() { return keep_ages_ ? &ages_ : nullptr; }  // null: none are kept
   uint32_t frame() const { return frame_; }
   // The age of what rays meet in this frame.
   uint32_t now() const { return 2 * frame_ + 1; }

@@ -9,8 +9,8 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "scene/scene_wedges.hpp"
 #include "scene/topology.hpp"
-#include "scene/wedges.hpp"
 #include "scene/weld.hpp"
 #include "wavetracer/error.hpp"
 

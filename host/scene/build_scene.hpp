@@ -3,7 +3,7 @@
 #pragma once
 #include "scene/materials.hpp"
 #include "scene/raw_scene.hpp"
-#include "scene/wedges.hpp"
+#include "scene/scene_wedges.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scene/wedges.hpp"
+#include "scene/scene_wedges.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 

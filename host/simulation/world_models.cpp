@@ -11,8 +11,8 @@
 #include "motion/input_text.hpp"
 #include "motion/vehicle_types.hpp"
 #include "scene/load.hpp"
+#include "scene/scene_wedges.hpp"
 #include "scene/vehicle_model.hpp"
-#include "scene/wedges.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

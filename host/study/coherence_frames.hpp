@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 #include <vector>
-#include "study/claims.hpp"
+#include "study/claim.hpp"
 #include "study/coherence.hpp"
 #include "study/columns.hpp"
 #include "wavetracer/config.hpp"

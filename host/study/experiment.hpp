@@ -9,7 +9,7 @@
 #include <vector>
 #include "study/cache_study.hpp"
 #include "study/cache_views.hpp"
-#include "study/claims.hpp"
+#include "study/claim.hpp"
 #include "study/coherence_frames.hpp"
 #include "study/order_rows.hpp"
 

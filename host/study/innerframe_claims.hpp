@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 #include "study/cache_rows.hpp"
-#include "study/claims.hpp"
+#include "study/claim.hpp"
 
 namespace wavetracer::study {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 #include <vector>
-#include "study/claims.hpp"
+#include "study/claim.hpp"
 #include "study/order_rows.hpp"
 
 namespace wavetracer::study {

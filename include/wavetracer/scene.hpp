@@ -44,8 +44,8 @@ struct Edge {
 };
 
 // A straight edge at which waves diffract: one physical edge, whichever meshes its faces belong to
-// (host/scene/wedges.hpp has the rule). Its two faces bound a sector of free space wider than pi; the azimuth of a
-// direction d about the edge is atan2(dot(d, normal), dot(d, face)) in [0, 2 pi), and free space goes from 0 (face 0)
+// (host/scene/scene_wedges.hpp has the rule). Its two faces bound a sector of free space wider than pi; the azimuth of
+// a direction d about the edge is atan2(dot(d, normal), dot(d, face)) in [0, 2 pi), and free space goes from 0 (face 0)
 // to exterior_rad (face 1).
 struct Wedge {
   glm::dvec3 start{0}, along{0, 0, 1};  // unit; (face, normal, along) is right-handed
@@ -63,7 +63,7 @@ struct LoadReport {
   uint64_t welded_vertices = 0;       // vertices that were merged into another
   uint64_t nonmanifold_edges = 0;     // more than two faces
   uint64_t free_edges = 0;            // one face
-  // Pieces of edges at which nothing diffracts (host/scene/wedges.hpp), edges that are flat not counted:
+  // Pieces of edges at which nothing diffracts (host/scene/scene_wedges.hpp), edges that are flat not counted:
   uint64_t flat_pieces = 0;    // of two faces in one plane
   uint64_t corner_pieces = 0;  // of three faces or more with no sector wider than 180 degrees, as the foot of a wall
   uint64_t ground_rims = 0;    // free edges at the rim of the ground, of a scene (host/scene/ground_rims.hpp)

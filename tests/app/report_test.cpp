@@ -1,7 +1,7 @@
 // The closing words of a run, from made-up results.
 #include "app/report.hpp"
 #include <doctest/doctest.h>
-#include "output/advice.hpp"
+#include "output/run_advice.hpp"
 #include "output/sample_run.hpp"
 #include "program.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "accel/top_level.hpp"
+#include "accel/instance_tree.hpp"
 #include "passes/caster.hpp"
 #include "passes/exact.hpp"
 #include "passes/traffic.hpp"

@@ -68,7 +68,7 @@ size_t erase_older(Aged& known, uint32_t frame) {
 
 Aged aged_contents(Sequences& set) {
   const uint32_t count = set.collect(transmitter_count);
-  const std::vector<uint32_t> nodes = set.nodes().read(0, count), ages = set.ages().read();
+  const std::vector<uint32_t> nodes = set.nodes().read(0, count), ages = set.ages()->read();
   const std::vector<uint64_t> table = set.table().read();
   Aged out;
   for (uint32_t i = transmitter_count; i < count; ++i) {

@@ -1,6 +1,6 @@
 // Faces by probing beside the middle of a piece, sectors by sorting angles.
 // Planes are those of surfaces, so slivers of a wall do not turn its faces.
-#include "scene/wedges.hpp"
+#include "scene/scene_wedges.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Median splits: surface areas matter little where all boxes are vehicles.
 // The layout is that of a BVH2, wavetracer/device/bvh.h.
-#include "accel/top_level.hpp"
+#include "accel/instance_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 // Wedges of meshes whose edges are known by hand, each also checked against all triangles around it.
 // Scenes come as separate meshes, welded along or not, so that most edges have faces of several.
-#include "scene/wedges.hpp"
+#include "scene/scene_wedges.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // One rule: without line of sight most of the power may come around edges.
-#include "output/advice.hpp"
+#include "output/run_advice.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include "base/digits.hpp"

@@ -1,6 +1,6 @@
 // Existence and permissions of the files and folders that a config names.
 // What is checked here may change before it is used; the code that opens a file reports that again.
-#include "app/inputs.hpp"
+#include "app/named_files.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
 #include <cerrno>
