@@ -28,8 +28,8 @@ struct CacheWorld {
   uint32_t instances = 0;
 };
 
-// config: with the features of its run (feature_choice.hpp). Throws ConfigError where cache.buffer_size is too small for
-// all that launch rays in this world, which no device is asked for.
+// config: with the features of its run (feature_choice.hpp). Throws ConfigError where cache.buffer_size is too small
+// for all that launch rays in this world, which no device is asked for.
 void check_cache(const Config& config, const World& world);
 
 CacheWorld cache_world(const Scene& scene, const World& world, uint32_t transmitters);
