@@ -91,6 +91,11 @@ class Measurement {
     return refused;
   }
 
+  // Before a setting is measured: how many are, of all.
+  void tell(const Setting& setting) const {
+    host_.tell(setting.axis + " " + setting.name, out_.rows.size(), out_.planned, "settings");
+  }
+
   void add(const Setting& setting, const Measured& measured, const Measured& reference, bool is_reference, bool own) {
     Row row{.setting = setting,
             .reference = is_reference,
@@ -111,6 +116,7 @@ class Measurement {
 
   bool measure_axis(const Axis& axis) {
     bool own = false;
+    tell(axis.reference);
     const std::optional<Measured> reference = try_measure(axis.reference, own);
     if (!reference) return false;
     const bool nothing_to_switch_off = !axis.reference.needs.empty() && !reference->refusal.empty();
@@ -119,6 +125,7 @@ class Measurement {
     if (nothing_to_switch_off) return true;
     for (const Setting& setting : axis.settings) {
       own = false;
+      tell(setting);
       const std::optional<Measured> measured = try_measure(setting, own);
       if (!measured) return false;
       add(setting, *measured, *reference, false, own);

@@ -7,6 +7,7 @@
 #include "accuracy/table.hpp"
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
+#include "app/study_host.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "wavetracer/config_file.hpp"
@@ -30,7 +31,7 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   check_output_folder(folder);
   catch_interrupts();
   Progress progress;
-  const study::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
+  const study::Host host = study_host(progress);
   const accuracy::Study study = accuracy::study(request, host);
   if (interrupted()) {
     invocation.code = ExitCode::interrupted;

@@ -5,6 +5,7 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
+#include "app/study_host.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "study/run.hpp"
@@ -58,7 +59,7 @@ void bench(const BenchOptions& options, Invocation& invocation) {
   check_output_folder(asked.config.output.directory);
   catch_interrupts();
   Progress progress;
-  const study::Host host{[&progress](const std::string& text) { progress.line(text); }, interrupted};
+  const study::Host host = study_host(progress);
   const study::Report report =
       all ? run_thesis([&](const auto& one) { return request(options, one, invocation.command_line); }, host)
           : run_experiment(experiment, asked, host);

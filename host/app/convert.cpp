@@ -12,6 +12,7 @@
 #include "imports/imports.hpp"
 #include "jobs/frame_range.hpp"
 #include "jobs/interrupt.hpp"
+#include "jobs/progress.hpp"
 #include "motion/read.hpp"
 #include "wavetracer/error.hpp"
 
@@ -107,6 +108,8 @@ void export_run(const ConvertOptions& options) {
   choose_rows(run, options.frames, what);
   std::optional<RemoveOnInterrupt> guard(what.output);
   PendingDirectory parent(what.output.has_parent_path() ? what.output.parent_path() : fs::path("."));
+  Progress progress;
+  what.at = [&progress](uint64_t done, uint64_t total) { progress.bar("converting", done, total, "frames"); };
   std::vector<std::string> warnings;
   const Written written = exporter.write(run, what, warnings);
   guard.reset();

@@ -273,16 +273,11 @@ const std::vector<Table>& tables() {
             {.name = "compression",
              .slot = at(&Config::output, &OutputConfig::compression),
              .range = {0, 9},
-             .doc = "Level of compression (deflate) of the columns of paths.h5 and waypoints.h5, from 1, fast, to 9, "
-                    "slow; 0: none. All readers of HDF5 undo it by themselves. Level 1 takes most of what can be saved "
-                    "and costs little time on any number of cores. The shards of a drive are never compressed."},
+             .doc = "Compression (deflate) of the columns of HDF5 files, 1 (fast) to 9; 0: none. Shards have none."},
             {.name = "keep_shards",
              .slot = at(&Config::output, &OutputConfig::keep_shards),
-             .doc =
-                 "Keep the shards (part files) of a drive beside the merged files. false: when the run has merged all "
-                 "its frames, it reads the merged files back, compares them with the shards byte by byte and "
-                 "removes the shards. A later --resume knows that the run is complete. Parts that `run --shard` "
-                 "writes, and those of a run that is interrupted, are always kept."}}},
+             .doc = "Keep the shards (part files) of a drive that is complete. false: they are removed once the merged "
+                    "files were compared with them, byte by byte. `merge` and interrupted runs always keep them."}}},
       material_table(),
       transmitter_table(),
       receiver_table(),

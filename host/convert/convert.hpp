@@ -1,7 +1,9 @@
 // Runs in the formats of other programs: one function a format, and the list that `wavetracer convert --to` offers.
 // Each writes what its readers expect, whole or not at all, and says in its own file which conventions that means.
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +15,12 @@ struct ExportOptions {
   std::filesystem::path output;        // a file or a folder, by the format; its parent folder must exist
   size_t first_row = 0, last_row = 0;  // frames of the run, both included
   std::string projection;  // kml: PROJ string of the scene's coordinates; empty: that of its georeference.json
+  // How far it is: asked before each frame, with the number of those that are done, of all. May be left out.
+  std::function<void(uint64_t done, uint64_t total)> at = {};
+  // row: of the frame that is next.
+  void tell(size_t row) const {
+    if (at) at(row - first_row, last_row - first_row + 1);
+  }
 };
 
 struct Exporter {

@@ -236,6 +236,7 @@ Written export_deepmimo(const SavedRun& run, const ExportOptions& options, Warni
   const size_t digits = std::to_string(run.number(options.last_row)).size();
   SceneSize scene_size;
   for (size_t row = options.first_row; row <= options.last_row; ++row) {
+    options.tell(row);
     const SavedFrame frame = run.frame(row);
     // Snapshots are loaded in the order of the names of their folders.
     const std::filesystem::path where = frames > 1 ? fmt::format("frame_{:0{}}", frame.number, digits) : "";

@@ -235,6 +235,7 @@ void KmlWriter::write(Warnings& warnings) {
   };
   put_folder("ends that stay", [&] { put_ends(survey_.first, "", true); });
   for (size_t row = options_.first_row; row <= options_.last_row; ++row) {
+    options_.tell(row);
     const SavedFrame frame = run_.frame(row);
     const std::string span = times(row);
     put_folder(fmt::format("frame {}", frame.number).c_str(), [&] {

@@ -201,7 +201,10 @@ void add_links(MatlabFile& file, const std::vector<SavedFrame>& frames) {
 
 Written export_matlab(const SavedRun& run, const ExportOptions& options, Warnings&) {
   std::vector<SavedFrame> frames;
-  for (size_t row = options.first_row; row <= options.last_row; ++row) frames.push_back(run.frame(row));
+  for (size_t row = options.first_row; row <= options.last_row; ++row) {
+    options.tell(row);
+    frames.push_back(run.frame(row));
+  }
   MatlabFile file;
   file.add_struct("/run");
   file.add_text("/run/version", run.version());

@@ -166,6 +166,7 @@ Written export_ns3(const SavedRun& run, const ExportOptions& options, Warnings& 
   folder.append("Output/Ns3/NodesPosition/NodesPosition.csv", positions(nodes));
   bool reversed = false;
   for (size_t row = options.first_row; row <= options.last_row; ++row) {
+    options.tell(row);
     const SavedFrame frame = run.frame(row);
     const FrameLinks links(frame.paths);
     for (size_t i = 0; i < nodes.size(); ++i)

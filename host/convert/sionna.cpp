@@ -46,6 +46,7 @@ std::vector<Frame> read_frames(const SavedRun& run, const ExportOptions& options
           .tx_ports = run.tx_ports()};
   std::vector<Frame> frames;
   for (size_t row = options.first_row; row <= options.last_row; ++row) {
+    options.tell(row);
     Frame& frame = frames.emplace_back(run.frame(row), std::vector<size_t>{});
     for (const uint32_t depth : frame.saved.paths.depth) axes.depth = std::max<size_t>(axes.depth, depth);
     LinkGroups groups = group_by_link(frame.saved.paths.tx, frame.saved.paths.rx);

@@ -226,6 +226,7 @@ Written export_vtk(const SavedRun& run, const ExportOptions& options, Warnings& 
   std::string times;
   size_t left_out = 0;
   for (size_t row = options.first_row; row <= options.last_row; ++row) {
+    options.tell(row);
     const SavedFrame frame = run.frame(row);
     std::vector<std::string> parts = constant;
     const auto add_part = [&](const char* kind, const VtkFile& file) {

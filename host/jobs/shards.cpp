@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include "jobs/config_changes.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/merge_outputs.hpp"
 #include "jobs/merged_record.hpp"
 #include "jobs/run_record.hpp"
+#include "jobs/same_run.hpp"
 #include "output/hdf5_read.hpp"
 #include "output/head_h5.hpp"
 #include "output/inputs.hpp"
@@ -35,57 +35,6 @@ std::vector<fs::path> files_of(const Unit& unit, const Config& config, const fs:
   for (const H5Output& output : h5_outputs(config)) paths.push_back(folder / (unit_name(unit) + output.part_suffix));
   paths.push_back(folder / (unit_name(unit) + ".csv"));
   return paths;
-}
-
-// Frames of two worlds must not come together.
-void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
-                       const std::vector<InputFile>& inputs) {
-  if (there.inputs == asked.inputs) return;
-  std::error_code none;
-  const fs::path record = folder / record_name;
-  std::string which;
-  if (fs::exists(record, none)) which = changed_input(read_run_record(record).summary.inputs, inputs);
-  throw InputError(
-      fmt::format("{} since the shards in {} were written; put the input files back as they were, or choose "
-                  "another folder with -o, or remove the shards",
-                  which.empty() ? "an input file has changed" : which, folder.string()));
-}
-
-// The keys that differ, by the record of the run that wrote the shards; empty where that does not tell.
-std::string changed_keys(const fs::path& folder, const std::string& config) {
-  constexpr size_t shown = 5;
-  std::error_code none;
-  const fs::path record = folder / record_name;
-  if (config.empty() || !fs::exists(record, none)) return "";
-  const std::string before = read_run_record(record).config.text;
-  if (before.empty()) return "";
-  const std::vector<std::string> changes = config_changes(before, config);
-  std::string out;
-  for (size_t i = 0; i < std::min(changes.size(), shown); ++i) out += (i ? "; " : "") + changes[i];
-  if (changes.size() > shown) out += fmt::format("; and {} more keys", changes.size() - shown);
-  return out;
-}
-
-void check_same_run(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
-                    const std::string& config) {
-  if (there.version == asked.version && there.config != asked.config)
-    if (const std::string keys = changed_keys(folder, config); !keys.empty())
-      throw ConfigError(
-          fmt::format("the shards in {} were written with another configuration: {}; run it as before, or "
-                      "choose another folder with -o, or remove the shards",
-                      folder.string(), keys));
-  const auto differs = [&](const std::string& what, const auto& was, const auto& is) {
-    if (was != is)
-      throw ConfigError(
-          fmt::format("the shards in {} were written with {} {}, this run has {}; run it as before, or "
-                      "choose another folder with -o, or remove the shards",
-                      folder.string(), what, was, is));
-  };
-  differs("version", there.version, asked.version);
-  differs("a configuration whose hash is", there.config, asked.config);
-  differs("a device of kind", there.device_kind, asked.device_kind);
-  differs("--frames", fmt::format("{}:{}", there.first, there.last), fmt::format("{}:{}", asked.first, asked.last));
-  differs("--repeat", there.repeat, asked.repeat);
 }
 
 // That the merged file holds all that the shards held, as far as its rows tell.
@@ -153,8 +102,7 @@ Shards::Shards(fs::path directory, RunIdentity run, std::vector<InputFile> input
 
 void Shards::take(std::vector<Shard> lines) {
   for (const Shard& shard : lines) {
-    check_same_run(shard.run, run_, folder_, config_);
-    check_same_inputs(shard.run, run_, folder_, inputs_);
+    check_same_run(shard.run, run_, folder_, config_, inputs_);
   }
   for (Shard& shard : lines)
     if (!finished(shard.unit) && is_whole(shard, folder_)) shards_.emplace(key(shard.unit), std::move(shard));
@@ -163,8 +111,7 @@ void Shards::take(std::vector<Shard> lines) {
 bool Shards::find_complete() {
   complete_ = read_merged_record(directory_);
   if (!complete_) return false;
-  check_same_run(complete_->run, run_, folder_, config_);
-  check_same_inputs(complete_->run, run_, folder_, inputs_);
+  check_same_run(complete_->run, run_, folder_, config_, inputs_);
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "output/median.hpp"
 #include "study/ray_counts.hpp"
 #include "study/run.hpp"
+#include "study/study_watch.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/stages.hpp"
 
@@ -84,10 +85,10 @@ struct Round {
 };
 
 // Another subject runs first each time. False: stopped.
-bool run_round(std::vector<Subject>& subjects, const Round& round, const Host& host) {
+bool run_round(std::vector<Subject>& subjects, const Round& round, StudyWatch& watch) {
   std::vector<FrameResult> results(subjects.size());
   for (size_t i = 0; i < subjects.size(); ++i) {
-    if (host.interrupted()) return false;
+    if (!watch.next()) return false;
     const size_t at = (i + round.number) % subjects.size();
     if (round.cold) subjects[at].simulation.forget();
     results[at] = subjects[at].simulation.run_frame(round.frame);
@@ -106,17 +107,17 @@ bool run_round(std::vector<Subject>& subjects, const Round& round, const Host& h
 // A standing world `repeats` times, cold and warm; else `frames` frames after the cold one. With empty tables all are
 // cold, and count as warm ones do. False: stopped.
 bool run_frames(std::vector<Subject>& subjects, uint64_t frames, bool empty_tables, const Request& request,
-                const Host& host) {
+                StudyWatch& watch) {
   if (frames <= 1) {
-    if (!run_round(subjects, {0, 0, true, false}, host)) return false;  // warms the device up, and is not counted
+    if (!run_round(subjects, {0, 0, true, false}, watch)) return false;  // warms the device up, and is not counted
     for (Subject& subject : subjects) subject.cold.clear();
     for (uint32_t repeat = 0; repeat < request.repeats; ++repeat)
       for (const bool cold : {true, false})
-        if (!run_round(subjects, {repeat, 0, cold || empty_tables, !cold}, host)) return false;
+        if (!run_round(subjects, {repeat, 0, cold || empty_tables, !cold}, watch)) return false;
     return true;
   }
   for (uint32_t frame = 0; frame < frames; ++frame)
-    if (!run_round(subjects, {frame, frame, frame == 0 || empty_tables, frame > 0}, host)) return false;
+    if (!run_round(subjects, {frame, frame, frame == 0 || empty_tables, frame > 0}, watch)) return false;
   return true;
 }
 
@@ -169,14 +170,14 @@ CacheRow row_of(const CacheStudy& study, const Setting& setting, const Subject& 
 
 // The rows of one point; none where it was stopped.
 std::vector<CacheRow> measure_point(const CacheStudy& study, const Config& config, const std::string& drive,
-                                    uint64_t rays, uint64_t frames, const Request& request, const Host& host) {
+                                    uint64_t rays, uint64_t frames, const Request& request, StudyWatch& watch) {
   std::vector<CacheRow> rows;
   for (size_t begin = 1; begin < study.settings.size(); begin += study.at_once) {
     const size_t end = std::min(begin + study.at_once, study.settings.size());
     std::vector<Setting> group = {study.settings.front()};
     group.insert(group.end(), study.settings.begin() + begin, study.settings.begin() + end);
     std::vector<Subject> subjects = make_subjects(group, config, rays, request.device);
-    if (!run_frames(subjects, frames, study.empty_tables, request, host)) return {};
+    if (!run_frames(subjects, frames, study.empty_tables, request, watch)) return {};
     require_segments(subjects.front().segments.mean(), config);
     std::vector<CacheRow> found;
     for (size_t i = 0; i < group.size(); ++i) found.push_back(row_of(study, group[i], subjects[i], drive, rays));
@@ -189,14 +190,14 @@ std::vector<CacheRow> measure_point(const CacheStudy& study, const Config& confi
 // A row per depth: what a frame that ends there takes more than one that ends before. No clock runs inside a kernel, so
 // this is as far as a frame can be told apart.
 std::vector<CacheRow> measure_depths(const CacheStudy& study, const Config& config, const std::string& drive,
-                                     uint64_t rays, uint64_t frames, const Request& request, const Host& host) {
+                                     uint64_t rays, uint64_t frames, const Request& request, StudyWatch& watch) {
   std::vector<CacheRow> rows;
   std::vector<CacheTimes> cold_before(study.settings.size()), warm_before(study.settings.size());
   for (uint32_t depth = 1; depth <= config.trace.max_depth; ++depth) {
     Config cut = config;
     cut.trace.max_depth = depth;
     std::vector<Subject> subjects = make_subjects(study.settings, cut, rays, request.device);
-    if (!run_frames(subjects, frames, study.empty_tables, request, host)) return {};
+    if (!run_frames(subjects, frames, study.empty_tables, request, watch)) return {};
     for (size_t i = 0; i < subjects.size(); ++i) {
       CacheRow row = row_of(study, study.settings[i], subjects[i], drive, rays);
       row.depth = depth;
@@ -217,7 +218,7 @@ std::string point_line(const CacheStudy& study, const std::vector<CacheRow>& poi
   std::string text = fmt::format("{}: {} rays, {}:", study.name, grouped(point.front().rays), point.front().drive);
   for (const CacheRow& row : point)
     if (row.depth == 0)
-      text += fmt::format("{} {} {:.3g} ms", &row == &point.front() ? "" : ";", row.setting, 1e3 * row.warm.loop_s);
+      text += fmt::format("{} {} {} ms", &row == &point.front() ? "" : ";", row.setting, plain(1e3 * row.warm.loop_s));
   return text;
 }
 
@@ -259,12 +260,16 @@ CacheMeasurement measure_study(const CacheStudy& study, const Request& request, 
   out.planned = counts.size() * drives.size();
   host.say(fmt::format("{}: {} settings at {} to {} rays on {}", study.name, study.settings.size(),
                        grouped(counts.front()), grouped(counts.back()), out.device.name));
+  StudyWatch watch{host, study.name};
+  for (const uint64_t rays : counts)
+    watch.all += rays * drives.size() * frames_of_point(study, request.config, out.frames + 1, request.repeats);
   for (const std::string& drive : drives) {
     const Config config = own || !moves ? request.config : with_traffic(request.config, drive, out.frames);
     for (const uint64_t rays : counts) {
-      std::vector<CacheRow> point = measure_point(study, config, drive, rays, out.frames + 1, request, host);
+      watch.rays = rays;
+      std::vector<CacheRow> point = measure_point(study, config, drive, rays, out.frames + 1, request, watch);
       if (!point.empty() && study.by_depth) {
-        const std::vector<CacheRow> depths = measure_depths(study, config, drive, rays, out.frames + 1, request, host);
+        const std::vector<CacheRow> depths = measure_depths(study, config, drive, rays, out.frames + 1, request, watch);
         if (depths.empty()) point.clear();
         point.insert(point.end(), depths.begin(), depths.end());
       }

@@ -41,8 +41,12 @@ Findings measure(const OrderFigure& figure, const Experiment& experiment, const 
   host.say(fmt::format("{}: {} series at {} to {} rays on {}", experiment.name, figure.series.size(),
                        grouped(counts.front()), grouped(counts.back()), found.device.name));
   std::vector<OrderRow> rows;
+  uint64_t done = 0, all = 0;
+  for (const uint64_t rays : counts) all += rays;
   for (const uint64_t rays : counts) {
     if (host.interrupted()) break;
+    host.tell(experiment.name, done, all, "rays");
+    done += rays;
     const std::vector<OrderRow> point =
         measure_orders(point_config(figure, request.config, rays, found.device.gpu), figure.series, rays, figure.frames,
                        request.device, request.repeats);

@@ -22,10 +22,15 @@ struct Request {
   std::string command_line;  // for the report
 };
 
-// What the program lends: a line of progress, and whether the user wants to stop.
+// What the program lends: a line of progress, whether the user wants to stop, and how far a task is.
 struct Host {
   std::function<void(const std::string&)> say;
   std::function<bool()> interrupted;
+  // what: is measured now; done: of total; unit: of what is counted ("rays"). May be left out.
+  std::function<void(const std::string& what, uint64_t done, uint64_t total, const std::string& unit)> at = {};
+  void tell(const std::string& what, uint64_t done, uint64_t total, const std::string& unit) const {
+    if (at) at(what, done, total, unit);
+  }
 };
 
 // What an experiment leaves to be written.

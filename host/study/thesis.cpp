@@ -115,6 +115,7 @@ Report run_thesis(const std::function<Request(const Experiment&)>& request_for, 
   Report report{.text = "", .files = {}, .points = 0, .planned = figures.size()};
   for (const Experiment* experiment : figures) page.figures.push_back(unmeasured(*experiment));
   for (size_t i = 0; i < figures.size(); ++i) {
+    host.tell(figures[i]->name, i, figures.size(), "figures");
     const Request request = fitting(requests[i], *figures[i], page.heading.device.gpu);
     page.figures[i] = figure_of(*figures[i], request, host, studies, report);
     page.rows.clear();
@@ -123,8 +124,8 @@ Report run_thesis(const std::function<Request(const Experiment&)>& request_for, 
     write_so_far(page, first.config.output.directory);
   }
   write_page(page, first.config.output.directory, host, report);
-  report.text =
-      fmt::format("{} of {} figures are whole: {}", report.points, report.planned, report.files.back().string());
+  report.text = markdown(verdicts_of(page.figures)) +
+                fmt::format("\n\n{} of {} figures are whole", report.points, report.planned);
   return report;
 }
 

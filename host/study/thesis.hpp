@@ -24,6 +24,9 @@ std::string family(const std::string& setting);
 // The table thesis.csv, and the script that draws it: time saved against errors, a point a row.
 std::string speed_error_table(const std::vector<CacheRow>& rows);
 std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device);
+// Every claim with what was measured; of a figure without one, what there is to know of it. Columns: figure, claim,
+// measured.
+NumberTable verdicts_of(const std::vector<Section>& figures);
 std::string thesis_html(const ThesisPage& page);
 
 // `request_for`: the config of an experiment with its scene; throws for a mistake of the user's. Writes the files of

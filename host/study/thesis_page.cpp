@@ -43,27 +43,33 @@ NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {
   return table;
 }
 
-// Every claim with what was measured, and where more of it is.
+// Every claim, and where more of it is.
 std::string verdicts_html(const std::vector<Section>& figures) {
   std::string text =
       "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
       "<th>claim</th><th>measured</th></tr></thead>\n<tbody>\n";
-  for (const Section& figure : figures) {
-    std::vector<Verdict> verdicts = figure.words.verdicts;
-    if (figure.words.paragraph.empty())
-      verdicts = {{figure.title, figure.problem}};
-    else if (verdicts.empty())
-      verdicts = {{figure.title, "no claim to judge; the numbers are in its section"}};
-    for (const auto& [claim, measured] : verdicts)
-      text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td></tr>\n", figure.name,
-                          escaped(claim), escaped(measured));
-  }
+  for (const auto& row : verdicts_of(figures).rows)
+    text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td></tr>\n", row[0], escaped(row[1]),
+                        escaped(row[2]));
   return text +
          "</tbody>\n</table>\n<p><a href=\"#speed-error\">Speed against error of all caches</a></p>\n"
          "</section>\n";
 }
 
 }  // namespace
+
+NumberTable verdicts_of(const std::vector<Section>& figures) {
+  NumberTable table{.caption = "", .heads = {"figure", "claim", "measured"}, .rows = {}};
+  for (const Section& figure : figures) {
+    std::vector<Verdict> verdicts = figure.words.verdicts;
+    if (figure.words.paragraph.empty())
+      verdicts = {{figure.title, figure.problem}};
+    else if (verdicts.empty())
+      verdicts = {{figure.title, "no claim to judge; the numbers are in its section"}};
+    for (const auto& [claim, measured] : verdicts) table.rows.push_back({figure.name, claim, measured});
+  }
+  return table;
+}
 
 std::string family(const std::string& setting) {
   std::string text = setting;

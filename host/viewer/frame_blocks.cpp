@@ -15,7 +15,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint64_t link_bytes = 29, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
+constexpr uint64_t link_bytes = 33, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
 // Links take at most this share of the room: the gain over time of a link is worth less than the paths to look at.
 // Where there is a map, its colours come first.
 constexpr double links_share = 0.25, map_links_share = 0.75;
@@ -92,18 +92,20 @@ class LinkColumns {
     rx_.add(row.link.rx);
     paths_.add(row.paths);
     gain_.add(static_cast<float>(row.gain_db()));
+    narrowband_.add(static_cast<float>(row.narrowband_gain_db));
     spread_.add(static_cast<float>(row.rms_delay_spread_s));
     missed_.add(static_cast<float>(row.missed_power_share));
     los_.add(uint8_t{row.los});
   }
   Packer block() const {
     Packer out;
-    for (const Packer* column : {&frame_, &tx_, &rx_, &paths_, &gain_, &spread_, &missed_, &los_}) out.append(*column);
+    for (const Packer* column : {&frame_, &tx_, &rx_, &paths_, &gain_, &narrowband_, &spread_, &missed_, &los_})
+      out.append(*column);
     return out;
   }
 
  private:
-  Packer frame_, tx_, rx_, paths_, gain_, spread_, missed_, los_;
+  Packer frame_, tx_, rx_, paths_, gain_, narrowband_, spread_, missed_, los_;
 };
 
 void grow(std::optional<Extent>& box, const glm::dvec3& point) {
@@ -128,7 +130,7 @@ struct Survey {
     for (const size_t row : selection.rows) {
       const SavedFrame frame = run.frame(row);
       for (size_t i = 0; i < frame.paths.size(); ++i) paths.count(frame.paths.gain_db[i], path_bytes(frame.paths, i));
-      for (const LinkRow& link : link_rows(frame, {})) links.count(link.gain_db(), link_bytes);
+      for (const LinkRow& link : link_rows(frame, {}, run.frequency_hz())) links.count(link.gain_db(), link_bytes);
       fixed_bytes += 200 + pose_bytes * frame.poses.size() + end_bytes * (run.transmitters().size() + own);
       for (const auto* points : {&frame.transmitter_position_m, &frame.receiver_position_m})
         for (const glm::dvec3& point : *points) grow(out.ends_m, point);
@@ -176,7 +178,8 @@ FrameBlocks add_frame_blocks(const SavedRun& run, const FrameSelection& selectio
       lowest_db = std::min(lowest_db, frame.paths.gain_db[i]);
       highest_db = std::max(highest_db, frame.paths.gain_db[i]);
     }
-    for (const LinkRow& row : link_rows(frame, shares_of(run, selection, selection.rows[f], frame.links.size()))) {
+    const auto shares = shares_of(run, selection, selection.rows[f], frame.links.size());
+    for (const LinkRow& row : link_rows(frame, shares, run.frequency_hz())) {
       if (!survey.links.keep(row.gain_db(), link_bytes)) continue;
       ++out.shown_links;
       links.add(f, row);

@@ -3,6 +3,9 @@
 #include "viewer/link_rows.hpp"
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <type_traits>
 
 namespace wavetracer {
 namespace {
@@ -25,13 +28,31 @@ std::vector<LinkRow> empty_rows(const SavedFrame& frame, std::span<const double>
   return rows;
 }
 
+// |h|^2 at the carrier, as radio/links.cpp has it. Whole turns of the phase are left out before the sine is taken.
+void add_narrowband_gains(const Paths& paths, const std::vector<size_t>& row_of, double frequency_hz,
+                          std::vector<LinkRow>& rows) {
+  using Response = std::remove_cvref_t<decltype(paths.a[0])>;
+  std::vector<Response> h(rows.size(), Response{});
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const double turns = frequency_hz * paths.delay_s[i];
+    const std::complex<double> carrier = std::polar(1.0, -2 * std::numbers::pi * (turns - std::floor(turns)));
+    for (size_t port = 0; port < h[row_of[i]].size(); ++port) h[row_of[i]][port] += paths.a[i][port] * carrier;
+  }
+  for (size_t k = 0; k < rows.size(); ++k) {
+    double power = 0;
+    for (const std::complex<double>& part : h[k]) power += std::norm(part);
+    if (power > 0) rows[k].narrowband_gain_db = 10 * std::log10(power);
+  }
+}
+
 }  // namespace
 
 double LinkRow::gain_db() const {
   return power > 0 ? 10 * std::log10(power) : -std::numeric_limits<double>::infinity();
 }
 
-std::vector<LinkRow> link_rows(const SavedFrame& frame, std::span<const double> missed_power_share) {
+std::vector<LinkRow> link_rows(const SavedFrame& frame, std::span<const double> missed_power_share,
+                               double frequency_hz) {
   std::vector<LinkRow> rows = empty_rows(frame, missed_power_share);
   const Paths& paths = frame.paths;
   std::vector<size_t> row_of(paths.size());
@@ -48,6 +69,7 @@ std::vector<LinkRow> link_rows(const SavedFrame& frame, std::span<const double> 
     row.power += power[i];
     mean_s[row_of[i]] += power[i] * paths.delay_s[i];
   }
+  add_narrowband_gains(paths, row_of, frequency_hz, rows);
   for (size_t k = 0; k < rows.size(); ++k) mean_s[k] /= rows[k].power;
   for (size_t i = 0; i < paths.size(); ++i)
     square_s2[row_of[i]] += power[i] * std::pow(paths.delay_s[i] - mean_s[row_of[i]], 2);

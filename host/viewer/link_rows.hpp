@@ -16,10 +16,13 @@ struct LinkRow {
   double power = 0;
   double rms_delay_spread_s = std::numeric_limits<double>::quiet_NaN();  // where no power arrives
   double missed_power_share = std::numeric_limits<double>::quiet_NaN();  // where that is not known
+  double narrowband_gain_db = -std::numeric_limits<double>::infinity();  // coherent, at the carrier
   double gain_db() const;                                                // -inf where no power arrives
 };
 
 // Every link that was asked for or has a path, sorted. missed_power_share: one per link of frame.links, or empty.
-std::vector<LinkRow> link_rows(const SavedFrame& frame, std::span<const double> missed_power_share);
+// frequency_hz: of the carrier.
+std::vector<LinkRow> link_rows(const SavedFrame& frame, std::span<const double> missed_power_share,
+                               double frequency_hz);
 
 }  // namespace wavetracer

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <initializer_list>
+#include "radio/link_budget.hpp"
 #include "results/missed_shares.hpp"
 #include "results/saved_world.hpp"
 #include "viewer/blocks.hpp"
@@ -101,6 +102,13 @@ json instance_rows(const SavedRun& run, const SavedWorld& world) {
   return rows;
 }
 
+// What the page needs to tell received powers; null where the configuration does not give it.
+json link_budget_row(const RadioConfig& radio) {
+  const double noise = noise_dbm(radio);
+  return {{"transmit_power_dbm", radio.transmit_power_dbm ? json(*radio.transmit_power_dbm) : json()},
+          {"noise_dbm", std::isfinite(noise) ? json(noise) : json()}};
+}
+
 json run_facts(const SavedRun& run, const SavedWorld& world, const ViewOptions& options) {
   const std::string folder = std::filesystem::absolute(run.file()).parent_path().filename().string();
   return {{"title", options.title.empty() ? folder : options.title},
@@ -109,6 +117,7 @@ json run_facts(const SavedRun& run, const SavedWorld& world, const ViewOptions& 
           {"frequency_hz", run.frequency_hz()},
           {"rx_ports", run.rx_ports()},
           {"tx_ports", run.tx_ports()},
+          {"link_budget", link_budget_row(world.config.radio)},
           {"transmitters", transmitter_rows(run)},
           {"missed", run.missed() ? missed_ranges(*run.missed()) : json()},
           {"instances", instance_rows(run, world)}};

@@ -134,13 +134,14 @@ TEST_CASE("validate refuses what only the radio part of a run reads: materials a
 
 TEST_CASE("validate refuses a cache that is too small for those who launch rays, in the words of a run") {
   const Folder folder;
-  const std::string file = folder.file("a.toml", city + ends);
+  const std::string file =
+      folder.file("a.toml", city + ends + "[[transmitter]]\nname = \"t2\"\nposition_m = [0, 5, 6]\n");
   const auto validate = [&](const std::string& size) {
     return run_program({"validate", "-c", file, "--set", "cache.kind=open", "--set", "cache.buffer_size=" + size});
   };
-  check(validate("15"), 2,
-        "cache.buffer_size = 15 is too small: 1 transmitters share it evenly, and each needs 16 entries; give 16");
-  CHECK(validate("16").code == 0);
+  check(validate("31"), 2,
+        "cache.buffer_size = 31 is too small: 2 transmitters share it evenly, and each needs 16 entries; give 32");
+  CHECK(validate("32").code == 0);
 }
 
 TEST_CASE("a vehicle type without a body needs no sizes, whatever its name is") {

@@ -101,13 +101,15 @@ void check_waypoints(const Reader& h5, const Reader& paths) {
   CHECK(on_vehicle > 0);
 }
 
+const std::string keep = "output.keep_shards=true";
+
 }  // namespace
 
 TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the same shards") {
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", room);
-  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("all")});
+  const Outcome run = run_program({"run", "-c", file, "-o", folder.path("all"), "--set", keep});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   CHECK(contains(run.out, "vehicles   1 of 1 models"));
@@ -131,7 +133,7 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   check_waypoints(trails, h5);
   const auto waypoints = trails.shape("/waypoints/frame");
 
-  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("part"), "--frames", "20:32"}).code == 0);
+  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("part"), "--frames", "20:32", "--set", keep}).code == 0);
   const Reader part(folder.path("part/paths.h5"));
   CHECK(part.shape("/frames/frame") == std::vector<hsize_t>{13});
   for (const char* shard : {"000020_000024", "000025_000029"}) {
@@ -143,7 +145,7 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   const Outcome other = run_program({"run", "-c", file, "-o", folder.path("part"), "--resume"});
   CHECK(other.code == 2);
   CHECK(contains(other.err, "--frames 20:32, this run has 0:59"));
-  const Outcome again = run_program({"run", "-c", file, "-o", folder.path("all"), "--resume"});
+  const Outcome again = run_program({"run", "-c", file, "-o", folder.path("all"), "--resume", "--set", keep});
   CHECK(again.code == 0);
   CHECK(contains(again.err, "all frames are computed already"));
   CHECK(Reader(folder.path("all/waypoints.h5")).shape("/waypoints/frame") == waypoints);
@@ -155,6 +157,45 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   const Outcome beyond = run_program({"run", "-c", file, "-o", folder.path("part"), "--frames", "50:60"});
   CHECK(beyond.code == 2);
   CHECK(contains(beyond.err, "this run has 60 frames, 0 to 59"));
+}
+
+TEST_CASE("a drive that is whole leaves no shards, and --resume knows it, whoever computed it") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  const auto left = [&](const char* out) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path(out) + "/shards"))
+      names.push_back(entry.path().filename());
+    std::ranges::sort(names);
+    return names;
+  };
+  const auto run = [&](const char* out, std::vector<std::string> more) {
+    std::vector<std::string> words{"run", "-c", file, "-o", folder.path(out), "--frames", "0:19"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  };
+  REQUIRE(run("alone", {}).code == 0);
+  CHECK(left("alone") == std::vector<std::string>{"merged.json", "run.json"});
+  REQUIRE(run("shared", {"--processes", "2"}).code == 0);
+  CHECK(left("shared") == std::vector<std::string>{"job.json", "merged.json", "run.json"});
+  const std::string paths = slurp(folder.path("alone/paths.h5"));
+  CHECK(slurp(folder.path("shared/paths.h5")) == paths);
+  for (const std::vector<std::string>& how : {std::vector<std::string>{"--resume"}, {"--resume", "--processes", "2"}})
+    for (const char* out : {"alone", "shared"}) {
+      const Outcome again = run(out, how);
+      CAPTURE(again.err);
+      CHECK(again.code == 0);
+      CHECK(contains(again.err, "--resume: the run is complete"));
+      CHECK(slurp(folder.path(std::string(out) + "/paths.h5")) == paths);
+      CHECK(fs::exists(folder.path(std::string(out) + "/shards/merged.json")));
+    }
+  const Outcome other = run("alone", {"--resume", "--set", "trace.max_depth=1"});
+  CHECK(other.code == 2);
+  CHECK(contains(other.err, "trace.max_depth"));
+  const Outcome merged = run_program({"merge", folder.path("alone")});
+  CHECK(merged.code == 3);
+  CHECK(contains(merged.err, "nothing is left to merge"));
 }
 
 TEST_CASE("an interrupted drive exits 130 with the frames so far and goes on with --resume") {

@@ -45,6 +45,8 @@ share = float(wanted[0]["missed_power_share"])
 assert len(wanted) == 1 and share > 0.001, wanted
 assert f"Missed about {float(f'{100 * share:.2g}'):g} % of the power" in page.text("link_figures"), page.text("link_figures")
 assert f"{float(wanted[0]['path_gain_db']):.2f} dB, {wanted[0]['paths']} paths" in page.text("link_figures")
+narrowband = f"Narrowband gain {float(wanted[0]['narrowband_gain_db']):.2f} dB"
+assert narrowband in page.text("link_figures"), page.text("link_figures")
 assert f"{1e9 * float(wanted[0]['rms_delay_spread_s']):.2f} ns" in page.text("link_figures")
 
 # Choosing a link brings it into view; one that is in view already leaves the camera alone.

@@ -179,13 +179,14 @@ TEST_CASE("figures of links are those of links.csv") {
   const std::vector<double> shares = missed_shares(run).values;
   REQUIRE(shares.size() == run.link_count());
   const auto first = std::span(shares).subspan(run.first_link(3));
-  const std::vector<LinkRow> rows = link_rows(frame, first.first(frame.links.size()));
+  const std::vector<LinkRow> rows = link_rows(frame, first.first(frame.links.size()), 5.9e9);
   const std::vector<LinkFigures> figures = link_figures(frame.paths, frame.number, frame.links, 5.9e9);
   REQUIRE(rows.size() == figures.size());
   for (size_t k = 0; k < rows.size(); ++k) {
     CHECK(rows[k].paths == figures[k].paths);
     CHECK(rows[k].los == figures[k].los);
     CHECK(rows[k].gain_db() == doctest::Approx(figures[k].path_gain_db));
+    CHECK(rows[k].narrowband_gain_db == doctest::Approx(figures[k].narrowband_gain_db));
     CHECK(rows[k].rms_delay_spread_s == doctest::Approx(figures[k].rms_delay_spread_s));
     CHECK(rows[k].missed_power_share > 0);
   }
@@ -193,7 +194,7 @@ TEST_CASE("figures of links are those of links.csv") {
   SavedFrame other = run.frame(3);
   std::reverse(other.links.begin(), other.links.end());
   other.links.pop_back();
-  const std::vector<LinkRow> again = link_rows(other, {});
+  const std::vector<LinkRow> again = link_rows(other, {}, 5.9e9);
   REQUIRE(again.size() == rows.size());
   for (size_t k = 0; k < rows.size(); ++k) CHECK(again[k].power == rows[k].power);
 }

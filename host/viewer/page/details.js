@@ -37,12 +37,22 @@ function missed_text() {
     + `${share_text(share)} of the power (${share_text(least)} to ${share_text(most)}).`;
 }
 
+// What the link budget of the run makes of a gain; nothing without one.
+function budget_rows(gain_db) {
+  const {transmit_power_dbm: sent, noise_dbm: noise} = meta.link_budget;
+  if (sent === null) return [];
+  const received = sent + gain_db;
+  return [["Received", `${fixed(received, 2)} dBm${noise === null ? "" : `, SNR ${fixed(received - noise, 2)} dB`}`]];
+}
+
 // Row k of `links` as rows of a table.
 function link_figures(k) {
   if (k < 0) return [["Path gain", "this link was not computed, or is not on the page"]];
   if (!links.paths[k]) return [["Path gain", "no path"]];
   return [
     ["Path gain", `${fixed(links.gain_db[k], 2)} dB, ${links.paths[k]} ${links.paths[k] === 1 ? "path" : "paths"}`],
+    ["Narrowband gain", `${fixed(links.narrowband_gain_db[k], 2)} dB, coherent at the carrier`],
+    ...budget_rows(links.gain_db[k]),
     ["Delay spread", `${fixed(links.rms_delay_spread_s[k] * 1e9, 2)} ns`],
     ["Line of sight", links.los[k] ? "yes" : "no"],
     ...(Number.isFinite(links.missed_power_share[k])

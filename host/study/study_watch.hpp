@@ -1,0 +1,31 @@
+// How far a study of caches is, and whether it is to stop.
+#pragma once
+#include <cstdint>
+#include <string>
+#include "study/cache_study.hpp"
+#include "study/run.hpp"
+
+namespace wavetracer::study {
+
+// How far a study is, in rays that were launched; the last numbers of rays take most of the time.
+struct StudyWatch {
+  const Host& host;
+  const std::string& name;
+  uint64_t rays = 0, done = 0, all = 0;  // rays: of a frame
+  // Another frame begins; false: stopped.
+  bool next() {
+    host.tell(name, done, all, "rays");
+    done += rays;
+    return !host.interrupted();
+  }
+};
+
+// Frames of all settings at a point.
+inline uint64_t frames_of_point(const CacheStudy& study, const Config& config, uint64_t frames, uint32_t repeats) {
+  const uint64_t groups = (study.settings.size() - 1 + study.at_once - 1) / study.at_once,
+                 settings = study.settings.size() - 1 + groups +
+                            (study.by_depth ? config.trace.max_depth * study.settings.size() : 0);
+  return settings * (frames <= 1 ? 1 + 2 * uint64_t{repeats} : frames);
+}
+
+}  // namespace wavetracer::study
