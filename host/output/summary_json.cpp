@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-#include "output/run_advice.hpp"
 #include "output/cache_json.hpp"
 #include "output/median.hpp"
+#include "output/run_advice.hpp"
 
 namespace wavetracer {
 namespace {
