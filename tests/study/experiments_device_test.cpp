@@ -224,7 +224,7 @@ TEST_CASE("figure-6.2: a row per depth and setting; times, counts and the paragr
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   const auto rows = table(folder.path("out/figure-6.2.csv"));
-  REQUIRE(rows.size() == 4 * 3);  // all depths together, depth 1 and depth 2
+  REQUIRE(rows.size() == 7 * 3);  // ours and those printed in the thesis; all depths together, depth 1 and depth 2
   for (const auto& row : rows) {
     CAPTURE(row.at("setting"));
     CHECK(row.at("rays") == "50000");
@@ -255,7 +255,7 @@ TEST_CASE("figure-6.12: the first setting has no error, and so has a cache with 
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   const auto rows = table(folder.path("out/figure-6.12.csv"));
-  REQUIRE(rows.size() == 3 * 7);
+  REQUIRE(rows.size() == 3 * 10);
   for (const auto& row : rows) {
     CAPTURE(row.at("drive"));
     CAPTURE(row.at("setting"));
