@@ -10,6 +10,7 @@
 
 #include "config/value_text.hpp"
 #include "wavetracer/interaction_kinds.hpp"
+#include "wavetracer/order_methods.hpp"
 
 namespace wavetracer::config {
 namespace {
@@ -33,15 +34,14 @@ void check_launch(const Config& config, Found& out) {
          fmt::format(
              "launch.local_size = {} is not a power of two: give {}, or 0 to let the program choose for the device",
              local, std::bit_floor(local))});
-  const OrderMethod method = config.order.method;
+  const std::optional<OrderMethodRow> method = find_order_method(config.order.method);
+  const unsigned curve = method ? method->launch_dimensions : 0;
   const LaunchDimensions shape = config.launch.shape;
-  const bool plane = method == "H3DH2DH" || method == "hilbert3d-histogram-hilbert2d";
-  const bool space = method == "H3DH3DH" || method == "hilbert3d-histogram-hilbert3d";
-  if ((plane && shape != "auto" && shape != "2d") || (space && shape != "auto" && shape != "3d"))
+  if (curve > 0 && shape != "auto" && shape.index() != curve)
     out.push_back({{"launch.shape", "order.method"},
                    fmt::format("order.method = \"{}\" needs a launch of {} dimensions, but launch.shape = \"{}\" is "
                                "set: remove launch.shape",
-                               method.word(), plane ? 2 : 3, shape.word())});
+                               config.order.method.word(), curve, shape.word())});
 }
 
 // A refined launch splits cells of the hilbert map and goes along its curve, level by level.
@@ -53,11 +53,11 @@ void check_rays(const Config& config, Found& out) {
                      fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not "
                                  "\"{}\": remove trace.directions, or give trace.rays a number",
                                  trace.directions.word())});
-    if (const OrderMethod method = config.order.method; method != "none" && method != "WS")
+    if (const auto method = find_order_method(config.order.method); !method || method->key)
       out.push_back({{"trace.rays", "order.method"},
                      fmt::format("trace.rays = \"auto\" launches rays in its own order, but order.method = \"{}\" asks "
                                  "for another one: remove order.method, or give trace.rays a number",
-                                 method.word())});
+                                 config.order.method.word())});
   } else if (trace.refresh_rays && *trace.refresh_rays > *trace.rays) {
     out.push_back({{"trace.rays", "trace.refresh_rays"},
                    fmt::format("trace.refresh_rays = {} is more than trace.rays = {}, the number in a frame that "

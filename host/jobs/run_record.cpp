@@ -25,9 +25,12 @@ std::string encode_run_record(const Run& run) {
                     {"driver", s.device.driver},
                     {"opencl_c", s.device.opencl_c},
                     {"gpu", s.device.gpu}};
-  json["order"] = {{"asked", run.config.order.method.word()}, {"method", s.order.method},
-                   {"each_depth", s.order.each_depth},        {"launch_shape", s.order.launch_shape},
-                   {"local_size", s.order.local_size},        {"reason", s.order.reason}};
+  json["order"] = {{"asked", run.config.order.method.word()},
+                   {"method", s.order.method},
+                   {"each_depth", s.order.each_depth},
+                   {"launch_shape", s.order.launch_shape},
+                   {"local_size", s.order.local_size.value_or(0)},
+                   {"reason", s.order.reason}};
   json["features"] = Json::object();
   for (const auto& [name, feature] : s.features)
     json["features"][name] = {{"on", feature.on}, {"reason", feature.reason}};
@@ -61,8 +64,8 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   s.device = {device.at("platform"), device.at("name"), device.at("driver"), device.at("opencl_c"), device.at("gpu")};
   const Json& order = json.at("order");
   out.config.order.method = OrderMethod::named(order.at("asked").get<std::string>());
-  s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"),
-             whole<uint32_t>(order.at("local_size")), order.at("reason")};
+  s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"), {}, order.at("reason")};
+  if (const auto local_size = whole<uint32_t>(order.at("local_size")); local_size > 0) s.order.local_size = local_size;
   for (const auto& [feature, value] : json.at("features").items())
     s.features[feature] = {value.at("on"), value.at("reason")};
   s.setup_seconds = json.at("setup_seconds").get<StageSeconds>();

@@ -148,9 +148,12 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["rays_per_second"] = rate(traced_segments(totals), sum_seconds(totals, "trace"));
   json["frames_per_second"] = rate(totals.frames, sum_seconds(totals, "frame"));
   json["peak_memory_bytes"] = peak_memory_bytes();
-  json["order"] = {{"asked", run.config.order.method.word()}, {"method", summary.order.method},
-                   {"each_depth", summary.order.each_depth},  {"launch_shape", summary.order.launch_shape},
-                   {"local_size", summary.order.local_size},  {"reason", summary.order.reason}};
+  json["order"] = {{"asked", run.config.order.method.word()},
+                   {"method", summary.order.method},
+                   {"each_depth", summary.order.each_depth},
+                   {"launch_shape", summary.order.launch_shape},
+                   {"local_size", summary.order.local_size.value_or(0)},
+                   {"reason", summary.order.reason}};
   json["cache"] = cache(run.config.cache, totals.cache);
   json["warnings"] = warnings(run, totals);
   // Names of files and devices need not be UTF-8; what is not is replaced rather than refused.

@@ -9,7 +9,7 @@
 namespace wavetracer {
 
 gpu::Range LaunchShape::range(size_t count, uint32_t preferred_local) const {
-  const uint32_t group = local_size > 0 ? local_size : preferred_local;
+  const uint32_t group = local_size.value_or(preferred_local);
   if (dimensions == 1) return {count, group};
   const unsigned group_bits = static_cast<unsigned>(std::bit_width(group)) - 1;
   std::array<size_t, 3> local{1, 1, 1}, global{1, 1, 1};

@@ -2,6 +2,7 @@
 // The thesis' experiment of section 3.1; what is computed does not depend on it.
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "gpu/gpu.hpp"
 
@@ -9,10 +10,10 @@ namespace wavetracer {
 
 struct LaunchShape {
   unsigned dimensions = 1;
-  bool curve = false;       // 2D and 3D: squares or cubes walked along a Hilbert curve instead of rows
-  uint32_t local_size = 0;  // work-items per group, a power of two; 0: what the pass prefers
+  bool curve = false;                       // 2D and 3D: squares or cubes walked along a Hilbert curve instead of rows
+  std::optional<uint32_t> local_size = {};  // work-items per group, a power of two; not set: what the pass prefers
 
-  bool plain() const { return dimensions == 1 && local_size == 0; }
+  bool plain() const { return dimensions == 1 && !local_size; }
   // A range of at least `count` work-items whose indices by wt_launch_index cover 0 .. count - 1.
   gpu::Range range(size_t count, uint32_t preferred_local) const;
   // Adds what wt_launch_index is built with.

@@ -7,14 +7,13 @@
 #include "passes/launch_heights.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
+#include "wavetracer/order_methods.hpp"
 
 namespace wavetracer {
 
 // morton: Z-order of the direction's cells, 1,024 a component. morton_bins, hilbert_bins: a histogram of directions,
 // its bins visited along a Morton or a 3D Hilbert curve (A. Zhdanov, 2014, algorithm 1). direction_origin: 4,096 cells
 // of directions, in each 16^3 cells of the scene; at launch, where origins are one, 2^16 cells of directions.
-enum class OrderKey { morton, morton_bins, hilbert_bins, direction_origin };
-
 class OrderKeys {
  public:
   // bins: of a direction component, 1 .. 1024, for the histograms. extent_m: the largest absolute coordinate of

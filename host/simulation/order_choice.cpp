@@ -30,11 +30,10 @@ struct Candidate {
 
 std::vector<Candidate> candidates(const Config& config) {
   std::vector<Candidate> all{{{"none", false, config.order.bin_num}}};
-  const LaunchDimensions shape = config.launch.shape;
-  for (const OrderMethod method : order_methods()) {
-    if (method == "hilbert3d-histogram-hilbert2d" && shape != "auto" && shape != "2d") continue;
-    if (method == "hilbert3d-histogram-hilbert3d" && shape != "auto" && shape != "3d") continue;
-    all.push_back({{method, false, config.order.bin_num}});
+  const size_t dimensions = config.launch.shape.index();  // 0: auto
+  for (const OrderMethodRow& method : order_methods) {
+    const bool fits = method.launch_dimensions == 0 || dimensions == 0 || dimensions == method.launch_dimensions;
+    if (method.key && fits) all.push_back({{method.name, false, config.order.bin_num}});
   }
   all.push_back({{"direction-origin", true, config.order.bin_num}});
   return all;

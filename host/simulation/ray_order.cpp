@@ -1,10 +1,11 @@
-// Names of orders, and keys, sort, gather behind one call.
+// The plan of an order, and keys, sort, gather behind one call.
 // Launches are sorted before their rays exist: generate_rays then writes them in order, and nothing has to be moved.
 #include "simulation/ray_order.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -12,58 +13,21 @@
 
 namespace wavetracer {
 
-namespace {
-
-struct Method {
-  OrderMethod name, mnemonic;
-  std::optional<OrderKey> key;
-  unsigned curve_dimensions;  // of the launch that belongs to it; 0: any
-};
-
-const std::vector<Method>& known_methods() {
-  static const std::vector<Method> methods = {
-      {"none", "WS", {}, 0},
-      {"morton", "Z", OrderKey::morton, 0},
-      {"hilbert3d-histogram", "H3DH", OrderKey::hilbert_bins, 0},
-      {"morton-histogram", "HZ", OrderKey::morton_bins, 0},
-      {"hilbert3d-histogram-hilbert2d", "H3DH2DH", OrderKey::hilbert_bins, 2},
-      {"hilbert3d-histogram-hilbert3d", "H3DH3DH", OrderKey::hilbert_bins, 3},
-      {"direction-origin", "direction-origin", OrderKey::direction_origin, 0},
-  };
-  return methods;
-}
-
-}  // namespace
-
-const std::vector<OrderMethod>& order_methods() {
-  static const std::vector<OrderMethod> names = [] {
-    std::vector<OrderMethod> all;
-    for (const Method& method : known_methods())
-      if (method.key) all.push_back(method.name);
-    return all;
-  }();
-  return names;
-}
-
 OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch) {
-  const auto& methods = known_methods();
-  const auto method = std::find_if(methods.begin(), methods.end(), [&](const Method& m) {
-    return order.method == m.name || order.method == m.mnemonic;
-  });
-  if (method == methods.end()) throw std::logic_error("plan_order: order.method = \"auto\" is chosen by choose_order");
+  const std::optional<OrderMethodRow> method = find_order_method(order.method);
+  if (!method) throw std::logic_error("plan_order: order.method = \"auto\" is chosen by choose_order");
   auto dimensions = static_cast<unsigned>(launch.shape.index());  // 0: auto
-  if (dimensions == 0) dimensions = std::max(method->curve_dimensions, 1u);
-  if (method->curve_dimensions > 0 && dimensions != method->curve_dimensions)
+  if (dimensions == 0) dimensions = std::max(method->launch_dimensions, 1u);
+  if (method->launch_dimensions > 0 && dimensions != method->launch_dimensions)
     throw ConfigError(fmt::format("order.method = \"{}\" cannot be used with launch.shape = \"{}\"",
                                   order.method.word(), launch.shape.word()));
-  const uint32_t local_size = launch.local_size.value_or(0);
-  if (local_size > 1024 || (local_size & (local_size - 1)) != 0)
-    throw ConfigError(fmt::format("launch.local_size = {} is not a power of two up to 1024", local_size));
+  if (launch.local_size && (*launch.local_size > 1024 || !std::has_single_bit(*launch.local_size)))
+    throw ConfigError(fmt::format("launch.local_size = {} is not a power of two up to 1024", *launch.local_size));
   return {method->name.text(),
           method->key,
           order.each_depth && method->key,
           order.bin_num,
-          {dimensions, method->curve_dimensions > 0, local_size}};
+          {dimensions, method->launch_dimensions > 0, launch.local_size}};
 }
 
 RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions,

@@ -10,6 +10,7 @@
 #include "passes/order_keys.hpp"
 #include "passes/sort.hpp"
 #include "wavetracer/config.hpp"
+#include "wavetracer/order_methods.hpp"
 
 namespace wavetracer {
 
@@ -21,9 +22,6 @@ struct OrderPlan {
   uint32_t bins = 16;
   LaunchShape launch;
 };
-
-// The plain names of order.method that sort, in the order of the thesis, then ours.
-const std::vector<OrderMethod>& order_methods();
 
 // Throws ConfigError for a method that does not go with the shape; "auto" is not a plan (see order_choice.hpp).
 OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch);

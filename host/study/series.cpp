@@ -1,32 +1,21 @@
-// The methods and their mnemonics.
-// Assumes the method names of the field table (host/config/field_table.cpp).
+// Series of the methods of wavetracer/order_methods.hpp.
 #include "study/series.hpp"
+#include <algorithm>
 #include <stdexcept>
+#include "wavetracer/order_methods.hpp"
 
 namespace wavetracer::study {
 namespace {
 
-struct Method {
-  std::string name, mnemonic, shape;
-};
-
-const std::vector<Method>& methods() {
-  static const std::vector<Method> all = {
-      {"none", "WS", "1d"},
-      {"morton", "Z", "1d"},
-      {"hilbert3d-histogram", "H3DH", "1d"},
-      {"morton-histogram", "HZ", "1d"},
-      {"hilbert3d-histogram-hilbert2d", "H3DH2DH", "2d"},
-      {"hilbert3d-histogram-hilbert3d", "H3DH3DH", "3d"},
-      {"direction-origin", "direction-origin", "1d"},
-  };
-  return all;
+OrderMethodRow row_of(const std::string& method) {
+  const auto row = find_order_method(OrderMethod::named(method));
+  if (!row) throw std::logic_error("no order is called " + method);
+  return *row;
 }
 
-const Method& find(const std::string& name) {
-  for (const Method& method : methods())
-    if (method.name == name) return method;
-  throw std::logic_error("no method of order is called " + name);
+// The shape that a method is launched in unless another one is asked for.
+std::string own_shape(const OrderMethodRow& method) {
+  return std::to_string(std::max(method.launch_dimensions, 1u)) + "d";
 }
 
 }  // namespace
@@ -34,8 +23,8 @@ const Method& find(const std::string& name) {
 Series unordered() { return ordered("none"); }
 
 Series ordered(const std::string& method) {
-  const Method& m = find(method);
-  return {m.mnemonic, m.name, "random", m.shape};
+  const OrderMethodRow row = row_of(method);
+  return {row.mnemonic.text(), row.name.text(), "random", own_shape(row)};
 }
 
 Series born_ordered() { return {"born ordered", "none", "hilbert", "1d"}; }
@@ -46,7 +35,7 @@ Series with_shape(Series series, const std::string& shape) {
 }
 
 std::string label(const Series& series) {
-  return series.mnemonic + (series.shape == find(series.method).shape ? "" : " " + series.shape);
+  return series.mnemonic + (series.shape == own_shape(row_of(series.method)) ? "" : " " + series.shape);
 }
 
 const std::vector<std::string>& series_keys() {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace wavetracer {
@@ -16,8 +17,8 @@ struct OrderSummary {
   std::string method = "none";  // plain name; "none" also if order.method = "auto" found that no sort saves time
   bool each_depth = false;
   std::string launch_shape = "1d";
-  uint32_t local_size = 0;  // 0: chosen for the device
-  std::string reason;       // why this method was chosen, with order.method = "auto"
+  std::optional<uint32_t> local_size = {};  // not set: chosen for the device
+  std::string reason;                       // why this method was chosen, with order.method = "auto"
 };
 
 // A feature: it is on if the configuration asks for it and the scene needs it.

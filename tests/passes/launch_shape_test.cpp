@@ -19,7 +19,7 @@ namespace {
 
 std::vector<LaunchShape> all_shapes() {
   std::vector<LaunchShape> shapes;
-  for (const uint32_t local : {0u, 1u, 32u, 64u, 256u}) {
+  for (const std::optional<uint32_t> local : std::vector<std::optional<uint32_t>>{{}, 1, 32, 64, 256}) {
     shapes.push_back({1, false, local});
     for (const unsigned dimensions : {2u, 3u})
       for (const bool curve : {false, true}) shapes.push_back({dimensions, curve, local});
@@ -46,14 +46,14 @@ TEST_CASE("every index is met once, by ranges that waste little") {
     for (const size_t count : {size_t{1}, size_t{2}, size_t{100}, size_t{4096}, size_t{5000}, size_t{70001}}) {
       CAPTURE(shape.dimensions);
       CAPTURE(shape.curve);
-      CAPTURE(shape.local_size);
+      CAPTURE(shape.local_size.value_or(0));
       CAPTURE(count);
       const gpu::Range range = shape.range(count, 128);
       REQUIRE(range.dimensions == shape.dimensions);
       std::array<size_t, 3> global;
       for (size_t d = 0; d < 3; ++d)
         global[d] = (range.global[d] + range.local[d] - 1) / range.local[d] * range.local[d];
-      const uint32_t local = shape.local_size ? shape.local_size : 128;
+      const uint32_t local = shape.local_size.value_or(128);
       CHECK(range.local[0] * range.local[1] * range.local[2] == local);
       std::vector<uint8_t> met(count, 0);
       size_t twice = 0;
@@ -100,7 +100,7 @@ TEST_CASE("hits and the hits of blocks are the same for every launch shape") {
     CAPTURE(name_of(traversal));
     std::vector<Hit> expected;
     std::vector<uint32_t> expected_blocks;
-    std::vector<LaunchShape> launches{{1, false, 0}};
+    std::vector<LaunchShape> launches{{1, false}};
     for (const unsigned dimensions : {1u, 2u, 3u})
       for (const bool curve : {false, true})
         if (dimensions > 1 || !curve) launches.push_back({dimensions, curve, dimensions == 3 ? 8u : 32u});
