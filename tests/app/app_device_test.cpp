@@ -16,13 +16,6 @@ const std::string street =
     "[[transmitter]]\nname = \"mast\"\nposition_m = [0, 0, 6]\n"
     "[[receiver]]\nname = \"car\"\nposition_m = [50, 0, 2]\n";
 
-size_t lines(const std::string& file) {
-  std::ifstream in(file);
-  size_t count = 0;
-  for (std::string line; std::getline(in, line);) ++count;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("devices marks the device that a run takes") {
@@ -85,7 +78,7 @@ TEST_CASE("a run writes three files and says what it found") {
   CHECK_FALSE(contains(run.err, "\x1b"));  // no terminal, no escape sequences
   for (const char* name : {"out/paths.h5", "out/links.csv", "out/summary.json"})
     CHECK(std::filesystem::file_size(folder.path(name)) > 0);
-  CHECK(lines(folder.path("out/links.csv")) == 2);
+  CHECK(lines_of(folder.path("out/links.csv")) == 2);
 }
 
 TEST_CASE("a run warns before it traces, and explains links without a path, on the terminal and in summary.json") {
@@ -209,7 +202,7 @@ TEST_CASE("an interrupt ends the run after the repeat in progress, with whole fi
   CHECK(outcome.code == 130);
   CHECK(contains(outcome.err, "interrupted"));
   // It may have come before the first repeat was done, where the kernels had to be compiled first.
-  if (!contains(outcome.err, "nothing was written")) CHECK(lines(folder.path("out/links.csv")) == 2);
+  if (!contains(outcome.err, "nothing was written")) CHECK(lines_of(folder.path("out/links.csv")) == 2);
 }
 
 TEST_CASE("a run of one frame acknowledges Ctrl-C at once and stops between batches of rays") {

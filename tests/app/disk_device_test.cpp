@@ -8,6 +8,7 @@
 #include <thread>
 #include "output/reader.hpp"
 #include "program.hpp"
+#include "room_drive.hpp"
 
 namespace {
 
@@ -15,31 +16,10 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using wavetracer::test::slurp;
 
-// A vehicle crosses a room: 8 frames in 4 shards.
-std::string drive(const std::string& scene = WAVETRACER_SOURCE "/configs/scenes/room/room.xml") {
-  return "scene.file = \"" + scene + R"("
-trace.rays = 1000
-trace.max_depth = 2
-output.shard_frames = 2
-output.waypoints = 5
-time.step_s = 0.1
-[[transmitter]]
-name = "lamp"
-position_m = [1, 1, 2.5]
-[[receiver]]
-name = "desk"
-position_m = [7, 5, 1]
-antenna = "isotropic"
-[[track]]
-id = "truck"
-type = "passenger"
-waypoints = [[0, 3, 2, 0], [0.7, 5, 4, 0]]
-[[vehicle_type]]
-name = "passenger"
-length_m = 1.5
-width_m = 0.8
-height_m = 0.6
-)";
+// 8 frames in 4 shards.
+template <class... Scene>
+std::string drive(const Scene&... scene) {
+  return wavetracer::test::room_drive(0.7, 2, scene...);
 }
 
 Outcome run(const std::string& file, const std::string& out, std::vector<std::string> more = {}) {

@@ -9,6 +9,7 @@
 #include <thread>
 #include "output/reader.hpp"
 #include "program.hpp"
+#include "room_drive.hpp"
 #include "same_data.hpp"
 
 namespace {
@@ -20,32 +21,8 @@ using wavetracer::test::datasets;
 using wavetracer::test::Reader;
 using wavetracer::test::slurp;
 
-const std::string room = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/room/room.xml"
-trace.rays = 2000
-trace.max_depth = 2
-output.shard_frames = 5
-output.waypoints = 10
-time.step_s = 0.1
-[[transmitter]]
-name = "lamp"
-position_m = [1, 1, 2.5]
-[[receiver]]
-name = "desk"
-position_m = [7, 5, 1]
-[[track]]
-id = "truck"
-type = "passenger"
-waypoints = [[0, 3, 2, 0], [5.9, 5, 4, 0]]
-[[vehicle_type]]
-name = "passenger"
-length_m = 1.5
-width_m = 0.8
-height_m = 0.6
-[[mount]]
-name = "roof"
-role = "receiver"
-offset_m = [0, 0, 0.8]
-)";
+// 60 frames in 12 shards.
+const std::string room = wavetracer::test::room_drive(5.9, 5);
 
 // All h5 files under a final name, in shards or merged, can be read; returns how many there are.
 size_t readable_files(const fs::path& folder) {

@@ -44,25 +44,16 @@ std::vector<std::string> changed_environment(const std::vector<std::string>& cha
 
 }  // namespace
 
-Folder::Folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "wavetracer-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder: " + name);
-  folder_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string Folder::file(const std::string& name, const std::string& text) const {
-  std::ofstream(folder_ / name) << text;
-  return path(name);
-}
-
 size_t Folder::entries() const {
-  const std::filesystem::directory_iterator all(folder_);
+  const std::filesystem::directory_iterator all(folder_.path());
   return static_cast<size_t>(std::distance(begin(all), end(all)));
+}
+
+size_t lines_of(const std::string& file) {
+  std::ifstream in(file);
+  size_t count = 0;
+  for (std::string line; std::getline(in, line);) ++count;
+  return count;
 }
 
 Program::Program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {

@@ -1,10 +1,10 @@
 // Runs the built program as a user does, and keeps what it said.
-// Each Folder is a fresh one below the system's temporary folder, removed at the end of the test.
+// A Folder is a TemporaryFolder whose paths are texts, as command lines want them.
 #pragma once
 #include <sys/types.h>
-#include <filesystem>
 #include <string>
 #include <vector>
+#include "temporary_folder.hpp"
 
 struct Outcome {
   int code = -1;  // exit code; 128 + signal where a signal ended it
@@ -13,18 +13,19 @@ struct Outcome {
 
 class Folder {
  public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string path(const std::string& name = "") const { return (folder_ / name).string(); }
+  std::string path(const std::string& name = "") const { return (folder_.path() / name).string(); }
   // Writes a file and returns its path.
-  std::string file(const std::string& name, const std::string& text) const;
+  std::string file(const std::string& name, const std::string& text) const {
+    return folder_.write(name, text).string();
+  }
   size_t entries() const;
 
  private:
-  std::filesystem::path folder_;
+  wavetracer::test::TemporaryFolder folder_;
 };
+
+// 0 where the file cannot be read.
+size_t lines_of(const std::string& file);
 
 // A program that is running; wait() collects it.
 class Program {

@@ -9,6 +9,7 @@
 #include <thread>
 #include "output/reader.hpp"
 #include "program.hpp"
+#include "room_drive.hpp"
 #include "same_data.hpp"
 
 namespace {
@@ -18,33 +19,8 @@ using namespace std::chrono_literals;
 using wavetracer::test::check_same_data;
 using wavetracer::test::slurp;
 
-// A vehicle crosses a room: 20 frames in 7 shards.
-const std::string room = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/room/room.xml"
-trace.rays = 2000
-trace.max_depth = 2
-output.shard_frames = 3
-output.waypoints = 10
-time.step_s = 0.1
-[[transmitter]]
-name = "lamp"
-position_m = [1, 1, 2.5]
-[[receiver]]
-name = "desk"
-position_m = [7, 5, 1]
-[[track]]
-id = "truck"
-type = "passenger"
-waypoints = [[0, 3, 2, 0], [1.9, 5, 4, 0]]
-[[vehicle_type]]
-name = "passenger"
-length_m = 1.5
-width_m = 0.8
-height_m = 0.6
-[[mount]]
-name = "roof"
-role = "receiver"
-offset_m = [0, 0, 0.8]
-)";
+// 20 frames in 7 shards.
+const std::string room = wavetracer::test::room_drive(1.9, 3);
 
 // One frame of a city: ends that stand, some of which send and receive at one place, with one port and two, and
 // antennas of both roles on vehicles.

@@ -31,13 +31,6 @@ const std::string config =
     "[[transmitter]]\nname = \"mast\"\nposition_m = [8, 8, 6]\n[[mount]]\nname = \"roof\"\nrole = \"receiver\"\n"
     "offset_m = [0, 0, 1.6]\n";
 
-size_t lines(const std::string& file) {
-  std::ifstream in(file);
-  size_t count = 0;
-  for (std::string line; std::getline(in, line);) ++count;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("a trajectory file that is wrong exits 3 with its line, and writes nothing") {
@@ -68,7 +61,7 @@ TEST_CASE("a trajectory file that is wrong exits 3 with its line, and writes not
   const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out")});
   CAPTURE(run.err);
   CHECK(run.code == 0);
-  CHECK(lines(folder.path("out/links.csv")) == 3);
+  CHECK(lines_of(folder.path("out/links.csv")) == 3);
   folder.file("drive.xml", with("type=\"passenger\"", "type=\"spaceship\""));
   CHECK(run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "trajectories.default_type=bus"}).code == 0);
 }
@@ -88,7 +81,7 @@ TEST_CASE("--frames of a drive: mistakes exit 2 with the frames that there are, 
   CHECK(contains(error_of("1:0"), "did you mean 0:1?"));
   CHECK(contains(error_of("one"), "give the first and the last frame as A:B, A:, :B or A"));
   CHECK(run_program({"run", "-c", file, "-o", folder.path("out"), "--frames", "1:"}).code == 0);
-  CHECK(lines(folder.path("out/links.csv")) == 2);
+  CHECK(lines_of(folder.path("out/links.csv")) == 2);
 }
 
 TEST_CASE("scene city --vehicles writes a drive that validates and runs") {
@@ -108,7 +101,7 @@ TEST_CASE("scene city --vehicles writes a drive that validates and runs") {
   CHECK(contains(run.out, "vehicles   5 of "));
   CHECK(contains(run.out, "frames     4 from 0 to 0.3 s in steps of 0.1 s"));
   // Streets of 200 m: all are within 300 m, five vehicles of each other and of the road-side unit, in four frames.
-  CHECK(lines(folder.path("out/links.csv")) == 1 + 4 * (5 * 4 + 2 * 5));
+  CHECK(lines_of(folder.path("out/links.csv")) == 1 + 4 * (5 * 4 + 2 * 5));
 }
 
 TEST_CASE("every configuration that comes with the program validates and runs") {
@@ -136,7 +129,7 @@ TEST_CASE("every configuration that comes with the program validates and runs") 
       continue;
     }
     CHECK(run.code == 0);
-    CHECK(lines(out + "/links.csv") > 1);
+    CHECK(lines_of(out + "/links.csv") > 1);
     ++count;
   }
   CHECK(count >= 3);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include "app/program.hpp"
+#include "app/room_drive.hpp"
 #include "app/same_data.hpp"
 
 namespace {
@@ -10,28 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using wavetracer::test::check_same_data;
 
-const std::string drive = "scene.file = \"" WAVETRACER_SOURCE R"(/configs/scenes/room/room.xml"
-trace.rays = 2000
-trace.max_depth = 2
-output.shard_frames = 2
-time.step_s = 0.1
-[[receiver]]
-name = "desk"
-position_m = [7, 5, 1]
-[[track]]
-id = "truck"
-type = "passenger"
-waypoints = [[0, 3, 2, 0], [0.9, 4, 3, 0]]
-[[vehicle_type]]
-name = "passenger"
-length_m = 1.5
-width_m = 0.8
-height_m = 0.6
-[[mount]]
-name = "roof"
-role = "transmitter"
-offset_m = [0, 0, 0.8]
-)";
+const std::string drive = wavetracer::test::room_drive(0.9, 2);
 
 using Environment = std::vector<std::string>;
 
