@@ -23,22 +23,30 @@ inline uint wt_low(uint c, uint stride) { return 2 * c - (c & (stride - 1)); }
 
 inline bool wt_after(wt_key a, uint a_index, wt_key b, uint b_index) { return a > b || (a == b && a_index > b_index); }
 
+// The comparator of positions low < high: the smaller key goes to the lower one. OpenCL 1.2 has no pointer that may be
+// of either address space, so there is one for each.
+#define WT_COMPARATOR(space)                                                                              \
+  inline void wt_compare_##space(space wt_key* keys, space uint* index, uint low, uint high) {            \
+    const wt_key a = keys[low], b = keys[high];                                                           \
+    const uint a_index = WT_PAYLOAD != 0 ? index[low] : 0u, b_index = WT_PAYLOAD != 0 ? index[high] : 0u; \
+    if (!wt_after(a, a_index, b, b_index)) return;                                                        \
+    keys[low] = b;                                                                                        \
+    keys[high] = a;                                                                                       \
+    if (WT_PAYLOAD != 0) {                                                                                \
+      index[low] = b_index;                                                                               \
+      index[high] = a_index;                                                                              \
+    }                                                                                                     \
+  }
+WT_COMPARATOR(local)
+WT_COMPARATOR(global)
+
 #if WT_LANES == 1
 // The steps of one merge over a block of n keys, from the given stride down to 1; the first one has the given mask.
 inline void wt_merge(local wt_key* keys, local uint* index, uint n, uint stride, uint mask) {
   while (stride != 0) {
     for (uint c = get_local_id(0); wt_low(c, stride) < n; c += get_local_size(0)) {
       const uint low = wt_low(c, stride), high = low ^ mask;
-      if (high >= n) continue;
-      const wt_key a = keys[low], b = keys[high];
-      const uint a_index = WT_PAYLOAD != 0 ? index[low] : 0u, b_index = WT_PAYLOAD != 0 ? index[high] : 0u;
-      if (!wt_after(a, a_index, b, b_index)) continue;
-      keys[low] = b;
-      keys[high] = a;
-      if (WT_PAYLOAD != 0) {
-        index[low] = b_index;
-        index[high] = a_index;
-      }
+      if (high < n) wt_compare_local(keys, index, low, high);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     stride /= 2;
@@ -154,16 +162,7 @@ kernel void sort_blocks(global wt_key* keys, global uint* values, global uint* i
 // One step over all keys, a comparator a work-item.
 kernel void one_step(global wt_key* keys, global uint* index, uint n, uint stride, uint mask) {
   const uint low = wt_low(get_global_id(0), stride), high = low ^ mask;
-  if (high >= n) return;
-  const wt_key a = keys[low], b = keys[high];
-  const uint a_index = WT_PAYLOAD != 0 ? index[low] : 0u, b_index = WT_PAYLOAD != 0 ? index[high] : 0u;
-  if (!wt_after(a, a_index, b, b_index)) return;
-  keys[low] = b;
-  keys[high] = a;
-  if (WT_PAYLOAD != 0) {
-    index[low] = b_index;
-    index[high] = a_index;
-  }
+  if (high < n) wt_compare_global(keys, index, low, high);
 }
 
 // The steps of a merge that stay inside blocks. One block a work-group.

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/first_configs.hpp"
 #include "app/named_files.hpp"
+#include "imports/road_network.hpp"
 #include "radio/fields.hpp"
 #include "scene/load.hpp"
 #include "simulation/feature_choice.hpp"
@@ -35,6 +36,7 @@ std::vector<std::string> world_warnings(const Config& config) {
   const Scene scene = load_scene(config);
   const World world(config, scene);
   check_run(config, scene, world);
+  known_streets(config);
   std::vector<std::string> out = scene.report.warnings;
   for (const auto& more : {world.warnings(), place_warnings(config, Surroundings(scene), world)})
     out.insert(out.end(), more.begin(), more.end());

@@ -25,6 +25,7 @@ inline constexpr const char* sumo_config = R"(# Channels between the vehicles of
 
 [scene]
 file = "town/city.xml"
+streets = "town.net.xml"  # drawn in the viewer; nothing else is done with them
 
 [trajectories]
 file = "drive.fcd.xml"

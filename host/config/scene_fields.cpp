@@ -71,6 +71,13 @@ Table scene_table() {
                .slot = s(&SceneConfig::default_material),
                .doc = "Radio material of meshes that name none. If this is empty, a mesh without a material is an "
                       "error, because a guess could be wrong without anybody noticing."},
+              {.name = "streets",
+               .slot = s(&SceneConfig::streets),
+               .form = Form::input_file,
+               .doc = "The road network of the scene, for pictures only: the viewer draws its lanes. A network of "
+                      "SUMO (.net.xml, plain or compressed with gzip), in the coordinates of trajectories.file. "
+                      "Generated cities need none.",
+               .example = "\"town.net.xml\""},
               {.name = "material_alias",
                .slot = s(&SceneConfig::material_alias),
                .doc = "Pairs of a material name in the scene file and the radio material that it means, for names that "

@@ -142,8 +142,9 @@ std::string_view itu_material(std::string_view value) {
   return found == materials.end() ? std::string_view{} : found->itu;
 }
 
-std::optional<Shape> shape_of(const Tags& tags, const ImportOptions& options, std::map<std::string, uint64_t>& guessed,
-                              std::map<std::string, uint64_t>& left_out) {
+std::optional<Shape> building_shape(const Tags& tags, const ImportOptions& options,
+                                    std::map<std::string, uint64_t>& guessed,
+                                    std::map<std::string, uint64_t>& left_out) {
   if (tag(tags, "location") == "underground") {
     ++left_out["underground"];
     return {};

@@ -31,7 +31,8 @@ struct Shape {
 
 // What is built of it; `guessed` counts what the tags do not say. The reason why nothing can be built goes to
 // `left_out`, and the answer is empty.
-std::optional<Shape> shape_of(const Tags& tags, const ImportOptions& options, std::map<std::string, uint64_t>& guessed,
-                              std::map<std::string, uint64_t>& left_out);
+std::optional<Shape> building_shape(const Tags& tags, const ImportOptions& options,
+                                    std::map<std::string, uint64_t>& guessed,
+                                    std::map<std::string, uint64_t>& left_out);
 
 }  // namespace wavetracer::imports

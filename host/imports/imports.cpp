@@ -128,6 +128,7 @@ ImportSummary import_city(std::string_view content, const std::string& name, con
   write_reference(options.output, georeference);
   imports::write_scene(meshes, options.output, georeference.attribution);
   summary.scene = options.output / "city.xml";
+  summary.net = options.net;
   return summary;
 }
 
@@ -146,6 +147,7 @@ std::string describe(const ImportSummary& s) {
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);
   out += fmt::format("use it     [scene]\n           file = \"{}\"\n", s.scene.string());
+  if (!s.net.empty()) out += fmt::format("           streets = \"{}\"\n", s.net.string());
   if (s.offset_m != glm::dvec2(0, 0)) {
     out += fmt::format(
         "           [trajectories]\n           offset_m = [{:.0f}, {:.0f}, 0]  # from the map's coordinates\n",

@@ -39,6 +39,7 @@ struct ImportOptions {
 
 struct ImportSummary {
   std::filesystem::path scene;               // OUTPUT/city.xml
+  std::filesystem::path net;                 // of the options: scene.streets of a configuration
   uint64_t buildings = 0;                    // solids of whole buildings
   uint64_t parts = 0;                        // solids of building:part
   uint64_t courtyards = 0;                   // holes in either

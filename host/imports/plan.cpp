@@ -107,7 +107,7 @@ class Planner {
         continue;
       }
       orient(polygon);
-      auto shape = shape_of(footprint.tags, options_, plan_.guessed, plan_.left_out);
+      auto shape = building_shape(footprint.tags, options_, plan_.guessed, plan_.left_out);
       if (!shape) continue;
       const Box box = box_of(polygon.outer);
       candidates_.push_back({{footprint.id,

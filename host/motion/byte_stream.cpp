@@ -26,8 +26,9 @@ struct ByteStream::Handle {
   ~Handle() { gzclose(stream); }
 };
 
-ByteStream::ByteStream(const std::filesystem::path& path) : file_(path.string()), chunk_(chunk_bytes, '\0') {
-  check_input_file(path, "the trajectory file");
+ByteStream::ByteStream(const std::filesystem::path& path, const char* what)
+    : file_(path.string()), what_(what), chunk_(chunk_bytes, '\0') {
+  check_input_file(path, fmt::format("the {}", what).c_str());
   most_bytes_ = free_bytes + most_unpacked * std::filesystem::file_size(path);
   errno = 0;
   const gzFile stream = gzopen(path.c_str(), "rb");
@@ -49,9 +50,9 @@ std::string_view ByteStream::next() {
     size_ = count > 0 ? static_cast<size_t>(count) : 0;
     if ((bytes_ += size_) > most_bytes_) {
       throw InputError(
-          fmt::format("{}: unpacks to more than {} times its {} bytes, which is too much for trajectories; unpack it "
-                      "and look at its content",
-                      file_, most_unpacked, (most_bytes_ - free_bytes) / most_unpacked));
+          fmt::format("{}: unpacks to more than {} times its {} bytes, which is too much for a {}; unpack it and look "
+                      "at its content",
+                      file_, most_unpacked, (most_bytes_ - free_bytes) / most_unpacked, what_));
     }
     int error = Z_OK;
     const char* const reason = gzerror(handle_->stream, &error);

@@ -12,20 +12,21 @@ namespace wavetracer {
 
 class ByteStream {
  public:
-  // Throws InputError when the file is missing, no plain file, or unreadable.
-  explicit ByteStream(const std::filesystem::path& path);
+  // what: the kind of file, for messages. Throws InputError when the file is missing, no plain file, or unreadable.
+  explicit ByteStream(const std::filesystem::path& path, const char* what = "trajectory file");
   ~ByteStream();
 
   const std::string& file() const { return file_; }
   // The next chunk, which stays for the following call of next(). Empty at the end.
   std::string_view peek();
   // The next chunk, valid until the next call. Empty at the end. Throws InputError where a gzip stream is damaged, or
-  // holds far more than trajectories do.
+  // holds far more than such files do.
   std::string_view next();
 
  private:
   struct Handle;
   std::string file_;
+  const char* what_;
   std::unique_ptr<Handle> handle_;
   std::string chunk_;
   uint64_t bytes_ = 0, most_bytes_ = 0;  // unpacked so far, and the limit

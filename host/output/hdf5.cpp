@@ -72,7 +72,7 @@ Silence::Silence() {
 
 Silence::~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
 
-std::vector<hsize_t> shape_of(hid_t space, const std::string& path) {
+std::vector<hsize_t> dimensions_of(hid_t space, const std::string& path) {
   std::vector<hsize_t> shape(static_cast<size_t>(checked(H5Sget_simple_extent_ndims(space), "measure " + path)));
   checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "measure " + path);
   return shape;
@@ -205,7 +205,7 @@ void check_stored(hid_t dataset, const std::string& path) {
   const Id space(H5Dget_space(dataset), H5Sclose, "measure dataset " + path);
   const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
   hsize_t bytes = H5Tget_size(type);
-  for (const hsize_t n : shape_of(space, path))
+  for (const hsize_t n : dimensions_of(space, path))
     if (__builtin_mul_overflow(bytes, n, &bytes)) throw RuntimeError(path + " is too large");
   if (H5Dget_storage_size(dataset) < bytes / (packed ? most_unpacked : 1)) throw RuntimeError(path + " is cut short");
 }
@@ -215,7 +215,7 @@ Column::Column(const File& file, const std::string& path)
       dataset_(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path),
       type_(H5Dget_type(dataset_), H5Tclose, "find the type of " + path),
       space_(H5Dget_space(dataset_), H5Sclose, "measure dataset " + path),
-      shape_(shape_of(space_, path)) {}
+      shape_(dimensions_of(space_, path)) {}
 
 Meaning Column::meaning() const { return {text_attribute(dataset_, "units"), text_attribute(dataset_, "description")}; }
 

@@ -150,7 +150,7 @@ struct Extent {
 };
 
 // The size of each dimension. path: for the error.
-std::vector<hsize_t> shape_of(hid_t space, const std::string& path);
+std::vector<hsize_t> dimensions_of(hid_t space, const std::string& path);
 
 // What is stored must be what the shape says: the library fills in for the rest, and a small file could ask for all
 // memory. Of compressed datasets, as others may write them, at least what deflate needs. Throws RuntimeError.

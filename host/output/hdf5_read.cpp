@@ -14,9 +14,9 @@ constexpr hsize_t most_strings = hsize_t{1} << 24;
   throw RuntimeError(fmt::format("{} {}", path, what));
 }
 
-std::vector<hsize_t> limited_shape_of(hid_t space, const std::string& path) {
+std::vector<hsize_t> limited_dimensions_of(hid_t space, const std::string& path) {
   if (H5Sis_simple(space) <= 0) refuse(path, "has no rows");
-  const std::vector<hsize_t> shape = shape_of(space, path);
+  const std::vector<hsize_t> shape = dimensions_of(space, path);
   if (shape.empty() || shape.size() > 4) refuse(path, fmt::format("has {} dimensions", shape.size()));
   hsize_t values = 1;
   for (const hsize_t n : shape)
@@ -69,7 +69,7 @@ NumberColumn<T>::NumberColumn(const File& file, const std::string& path, std::ve
     : path_(path),
       dataset_(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path),
       space_(H5Dget_space(dataset_), H5Sclose, "measure " + path),
-      shape_(limited_shape_of(space_, path)) {
+      shape_(limited_dimensions_of(space_, path)) {
   const Id type(H5Dget_type(dataset_), H5Tclose, "find the type of " + path);
   const H5T_class_t kind = H5Tget_class(type);
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) refuse(path, "holds no numbers");
@@ -111,7 +111,7 @@ template class NumberColumn<double>;
 std::vector<std::string> read_strings(const File& file, const std::string& path) {
   const Id dataset(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find dataset " + path);
   const Id space(H5Dget_space(dataset), H5Sclose, "measure " + path);
-  const std::vector<hsize_t> shape = limited_shape_of(space, path);
+  const std::vector<hsize_t> shape = limited_dimensions_of(space, path);
   if (shape.size() != 1 || shape[0] > most_strings) refuse(path, "has another shape than that of this format");
   const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path);
   check_stored(dataset, path);

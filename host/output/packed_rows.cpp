@@ -43,7 +43,7 @@ StoredTable stored_table(const File& file, const std::string& path) {
   const Id type(H5Dget_type(dataset), H5Tclose, "find the type of " + path),
       space(H5Dget_space(dataset), H5Sclose, "measure " + path),
       properties(H5Dget_create_plist(dataset), H5Pclose, "read the layout of " + path);
-  const std::vector<hsize_t> shape = hdf5::shape_of(space, path);
+  const std::vector<hsize_t> shape = hdf5::dimensions_of(space, path);
   StoredTable table{path, std::move(dataset), 0, 0, H5Tget_size(type), shape.size(), H5Tget_size(type), 0};
   for (size_t i = 1; i < shape.size(); ++i) table.row_bytes *= shape[i];
   table.bytes = shape.empty() ? 0 : shape[0] * table.row_bytes;

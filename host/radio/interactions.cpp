@@ -49,7 +49,7 @@ glm::dvec3 normal_of(const WedgeFrame& frame, int face) {
 
 struct Interactions::Edge {
   uint64_t vertex;  // into the columns of the geometry
-  WedgePlace place;
+  WorldPlace place;
   WedgeFrame frame;
   glm::dvec3 k_in, k_out;
   double before_m, after_m;  // to the end or edge before and after it, reflections unfolded
@@ -74,17 +74,17 @@ Interactions::Interactions(const Scene& scene, const Config& config, std::span<c
 
 VertexPlace Interactions::place(const PathGeometry& geometry, uint64_t i) const {
   if (geometry.interaction[i] == diffraction) {
-    const WedgePlace place = wedges_.at(geometry.surface[i]);
-    return {place.wedge, place.instance};
+    const WorldPlace place = wedges_.at(geometry.surface[i]);
+    return {place.index, place.instance};
   }
   const bool tile = geometry.interaction[i] == scattering;
   if (tile && !tiles_) throw RuntimeError("a path scatters from a tile, but there are none without trace.scattering");
   const uint32_t number = geometry.surface[i];
-  const SurfacePlace place = surfaces_.at(tile ? tiles_->surface(tiles_->at(number)) : number);
-  return {place.surface, place.instance};
+  const WorldPlace place = surfaces_.at(tile ? tiles_->surface(tiles_->at(number)) : number);
+  return {place.index, place.instance};
 }
 
-WedgeFace Interactions::face_of(const WedgePlace& place, int face) const {
+WedgeFace Interactions::face_of(const WorldPlace& place, int face) const {
   const Scene& scene = surfaces_.scene(place.part);
   const uint32_t material = scene.surfaces[wedges_.wedge(place).surface[face]].material;
   return {permittivity_[place.part][material], scene.materials[material].thickness_m};
@@ -97,7 +97,7 @@ std::vector<Interactions::Edge> Interactions::edges_of(const PathGeometry& geome
   for (size_t m = 0; m + 1 < legs.directions().size(); ++m) {
     const uint64_t vertex = geometry.first[path] + m;
     if (geometry.interaction[vertex] == diffraction) {
-      const WedgePlace place = wedges_.at(geometry.surface[vertex]);
+      const WorldPlace place = wedges_.at(geometry.surface[vertex]);
       if (!edges.empty()) edges.back().after_m = since_m;
       edges.push_back(
           {vertex, place, wedges_.frame(place, state), legs.directions()[m], legs.directions()[m + 1], since_m, 0});
@@ -177,7 +177,7 @@ double Interactions::snap_to_shared_face(std::vector<Edge>& edges) const {
 
 void Interactions::meet_surface(const PathGeometry& geometry, uint64_t vertex, const WorldState& state,
                                 const glm::dvec3& k_in, const glm::dvec3& k_out, Transfer& transfer) const {
-  const SurfacePlace place = surfaces_.at(geometry.surface[vertex]);
+  const WorldPlace place = surfaces_.at(geometry.surface[vertex]);
   const glm::dvec3 normal = surfaces_.normal(place, state);
   const uint32_t number = surfaces_.surface(place).material;
   const Material& material = surfaces_.scene(place.part).materials[number];
@@ -194,7 +194,7 @@ void Interactions::meet_surface(const PathGeometry& geometry, uint64_t vertex, c
 void Interactions::scatter_at(const PathGeometry& geometry, uint64_t vertex, const WorldState& state,
                               const glm::dvec3& k_in, const glm::dvec3& k_out, Transfer& transfer) const {
   const TilePlace tile = tiles_->at(geometry.surface[vertex]);
-  const SurfacePlace place = surfaces_.at(tiles_->surface(tile));
+  const WorldPlace place = surfaces_.at(tiles_->surface(tile));
   const uint32_t number = surfaces_.surface(place).material;
   const ScatteredWave wave =
       scatter(surfaces_.scene(place.part).materials[number], permittivity_[place.part][number], wavelength_m_, k_in,

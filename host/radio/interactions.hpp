@@ -54,7 +54,7 @@ class Interactions {
                              const Legs& legs) const;
   static double spreading(const std::vector<Edge>& edges, double length_m);
   double snap_to_shared_face(std::vector<Edge>& edges) const;
-  WedgeFace face_of(const WedgePlace& place, int face) const;
+  WedgeFace face_of(const WorldPlace& place, int face) const;
   LitSides lit_sides(const PathGeometry& geometry, size_t path, const Edge& edge, const SiblingQuestion& sibling) const;
   // What the interaction at this entry of the columns does.
   void meet_surface(const PathGeometry& geometry, uint64_t vertex, const WorldState& state, const glm::dvec3& k_in,

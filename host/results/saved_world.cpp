@@ -5,6 +5,7 @@
 #include <map>
 #include "base/hash.hpp"
 #include "config/retired_keys.hpp"
+#include "imports/road_network.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config_file.hpp"
@@ -45,6 +46,7 @@ SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
   Config config = out.config;
   config.trace.diffraction = config.trace.diffraction || with_wedges;
   if (!attempt("the scene cannot be shown", [&] { out.scene = load_scene(config); })) return out;
+  attempt("streets are not shown", [&] { out.streets = known_streets(out.config); });
   if (run.instances().empty()) return out;
   attempt("vehicles are shown without their bodies", [&] {
     const World world(out.config, out.scene);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 #include "results/saved_run.hpp"
+#include "scene/streets.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 
@@ -15,6 +16,7 @@ struct SavedWorld {
   std::vector<Scene> models;  // likewise, in the coordinates of the model
   std::vector<uint32_t>
       instance_model;                 // of each SavedRun::instances() the index into models, no_instance where unknown
+  std::vector<Street> streets;        // in file coordinates; empty where none are known
   std::vector<std::string> warnings;  // what is missing, and why
 };
 

@@ -145,7 +145,7 @@ void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>&
   for (size_t i = 0; i < soup.triangles.size(); ++i) {
     const Triangle& t = soup.triangles[i];
     scene.triangles.push_back({weld.vertex[t[0]], weld.vertex[t[1]], weld.vertex[t[2]]});
-    if (shape_of(scene, static_cast<uint32_t>(scene.triangles.size() - 1)).height_m < degenerate_height_m) {
+    if (triangle_shape(scene, static_cast<uint32_t>(scene.triangles.size() - 1)).height_m < degenerate_height_m) {
       scene.triangles.pop_back();
       ++scene.report.degenerate_triangles;
       continue;

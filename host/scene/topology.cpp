@@ -37,7 +37,7 @@ class SurfaceGrower {
         triangle_edges_(triangle_edges),
         seed_of_(scene.triangles.size(), unassigned) {
     shapes_.reserve(scene.triangles.size());
-    for (uint32_t t = 0; t < scene.triangles.size(); ++t) shapes_.push_back(shape_of(scene, t));
+    for (uint32_t t = 0; t < scene.triangles.size(); ++t) shapes_.push_back(triangle_shape(scene, t));
   }
 
   // The seed of every triangle's surface.
@@ -128,7 +128,7 @@ bool is_flat(const Scene& scene, const Edge& edge) {
 
 }  // namespace
 
-TriangleShape shape_of(const Scene& scene, uint32_t t) {
+TriangleShape triangle_shape(const Scene& scene, uint32_t t) {
   const auto& [a, b, c] = scene.triangles[t];
   const dvec3 u = scene.vertices[b] - scene.vertices[a], v = scene.vertices[c] - scene.vertices[a];
   const dvec3 n = glm::cross(u, v);

@@ -23,7 +23,7 @@ struct TriangleShape {
   glm::dvec3 normal;
   double area_m2, height_m;
 };
-TriangleShape shape_of(const Scene& scene, uint32_t t);
+TriangleShape triangle_shape(const Scene& scene, uint32_t t);
 
 // Fills edges and edge_faces, sorted by vertex pair, and the counts of free and non-manifold edges.
 // Returns the three edges of every triangle, edge k between corners k and k + 1.

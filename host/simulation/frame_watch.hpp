@@ -11,7 +11,7 @@ class FrameWatch {
  public:
   void set(FrameObserver observer) { observer_ = std::move(observer); }
   // Throws FrameStopped if the observer has cancelled the frame.
-  void tell(const char* stage, uint64_t done, uint64_t total) const {
+  void tell(decltype(FrameProgress::stage) stage, uint64_t done, uint64_t total) const {
     if (observer_ && !observer_({stage, done, total})) throw FrameStopped();
   }
 

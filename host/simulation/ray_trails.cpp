@@ -76,7 +76,7 @@ void RayTrails::end_batch() {
 }
 
 // Distances along rays are float32, and those to large triangles are right to their size: the plane is known better.
-glm::dvec3 RayTrails::on_surface(const glm::dvec3& position_m, const SurfacePlace& place) const {
+glm::dvec3 RayTrails::on_surface(const glm::dvec3& position_m, const WorldPlace& place) const {
   const glm::dvec3 normal = surfaces_.normal(place, world_);
   double offset_m = surfaces_.surface(place).offset_m;
   if (place.instance != no_instance) offset_m += glm::dot(normal, world_.instances[place.instance].position_m);
@@ -131,8 +131,8 @@ void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_
       push(k, WaypointKind::miss, start_m + position_m, no_surface, no_instance);
       break;
     } else {
-      const SurfacePlace place = surfaces_.at(row[k].surface);
-      push(k, WaypointKind::reflection, origin_m + on_surface(position_m, place), place.surface, place.instance);
+      const WorldPlace place = surfaces_.at(row[k].surface);
+      push(k, WaypointKind::reflection, origin_m + on_surface(position_m, place), place.index, place.instance);
     }
     start_m = rows_.position_m.back();
   }

@@ -41,7 +41,7 @@ class RayTrails final : public RayFollower {
   WaypointRows take_waypoints() { return std::move(rows_); }
 
  private:
-  glm::dvec3 on_surface(const glm::dvec3& position_m, const SurfacePlace& place) const;
+  glm::dvec3 on_surface(const glm::dvec3& position_m, const WorldPlace& place) const;
   void keep_waypoints(std::vector<wt_reception> receptions);
   void add(const LaunchPart& part, uint32_t sample, std::span<const wt_waypoint> row,
            std::span<const wt_reception> hits);

@@ -12,6 +12,7 @@
 #include "viewer/grid_maps.hpp"
 #include "viewer/page_files.hpp"
 #include "viewer/scene_blocks.hpp"
+#include "viewer/street_blocks.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -180,6 +181,8 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   std::string elements;
   const json scene =
       add_scene_blocks(world.scene, "scene", world.scene.origin_m - centre, world.config.trace.free_edges, elements);
+  if (const std::string warning = add_street_blocks(world.streets, world.scene, centre, elements); !warning.empty())
+    page.warnings.push_back(warning);
   json models = json::array();
   for (size_t i = 0; i < world.models.size(); ++i)
     models.push_back(add_scene_blocks(world.models[i], fmt::format("model_{}", i), world.models[i].origin_m,

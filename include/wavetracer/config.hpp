@@ -31,6 +31,7 @@ struct SceneConfig {
   UpAxis up = "auto";                                 // auto: y for glTF, else z
   std::map<std::string, std::string> material_alias;  // [scene.material_alias]: name in the file -> radio material
   std::string default_material;                       // for meshes without one; empty: a missing material is an error
+  std::string streets;                                // a SUMO network, for pictures only
 };
 
 struct RadioConfig {

@@ -17,7 +17,7 @@ namespace wavetracer {
 
 // Progress of a frame: `done` of `total`, in the unit of the stage.
 struct FrameProgress {
-  std::string stage;  // "rays" (those that were launched), then "paths" (steps of the exact solution)
+  Choice<"rays", "paths"> stage;  // rays that were launched, then steps of the exact solution
   uint64_t done = 0, total = 0;
 };
 // Called between batches of rays and between these steps; if it returns false, the frame is cancelled.

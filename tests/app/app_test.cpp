@@ -284,9 +284,14 @@ TEST_CASE("first configurations run as they are, that of SUMO with the reader's 
       run_program({"scene", "city", "-o", folder.path("town"), "--blocks", "2x2", "--vehicles", "3", "--seconds", "1"})
           .code == 0);
   const std::string sumo = folder.file("sumo.toml", run_program({"init", "--sumo"}).out);
+  check(run_program({"validate", "-c", sumo}), 3, "scene.streets is ");
+  const std::string net = folder.file("town.net.xml", "<net/>");
   check(run_program({"validate", "-c", sumo}), 3, "trajectories.file is ");
-  CHECK(run_program({"validate", "-c", sumo, "--set", "trajectories.file=" + folder.path("town/drive.fcd.xml")}).code ==
-        0);
+  const std::vector<std::string> with_drive{"validate", "-c", sumo, "--set",
+                                            "trajectories.file=" + folder.path("town/drive.fcd.xml")};
+  check(run_program(with_drive), 3, net + ": the network has no lane");
+  folder.file("town.net.xml", "<net><edge><lane shape=\"0,0 1,1\"/></edge></net>");
+  CHECK(run_program(with_drive).code == 0);
   check(run_program({"init", "--minimal", "--sumo"}), 2, "give only one of them");
 }
 

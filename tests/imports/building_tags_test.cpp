@@ -14,7 +14,7 @@ struct Answer {
 };
 Answer ask(const Tags& tags, const ImportOptions& options = {}) {
   Answer out;
-  out.shape = shape_of(tags, options, out.guessed, out.left_out);
+  out.shape = building_shape(tags, options, out.guessed, out.left_out);
   return out;
 }
 

@@ -256,12 +256,12 @@ struct InstanceWorld : World {
 TEST_CASE("surfaces of instances: numbers, normals, velocities of their material points") {
   const InstanceWorld world;
   const SurfaceTable table(world.scene, world.models, world.instances);
-  const SurfacePlace ground = table.at(0), side = table.at(4);
+  const WorldPlace ground = table.at(0), side = table.at(4);
   CHECK(ground.instance == no_instance);
-  CHECK(ground.surface == 0);
+  CHECK(ground.index == 0);
   CHECK(table.at(2).instance == 0);
   CHECK(side.instance == 1);
-  CHECK(side.surface == 1);
+  CHECK(side.index == 1);
   CHECK(table.scene(side.part).materials[table.surface(side).material] == test::conductor());
   CHECK_THROWS_AS(table.at(5), std::out_of_range);
   CHECK(table.normal(ground, world.state) == glm::dvec3{0, 0, 1});

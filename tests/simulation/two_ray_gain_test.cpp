@@ -55,11 +55,11 @@ TEST_CASE("a frame that is given up tells nothing, and the next one is as if it 
   observe(100);
   const FrameResult whole = simulation.run_frame(0);
   REQUIRE(seen.size() >= 5);
-  CHECK(seen[0].stage == "rays");
+  CHECK(seen[0].stage.word() == "rays");
   CHECK(seen[0].done == 100000);
   CHECK(seen[2].done == 300000);
   CHECK(seen[2].total == 300000);
-  CHECK(seen[3].stage == "paths");
+  CHECK(seen[3].stage.word() == "paths");
   for (const size_t most : {1, 2, 4}) {
     observe(most);
     CHECK_THROWS_AS(simulation.run_frame(0), FrameStopped);

@@ -31,8 +31,11 @@ assert len(np.unique(full.reshape(-1, 3), axis=0)) > 50, "the picture is blank"
 page.check("show_vehicles", False)
 without = picture()
 assert np.any(without != full), "vehicles are not to be seen"
+page.check("show_streets", False)
+bare = picture()
+assert np.any(bare != without), "streets are not to be seen"
 page.check("show_city", False)
-assert np.mean(np.any(picture() != without, axis=2)) > 0.1, "the city is not to be seen"
+assert np.mean(np.any(picture() != bare, axis=2)) > 0.1, "the city is not to be seen"
 
 # Each path has its colour of the legend where a pinhole camera sees it.
 project = page.from_above()

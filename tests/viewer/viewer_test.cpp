@@ -15,6 +15,7 @@
 #include "viewer/link_rows.hpp"
 #include "viewer/made_runs.hpp"
 #include "viewer/page_files.hpp"
+#include "viewer/street_blocks.hpp"
 #include "viewer/strongest.hpp"
 #include "viewer/view.hpp"
 #include "wavetracer/error.hpp"
@@ -45,6 +46,36 @@ size_t count_of(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
+
+TEST_CASE("a street keeps its width along its line and around a corner, and has no spikes") {
+  using Points = std::vector<glm::dvec3>;
+  CHECK(street_rims({{{0, 0, 1}, {0, 0, 1}, {10, 0, 2}}, 4}) == Points{{0, 2, 1}, {0, -2, 1}, {10, 2, 2}, {10, -2, 2}});
+  const Points corner = street_rims({{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}}, 4});
+  REQUIRE(corner.size() == 6);
+  CHECK(glm::distance(corner[2], {8, 2, 0}) < 1e-12);
+  CHECK(glm::distance(corner[3], {12, -2, 0}) < 1e-12);
+  for (const double back_m : {1e-3, 0.0}) {
+    for (const glm::dvec3& p : street_rims({{{0, 0, 0}, {10, 0, 0}, {0, back_m, 0}}, 4})) {
+      CHECK(std::isfinite(p.x + p.y));
+      CHECK(p.x <= 14);  // twice half of the width beyond the end
+    }
+  }
+  CHECK(street_rims({{{1, 1, 0}, {1, 1, 5}}, 4}).empty());
+}
+
+TEST_CASE("streets that are nowhere near the scene are left out, and those that are too many are counted") {
+  Scene scene;
+  scene.origin_m = {1000, 0, 0};
+  scene.vertices = {{-50, -50, 0}, {50, 50, 0}};
+  const Street near{{{1000, 0, 0}, {1020, 0, 0}}, 3}, far{{{0, 0, 0}, {20, 0, 0}}, 3};
+  std::string both, one;
+  CHECK(add_street_blocks(std::vector<Street>{near, far}, scene, scene.origin_m, both).empty());
+  CHECK(add_street_blocks(std::vector<Street>{near}, scene, scene.origin_m, one).empty());
+  CHECK(both == one);
+  CHECK(count_of(one, "street_vertices") == 1);
+  CHECK(add_street_blocks(std::vector<Street>(250'003, near), scene, scene.origin_m, both) ==
+        "the page leaves out 3 lanes of the road network, as it holds 500,000 points of them at most");
+}
 
 TEST_CASE("base64 of RFC 4648") {
   CHECK(base64("") == "");

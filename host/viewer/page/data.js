@@ -129,6 +129,9 @@ function decode_scene(description) {
 
 const city = decode_scene(meta.scene);
 const models = meta.models.map(decode_scene);
+const streets = {
+  vertices: new Float32Array(block("street_vertices")), triangles: new Uint32Array(block("street_triangles")),
+};
 
 // Links of all frames, sorted by frame, transmitter, receiver. What the page's paths leave out counts here.
 const links = (() => {

@@ -201,6 +201,7 @@ function apply_toggles() {
   lines.object.visible = control("show_paths").checked;
   lines.through_houses(control("show_hidden").checked);
   world.city.visible = control("show_city").checked;
+  world.streets.visible = control("show_streets").checked;
   world.vehicles.visible = control("show_vehicles").checked;
   world.edges.visible = control("show_edges").checked;
   state.labels = control("show_labels").checked;
@@ -257,6 +258,8 @@ function write_facts() {
   for (const warning of warnings) control("warnings").append(element("li", warning));
   for (const name of [...new Set(world.solids.map(([, name]) => name))])
     control("materials").append(legend_entry(material_colour(name), name));
+  control("show_streets").parentElement.hidden = !streets.triangles.length;
+  if (streets.triangles.length) control("materials").append(legend_entry(street_colour, "streets"));
 }
 
 // The second click of a double click chooses nothing.

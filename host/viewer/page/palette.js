@@ -37,6 +37,8 @@ const Materials = [
 ];
 const other_materials = ["#a08fb0", "#8fb09a", "#b0a58f", "#8f9db0", "#b08f9a"];
 
+const street_colour = "#93969b";
+
 // Flat roofs are paler than the ground of the same material.
 const roof_share = 0.45, roof_tint = "#ffffff";
 

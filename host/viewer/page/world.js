@@ -54,14 +54,23 @@ function edges_of(scene) {
   return geometry_of(new Float32Array(shown));
 }
 
+// Flat bands, in front of the ground below them.
+function street_mesh() {
+  const geometry = geometry_of(streets.vertices);
+  geometry.setIndex(new THREE.BufferAttribute(streets.triangles, 1));
+  geometry.computeVertexNormals();
+  return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({side: THREE.DoubleSide}));
+}
+
 class WorldView {
   constructor() {
     this.scene = new THREE.Scene();
     this.city = new THREE.Group();
+    this.streets = street_mesh();
     this.vehicles = new THREE.Group();
     this.edges = new THREE.Group();
     this.edges.visible = false;
-    this.scene.add(this.city, this.vehicles, this.edges);
+    this.scene.add(this.city, this.streets, this.vehicles, this.edges);
     this.solids = [];  // [mesh, name of its material, whether it is of flat roofs]
     for (const [name, roof, positions] of corners_by_material(city)) {
       const mesh = solid(positions, "#ffffff");
@@ -102,6 +111,7 @@ class WorldView {
       if (roof) mesh.material.color.lerp(new THREE.Color(roof_tint), roof_share);
       mesh.material.color.multiplyScalar(theme().city_light);
     }
+    this.streets.material.color.set(street_colour).multiplyScalar(theme().city_light);
     this.outline_material.color.set(theme().outline);
     this.edge_material.color.set(theme().wedge);
     this.vehicle_material.color.set(theme().vehicle);
