@@ -112,6 +112,7 @@ void export_run(const ConvertOptions& options) {
   what.at = [&progress](uint64_t done, uint64_t total) { progress.bar("converting", done, total, "frames"); };
   std::vector<std::string> warnings;
   const Written written = exporter.write(run, what, warnings);
+  progress.end();
   guard.reset();
   parent.keep();
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << "\n";
@@ -149,12 +150,16 @@ void import_map(const ConvertOptions& options) {
   ImportOptions import = options.import;
   import.output = options.output;
   if (!options.traffic.empty()) import.traffic = extent_of_traffic(options);
-  const ImportSummary summary = import_city(options.input, import);
-  for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
-  std::cout << describe(summary);
-}
-
+  Progress progress;
+  import.at = [&progress](uint64_t done, uint64_t total) { progress.bar("writing", done, total, "meshes");
+};
+const ImportSummary summary = import_city(options.input, import);
+progress.end();
+for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
+std::cout << describe(summary);
 }  // namespace
+
+}  // namespace wavetracer::app
 
 void add_convert(CLI::App& program) {
   CLI::App* command =

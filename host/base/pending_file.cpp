@@ -145,6 +145,7 @@ void PendingFile::rename() {
   const auto hold = hold_pending();
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "write", errno);
   temporary_.clear();
+  ++final_names();
 }
 
 void PendingFile::commit() {

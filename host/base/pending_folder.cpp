@@ -64,6 +64,7 @@ fs::path PendingFolder::commit() {
     const auto hold = hold_pending();
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
     temporary_.clear();
+    ++final_names();
   }
   sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
   return path_;

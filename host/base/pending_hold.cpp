@@ -6,6 +6,11 @@ namespace {
 std::mutex naming;
 }  // namespace
 
+std::atomic<uint64_t>& final_names() {
+  static std::atomic<uint64_t> count{0};
+  return count;
+}
+
 std::unique_lock<std::mutex> hold_pending() { return std::unique_lock(naming); }
 
 }  // namespace wavetracer

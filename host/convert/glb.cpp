@@ -292,7 +292,7 @@ Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& 
   const SavedWorld world = load_saved_world(run);
   warnings.insert(warnings.end(), world.warnings.begin(), world.warnings.end());
   const SavedFrame first = run.frame(options.first_row);
-  const Tracks tracks(run, options.first_row, options.last_row, first);
+  const Tracks tracks(run, options, first);
   GlbWriter writer(run, world);
   writer.set_times(tracks.times_s);
   writer.add_scene();

@@ -6,10 +6,11 @@
 
 namespace wavetracer {
 
-Tracks::Tracks(const SavedRun& run, size_t first_row, size_t last_row, const SavedFrame& first)
+Tracks::Tracks(const SavedRun& run, const ExportOptions& options, const SavedFrame& first)
     : vehicles(run.instances().size()), transmitters(run.transmitters().size()), receivers(run.receivers().size()) {
   add(first, 0);
-  for (size_t row = first_row + 1; row <= last_row; ++row) {
+  for (size_t row = options.first_row + 1; row <= options.last_row; ++row) {
+    options.tell(row);
     const auto time_s = static_cast<float>(run.time_s(row) - first.time_s);
     if (time_s > times_s.back() && std::isfinite(time_s)) add(run.frame(row), time_s);
   }

@@ -5,7 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <vector>
-#include "results/saved_run.hpp"
+#include "convert/convert.hpp"
 
 namespace wavetracer {
 
@@ -29,8 +29,8 @@ struct Tracks {
   std::vector<float> times_s;  // since the first frame
   std::vector<Track> vehicles, transmitters, receivers;
 
-  // Reads the rows after the first one, a frame at a time. first: the frame of first_row.
-  Tracks(const SavedRun& run, size_t first_row, size_t last_row, const SavedFrame& first);
+  // Reads the rows after the first one, a frame at a time. first: the frame of options.first_row.
+  Tracks(const SavedRun& run, const ExportOptions& options, const SavedFrame& first);
 
  private:
   void add(const SavedFrame& frame, float time_s);

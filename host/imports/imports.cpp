@@ -126,7 +126,7 @@ ImportSummary import_city(std::string_view content, const std::string& name, con
   summary.attribution = georeference.attribution;
   summary.warnings = map.warnings;
   write_reference(options.output, georeference);
-  imports::write_scene(meshes, options.output, georeference.attribution);
+  imports::write_scene(meshes, options, georeference.attribution);
   summary.scene = options.output / "city.xml";
   summary.net = options.net;
   return summary;

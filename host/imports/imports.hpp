@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
@@ -35,6 +36,8 @@ struct ImportOptions {
   // which are those of the vehicles; without it a transverse Mercator projection about the middle of the city.
   std::filesystem::path net;
   Extent traffic;  // where vehicles will be, in the coordinates of the network
+  // How far it is: called before each mesh is written, which is what large maps take their time for. May be left out.
+  std::function<void(uint64_t done, uint64_t total)> at = {};
 };
 
 struct ImportSummary {

@@ -131,8 +131,8 @@ std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& option
   return out;
 }
 
-void write_scene(const std::vector<SceneMesh>& meshes, const std::filesystem::path& folder,
-                 const std::string& attribution) {
+void write_scene(const std::vector<SceneMesh>& meshes, const ImportOptions& options, const std::string& attribution) {
+  const std::filesystem::path& folder = options.output;
   std::error_code error;
   std::filesystem::create_directories(folder / "meshes", error);
   if (error) {
@@ -153,7 +153,9 @@ void write_scene(const std::vector<SceneMesh>& meshes, const std::filesystem::pa
     append(bsdf, "string", "type", material);
     append(bsdf, "float", "thickness", "0.1");
   }
+  uint64_t written = 0;
   for (const SceneMesh& mesh : meshes) {
+    if (options.at) options.at(written++, meshes.size());
     const std::string file = "meshes/" + mesh.file + ".ply";
     write_file(folder / file, format_ply(mesh.vertices, mesh.triangles));
     pugi::xml_node shape = scene.append_child("shape");

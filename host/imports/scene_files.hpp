@@ -27,8 +27,7 @@ Extent ground_extent(const Plan& plan, const ImportOptions& options);
 // The ground first, if it is asked for, then all solids. Names of meshes are unique.
 std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& options);
 
-// folder/meshes/*.ply, then folder/city.xml, which names `attribution`. Throws RuntimeError.
-void write_scene(const std::vector<SceneMesh>& meshes, const std::filesystem::path& folder,
-                 const std::string& attribution);
+// meshes/*.ply in the folder options.output, then city.xml, which names `attribution`. Throws RuntimeError.
+void write_scene(const std::vector<SceneMesh>& meshes, const ImportOptions& options, const std::string& attribution);
 
 }  // namespace wavetracer::imports

@@ -38,13 +38,17 @@ std::vector<fs::path> missing(fs::path path) {
 void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, const std::vector<fs::path>& folders) {
   const sigset_t set = ending_signals();
   const timespec tenth{0, 100'000'000};
+  const uint64_t named_before = final_names();
   while (!stop.stop_requested()) {
     if (sigtimedwait(&set, nullptr, &tenth) < 0) continue;
     const auto hold = hold_pending();  // to the end of the process
     std::error_code ignored;
     fs::remove_all(temporary, ignored);
-    for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty
-    std::cerr << "wavetracer: interrupted; nothing was written" << std::endl;
+    const bool nothing = final_names() == named_before;
+    if (nothing)
+      for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty
+    std::cerr << "wavetracer: interrupted; " << (nothing ? "nothing was written" : "what was written is complete")
+              << std::endl;
     _exit(static_cast<int>(ExitCode::interrupted));
   }
 }

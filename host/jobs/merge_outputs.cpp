@@ -86,6 +86,7 @@ std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& p
   }
   join_links_csv(parts.files.at(outputs.size()), files.emplace_back(directory / "links.csv"));
   files.back().sync();
+  if (proof == Proof::rows) prove_links_csv(parts.files.at(outputs.size()), files.back().temporary());
   return files;
 }
 

@@ -29,38 +29,52 @@ Progress::Progress(std::string prefix)
   colour_ = terminal_ && (no_color == nullptr || *no_color == '\0');
 }
 
-void Progress::clear_bar() {
+void Progress::end() {
   if (bar_width_ > 0) std::cerr << "\r" << std::string(bar_width_, ' ') << "\r" << std::flush;
   bar_width_ = 0;
 }
 
 void Progress::line(const std::string& text) {
-  clear_bar();
+  end();
   std::cerr << (colour_ ? "\x1b[2m" + prefix_ + text + "\x1b[0m\n" : prefix_ + text + "\n") << std::flush;
 }
 
 void Progress::bar(const std::string& what, uint64_t done, uint64_t total, const std::string& unit) {
-  if (total < 2) return;
-  const Clock::time_point now = Clock::now();
+  if (total < 2) {
+    total_ = 0;  // within() has no bar to add to
+    return;
+  }
   const bool first = unit != unit_ || total != total_ || done < last_done_;
+  what_ = what;
+  last_done_ = done;
   if (first) {
     unit_ = unit;
     total_ = total;
     begun_ = done;
-    start_ = said_ = now;
+    start_ = said_ = Clock::now();
+    if (terminal_) said_ -= std::chrono::seconds(1);  // it is drawn at once
   }
-  last_done_ = done;
+  draw(what);
+}
+
+void Progress::within(const std::string& words) {
+  if (total_ > 0) draw(what_ + ", " + words);
+}
+
+void Progress::draw(const std::string& what) {
+  const Clock::time_point now = Clock::now();
   const auto since = [now](Clock::time_point then) { return std::chrono::duration<double>(now - then).count(); };
-  if (!(terminal_ && first) && since(said_) < (terminal_ ? bar_interval_s : line_interval_s)) return;
+  if (since(said_) < (terminal_ ? bar_interval_s : line_interval_s)) return;
   said_ = now;
-  const std::string words = progress_words(since(start_), begun_, done, total, unit);
-  if (!terminal_) return line(fmt::format("{}: {} of {} {}, {}", what, grouped(done), grouped(total), unit, words));
-  clear_bar();
-  constexpr uint64_t width = 30;
-  const size_t filled =
-      static_cast<size_t>(static_cast<double>(width) * static_cast<double>(done) / static_cast<double>(total));
-  const std::string text = fmt::format("{} [{}{}] {}/{}, {}", what, std::string(filled, '#'),
-                                       std::string(width - filled, '.'), grouped(done), grouped(total), words);
+  const std::string words = progress_words(since(start_), begun_, last_done_, total_, unit_);
+  if (!terminal_)
+    return line(fmt::format("{}: {} of {} {}, {}", what, grouped(last_done_), grouped(total_), unit_, words));
+  end();
+  constexpr double width = 30;
+  const auto filled = static_cast<size_t>(width * static_cast<double>(last_done_) / static_cast<double>(total_));
+  const std::string text =
+      fmt::format("{} [{}{}] {}/{}, {}", what, std::string(filled, '#'), std::string(size_t{30} - filled, '.'),
+                  grouped(last_done_), grouped(total_), words);
   std::cerr << text << std::flush;
   bar_width_ = text.size();
 }

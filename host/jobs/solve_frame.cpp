@@ -27,8 +27,12 @@ std::optional<SolvedFrame> solve_frame(Simulation& simulation, uint32_t frame, u
                                        std::optional<TransmitterRange> block) {
   const bool alone = simulation.frame_count() == 1 && repeats == 1 && !block;
   simulation.observe([alone, &progress](const FrameProgress& at) {
-    if (alone && at.stage == "rays") progress.bar("tracing", at.done, at.total, "rays");
-    if (alone && at.stage == "paths") progress.bar("solving paths", at.done, at.total, "steps");
+    const bool rays = at.stage == "rays";
+    if (alone)
+      progress.bar(rays ? "tracing" : "solving paths", at.done, at.total, rays ? "rays" : "steps");
+    else
+      progress.within(rays ? fmt::format("{}% of its rays", 100 * at.done / std::max<uint64_t>(at.total, 1))
+                           : "solving its paths");
     return !interrupted();
   });
   SolvedFrame solved;

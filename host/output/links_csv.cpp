@@ -3,6 +3,7 @@
 #include "output/links_csv.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "output/path_limits.hpp"
 #include "radio/link_budget.hpp"
 #include "radio/links.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
@@ -75,6 +77,35 @@ void join_links_csv(std::span<const std::filesystem::path> parts, PendingFile& f
   }
   file.reserve(end);
   copy_pieces(parts, pieces, file);
+}
+
+void prove_links_csv(std::span<const std::filesystem::path> parts, const std::filesystem::path& file) {
+  constexpr size_t at_once = 1 << 20;
+  std::ifstream joined(file, std::ios::binary);
+  std::string wanted(header), found(header.size(), '\0');
+  const auto refuse_unless = [&file](bool same) {
+    if (same) return;
+    throw RuntimeError(
+        fmt::format("{}: does not read back as it was written, so nothing was removed; check the disk, and run again "
+                    "with --resume",
+                    file.string()));
+  };
+  const auto check = [&] {
+    found.resize(wanted.size());
+    refuse_unless(joined.read(found.data(), static_cast<std::streamsize>(found.size())) && found == wanted);
+  };
+  check();
+  for (const std::filesystem::path& part : parts) {
+    std::ifstream rows(part, std::ios::binary);
+    rows.seekg(static_cast<std::streamoff>(header.size()));
+    do {
+      wanted.resize(at_once);
+      rows.read(wanted.data(), at_once);
+      wanted.resize(static_cast<size_t>(rows.gcount()));
+      check();
+    } while (rows);
+  }
+  refuse_unless(joined.peek() == std::ifstream::traits_type::eof());  // not more than the parts have
 }
 
 }  // namespace wavetracer

@@ -29,4 +29,7 @@ class LinksCsv {
 // The rows of all parts, each written by LinksCsv, under one header. Throws RuntimeError.
 void join_links_csv(std::span<const std::filesystem::path> parts, PendingFile& file);
 
+// Throws RuntimeError unless `file` reads back as what join_links_csv() makes of the parts.
+void prove_links_csv(std::span<const std::filesystem::path> parts, const std::filesystem::path& file);
+
 }  // namespace wavetracer

@@ -24,7 +24,11 @@ TEST_CASE("what begins, grows or is renamed waits while somebody holds what is p
     thread.join();
     return same && entries() != before;
   };
+  const uint64_t named = final_names();
   CHECK(waits([&] { PendingDirectory(folder.path() / "a").keep(); }));
   CHECK(waits([&] { PendingFolder(folder.path() / "b").commit(); }));
   CHECK(waits([&] { PendingFile(folder.path() / "c", {}).commit(); }));
+  CHECK(final_names() == named + 2);  // a folder that holds others is no result
+  { const PendingFile dropped(folder.path() / "d", {}); }
+  CHECK(final_names() == named + 2);
 }
