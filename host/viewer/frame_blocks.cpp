@@ -91,7 +91,7 @@ class LinkColumns {
     tx_.add(row.link.tx);
     rx_.add(row.link.rx);
     paths_.add(row.paths);
-    gain_.add(static_cast<float>(row.gain_db()));
+    gain_.add(static_cast<float>(row.path_gain_db));
     narrowband_.add(static_cast<float>(row.narrowband_gain_db));
     spread_.add(static_cast<float>(row.rms_delay_spread_s));
     missed_.add(static_cast<float>(row.missed_power_share));
@@ -113,13 +113,6 @@ void grow(std::optional<Extent>& box, const glm::dvec3& point) {
   box = box ? Extent{glm::min(box->lower, point), glm::max(box->upper, point)} : Extent{point, point};
 }
 
-// Of a frame, the missed shares of its links; empty where they are unknown.
-std::span<const double> shares_of(const SavedRun& run, const FrameSelection& selection, size_t row, size_t links) {
-  const uint64_t first = run.first_link(row);
-  if (first + links > selection.missed_power_share.size()) return {};
-  return std::span(selection.missed_power_share).subspan(first, links);
-}
-
 // What a first look at all frames tells: how strong rows are, and what takes room in any case.
 struct Survey {
   Strongest paths, links;
@@ -130,7 +123,8 @@ struct Survey {
     for (const size_t row : selection.rows) {
       const SavedFrame frame = run.frame(row);
       for (size_t i = 0; i < frame.paths.size(); ++i) paths.count(frame.paths.gain_db[i], path_bytes(frame.paths, i));
-      for (const LinkRow& link : link_rows(frame, {}, run.frequency_hz())) links.count(link.gain_db(), link_bytes);
+      for (const LinkRow& link : link_rows(frame, selection.links, run.first_link(row), run.frequency_hz()))
+        links.count(link.path_gain_db, link_bytes);
       fixed_bytes += 200 + pose_bytes * frame.poses.size() + end_bytes * (run.transmitters().size() + own);
       for (const auto* points : {&frame.transmitter_position_m, &frame.receiver_position_m})
         for (const glm::dvec3& point : *points) grow(out.ends_m, point);
@@ -178,9 +172,9 @@ FrameBlocks add_frame_blocks(const SavedRun& run, const FrameSelection& selectio
       lowest_db = std::min(lowest_db, frame.paths.gain_db[i]);
       highest_db = std::max(highest_db, frame.paths.gain_db[i]);
     }
-    const auto shares = shares_of(run, selection, selection.rows[f], frame.links.size());
-    for (const LinkRow& row : link_rows(frame, shares, run.frequency_hz())) {
-      if (!survey.links.keep(row.gain_db(), link_bytes)) continue;
+    for (const LinkRow& row :
+         link_rows(frame, selection.links, run.first_link(selection.rows[f]), run.frequency_hz())) {
+      if (!survey.links.keep(row.path_gain_db, link_bytes)) continue;
       ++out.shown_links;
       links.add(f, row);
     }

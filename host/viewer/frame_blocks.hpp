@@ -7,16 +7,17 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "results/link_table.hpp"
 #include "results/saved_run.hpp"
 
 namespace wavetracer {
 
 struct FrameSelection {
-  std::vector<size_t> rows;                     // of the run
-  uint64_t max_paths = 0;                       // 0: no limit but bytes
-  uint64_t bytes = 0;                           // of base64, of all blocks of frames together
-  std::vector<bool> own_receivers = {};         // of the run: those that are no cells of a grid
-  std::vector<double> missed_power_share = {};  // of all links of the run; empty where it is not known
+  std::vector<size_t> rows;              // of the run
+  uint64_t max_paths = 0;                // 0: no limit but bytes
+  uint64_t bytes = 0;                    // of base64, of all blocks of frames together
+  std::vector<bool> own_receivers = {};  // of the run: those that are no cells of a grid
+  LinkTable links = {};                  // of the run
 };
 
 struct Extent {

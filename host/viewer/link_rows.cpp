@@ -10,19 +10,15 @@
 namespace wavetracer {
 namespace {
 
-std::vector<LinkRow> empty_rows(const SavedFrame& frame, std::span<const double> missed_power_share) {
+std::vector<LinkRow> empty_rows(const SavedFrame& frame) {
   std::vector<LinkRow> rows;
   rows.reserve(frame.links.size());
-  for (size_t k = 0; k < frame.links.size(); ++k) {
-    rows.push_back({.link = frame.links[k]});
-    if (k < missed_power_share.size()) rows.back().missed_power_share = missed_power_share[k];
-  }
+  for (const Link& link : frame.links) rows.push_back({.link = link});
   for (size_t i = 0; i < frame.paths.size(); ++i) {
     const Link link{frame.paths.tx[i], frame.paths.rx[i]};
     if (rows.empty() || rows.back().link != link) rows.push_back({.link = link});
   }
-  // Of rows of one link the first is kept: the one with a share, if any has.
-  std::stable_sort(rows.begin(), rows.end(), [](const LinkRow& a, const LinkRow& b) { return a.link < b.link; });
+  std::sort(rows.begin(), rows.end(), [](const LinkRow& a, const LinkRow& b) { return a.link < b.link; });
   rows.erase(std::unique(rows.begin(), rows.end(), [](const LinkRow& a, const LinkRow& b) { return a.link == b.link; }),
              rows.end());
   return rows;
@@ -45,36 +41,56 @@ void add_narrowband_gains(const Paths& paths, const std::vector<size_t>& row_of,
   }
 }
 
-}  // namespace
-
-double LinkRow::gain_db() const {
-  return power > 0 ? 10 * std::log10(power) : -std::numeric_limits<double>::infinity();
+// The row of a link, which is there.
+size_t row_of_link(const std::vector<LinkRow>& rows, const Link& link) {
+  const auto found = std::lower_bound(rows.begin(), rows.end(), link,
+                                      [](const LinkRow& row, const Link& wanted) { return row.link < wanted; });
+  return static_cast<size_t>(found - rows.begin());
 }
 
-std::vector<LinkRow> link_rows(const SavedFrame& frame, std::span<const double> missed_power_share,
+void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_link, std::vector<LinkRow>& rows) {
+  for (size_t k = 0; k < frame.links.size(); ++k) {
+    LinkRow& row = rows[row_of_link(rows, frame.links[k])];
+    const size_t at = first_link + k;
+    const auto take = [at](const std::vector<double>& column, auto& value) {
+      if (at < column.size()) value = static_cast<std::remove_cvref_t<decltype(value)>>(column[at]);
+    };
+    if (at < table.paths.size() && table.paths[at] >= 0 && table.paths[at] <= 4e9) take(table.paths, row.paths);
+    if (at < table.los.size()) row.los = table.los[at] == 1;
+    take(table.path_gain_db, row.path_gain_db);
+    take(table.narrowband_gain_db, row.narrowband_gain_db);
+    take(table.rms_delay_spread_s, row.rms_delay_spread_s);
+    take(table.missed_power_share, row.missed_power_share);
+  }
+}
+
+}  // namespace
+
+std::vector<LinkRow> link_rows(const SavedFrame& frame, const LinkTable& table, uint64_t first_link,
                                double frequency_hz) {
-  std::vector<LinkRow> rows = empty_rows(frame, missed_power_share);
+  std::vector<LinkRow> rows = empty_rows(frame);
   const Paths& paths = frame.paths;
   std::vector<size_t> row_of(paths.size());
-  std::vector<double> power(paths.size()), mean_s(rows.size(), 0), square_s2(rows.size(), 0);
+  std::vector<double> path_power(paths.size()), power(rows.size(), 0), mean_s(rows.size(), 0),
+      square_s2(rows.size(), 0);
   for (size_t i = 0; i < paths.size(); ++i) {
-    const Link link{paths.tx[i], paths.rx[i]};
-    const auto found = std::lower_bound(rows.begin(), rows.end(), link,
-                                        [](const LinkRow& row, const Link& wanted) { return row.link < wanted; });
-    row_of[i] = static_cast<size_t>(found - rows.begin());
-    power[i] = std::pow(10.0, paths.gain_db[i] / 10);
-    LinkRow& row = rows[row_of[i]];
-    ++row.paths;
-    row.los |= paths.depth[i] == 0;
-    row.power += power[i];
-    mean_s[row_of[i]] += power[i] * paths.delay_s[i];
+    const size_t k = row_of[i] = row_of_link(rows, {paths.tx[i], paths.rx[i]});
+    path_power[i] = std::pow(10.0, paths.gain_db[i] / 10);
+    ++rows[k].paths;
+    rows[k].los |= paths.depth[i] == 0;
+    power[k] += path_power[i];
+    mean_s[k] += path_power[i] * paths.delay_s[i];
   }
   add_narrowband_gains(paths, row_of, frequency_hz, rows);
-  for (size_t k = 0; k < rows.size(); ++k) mean_s[k] /= rows[k].power;
+  for (size_t k = 0; k < rows.size(); ++k) mean_s[k] /= power[k];
   for (size_t i = 0; i < paths.size(); ++i)
-    square_s2[row_of[i]] += power[i] * std::pow(paths.delay_s[i] - mean_s[row_of[i]], 2);
+    square_s2[row_of[i]] += path_power[i] * std::pow(paths.delay_s[i] - mean_s[row_of[i]], 2);
   for (size_t k = 0; k < rows.size(); ++k)
-    if (rows[k].power > 0) rows[k].rms_delay_spread_s = std::sqrt(square_s2[k] / rows[k].power);
+    if (power[k] > 0) {
+      rows[k].path_gain_db = 10 * std::log10(power[k]);
+      rows[k].rms_delay_spread_s = std::sqrt(square_s2[k] / power[k]);
+    }
+  take_table(frame, table, first_link, rows);
   return rows;
 }
 

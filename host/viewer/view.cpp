@@ -5,7 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include "radio/link_budget.hpp"
-#include "results/missed_shares.hpp"
+#include "results/link_table.hpp"
 #include "results/saved_world.hpp"
 #include "viewer/blocks.hpp"
 #include "viewer/frame_blocks.hpp"
@@ -191,8 +191,8 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   const std::vector<bool> own = outside_of_grids(grids, run.receivers().size());
   const json grid_rows =
       add_grid_blocks(grids, run.receivers(), run.frame(rows.front()).receiver_position_m, centre, elements);
-  MissedShares missed = missed_shares(run);
-  if (!missed.warning.empty()) page.warnings.push_back(missed.warning);
+  LinkTable links = link_table(run);
+  if (!links.warning.empty()) page.warnings.push_back(links.warning);
   json meta = run_facts(run, world, options);
   meta.update({{"centre_m", {centre.x, centre.y, centre.z}},
                {"receivers", receiver_rows(run, own)},
@@ -203,7 +203,7 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   const uint64_t taken = form_bytes + scripts.size() + elements.size() + meta_text(meta).size();
   const uint64_t room = taken + least_frame_bytes < options.max_bytes ? options.max_bytes - taken : least_frame_bytes;
   const FrameBlocks blocks =
-      add_frame_blocks(run, {rows, options.max_paths, room, own, std::move(missed.values)}, centre, elements);
+      add_frame_blocks(run, {rows, options.max_paths, room, own, std::move(links)}, centre, elements);
   page.paths = blocks.shown_paths;
   warn_of_losses(blocks, page);
   meta["frames"] = blocks.frames;

@@ -10,8 +10,8 @@
 #include "output/hdf5.hpp"
 #include "output/sample_run.hpp"
 #include "radio/links.hpp"
-#include "results/csv_column.hpp"
-#include "results/missed_shares.hpp"
+#include "results/csv_columns.hpp"
+#include "results/link_table.hpp"
 #include "results/saved_run.hpp"
 #include "results/saved_world.hpp"
 #include "temporary_folder.hpp"
@@ -205,10 +205,12 @@ TEST_CASE("a column of a CSV file by RFC 4180, in pieces of any size") {
   const std::string text =
       "name,\"a, \"\"b\"\"\",value\r\n\"x,\ny\",1,2.5\r\nz,,\nshort\n\"q\"\"q\",1,-inf\nlast,7,nan";
   const auto column = [&](const std::string& name, size_t piece) -> std::optional<std::vector<double>> {
-    CsvColumn out(name);
+    CsvColumns out({"of no column", name});
     for (size_t at = 0; at < text.size(); at += piece) out.read(std::string_view(text).substr(at, piece));
-    if (!out.finish()) return {};
-    return out.values();
+    out.finish();
+    CHECK_FALSE(out.has(0));
+    if (!out.has(1)) return {};
+    return out.values(1);
   };
   for (const size_t piece : {1, 2, 7, 1000}) {
     const auto values = column("value", piece);
@@ -222,8 +224,9 @@ TEST_CASE("a column of a CSV file by RFC 4180, in pieces of any size") {
     CHECK_FALSE(column("values", piece));
     CHECK(column("name", piece)->size() == 5);
   }
-  CsvColumn empty("value");
-  CHECK_FALSE(empty.finish());
+  CsvColumns empty({"value"});
+  empty.finish();
+  CHECK_FALSE(empty.has(0));
 }
 
 TEST_CASE("what was missed is read from summary.json and links.csv, where they are of the run") {
@@ -247,26 +250,28 @@ TEST_CASE("what was missed is read from summary.json and links.csv, where they a
   for (const FrameResult& frame : frames)
     for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links, 5.9e9))
       shares.push_back(link.missed_power_share);
-  const MissedShares read = missed_shares(run);
+  const LinkTable read = link_table(run);
   CHECK(read.warning == "");
-  REQUIRE(read.values.size() == shares.size());
+  REQUIRE(read.missed_power_share.size() == shares.size());
   size_t known = 0;
   for (size_t k = 0; k < shares.size(); ++k) {
-    CHECK((read.values[k] == shares[k] || (std::isnan(read.values[k]) && std::isnan(shares[k]))));
-    known += read.values[k] > 0;
+    CHECK(
+        (read.missed_power_share[k] == shares[k] || (std::isnan(read.missed_power_share[k]) && std::isnan(shares[k]))));
+    known += read.missed_power_share[k] > 0;
   }
   CHECK(known > 3);
 
   std::ofstream(folder.path() / "links.csv", std::ios::app) << "0,a,b,1,-80,0,0,0,1,0.5\n";
-  CHECK(missed_shares(run).values.empty());
-  CHECK(missed_shares(run).warning.find(
+  CHECK(link_table(run).missed_power_share.empty());
+  CHECK(link_table(run).path_gain_db.empty());
+  CHECK(link_table(run).warning.find(
             fmt::format("has {} links and paths.h5 has {}", shares.size() + 1, shares.size())) != std::string::npos);
   std::ofstream(folder.path() / "links.csv") << "time_s,tx,rx\n0,a,b\n";  // of an older version
-  CHECK(missed_shares(run).values.empty());
-  CHECK(missed_shares(run).warning == "");
+  CHECK(link_table(run).missed_power_share.empty());
+  CHECK(link_table(run).warning == "");
   fs::remove(folder.path() / "links.csv");
   fs::create_directory(folder.path() / "links.csv");
-  CHECK(missed_shares(run).warning.find("what was missed on links is not shown") != std::string::npos);
+  CHECK(link_table(run).warning.find("what was missed on links is not shown") != std::string::npos);
   std::ofstream(folder.path() / "summary.json") << "{\"device\": 1, \"missed\": {\"paths\": {\"estimate\": \"x\"}}}";
   CHECK_FALSE(SavedRun(folder.path()).missed());
 }

@@ -73,8 +73,10 @@ RunSummary made_summary() {
 
 void write_made_run(const MadeRun& made, const std::filesystem::path& folder) {
   Config config;
-  config.radio.frequency_hz = frequency_hz;
-  config.text = "[scene]\n" + made.scene + "\n[[transmitter]]\nname = \"rsu\"\nposition_m = [8.0, 8.0, 6.0]\n";
+  config.radio = {.frequency_hz = frequency_hz, .transmit_power_dbm = 23, .bandwidth_hz = 1e7, .noise_figure_db = 9};
+  config.text = "[scene]\n" + made.scene +
+                "\n[radio]\ntransmit_power_dbm = 23\nbandwidth_hz = 1e7\nnoise_figure_db = 9\n"
+                "[[transmitter]]\nname = \"rsu\"\nposition_m = [8.0, 8.0, 6.0]\n";
   Scene scene;
   std::vector<Scene> models(1);
   models[0].file = "car";

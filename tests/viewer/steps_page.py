@@ -47,6 +47,8 @@ assert f"Missed about {float(f'{100 * share:.2g}'):g} % of the power" in page.te
 assert f"{float(wanted[0]['path_gain_db']):.2f} dB, {wanted[0]['paths']} paths" in page.text("link_figures")
 narrowband = f"Narrowband gain {float(wanted[0]['narrowband_gain_db']):.2f} dB"
 assert narrowband in page.text("link_figures"), page.text("link_figures")
+budget = f"Received {float(wanted[0]['received_dbm']):.2f} dBm, SNR {float(wanted[0]['snr_db']):.2f} dB"
+assert budget.replace("-", "\u2212") in page.text("link_figures").replace("-", "\u2212"), (budget, page.text("link_figures"))
 assert f"{1e9 * float(wanted[0]['rms_delay_spread_s']):.2f} ns" in page.text("link_figures")
 
 # Choosing a link brings it into view; one that is in view already leaves the camera alone.

@@ -9,7 +9,7 @@
 #include "output/sample_run.hpp"
 #include "plots/figure.hpp"
 #include "radio/links.hpp"
-#include "results/missed_shares.hpp"
+#include "results/link_table.hpp"
 #include "viewer/blocks.hpp"
 #include "viewer/grid_maps.hpp"
 #include "viewer/link_rows.hpp"
@@ -207,27 +207,47 @@ TEST_CASE("what is no whole grid is none") {
 TEST_CASE("figures of links are those of links.csv") {
   const SavedRun run(folder / "drive");
   const SavedFrame frame = run.frame(3);
-  const std::vector<double> shares = missed_shares(run).values;
-  REQUIRE(shares.size() == run.link_count());
-  const auto first = std::span(shares).subspan(run.first_link(3));
-  const std::vector<LinkRow> rows = link_rows(frame, first.first(frame.links.size()), 5.9e9);
+  const LinkTable table = link_table(run);
+  const std::vector<LinkRow> rows = link_rows(frame, table, run.first_link(3), 5.9e9);
+  const std::vector<LinkRow> of_paths = link_rows(frame, {}, run.first_link(3), 5.9e9);
   const std::vector<LinkFigures> figures = link_figures(frame.paths, frame.number, frame.links, 5.9e9);
   REQUIRE(rows.size() == figures.size());
+  REQUIRE(of_paths.size() == figures.size());
   for (size_t k = 0; k < rows.size(); ++k) {
-    CHECK(rows[k].paths == figures[k].paths);
-    CHECK(rows[k].los == figures[k].los);
-    CHECK(rows[k].gain_db() == doctest::Approx(figures[k].path_gain_db));
-    CHECK(rows[k].narrowband_gain_db == doctest::Approx(figures[k].narrowband_gain_db));
-    CHECK(rows[k].rms_delay_spread_s == doctest::Approx(figures[k].rms_delay_spread_s));
+    for (const LinkRow& row : {rows[k], of_paths[k]}) {
+      CHECK(row.paths == figures[k].paths);
+      CHECK(row.los == figures[k].los);
+      CHECK(row.path_gain_db == doctest::Approx(figures[k].path_gain_db));
+      CHECK(row.narrowband_gain_db == doctest::Approx(figures[k].narrowband_gain_db));
+      CHECK(row.rms_delay_spread_s == doctest::Approx(figures[k].rms_delay_spread_s));
+    }
     CHECK(rows[k].missed_power_share > 0);
+    CHECK(std::isnan(of_paths[k].missed_power_share));
   }
   // Rows that are not sorted, and a path of a link that was not asked for.
   SavedFrame other = run.frame(3);
   std::reverse(other.links.begin(), other.links.end());
   other.links.pop_back();
-  const std::vector<LinkRow> again = link_rows(other, {}, 5.9e9);
+  const std::vector<LinkRow> again = link_rows(other, {}, 0, 5.9e9);
   REQUIRE(again.size() == rows.size());
-  for (size_t k = 0; k < rows.size(); ++k) CHECK(again[k].power == rows[k].power);
+  for (size_t k = 0; k < rows.size(); ++k) CHECK(again[k].path_gain_db == of_paths[k].path_gain_db);
+}
+
+TEST_CASE("figures of links count the paths that output limits have left out") {
+  SavedFrame frame = SavedRun(folder / "drive").frame(3);
+  LinkTable table;
+  for (size_t k = 0; k < frame.links.size(); ++k) {
+    table.paths.push_back(100.0 + static_cast<double>(k));
+    table.path_gain_db.push_back(-50.0 - static_cast<double>(k));
+    table.los.push_back(1);
+  }
+  const std::vector<LinkRow> rows = link_rows(frame, table, 0, 5.9e9);
+  for (size_t k = 0; k < rows.size(); ++k) {
+    CHECK(rows[k].paths == 100 + k);
+    CHECK(rows[k].path_gain_db == -50.0 - static_cast<double>(k));
+    CHECK(rows[k].los);
+    CHECK(std::isfinite(rows[k].rms_delay_spread_s));  // of the paths that are there, as the table has none
+  }
 }
 
 TEST_CASE("capped, hostile, without a scene: the pages of the browser") {

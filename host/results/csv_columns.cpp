@@ -1,6 +1,6 @@
 // A quote begins or ends a quoted part, wherever it stands: within one, commas and line ends are text.
 // A doubled quote ends a part and begins the next, so it needs no rule of its own where its text does not matter.
-#include "results/csv_column.hpp"
+#include "results/csv_columns.hpp"
 #include <charconv>
 #include <limits>
 
@@ -16,21 +16,29 @@ double number_of(const std::string& text) {
 
 }  // namespace
 
-void CsvColumn::end_field() {
-  if (header_ && wanted_ == no_field && text_ == name_) wanted_ = field_;
-  if (!header_ && field_ == wanted_) values_.push_back(number_of(text_));
+CsvColumns::CsvColumns(const std::vector<std::string>& names) {
+  for (const std::string& name : names) columns_.push_back({name});
+}
+
+void CsvColumns::end_field() {
+  for (Column& column : columns_) {
+    if (header_ && column.field == no_field && text_ == column.name) column.field = field_;
+    if (!header_ && field_ == column.field) column.values.push_back(number_of(text_));
+  }
   text_.clear();
   ++field_;
 }
 
-void CsvColumn::end_row() {
+void CsvColumns::end_row() {
   end_field();
-  if (!header_ && wanted_ != no_field && field_ <= wanted_) values_.push_back(number_of(""));
+  if (!header_) ++rows_;
+  for (Column& column : columns_)
+    if (column.field != no_field) column.values.resize(rows_, number_of(""));  // of a row that ends before it
   header_ = begun_ = false;
   field_ = 0;
 }
 
-void CsvColumn::read(std::string_view piece) {
+void CsvColumns::read(std::string_view piece) {
   for (const char c : piece) {
     if (c == '\n' && !quoted_) {
       end_row();
@@ -41,14 +49,13 @@ void CsvColumn::read(std::string_view piece) {
       quoted_ = !quoted_;
     else if (c == ',' && !quoted_)
       end_field();
-    else if (c != '\r' && text_.size() <= longest && (header_ || field_ == wanted_))
+    else if (c != '\r' && text_.size() <= longest)
       text_ += c;
   }
 }
 
-bool CsvColumn::finish() {
+void CsvColumns::finish() {
   if (begun_) end_row();
-  return wanted_ != no_field;
 }
 
 }  // namespace wavetracer
