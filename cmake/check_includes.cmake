@@ -1,21 +1,22 @@
-# Fails where a source of host/FOLDER includes a header of another folder of host/ that its CMakeLists.txt does not name.
-# cmake -DHOST=host's path -DFOLDER=its name -DDEPENDS="a b" -DSTAMP=file -P check_includes.cmake
+# Fails where a source includes a header of a folder of host/ that it may not know.
+# cmake -DROOT=the project -DSOURCES="files" -DALLOWED="folders" -DADVICE=what to do -DSTAMP=file -P check_includes.cmake
 cmake_minimum_required(VERSION 3.25)
-separate_arguments(DEPENDS)
-file(GLOB sources ${HOST}/${FOLDER}/*.cpp ${HOST}/${FOLDER}/*.hpp)
+separate_arguments(ALLOWED)
+separate_arguments(SOURCES)
 set(faults "")
-foreach(source ${sources})
+foreach(source ${SOURCES})
   file(STRINGS ${source} includes REGEX "^#include \"[a-z_0-9]+/")
   foreach(include ${includes})
-    string(REGEX REPLACE "^#include \"([a-z_0-9]+)/.*" "\\1" other "${include}")
-    if(IS_DIRECTORY ${HOST}/${other} AND NOT other STREQUAL FOLDER AND NOT other IN_LIST DEPENDS)
-      get_filename_component(name ${source} NAME)
-      string(APPEND faults "\n  host/${FOLDER}/${name}: ${include}")
+    string(REGEX REPLACE "^#include \"([a-z_0-9]+)/.*" "\\1" folder "${include}")
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" header "${include}")
+    if(EXISTS ${ROOT}/host/${header} AND NOT folder IN_LIST ALLOWED)
+      file(RELATIVE_PATH name ${ROOT} ${source})
+      string(APPEND faults "\n  ${name}: ${include}")
     endif()
   endforeach()
 endforeach()
 if(faults)
-  message(FATAL_ERROR "host/${FOLDER}/CMakeLists.txt names these folders behind DEPENDS: ${DEPENDS}. These includes are of "
-                      "others:${faults}\nMove what is needed to a folder below, or, if host/${FOLDER} may know that folder, name it.")
+  message(FATAL_ERROR "Sources may include headers of these folders here: ${ALLOWED}. These includes are of others:"
+                      "${faults}\n${ADVICE}")
 endif()
 file(TOUCH ${STAMP})

@@ -1,15 +1,35 @@
-# wavetracer_check_includes(TARGET NAME folder...): the build of TARGET, made of host/NAME, fails where a source includes a
-# header of a folder of host/ that is not named.
-function(wavetracer_check_includes target name)
-  set(stamp ${CMAKE_CURRENT_BINARY_DIR}/includes_checked)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
-  list(JOIN ARGN " " depends)
+# wavetracer_check_includes(TARGET SOURCES file... ALLOWED folder... ADVICE text): the build of TARGET fails where a source
+# includes a header of a folder of host/ that is not allowed.
+function(wavetracer_check_includes target)
+  cmake_parse_arguments(ARG "" "ADVICE" "SOURCES;ALLOWED" ${ARGN})
+  set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${target}_includes_checked)
+  list(JOIN ARG_SOURCES " " sources)
+  list(JOIN ARG_ALLOWED " " allowed)
   add_custom_command(OUTPUT ${stamp}
-    COMMAND ${CMAKE_COMMAND} -DHOST=${CMAKE_SOURCE_DIR}/host -DFOLDER=${name} "-DDEPENDS=${depends}" -DSTAMP=${stamp}
-            -P ${CMAKE_SOURCE_DIR}/cmake/check_includes.cmake
-    DEPENDS ${sources} ${CMAKE_SOURCE_DIR}/cmake/check_includes.cmake COMMENT "" VERBATIM)
+    COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} "-DSOURCES=${sources}" "-DALLOWED=${allowed}" "-DADVICE=${ARG_ADVICE}"
+            -DSTAMP=${stamp} -P ${CMAKE_SOURCE_DIR}/cmake/check_includes.cmake
+    DEPENDS ${ARG_SOURCES} ${CMAKE_SOURCE_DIR}/cmake/check_includes.cmake COMMENT "" VERBATIM)
   add_custom_target(${target}_includes DEPENDS ${stamp})
   add_dependencies(${target} ${target}_includes)
+endfunction()
+
+# wavetracer_linked_folders(OUT target...): the folders of host/ whose libraries these targets are, or link.
+function(wavetracer_linked_folders out)
+  set(seen "")
+  set(next ${ARGN})
+  while(NOT next STREQUAL "")
+    list(POP_FRONT next target)
+    if(TARGET ${target} AND NOT target IN_LIST seen)
+      list(APPEND seen ${target})
+      get_target_property(more ${target} LINK_LIBRARIES)
+      if(more)
+        list(APPEND next ${more})
+      endif()
+    endif()
+  endwhile()
+  list(FILTER seen INCLUDE REGEX "^wavetracer_")
+  list(TRANSFORM seen REPLACE "^wavetracer_" "")
+  set(${out} ${seen} PARENT_SCOPE)
 endfunction()
 
 # wavetracer_unity(TARGET): its sources are compiled several at a time, which takes a third of the time. So names in
@@ -29,7 +49,9 @@ function(wavetracer_folder name)
   set_target_properties(wavetracer_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   wavetracer_unity(wavetracer_${name})
   target_include_directories(wavetracer_${name} PRIVATE ${CMAKE_SOURCE_DIR}/host)
-  wavetracer_check_includes(wavetracer_${name} ${name} ${ARG_DEPENDS})
+  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  wavetracer_check_includes(wavetracer_${name} SOURCES ${sources} ${headers} ALLOWED ${name} ${ARG_DEPENDS}
+    ADVICE "Move what is needed to a folder below, or, if host/${name} may know that folder, name it behind DEPENDS in its CMakeLists.txt.")
   list(TRANSFORM ARG_DEPENDS PREPEND wavetracer_)
   target_link_libraries(wavetracer_${name} PUBLIC wavetracer_include ${ARG_DEPENDS} ${ARG_PUBLIC_LIBRARIES}
                         PRIVATE $<BUILD_INTERFACE:wavetracer_flags> ${ARG_LIBRARIES})
