@@ -187,7 +187,9 @@ std::string where_words(const std::vector<uint64_t>& rays, const AtRays& holds) 
 
 std::string drive_words(const std::string& drive) {
   if (drive == "spheres") return "fixed transmitter, reception by spheres";
-  return drive == "fixed" || drive == "moving" ? drive + " transmitter" : drive + " world";
+  if (drive == "thesis") return "moving transmitters, reception by spheres";
+  if (drive == "moving") return "moving transmitters";
+  return drive == "fixed" ? "fixed transmitter" : drive + " world";
 }
 
 Fields cache_fields(const CacheRows& rows, const std::string& device, const std::vector<std::string>& settings) {

@@ -9,6 +9,7 @@
 #include "study/ray_counts.hpp"
 #include "study/run.hpp"
 #include "study/study_watch.hpp"
+#include "study/worlds.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/stages.hpp"
 

@@ -17,7 +17,7 @@ struct CacheStudy {
   std::vector<Setting> settings;
   std::vector<uint64_t> rays;      // ascending: the thesis' range and beyond
   std::vector<uint64_t> few_rays;  // measured on CPUs, and on request where time is short
-  // Of the built-in city; see with_traffic. A config with vehicles of its own is "own".
+  // Of the built-in city, see with_traffic() of worlds.hpp. A config with vehicles of its own is "own".
   std::vector<std::string> drives = {"still"};
   size_t at_once = 16;         // settings that share a device besides the first, which is then measured again
   uint64_t most_frames = 500;  // of a drive, unless the request says how many
@@ -37,10 +37,6 @@ struct CacheMeasurement {
 std::vector<uint64_t> study_rays(const CacheStudy& study, const Request& request, bool gpu);
 // Frames of a drive: those asked for, else 500 as in the thesis, or fewer by study, and 20 on CPUs.
 uint64_t study_frames(const CacheStudy& study, const Request& request, bool gpu);
-
-// The built-in city with 20 vehicles that receive. "fixed": its mast sends; "moving": one of the vehicles does;
-// "spheres": the mast, and receivers are spheres that rays must hit, as in the thesis.
-Config with_traffic(const Config& city, const std::string& drive, uint64_t frames);
 
 // A stop is heeded after the frame in progress; the point it belongs to is dropped.
 CacheMeasurement measure_study(const CacheStudy& study, const Request& request, const Host& host);

@@ -105,13 +105,14 @@ Judge<FramePair> correlate_more_than(double share) {
 }
 
 Words frame_words(const Experiment& experiment, const std::vector<FramePair>& rows, const Drive& drive,
-                  const std::string& device) {
+                  const std::string& world, const std::string& device) {
   const uint32_t last = rows.back().frame;
   const Fields fields = {{"device", device},
                          {"rays", grouped(experiment_rays)},
                          {"frames", std::to_string(last + 1)},
+                         {"world", world},
                          {"moved", fmt::format("{:.1f}", drive.moved_m(last))},
-                         {"apart", fmt::format("{:.3f}", drive.moved_m(1))},
+                         {"apart", fmt::format("{:.3f}", drive.moved_m(last) / last)},
                          {"age", fmt::format("{:g}", drive.time_s(last))}};
   const std::vector<double> paired = previous_means(rows, by_ray);
   NumberTable table = depth_table("Correlations of points, and shares of rays:", paired.size());

@@ -52,7 +52,7 @@ Findings measure(const LagFigure& figure, const Experiment& experiment, const Re
 // What figures say of their rows.
 Words order_words(const Experiment& experiment, const std::vector<OrderRow>& rows, const std::string& device);
 Words frame_words(const Experiment& experiment, const std::vector<FramePair>& rows, const Drive& drive,
-                  const std::string& device);
+                  const std::string& world, const std::string& device);
 Words lag_words(const Experiment& experiment, const std::vector<LagRow>& rows, const std::string& device);
 // What a figure of caches shows of its study.
 Findings show(const Experiment& experiment, const CacheMeasurement& measured, const Request& request);

@@ -95,7 +95,7 @@ OrderFigure all_orders() {
   return {.series = {unordered(), ordered("morton"), ordered(h3dh), ordered(hz), ordered(to_2d), ordered(to_3d),
                      direction_origin, born_ordered(), with_shape(unordered(), "2d"), with_shape(unordered(), "3d"),
                      with_shape(ordered(h3dh), "2d"), with_shape(ordered(h3dh), "3d")},
-          .frames = 1,
+          .moves = false,
           .claims = claims};
 }
 

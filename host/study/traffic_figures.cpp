@@ -1,5 +1,5 @@
 // Figures 6.10 to 6.18: what moves. Caches in traffic, purged by the transmitter's position or by precision, by hash;
-// correlation between frames; orders while the transmitter moves, where the thesis drives through traffic.
+// correlation between frames; orders while the transmitters move.
 // Claims: A. Zhdanov, TU Munich, 2014, section 6.3.2.
 #include <memory>
 #include "study/cache_claims.hpp"
@@ -21,12 +21,12 @@ std::string printed(const std::string& setting) { return "printed " + setting; }
 const std::vector<std::string> caches = {position_uniform,  position_morton,  position_mixed,
                                          precision_uniform, precision_morton, precision_mixed};
 
-constexpr const char* frames_caption = "Correlation and common surfaces of frames against the way driven";
+constexpr const char* frames_caption = "Correlation and common surfaces of frames against time";
 constexpr const char* frames_paragraph =
     "The thesis finds subsequent frames of traffic to correlate by about 25% on average, from less than 5% to almost "
     "50%, by equation 6.4 (section 6.3.2, figure 6.13), which leaves open which points are paired and, as printed, is "
     "not divided by the root of three. Measured on {device}, {rays} rays of a transmitter that drives {moved} m "
-    "through a standing scene in {frames} frames; subsequent ones are {apart} m apart. The last row is the share of "
+    "through {world} in {frames} frames; subsequent ones are {apart} m apart. The last row is the share of "
     "rays for which a sequence of the first frame, {age} s old, still stands.";
 
 std::vector<Setting> by_hash() {
@@ -63,7 +63,7 @@ const auto centroid_study = std::make_shared<const CacheStudy>(
                             as_printed(precision(thesis_residual))},
                .rays = {claimed_many},
                .few_rays = {claimed_many},
-               .drives = {"fixed", "moving", "spheres"},
+               .drives = {"fixed", "moving", "thesis"},
                .centroids = true});
 const auto purging = std::make_shared<const CacheStudy>(
     CacheStudy{.name = "purging",
@@ -72,19 +72,19 @@ const auto purging = std::make_shared<const CacheStudy>(
                             as_printed(precision(thesis_residual_of_errors)), ours(), exact(), reuse_instead()},
                .rays = {1000, 5000, 10000, 20000, 30000, 49000, 70000, 90000, 200000, 500000, 900000},
                .few_rays = {1000, 10000, 49000},
-               .drives = {"fixed", "moving", "spheres"}});
+               .drives = {"fixed", "moving", "thesis"}});
 const auto hashing = std::make_shared<const CacheStudy>(
     CacheStudy{.name = "hashing",
                .settings = by_hash(),
                .rays = {1000, 5000, 10000, 20000, 37000, 49000, 100000, 200000, 490000},
                .few_rays = {1000, 10000, 49000},
-               .drives = {"fixed", "spheres"}});
+               .drives = {"fixed", "thesis"}});
 const auto hashing_ordered = std::make_shared<const CacheStudy>(
     CacheStudy{.name = "hashing-ordered",
                .settings = with_orders(by_hash()),
                .rays = {1000, 5000, 10000, 20000, 37000, 49000, 61000, 100000, 200000, 610000},
                .few_rays = {1000, 10000, 61000},
-               .drives = {"fixed", "spheres"}});
+               .drives = {"fixed", "thesis"}});
 
 const std::vector<Experiment> traffic = {
     {.name = "figure-6.10",
@@ -152,7 +152,7 @@ const std::vector<Experiment> traffic = {
      .title = "Correlation between frames",
      .caption = frames_caption,
      .paragraph = frames_paragraph,
-     .figure = FrameFigure{.claims = frame_claims(), .frames = 100}},
+     .figure = FrameFigure{.claims = frame_claims(), .frames = 100, .traffic = true}},
     {.name = "figure-6.14",
      .doc = "traffic: time by hash function",
      .title = "Frames in traffic by hash function",
@@ -239,15 +239,15 @@ const std::vector<Experiment> traffic = {
                         {"sorting reduces the error by precision",
                          on_average(l2_m, precision_mixed, unsorted(precision_mixed), 0, 1)}}}},
     {.name = "figure-6.18",
-     .doc = "average time of a frame while the transmitter moves, reordered against not",
-     .title = "Frames of a moving transmitter, with reordering and without",
+     .doc = "traffic: average time of a frame while the transmitters move, reordered against not",
+     .title = "Frames in traffic, with reordering and without",
      .caption = "Time a ray against the number of rays",
      .paragraph = "Without a cache, the thesis finds reordering to take 23% less time than no reordering (WS) at "
                   "1,000 rays and almost 60% less, 2.5 times the speed, at 49,000, and the gain to grow with the "
                   "number of rays (section 6.3.2, figure 6.18). Measured on {device}, averaged over {frames} frames "
-                  "of a moving transmitter.{reason} Rays born in order need no sort.",
+                  "of traffic whose transmitters move.{reason} Rays born in order need no sort.",
      .figure = OrderFigure{.series = {unordered(), ordered("hilbert3d-histogram"), born_ordered()},
-                           .frames = 20,
+                           .moves = true,
                            .claims = moving_gains()}},
     {.name = "coherence-frames",
      .doc = "correlation of what rays hit between the frames of a drive, bounce by bounce",

@@ -60,11 +60,11 @@ CacheCost errors(const std::string& a, double a_m, const std::string& b, double 
 
 // In the worlds of figures 6.14 to 6.17, and of 6.10 to 6.12.
 std::string in_both(const std::string& words) {
-  return "fixed transmitter: " + words + "; fixed transmitter, reception by spheres: " + words;
+  return "fixed transmitter: " + words + "; moving transmitters, reception by spheres: " + words;
 }
 std::string in_all(const std::string& words) {
-  return "fixed transmitter: " + words + "; moving transmitter: " + words +
-         "; fixed transmitter, reception by spheres: " + words;
+  return "fixed transmitter: " + words + "; moving transmitters: " + words +
+         "; moving transmitters, reception by spheres: " + words;
 }
 
 const std::string never = "at none of the numbers of rays", always = "at 1,000 rays";
@@ -106,9 +106,9 @@ TEST_CASE("judges: everywhere, where, of settings") {
   worlds.push_back(row("none", 1000, 1, std::nan(""), "moving"));
   worlds.push_back(row("a", 1000, 0.9, std::nan(""), "moving"));
   CHECK(where(saves({"b"}))(worlds) ==
-        "fixed transmitter: at 1,000 rays; moving transmitter: at none of the numbers of rays");
+        "fixed transmitter: at 1,000 rays; moving transmitters: at none of the numbers of rays");
   CHECK(where(saves({"a"}), l2_m)(worlds) ==
-        "fixed transmitter: at every number of rays; moving transmitter: no path has a vertex");
+        "fixed transmitter: at every number of rays; moving transmitters: no path has a vertex");
   const auto slow = [](const CacheRow& one) { return one.warm.loop_s > 0.85; };
   CHECK(of_each({"a", "b"}, slow)(two_counts) == "confirmed for \"a\", not for \"b\"");
   CHECK(of_each({"a"}, slow)(two_counts) == "confirmed for all");

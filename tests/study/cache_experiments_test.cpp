@@ -13,6 +13,7 @@
 #include "study/made_cache_rows.hpp"
 #include "study/run.hpp"
 #include "study/squeezed.hpp"
+#include "study/worlds.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -145,19 +146,6 @@ TEST_CASE("every setting of every study is a config that reads back") {
     for (const uint64_t few : experiment.study()->few_rays)
       CHECK((std::count(experiment.study()->rays.begin(), experiment.study()->rays.end(), few) == 1));
   }
-}
-
-TEST_CASE("traffic: the cold frame and those that count, by a mast, by a vehicle, by spheres") {
-  const Config fixed = with_traffic(city(), "fixed", 500), moving = with_traffic(city(), "moving", 500);
-  CHECK(fixed.time.step_s == doctest::Approx(0.01));
-  CHECK(*fixed.time.end_s == doctest::Approx(5));
-  CHECK(contains(fixed.trajectories.generate, "--seed 1 --blocks 6x6 --vehicles 20 --seconds 6"));
-  CHECK(fixed.transmitters.size() == 1);
-  CHECK(moving.transmitters.empty());
-  CHECK(std::count_if(moving.mounts.begin(), moving.mounts.end(),
-                      [](const MountConfig& mount) { return mount.role == "transmitter"; }) == 1);
-  CHECK(fixed.trace.reception.word() == "exact");
-  CHECK(with_traffic(city(), "spheres", 500).trace.reception.word() == "sphere");
 }
 
 TEST_CASE("numbers of rays and frames: by device, by request") {

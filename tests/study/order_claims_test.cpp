@@ -75,7 +75,7 @@ TEST_CASE("figure-6.18: averages over frames") {
   const std::string text =
       text_of(order_words(experiment, made_rows(experiment, {49000}, costs(2.5, 1)), "the device"));
   CAPTURE(text);
-  CHECK(contains(text, "Measured on the device, averaged over 20 frames of a moving transmitter."));
+  CHECK(contains(text, "Measured on the device, averaged over 20 frames of traffic whose transmitters move."));
   CHECK(contains(text, "| H3DH | 2.50 (2.07) |"));
   CHECK(contains(text, "at 49,000 rays | reached with the sort not paid, not reached with it paid |"));
   CHECK(contains(text, "| H3DH takes 23% less time than WS at 1,000 rays | not measured |"));
