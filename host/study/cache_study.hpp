@@ -12,6 +12,8 @@ namespace wavetracer::study {
 struct Request;  // run.hpp
 struct Host;
 
+constexpr size_t most_regions = 8;  // transmitters that a study by transmitter tells apart
+
 struct CacheStudy {
   std::string name;  // figures of one study share its rows
   std::vector<Setting> settings;
@@ -19,11 +21,12 @@ struct CacheStudy {
   std::vector<uint64_t> few_rays;  // measured on CPUs, and on request where time is short
   // Of the built-in city, see with_traffic() of worlds.hpp. A config with vehicles of its own is "own".
   std::vector<std::string> drives = {"still"};
-  size_t at_once = 16;         // settings that share a device besides the first, which is then measured again
-  uint64_t most_frames = 500;  // of a drive, unless the request says how many
-  bool by_depth = false;       // also a row per depth
-  bool empty_tables = false;   // every frame finds the table empty: what it saves, it saves within itself
-  bool centroids = false;      // rows keep the error of every frame
+  size_t at_once = 16;          // settings that share a device besides the first, which is then measured again
+  uint64_t most_frames = 500;   // of a drive, unless the request says how many
+  bool by_depth = false;        // also a row per depth
+  bool by_transmitter = false;  // also a row per transmitter, whose region of the table it is; the first few of them
+  bool empty_tables = false;    // every frame finds the table empty: what it saves, it saves within itself
+  bool centroids = false;       // rows keep the error of every frame
 };
 
 struct CacheMeasurement {

@@ -25,6 +25,17 @@ constexpr const char* mast = R"([[transmitter]]
 name = "rsu"
 position_m = [8.0, 8.0, 6.0]
 )";
+// More of them, on other streets and at the edge of the city.
+constexpr const char* more_masts = R"([[transmitter]]
+name = "rsu-2"
+position_m = [97.5, 97.5, 6.0]
+[[transmitter]]
+name = "rsu-3"
+position_m = [-97.5, -97.5, 6.0]
+[[transmitter]]
+name = "rsu-4"
+position_m = [150.0, 0.0, 20.0]
+)";
 // 50 km/h on the right-hand lane of a street.
 constexpr const char* car = R"([[transmitter]]
 name = "car"
@@ -56,8 +67,8 @@ bool Experiment::moves() const { return as<FrameFigure>() || (as<OrderFigure>() 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> all = [] {
     std::vector<Experiment> list;
-    for (const auto* more :
-         {&standing_figures(), &traffic_figures(), &further_experiments(), &innerframe_experiments()})
+    for (const auto* more : {&standing_figures(), &traffic_figures(), &hashing_figures(), &further_experiments(),
+                             &innerframe_experiments()})
       list.insert(list.end(), more->begin(), more->end());
     return list;
   }();
@@ -84,7 +95,9 @@ std::string experiment_list() {
 Config experiment_config(const Experiment& experiment, const std::string& file, const std::vector<std::string>& sets) {
   reject_varied_keys(experiment, sets);
   if (!file.empty()) return load_config(file, sets);
-  return parse_config(built_in_city + std::string(experiment.as<FrameFigure>() ? car : mast), built_in_city_name, sets);
+  std::string ends = experiment.as<FrameFigure>() ? car : mast;
+  if (experiment.study() && experiment.study()->by_transmitter) ends += more_masts;
+  return parse_config(built_in_city + ends, built_in_city_name, sets);
 }
 
 void check_experiment(const Experiment& experiment, const Config& config) {

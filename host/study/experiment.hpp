@@ -1,6 +1,6 @@
 // The experiments of `wavetracer bench`, as data: what is measured, what of it is shown, and what is claimed of it.
 // run.hpp carries one out. Those called figure-6.N are the figures of A. Zhdanov's thesis (TU Munich, 2014).
-// To add one, add a row to one of the lists below; its claims are predicates of order_claims.hpp or cache_claims.hpp.
+// To add one, add a row to one of the lists below; its claims are predicates of NAME_claims.hpp and the like.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -64,7 +64,8 @@ struct Experiment {
 };
 
 const std::vector<Experiment>& standing_figures();        // 6.1 to 6.9
-const std::vector<Experiment>& traffic_figures();         // 6.10 to 6.18, and coherence-frames
+const std::vector<Experiment>& traffic_figures();         // 6.10 to 6.13, and coherence-frames
+const std::vector<Experiment>& hashing_figures();         // 6.14 to 6.18
 const std::vector<Experiment>& further_experiments();     // beyond the thesis' figures
 const std::vector<Experiment>& innerframe_experiments();  // coherence inside a frame, answered by a cache
 
