@@ -93,13 +93,19 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       ->allow_extra_args(false);
   command->add_option("--device", options->device,
                       "OpenCL device: its index, or a part of its name or of its platform's name");
-  command->add_option("--rays", options->rays,
-                      "Smallest and largest number of rays, A:B; default: those of the figure; on CPUs fewer for "
-                      "experiments with caches");
+  command->add_option(
+      "--rays", options->rays,
+      "Smallest and largest number of rays, A:B; default: those of the figure, on CPUs fewer for experiments "
+      "with caches, and for those with orders as many as can be measured in 3 minutes on a GPU and in "
+      "10 on a CPU");
   command->add_option("--repeat", options->repeats, "How many times each point is measured; the median counts")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--frames", options->frames, "Number of frames of a drive; default 500, on CPUs 20")
+  command
+      ->add_option(
+          "--frames", options->frames,
+          "Number of frames that follow the first one of a drive and are averaged over; default 500, on CPUs 20; "
+          "of figure-6.13 99, of coherence-frames 200")
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--quick", options->quick, "Use fewer rays and a fifth of the frames");
   command->footer("");  // removes the footer of the program, which would be printed too
