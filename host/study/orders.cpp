@@ -15,7 +15,7 @@ namespace {
 constexpr uint64_t thesis_frames = 500, cpu_frames = 20;
 // Means are of fewer frames where rays are many: of so many rays of a transmitter, and of these frames at least.
 constexpr uint64_t rays_of_means = 100000000, least_frames = 5;
-// A figure begins no number of rays, unless --rays asks for it, that would end later than this.
+// A figure begins no number of rays that would end later than this, unless --rays asks for it or --minutes says else.
 constexpr double gpu_minutes = 3, cpu_minutes = 10;
 
 std::string point_line(const Experiment& experiment, const std::vector<OrderRow>& rows) {
@@ -91,7 +91,7 @@ DeviceSummary prepare(OrderRun& run) {
   apply(first, run.figure.series.front(), run.counts.front());
   Simulation probe(first, run.request.device);
   const DeviceSummary device = probe.device();
-  run.most_s = 60 * (device.gpu ? gpu_minutes : cpu_minutes);
+  run.most_s = 60 * run.request.minutes.value_or(device.gpu ? gpu_minutes : cpu_minutes);
   if (!run.figure.moves) run.still = first_sending(probe, run.host);
   if (run.figure.moves) run.frames = wanted_frames(run.request, device.gpu);
   if (run.figure.moves && has_vehicles(run.request.config))
@@ -109,7 +109,7 @@ DeviceSummary prepare(OrderRun& run) {
 
 // Whether the next point, if it takes as long as the last one did for as many rays, ends in time.
 bool in_time(const OrderRun& run, size_t next, double spent_s, double last_s) {
-  if (run.request.rays || next == 0) return true;
+  if ((run.request.rays && !run.request.minutes) || next == 0) return true;
   const double next_s = last_s * run.work(run.counts[next]) / run.work(run.counts[next - 1]);
   return spent_s + next_s <= run.most_s;
 }
@@ -126,8 +126,8 @@ std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Fin
     if (!in_time(run, i, spent_s, last_s)) {
       found.planned = found.points;
       return fmt::format(
-          "left out: {} to {} rays, as the next number of rays would end later than {:.0f} minutes after "
-          "the start on this device; --rays {}:{} measures them",
+          "left out: {} to {} rays, as the next number of rays would end later than {:g} minutes after "
+          "the start on this device; --rays {}:{} or more --minutes measure them",
           grouped(rays), grouped(run.counts.back()), run.most_s / 60, rays, run.counts.back());
     }
     run.host.tell(run.experiment.name, done, all, "rays");
