@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
 #include "app/study_host.hpp"
@@ -22,6 +23,7 @@ struct BenchOptions {
   uint32_t repeats = 5;
   uint64_t frames = 0;
   bool quick = false;
+  std::optional<double> minutes;
 };
 
 constexpr const char* all_figures = "thesis";
@@ -34,6 +36,7 @@ study::Request request(const BenchOptions& options, const study::Experiment& exp
                      .repeats = options.repeats,
                      .frames = options.frames,
                      .quick = options.quick,
+                     .minutes = options.minutes,
                      .command_line = command_line};
   if (!options.rays.empty()) out.rays = study::parse_ray_range(options.rays);
   if (out.rays && !experiment.study()) study::ray_counts(*out.rays);  // says so where there are none
@@ -93,14 +96,24 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       ->allow_extra_args(false);
   command->add_option("--device", options->device,
                       "OpenCL device: its index, or a part of its name or of its platform's name");
-  command->add_option("--rays", options->rays,
-                      "Smallest and largest number of rays, A:B; default: those of the figure; on CPUs fewer for "
-                      "experiments with caches");
+  command->add_option(
+      "--rays", options->rays,
+      "Smallest and largest number of rays, A:B; default: those of the figure, on CPUs fewer for experiments "
+      "with caches");
   command->add_option("--repeat", options->repeats, "How many times each point is measured; the median counts")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--frames", options->frames, "Number of frames of a drive; default 500, on CPUs 20")
+  command
+      ->add_option(
+          "--frames", options->frames,
+          "Number of frames that follow the first one of a drive and are averaged over; default 500, on CPUs 20; "
+          "of figure-6.13 99, of coherence-frames 200")
       ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option("--minutes", options->minutes,
+                   "Figures of orders (6.1, 6.18) begin no number of rays that would end later than this; default 3 on "
+                   "a GPU and 10 on a CPU, without a limit where --rays is given")
+      ->check(CLI::Range(0.001, 1e6));
   command->add_flag("--quick", options->quick, "Use fewer rays and a fifth of the frames");
   command->footer("");  // removes the footer of the program, which would be printed too
   command->footer([] { return "Experiments:\n" + listed(); });

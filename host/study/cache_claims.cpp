@@ -68,6 +68,41 @@ AtPoint saves_percent(const std::string& setting, double claimed) {
   };
 }
 
+AtPoint all_save(std::vector<std::string> settings) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    return std::ranges::all_of(settings, [&](const std::string& setting) { return saves({setting})(rows, at); });
+  };
+}
+
+AtPoint all_take_the_time_of_none(std::vector<std::string> settings, double percent) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    return std::ranges::all_of(settings, [&](const std::string& setting) {
+      const CacheRow* row = find_cached(rows, setting, at.rays, at.drive);
+      return row && std::abs(row->saved_percent) <= percent;
+    });
+  };
+}
+
+AtPoint slowest_is(const std::string& setting, std::vector<std::string> settings) {
+  return largest_are(warm_s, {setting}, std::move(settings));
+}
+
+AtPoint largest_are(CacheValue value, std::vector<std::string> largest, std::vector<std::string> others) {
+  return [=](const CacheRows& rows, const CachePoint& at) {
+    if (std::ranges::any_of(largest, [&](const std::string& a) { return !find_cached(rows, a, at.rays, at.drive); }))
+      return false;
+    const auto value_of_one = [&](const std::string& setting) {
+      const CacheRow* row = find_cached(rows, setting, at.rays, at.drive);
+      return row ? value(*row) : undefined;
+    };
+    return std::ranges::all_of(largest, [&](const std::string& a) {
+      return std::ranges::all_of(others, [&](const std::string& b) {
+        return std::ranges::find(largest, b) != largest.end() || value_of_one(a) >= value_of_one(b);
+      });
+    });
+  };
+}
+
 AtPoint fastest_is(const std::string& setting, std::vector<std::string> settings) {
   return [=](const CacheRows& rows, const CachePoint& at) {
     const CacheRow* best = fastest(rows, settings, at);
@@ -92,6 +127,7 @@ AtPoint at_most(CacheValue value, const std::string& setting, double bound) {
 AtRays above(uint64_t bound) {
   return [=](uint64_t rays) { return rays > bound; };
 }
+AtRays up_to(uint64_t bound) { return std::not_fn(above(bound)); }
 AtRays between(uint64_t first, uint64_t last) {
   return [=](uint64_t rays) { return rays >= first && rays <= last; };
 }
@@ -145,6 +181,63 @@ Judge<CacheRow> mean_between(CacheValue value, const std::string& setting, doubl
   };
 }
 
+Judge<CacheRow> at_first(CacheValue value, const std::string& setting, double low, double high,
+                         const std::string& unit) {
+  return [=](const CacheRows& rows) {
+    return of_each_drive(rows, [&](const std::string& drive) -> std::string {
+      const CacheRow* row = find_cached(rows, setting, rays_of(rows).front(), drive);
+      if (!row || std::isnan(value(*row))) return "not measured";
+      return fmt::format("{}, {} {}", verdict(value(*row) >= low && value(*row) <= high), plain(value(*row)), unit);
+    });
+  };
+}
+
+Judge<CacheRow> saving_grows(const std::string& setting) {
+  return [=](const CacheRows& rows) {
+    return of_each_drive(rows, [&](const std::string& drive) -> std::string {
+      const std::vector<uint64_t> rays = rays_of(rows);
+      const CacheRow *few = find_cached(rows, setting, rays.front(), drive),
+                     *many = find_cached(rows, setting, rays.back(), drive);
+      if (!few || !many || few == many) return "not measured";
+      return fmt::format("{}, {} at {} rays and {} at {}", verdict(many->saved_percent > few->saved_percent),
+                         saved_words(few->saved_percent), grouped(rays.front()), saved_words(many->saved_percent),
+                         grouped(rays.back()));
+    });
+  };
+}
+
+Judge<CacheRow> saves_most_at(std::vector<std::string> settings, uint64_t rays) {
+  return [=](const CacheRows& rows) -> std::string {
+    const std::string& drive = rows.front().drive;
+    const auto saved_s = [&](uint64_t count) {
+      const CacheRow *best = fastest(rows, settings, {drive, count}),
+                     *none = find_cached(rows, rows.front().setting, count, drive);
+      return best && none ? warm_s(*none) - warm_s(*best) : undefined;
+    };
+    const double here_s = saved_s(rays);
+    if (std::isnan(here_s)) return "not measured";
+    const std::vector<uint64_t> all = rays_of(rows);
+    return verdict(here_s > 0 && std::ranges::none_of(all, [&](uint64_t count) { return saved_s(count) > here_s; }));
+  };
+}
+
+bool hits_are_even(const CacheRow& row) {
+  const std::vector<uint64_t>& entries = row.cache.entries_by_hits;
+  double all = 0, hits = 0;
+  for (size_t i = 0; i < entries.size(); ++i) {
+    const auto [from, to] = hits_of_class(i);
+    all += static_cast<double>(entries[i]);
+    hits += static_cast<double>(entries[i]) * 0.5 * static_cast<double>(from + to);
+  }
+  if (all == 0) return false;
+  const double by_chance = std::exp(-hits / all), found = static_cast<double>(entries.front()) / all;
+  return std::abs(found - by_chance) <= 0.2 * by_chance;
+}
+
+Judge<CacheRow> not_judged(const std::string& why) {
+  return [=](const CacheRows&) { return "not judged: " + why; };
+}
+
 Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds) {
   return [=](const CacheRows& rows) -> std::string {
     const auto [drive, rays] = first_point(rows);
@@ -187,7 +280,9 @@ std::string where_words(const std::vector<uint64_t>& rays, const AtRays& holds) 
 
 std::string drive_words(const std::string& drive) {
   if (drive == "spheres") return "fixed transmitter, reception by spheres";
-  return drive == "fixed" || drive == "moving" ? drive + " transmitter" : drive + " world";
+  if (drive == "thesis") return "moving transmitters, reception by spheres";
+  if (drive == "moving") return "moving transmitters";
+  return drive == "fixed" ? "fixed transmitter" : drive + " world";
 }
 
 Fields cache_fields(const CacheRows& rows, const std::string& device, const std::vector<std::string>& settings) {

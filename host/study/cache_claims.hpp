@@ -28,14 +28,22 @@ using AtRays = std::function<bool(uint64_t rays)>;
 AtPoint saves(std::vector<std::string> settings);
 AtPoint saves_not(std::vector<std::string> settings);
 AtPoint saves_percent(const std::string& setting, double claimed);
-// `setting` takes the least time of all `settings` that were measured.
+// Each of these settings takes at least half a percent less time than no cache.
+AtPoint all_save(std::vector<std::string> settings);
+// Each of these settings takes the time of no cache, within this share of it.
+AtPoint all_take_the_time_of_none(std::vector<std::string> settings, double percent);
+// `setting` takes the least time, or the most, of all `settings` that were measured.
 AtPoint fastest_is(const std::string& setting, std::vector<std::string> settings);
+AtPoint slowest_is(const std::string& setting, std::vector<std::string> settings);
+// None of `others`, but those of `largest` themselves, has a larger value than the least of `largest`.
+AtPoint largest_are(CacheValue value, std::vector<std::string> largest, std::vector<std::string> others);
 // The value of one setting, times `factor`, below that of another; both must be measured.
 AtPoint less(CacheValue value, const std::string& setting, const std::string& than, double factor = 1);
 AtPoint at_most(CacheValue value, const std::string& setting, double bound);
 
 // Numbers of rays.
 AtRays above(uint64_t bound);
+AtRays up_to(uint64_t bound);
 AtRays between(uint64_t first, uint64_t last);
 AtRays outside(uint64_t first, uint64_t last);
 
@@ -57,6 +65,18 @@ Judge<CacheRow> on_average(CacheValue value, const std::string& setting, const s
 // Likewise the mean itself, in `unit`: "fixed transmitter: not confirmed, 1.3 m".
 Judge<CacheRow> mean_between(CacheValue value, const std::string& setting, double low, double high,
                              const std::string& unit);
+// Of each world the value at the fewest rays: "fixed transmitter: confirmed, 7.9 m" where it is from `low` to `high`.
+Judge<CacheRow> at_first(CacheValue value, const std::string& setting, double low, double high,
+                         const std::string& unit);
+// Of each world: the share of time that a setting saves is larger at the most rays than at the fewest.
+Judge<CacheRow> saving_grows(const std::string& setting);
+// In the first world: the fastest of `settings` saves most seconds at this number of rays. "not measured" without it.
+Judge<CacheRow> saves_most_at(std::vector<std::string> settings, uint64_t rays);
+// The share of entries that never answered is what chance leaves, within a fifth of it, if every entry is as likely to
+// be asked: exp(-m), m the mean of the hits of an entry. Needs cache.statistics.
+bool hits_are_even(const CacheRow& row);
+// For a claim about times inside of a kernel, which has no timer.
+Judge<CacheRow> not_judged(const std::string& why);
 // One setting's value below that of another at the first number of rays: "confirmed", "not confirmed".
 Judge<CacheRow> is_less(CacheValue value, const std::string& setting, const std::string& than);
 

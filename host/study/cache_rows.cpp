@@ -67,6 +67,11 @@ uint64_t entries_used(const CacheRow& row) {
   return std::accumulate(row.cache.entries_by_hits.begin(), row.cache.entries_by_hits.end(), uint64_t{0});
 }
 
+std::pair<uint64_t, uint64_t> hits_of_class(size_t index) {
+  if (index < 2) return {index, index};
+  return {(uint64_t{1} << (index - 2)) + 1, uint64_t{1} << (index - 1)};
+}
+
 void set_savings(std::vector<CacheRow>& point) {
   for (CacheRow& row : point) row.saved_percent = 100 * (1 - row.warm.loop_s / point.front().warm.loop_s);
 }
@@ -136,6 +141,7 @@ const Columns<CacheRow>& cache_columns() {
       {"l2_m", [](const R& r) { return r.error.l2_m; }},
       {"l1_relative", [](const R& r) { return r.error.l1_relative; }},
       {"l2_relative", [](const R& r) { return r.error.l2_relative; }},
+      {"region", &R::region},
       {"mean_path_length_m", [](const R& r) { return r.error.mean_path_length_m; }},
   };
   return all;
@@ -144,7 +150,7 @@ const Columns<CacheRow>& cache_columns() {
 const CacheRow* find_cached(const std::vector<CacheRow>& rows, const std::string& setting, uint64_t rays,
                             const std::string& drive) {
   for (const CacheRow& row : rows)
-    if (row.setting == setting && row.rays == rays && row.drive == drive && row.depth == 0) return &row;
+    if (row.setting == setting && row.rays == rays && row.drive == drive && is_whole(row)) return &row;
   return nullptr;
 }
 

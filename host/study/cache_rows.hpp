@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 #include "study/columns.hpp"
 #include "study/path_error.hpp"
@@ -46,6 +47,8 @@ struct CacheRow {
   uint32_t division = 0;
   double position_step_m = 0;
   uint32_t depth = 0;                      // 0: all segments; else those of this depth
+  uint32_t region = 0;                     // 0: rays of all transmitters; else of this one alone, counted from 1
+  std::string transmitter{};               // its name
   uint64_t frames = 0;                     // that follow the cold one and are averaged over
   CacheTimes cold{}, warm{};               // of a frame whose table is empty, and of those after it
   double warm_error_s = undefined;         // standard error of the mean of warm.loop_s; NaN for medians
@@ -58,6 +61,9 @@ struct CacheRow {
   std::vector<CentroidError> centroids{};  // frame by frame, of studies that keep them
 };
 
+// Not of one depth or one transmitter.
+inline bool is_whole(const CacheRow& row) { return row.depth == 0 && row.region == 0; }
+
 // Hits over look-ups; NaN without a look-up.
 double hit_rate(const CacheRow& row);
 // Nanoseconds a segment: writes of the cold frame, which finds nothing; reads of the warm ones; the rest of the cold.
@@ -68,6 +74,9 @@ double trace_ns(const CacheRow& row);
 
 // Entries of the table that hold a segment, as cache.statistics counts them.
 uint64_t entries_used(const CacheRow& row);
+
+// "0", "1", "2", "3-4", "5-8", ...: the fewest and most hits of a class of CacheSummary::entries_by_hits.
+std::pair<uint64_t, uint64_t> hits_of_class(size_t index);
 
 // Sets saved_percent of rows of one point, whose first is the reference.
 void set_savings(std::vector<CacheRow>& point);

@@ -40,12 +40,6 @@ constexpr const char* operations_note =
     "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
     "table costs besides is the gathering of missed rays";
 
-// "0", "1", "2", "3-4", "5-8", ...: the fewest and most hits of a class of CacheSummary::entries_by_hits.
-std::pair<uint64_t, uint64_t> hits_of_class(size_t index) {
-  if (index < 2) return {index, index};
-  return {(uint64_t{1} << (index - 2)) + 1, uint64_t{1} << (index - 1)};
-}
-
 // Of the rows of a drive and number of rays, the one that saves most and yet loses at most `lost_power`; null: none.
 const CacheRow* best_within(const std::vector<CacheRow>& rows, const std::string& drive, uint64_t rays,
                             double lost_power) {

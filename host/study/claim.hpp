@@ -7,7 +7,8 @@
 
 namespace wavetracer::study {
 
-// The verdict on rows, in words. Predicates are made by order_claims.hpp, cache_claims.hpp and coherence_frames.hpp.
+// The verdict on rows, in words. Predicates are made by order_claims.hpp, cache_claims.hpp, cache_regions.hpp and
+// coherence_frames.hpp.
 template <class Row>
 using Judge = std::function<std::string(const std::vector<Row>&)>;
 

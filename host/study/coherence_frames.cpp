@@ -7,46 +7,101 @@
 #include "study/hit_recorder.hpp"
 #include "study/run.hpp"
 #include "study/scripts.hpp"
+#include "study/worlds.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::study {
 namespace {
-
-constexpr double default_speed_m_s = 13.9;  // 50 km/h
 
 // Six times the signed volume of a tetrahedron.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
+// A point in the plane of a triangle counts as in front of it, so that a way is seen to cross it once.
 bool crosses(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, const glm::dvec3& b,
              const glm::dvec3& c) {
-  if (volume(a, b, c, from) * volume(a, b, c, to) >= 0) return false;
+  if ((volume(a, b, c, from) < 0) == (volume(a, b, c, to) < 0)) return false;
   const double ab = volume(from, to, a, b), bc = volume(from, to, b, c), ca = volume(from, to, c, a);
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-}  // namespace
-
-double Drive::moved_m(uint32_t frame) const { return time_s(frame) * glm::length(velocity_m_s); }
-
-Drive plan_drive(const Config& config) {
-  const RadioEnd& end = config.transmitters.front();
-  Drive drive;
-  drive.start_m = {end.position_m[0], end.position_m[1], end.position_m[2]};
-  drive.velocity_m_s = {end.velocity_m_s[0], end.velocity_m_s[1], end.velocity_m_s[2]};
-  if (glm::length(drive.velocity_m_s) == 0) drive.velocity_m_s = {default_speed_m_s, 0, 0};
-  return drive;
+// Two at least, since frames are compared.
+uint32_t wanted_frames(const FrameFigure& figure, const Request& request) {
+  const uint64_t frames = request.frames > 0 ? request.frames + 1 : figure.frames / (request.quick ? 5 : 1);
+  return static_cast<uint32_t>(std::clamp<uint64_t>(frames, 2, UINT32_MAX));
 }
 
-void check_way(const Drive& drive, const Scene& scene, const std::string& end) {
-  const glm::dvec3 from = drive.place_m(0) - scene.origin_m, to = drive.place_m(drive.frames - 1) - scene.origin_m;
-  for (const auto& [a, b, c] : scene.triangles)
-    if (crosses(from, to, scene.vertices[a], scene.vertices[b], scene.vertices[c]))
-      throw ConfigError(
-          fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; give it another "
-                      "position_m or velocity_m_s (without one it drives along +x)",
-                      end, drive.moved_m(drive.frames - 1)));
+Config frame_world(const FrameFigure& figure, const Config& config, uint32_t frames) {
+  if (figure.traffic) return moving_world(config, "moving", frames - 1);
+  return has_vehicles(config) ? config : driven(config, frames - 1);
+}
+
+// What the transmitter drives through. A vehicle without a body is none.
+std::string world_words(const TracedWorld& traced) {
+  size_t bodies = 0;
+  for (const Instance& instance : traced.world.instances())
+    bodies += !traced.world.models()[instance.model].triangles.empty();
+  return bodies == 0 ? "a standing scene" : fmt::format("a scene with {} vehicles", bodies);
+}
+
+std::string drive_note(const Drive& drive, const TracedWorld& traced) {
+  const glm::dvec3 &from = drive.place_m.front(), &to = drive.place_m.back();
+  return fmt::format(
+      "drive: {} frames {:g} s apart, of the transmitter \"{}\" from ({:.5g}, {:.5g}, {:.5g}) m to "
+      "({:.5g}, {:.5g}, {:.5g}) m, in {}",
+      drive.frames(), drive.time_s(1), drive.name, from.x, from.y, from.z, to.x, to.y, to.z, world_words(traced));
+}
+
+}  // namespace
+
+double Drive::moved_m(uint32_t frame) const {
+  double way_m = 0;
+  for (uint32_t k = 1; k <= frame; ++k) way_m += glm::distance(place_m[k - 1], place_m[k]);
+  return way_m;
+}
+
+Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<WorldState(uint32_t)>& state,
+                 uint64_t count, const glm::dvec3& origin_m, uint32_t frames, uint32_t least,
+                 const std::string& where) {
+  std::vector<Drive> running(transmitters.size());
+  Drive longest;
+  bool mounted = false;  // whether any is on a vehicle
+  for (uint32_t frame = 0; frame < count && longest.frames() < frames; ++frame) {
+    const WorldState world = state(frame);
+    for (const EndState& end : world.transmitters) mounted = mounted || end.instance != no_instance;
+    for (uint32_t i = 0; i < world.transmitters.size(); ++i) {
+      const EndState& end = world.transmitters[i];
+      if (mounted && end.instance == no_instance) continue;
+      Drive& drive = running[i];
+      if (!end.present) {
+        drive = {};
+        continue;
+      }
+      if (drive.at_s.empty()) drive = {.transmitter = i, .name = transmitters[i].name, .first = frame};
+      drive.at_s.push_back(world.time_s);
+      drive.place_m.push_back(origin_m + end.position_m);
+      if (drive.frames() > longest.frames()) longest = drive;
+    }
+  }
+  if (longest.frames() >= least) return longest;
+  throw ConfigError(
+      fmt::format("{}no transmitter is there in {} frames that follow each other ({} of them were looked "
+                  "at): give its vehicle a longer trajectory, or more frames in [time]",
+                  where, least, count));
+}
+
+void check_way(const Drive& drive, const Scene& scene) {
+  for (uint32_t frame = 1; frame < drive.frames(); ++frame) {
+    const glm::dvec3 from = drive.place_m[frame - 1] - scene.origin_m, to = drive.place_m[frame] - scene.origin_m;
+    if (from == to) continue;
+    for (const auto& [a, b, c] : scene.triangles)
+      if (crosses(from, to, scene.vertices[a], scene.vertices[b], scene.vertices[c]))
+        throw ConfigError(
+            fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; give it another "
+                        "position_m or velocity_m_s (without one it drives along +x)",
+                        drive.name, drive.moved_m(drive.frames() - 1)));
+  }
 }
 
 std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against,
@@ -93,20 +148,28 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   TraceConfig trace = request.config.trace;
   trace.rays = experiment_rays;
   trace.directions = "hilbert";
-  Drive drive = plan_drive(request.config);
-  drive.frames = figure.frames;
-  TracedScene traced(request.config, request.device, {drive.place_m(0), drive.place_m(drive.frames - 1)});
-  check_way(drive, traced.scene, request.config.transmitters.front().name);
+  const uint32_t wanted = wanted_frames(figure, request);
+  const Config config = frame_world(figure, request.config, wanted);
+  TracedWorld traced(config, request.device);
+  const std::string where = config.file.empty() ? "" : config.file + ": ";
+  if (traced.world.frame_count() == 1)
+    throw ConfigError(
+        fmt::format("{}{} compares the frames of a drive, and there is one frame alone: give trajectories "
+                    "that last longer, or another [time]",
+                    where, experiment.name));
+  const Drive drive = plan_drive(traced, wanted, 2, where + experiment.name + ": ");
+  if (!has_vehicles(request.config)) check_way(drive, traced.scene);
   HitRecorder record(traced, trace);
-  host.say(fmt::format("{}: {} frames of {} rays on {}", experiment.name, drive.frames, grouped(experiment_rays),
-                       traced.device.name));
+  host.say(fmt::format("{}: {} frames of {} rays of \"{}\" on {}", experiment.name, drive.frames(),
+                       grouped(experiment_rays), drive.name, traced.device.name));
   Findings found{.device = traced.device, .planned = 1};
   std::vector<FramePair> rows;
-  const FrameHits first = record(drive.place_m(0));
+  const FrameHits first = record(drive.transmitter, drive.first);
   FrameHits previous = first;
-  for (uint32_t frame = 1; frame < drive.frames; ++frame) {
+  for (uint32_t frame = 1; frame < drive.frames(); ++frame) {
     if (host.interrupted()) return found;  // half a drive is no result
-    FrameHits now = record(drive.place_m(frame));
+    host.tell(experiment.name, frame, drive.frames(), "frames");
+    FrameHits now = record(drive.transmitter, drive.first + frame);
     for (const auto& pairs : {compare_pair(first, now, "first", frame), compare_pair(previous, now, "previous", frame)})
       rows.insert(rows.end(), pairs.begin(), pairs.end());
     previous = std::move(now);
@@ -119,19 +182,15 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
        .title = experiment.title + ", " + traced.device.name,
        .columns = names_of(columns),
        .max_depth = trace.max_depth,
-       .x_label = "way driven (m)",
+       .x_label = "time (s)",
        .panels_a_row = 2,
-       .panels = {
-           {"correlation with the first frame", "moved_m", "total", "against", "first"},
-           {"correlation with the frame before", "moved_m", "total", "against", "previous"},
-           {"rays that hit the surface of the first frame", "moved_m", "same_surface", "against", "first"},
-           {"rays that hit the surface of the frame before", "moved_m", "same_surface", "against", "previous"}}});
-  found.words = frame_words(experiment, rows, drive, traced.device.name);
+       .panels = {{"correlation with the first frame", "time_s", "total", "against", "first"},
+                  {"correlation with the frame before", "time_s", "total", "against", "previous"},
+                  {"rays that hit the surface of the first frame", "time_s", "same_surface", "against", "first"},
+                  {"rays that hit the surface of the frame before", "time_s", "same_surface", "against", "previous"}}});
+  found.words = frame_words(experiment, rows, drive, world_words(traced), traced.device.name);
   found.notes = {
-      fmt::format("drive: {} frames {:g} s apart, from ({:g}, {:g}, {:g}) m at ({:g}, {:g}, {:g}) m/s, in a scene that "
-                  "stands still",
-                  drive.frames, drive.step_s, drive.start_m.x, drive.start_m.y, drive.start_m.z, drive.velocity_m_s.x,
-                  drive.velocity_m_s.y, drive.velocity_m_s.z),
+      drive_note(drive, traced),
       "total is equation 6.4 divided by the root of the number of components (three, less those that are constant); "
       "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in the "
       "lists of hits",

@@ -1,6 +1,7 @@
 // How far what rays hit in one frame of a drive is what the same rays hit in another.
 // A. Zhdanov, TU Munich, 2014, section 6.3.2, equation 6.4 and figure 6.13.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 #include "study/claim.hpp"
@@ -8,6 +9,7 @@
 #include "study/columns.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
+#include "wavetracer/world_state.hpp"
 
 namespace wavetracer::study {
 
@@ -20,29 +22,39 @@ struct FramePair {
   double by_place = undefined;  // equation 6.4, normalised, of points paired by their place in lists of hits
 };
 
-// A transmitter that drives straight on.
+// The frames in which a transmitter launches its rays: numbers that follow each other, times, and where it is (file
+// axes). Functions count frames from the first of them.
 struct Drive {
-  glm::dvec3 start_m{0}, velocity_m_s{0};  // file axes
-  double step_s = 0.01;                    // 100 frames a second
-  uint32_t frames = 201;                   // 2 s
+  uint32_t transmitter = 0;  // of the world
+  std::string name = "";     // of the transmitter
+  uint32_t first = 0;        // frame of the world
+  std::vector<double> at_s = {};
+  std::vector<glm::dvec3> place_m = {};
 
-  double time_s(uint32_t frame) const { return step_s * frame; }
-  double moved_m(uint32_t frame) const;
-  glm::dvec3 place_m(uint32_t frame) const { return start_m + time_s(frame) * velocity_m_s; }
+  uint32_t frames() const { return static_cast<uint32_t>(at_s.size()); }
+  double time_s(uint32_t frame) const { return at_s[frame] - at_s[0]; }
+  double moved_m(uint32_t frame) const;  // the length of its way
 };
 
-// That of the first transmitter: as its velocity says, or at 13.9 m/s along +x.
-Drive plan_drive(const Config& config);
-// Throws ConfigError where the way leads through the scene. `end`: its name.
-void check_way(const Drive& drive, const Scene& scene, const std::string& end);
+// The first `frames` frames, or as many as there are, in which one transmitter is there all the time. One on a vehicle
+// is taken if there are any, since it moves; of those the first that is there so long. Throws ConfigError where none is
+// there in `least` frames that follow each other. state: of each of `count` frames; where: begins the message.
+Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<WorldState(uint32_t)>& state,
+                 uint64_t count, const glm::dvec3& origin_m, uint32_t frames, uint32_t least, const std::string& where);
+// Throws ConfigError where the way leads through the scene.
+void check_way(const Drive& drive, const Scene& scene);
 
 // A frame beside another, depth by depth.
 std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against, uint32_t frame);
 
 Columns<FramePair> frame_columns(const Drive& drive);
 
-// "at depth 1 if paired by ray and bounce, at no depth if paired by place": where means of subsequent frames are
-// greater.
-Judge<FramePair> correlate_more_than(double share);
+// "at depth 1 if paired by ray and bounce, at no depth if paired by place": where subsequent frames correlate by a mean
+// from `low` to `high`.
+Judge<FramePair> correlate_on_average(double low, double high);
+// Likewise: where their correlation falls below `low`, and where it rises to `high`, or to four fifths of it, but no
+// further.
+Judge<FramePair> correlation_falls_below(double low);
+Judge<FramePair> correlation_rises_to(double high);
 
 }  // namespace wavetracer::study

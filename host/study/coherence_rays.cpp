@@ -31,9 +31,9 @@ const Columns<LagRow>& lag_columns() {
 }
 
 Findings measure(const LagFigure&, const Experiment& experiment, const Request& request, const Host& host) {
-  const auto& place = request.config.transmitters.front().position_m;
-  const glm::dvec3 transmitter_m{place[0], place[1], place[2]};
-  TracedScene traced(request.config, request.device, {transmitter_m});
+  TracedWorld traced(request.config, request.device);
+  const Drive drive =
+      plan_drive(traced, 1, 1, request.config.file.empty() ? "" : request.config.file + ": " + experiment.name + ": ");
   host.say(fmt::format("{}: a frame of {} rays for each of {} on {}", experiment.name, grouped(experiment_rays),
                        fmt::join(maps, ", "), traced.device.name));
   Findings found{.device = traced.device, .planned = 1};
@@ -45,7 +45,7 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
     TraceConfig trace = request.config.trace;
     trace.rays = experiment_rays;
     trace.directions = Directions::named(directions);
-    const FrameHits hits = HitRecorder(traced, trace)(transmitter_m);
+    const FrameHits hits = HitRecorder(traced, trace)(drive.transmitter, drive.first);
     for (uint32_t i = 0; i < hits.size(); ++i)
       for (const LagCoherence& at : coherence_along(hits[i], lags))
         rows.push_back({.directions = directions, .depth = i + 1, .found = at});
@@ -69,7 +69,7 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
   found.words = lag_words(experiment, rows, traced.device.name);
   found.notes = {
       fmt::format("rays: {} of the transmitter \"{}\", a frame for each map of directions", grouped(experiment_rays),
-                  request.config.transmitters.front().name),
+                  drive.name),
       "points and distance are equation 3.4 over the squares of what is paired, of hit points as vectors and of "
       "segment lengths; same_surface and same_primitive are shares of the pairs; a pair is two rays that hit"};
   return found;

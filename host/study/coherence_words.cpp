@@ -28,11 +28,11 @@ void add(NumberTable& table, const std::string& what, const std::vector<double>&
   table.rows.back().resize(table.heads.size(), "undefined");
 }
 
-// Where values are greater than the bound: "at every depth", "at no depth", "at depths 1 and 3".
-std::string where_greater(const std::vector<double>& values, double bound) {
+// Where values are so: "at every depth", "at no depth", "at depths 1 and 3".
+std::string where_depths(const std::vector<double>& values, const std::function<bool(double)>& are_so) {
   std::vector<std::string> words;
   for (size_t i = 0; i < values.size(); ++i)
-    if (values[i] > bound) words.push_back(std::to_string(i + 1));
+    if (are_so(values[i])) words.push_back(std::to_string(i + 1));
   if (words.empty()) return "at no depth";
   if (words.size() == values.size()) return "at every depth";
   return (words.size() == 1 ? "at depth " : "at depths ") + list_words(words);
@@ -43,17 +43,47 @@ using FrameValue = std::function<double(const FramePair&)>;
 double by_ray(const FramePair& row) { return row.found.points.total; }
 double by_place(const FramePair& row) { return row.by_place; }
 
-// A value a depth: the mean over all frames against their previous ones, where it is defined.
-std::vector<double> previous_means(const std::vector<FramePair>& rows, const FrameValue& value) {
-  std::vector<RunningMean> means;
+// A list a depth: the values of all frames against their previous ones, where they are defined.
+std::vector<std::vector<double>> previous_values(const std::vector<FramePair>& rows, const FrameValue& value) {
+  std::vector<std::vector<double>> out;
   for (const FramePair& row : rows) {
     if (row.against != "previous") continue;
-    means.resize(std::max<size_t>(means.size(), row.depth));
-    if (!std::isnan(value(row))) means[row.depth - 1].add(value(row));
+    out.resize(std::max<size_t>(out.size(), row.depth));
+    if (!std::isnan(value(row))) out[row.depth - 1].push_back(value(row));
   }
-  std::vector<double> out;
-  for (const RunningMean& mean : means) out.push_back(mean.mean());
   return out;
+}
+
+double mean_value(const std::vector<double>& values) {
+  RunningMean mean;
+  for (const double value : values) mean.add(value);
+  return mean.mean();
+}
+double least_value(const std::vector<double>& values) { return values.empty() ? undefined : std::ranges::min(values); }
+double greatest_value(const std::vector<double>& values) {
+  return values.empty() ? undefined : std::ranges::max(values);
+}
+
+using FrameSummary = double (*)(const std::vector<double>&);
+
+// A value a depth, of what subsequent frames have.
+std::vector<double> summaries(const std::vector<FramePair>& rows, const FrameValue& value, FrameSummary summary) {
+  std::vector<double> out;
+  for (const std::vector<double>& values : previous_values(rows, value)) out.push_back(summary(values));
+  return out;
+}
+
+std::vector<double> previous_means(const std::vector<FramePair>& rows, const FrameValue& value) {
+  return summaries(rows, value, mean_value);
+}
+
+// Where a summary of the correlations of subsequent frames is so, for both pairings.
+Judge<FramePair> where_correlations(FrameSummary summary, const std::function<bool(double)>& are_so) {
+  return [=](const std::vector<FramePair>& rows) {
+    return fmt::format("{} if paired by ray and bounce, {} if paired by place",
+                       where_depths(summaries(rows, by_ray, summary), are_so),
+                       where_depths(summaries(rows, by_place, summary), are_so));
+  };
 }
 
 // A value a depth, of the last frame against the first.
@@ -96,22 +126,26 @@ std::string greatest_words(const std::vector<LagRow>& rows, const std::string& d
 
 }  // namespace
 
-Judge<FramePair> correlate_more_than(double share) {
-  return [=](const std::vector<FramePair>& rows) {
-    return fmt::format("{} if paired by ray and bounce, {} if paired by place",
-                       where_greater(previous_means(rows, by_ray), share),
-                       where_greater(previous_means(rows, by_place), share));
-  };
+Judge<FramePair> correlate_on_average(double low, double high) {
+  return where_correlations(mean_value, [=](double mean) { return mean >= low && mean <= high; });
+}
+Judge<FramePair> correlation_falls_below(double low) {
+  return where_correlations(least_value, [=](double least) { return least < low; });
+}
+Judge<FramePair> correlation_rises_to(double high) {
+  return where_correlations(greatest_value,
+                            [=](double greatest) { return greatest >= 0.8 * high && greatest <= high; });
 }
 
 Words frame_words(const Experiment& experiment, const std::vector<FramePair>& rows, const Drive& drive,
-                  const std::string& device) {
+                  const std::string& world, const std::string& device) {
   const uint32_t last = rows.back().frame;
   const Fields fields = {{"device", device},
                          {"rays", grouped(experiment_rays)},
                          {"frames", std::to_string(last + 1)},
+                         {"world", world},
                          {"moved", fmt::format("{:.1f}", drive.moved_m(last))},
-                         {"apart", fmt::format("{:.3f}", drive.moved_m(1))},
+                         {"apart", fmt::format("{:.3f}", drive.moved_m(last) / last)},
                          {"age", fmt::format("{:g}", drive.time_s(last))}};
   const std::vector<double> paired = previous_means(rows, by_ray);
   NumberTable table = depth_table("Correlations of points, and shares of rays:", paired.size());

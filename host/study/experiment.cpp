@@ -1,9 +1,10 @@
 // The list of experiments, and the configs that they measure.
-// Assumes that a batch never holds more rays than trace.batch_rays (host/simulation/discovery.cpp).
+// What is built in is text, read as a file is.
 #include "study/experiment.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include "base/spelling.hpp"
+#include "study/worlds.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -24,6 +25,17 @@ constexpr const char* mast = R"([[transmitter]]
 name = "rsu"
 position_m = [8.0, 8.0, 6.0]
 )";
+// More of them, on other streets and at the edge of the city.
+constexpr const char* more_masts = R"([[transmitter]]
+name = "rsu-2"
+position_m = [97.5, 97.5, 6.0]
+[[transmitter]]
+name = "rsu-3"
+position_m = [-97.5, -97.5, 6.0]
+[[transmitter]]
+name = "rsu-4"
+position_m = [150.0, 0.0, 20.0]
+)";
 // 50 km/h on the right-hand lane of a street.
 constexpr const char* car = R"([[transmitter]]
 name = "car"
@@ -31,12 +43,9 @@ position_m = [10.0, -3.0, 1.5]
 velocity_m_s = [13.9, 0.0, 0.0]
 )";
 
-constexpr double frame_step_m = 0.5;  // between frames: 54 km/h at 30 frames a second
-
 void reject_varied_keys(const Experiment& experiment, const std::vector<std::string>& sets) {
   std::vector<std::string> varied = series_keys();
   if (experiment.study()) varied.insert(varied.end(), cache_keys().begin(), cache_keys().end());
-  if (experiment.as<OrderFigure>() && experiment.needs_transmitter()) varied.push_back("trace.batch_rays");
   for (const std::string& set : sets) {
     std::string key = set.substr(0, set.find('='));
     std::erase(key, ' ');
@@ -47,33 +56,19 @@ void reject_varied_keys(const Experiment& experiment, const std::vector<std::str
   }
 }
 
-// The largest batch within `most` that the rays of a transmitter are a multiple of.
-uint64_t even_batch(uint64_t rays, uint64_t most) {
-  uint64_t batches = (rays + most - 1) / most;
-  while (rays % batches != 0) ++batches;
-  return rays / batches;
-}
-
-void only_receive(std::vector<MountConfig>& mounts) {
-  std::erase_if(mounts, [](const MountConfig& mount) { return mount.role == "transmitter"; });
-  for (MountConfig& mount : mounts) mount.role = "receiver";
-}
-
 }  // namespace
 
 bool Experiment::one_ray_count() const {
   return as<FrameFigure>() || as<LagFigure>() || (study() && study()->rays.size() == 1);
 }
 
-bool Experiment::needs_transmitter() const {
-  return as<FrameFigure>() || as<LagFigure>() || (as<OrderFigure>() && as<OrderFigure>()->frames > 1);
-}
+bool Experiment::moves() const { return as<FrameFigure>() || (as<OrderFigure>() && as<OrderFigure>()->moves); }
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> all = [] {
     std::vector<Experiment> list;
-    for (const auto* more :
-         {&standing_figures(), &traffic_figures(), &further_experiments(), &innerframe_experiments()})
+    for (const auto* more : {&standing_figures(), &traffic_figures(), &hashing_figures(), &further_experiments(),
+                             &innerframe_experiments()})
       list.insert(list.end(), more->begin(), more->end());
     return list;
   }();
@@ -100,16 +95,13 @@ std::string experiment_list() {
 Config experiment_config(const Experiment& experiment, const std::string& file, const std::vector<std::string>& sets) {
   reject_varied_keys(experiment, sets);
   if (!file.empty()) return load_config(file, sets);
-  return parse_config(built_in_city + std::string(experiment.as<FrameFigure>() ? car : mast), built_in_city_name, sets);
+  std::string ends = experiment.as<FrameFigure>() ? car : mast;
+  if (experiment.study() && experiment.study()->by_transmitter) ends += more_masts;
+  return parse_config(built_in_city + ends, built_in_city_name, sets);
 }
 
 void check_experiment(const Experiment& experiment, const Config& config) {
   const std::string where = config.file.empty() ? "" : config.file + ": ";
-  if (experiment.needs_transmitter() && config.transmitters.empty())
-    throw ConfigError(
-        fmt::format("{}{} launches rays from the first [[transmitter]], and there is none, since antennas on vehicles "
-                    "([[mount]]) do not count here; add a [[transmitter]]",
-                    where, experiment.name));
   if (config.trace.max_depth == 0)
     throw ConfigError(
         fmt::format("{}trace.max_depth = 0: {} looks at what rays hit; give 1 or more", where, experiment.name));
@@ -120,23 +112,11 @@ void check_experiment(const Experiment& experiment, const Config& config) {
         where, experiment.name));
 }
 
-Config point_config(const OrderFigure& figure, const Config& config, uint64_t rays, bool gpu) {
-  Config out = config;
+Config point_config(const OrderFigure& figure, const Config& config, uint64_t frames) {
+  Config out = figure.moves ? moving_world(config, "moving", frames) : config;
   out.trace.reuse = false;
   out.trace.diffraction = false;
   out.cache.kind = "none";
-  if (figure.frames == 1) return out;
-  only_receive(out.mounts);
-  out.links.transmitters = {"*"};
-  out.transmitters.clear();
-  for (uint32_t frame = 0; frame < figure.frames; ++frame) {
-    RadioEnd place = config.transmitters.front();
-    place.name += fmt::format(" at frame {}", frame);
-    place.position_m[0] += frame_step_m * frame;
-    out.transmitters.push_back(place);
-  }
-  // As many rays as the device is given at once by default (choose_batch in host/simulation/discovery.cpp).
-  out.trace.batch_rays = even_batch(rays, gpu ? uint64_t{1} << 25 : uint64_t{1} << 18);
   return out;
 }
 

@@ -1,6 +1,6 @@
 // The experiments of `wavetracer bench`, as data: what is measured, what of it is shown, and what is claimed of it.
 // run.hpp carries one out. Those called figure-6.N are the figures of A. Zhdanov's thesis (TU Munich, 2014).
-// To add one, add a row to one of the lists below; its claims are predicates of order_claims.hpp or cache_claims.hpp.
+// To add one, add a row to one of the lists below; its claims are predicates of NAME_claims.hpp and the like.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -18,7 +18,7 @@ namespace wavetracer::study {
 // Orders of rays, over the numbers of rays of ray_counts.hpp. Fields of its words: order_fields().
 struct OrderFigure {
   std::vector<Series> series;  // the first is what gains are against
-  uint32_t frames;             // places along the way of a moving transmitter; 1: the transmitters of the config
+  bool moves;                  // averages over the frames of a moving_world(); else medians of the first frame
   Claims<OrderRow> claims;
 };
 
@@ -30,11 +30,13 @@ struct CacheFigure {
   std::vector<std::string> settings = {};  // those that the field {saves} is about
 };
 
-// What rays hit in frames of a drive. Fields: {device}, {rays}, {frames}, {moved} and {apart} (metres of the drive, and
-// of a frame), {age} (of the first frame, in seconds).
+// What rays of one transmitter hit in frames of a drive. Fields: {device}, {rays}, {frames}, {moved} and {apart}
+// (metres of the transmitter's way, and of it a frame), {world} (what it drives through), {age} (of the first frame, in
+// seconds).
 struct FrameFigure {
   Claims<FramePair> claims;
-  uint32_t frames = Drive().frames;
+  uint32_t frames = 201;  // 2 s at 100 frames per second
+  bool traffic = false;   // of the built-in city, which stands still otherwise
 };
 
 // What rays hit along the order of their launch, for each map of directions. Fields: {device}, {rays}, {fibonacci}:
@@ -57,12 +59,13 @@ struct Experiment {
   const CacheStudy* study() const { return as<CacheFigure>() ? as<CacheFigure>()->study.get() : nullptr; }
   // It launches one number of rays, so that --rays is refused.
   bool one_ray_count() const;
-  // It launches rays from the first [[transmitter]] of a configuration alone, so that there must be one.
-  bool needs_transmitter() const;
+  // It is about frames that move, see moving_world().
+  bool moves() const;
 };
 
 const std::vector<Experiment>& standing_figures();        // 6.1 to 6.9
-const std::vector<Experiment>& traffic_figures();         // 6.10 to 6.18, and coherence-frames
+const std::vector<Experiment>& traffic_figures();         // 6.10 to 6.13, and coherence-frames
+const std::vector<Experiment>& hashing_figures();         // 6.14 to 6.18
 const std::vector<Experiment>& further_experiments();     // beyond the thesis' figures
 const std::vector<Experiment>& innerframe_experiments();  // coherence inside a frame, answered by a cache
 
@@ -82,10 +85,9 @@ Config experiment_config(const Experiment& experiment, const std::string& file, 
 // Throws ConfigError, with the name of the experiment, where this config has nothing for it to measure.
 void check_experiment(const Experiment& experiment, const Config& config);
 
-// The config of one number of rays of a figure of orders. Every frame launches all rays of transmitters, and no others:
-// none is saved by reuse or a cache, none added by receivers for diffraction. Frames of a moving transmitter are
-// transmitters side by side, half a metre apart along x, each traced in batches of its own: no ray shares a launch or a
-// sort with one of another frame. Nothing else sends then.
-Config point_config(const OrderFigure& figure, const Config& config, uint64_t rays, bool gpu);
+// The config of a figure of orders, with a frame before the `frames` that are averaged over where the figure moves.
+// Every frame launches all rays of transmitters, and no others: none is saved by reuse or a cache, none added by
+// receivers for diffraction.
+Config point_config(const OrderFigure& figure, const Config& config, uint64_t frames);
 
 }  // namespace wavetracer::study

@@ -6,17 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 #include "scene/load.hpp"
+#include "simulation/listeners.hpp"
 
 namespace wavetracer::study {
 namespace {
-
-// The largest absolute recentred coordinate.
-double reach_m(const std::vector<glm::dvec3>& places_m, const glm::dvec3& origin_m) {
-  double reach = 0;
-  for (const glm::dvec3& place : places_m)
-    for (int axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(place[axis] - origin_m[axis]));
-  return reach;
-}
 
 DeviceSummary summary(const gpu::DeviceInfo& info) {
   return {info.platform, info.name, info.driver, info.opencl_c, info.gpu};
@@ -41,24 +34,35 @@ std::vector<glm::dvec3> read_vectors(const RayQueue& rays, size_t plane) {
 
 }  // namespace
 
-TracedScene::TracedScene(const Config& config, const std::string& device_text,
-                         const std::vector<glm::dvec3>& transmitters_m)
+TracedWorld::TracedWorld(const Config& config, const std::string& device_text)
     : context(device_text),
       scene(load_scene(config)),
-      on_device(make_device_scene(context, scene, false, reach_m(transmitters_m, scene.origin_m))),
-      device(summary(context.info())) {}
+      world(config, scene),
+      on_device(make_device_scene(context, scene, false, world.reach_m())),
+      device(summary(context.info())) {
+  if (world.instances().empty()) return;
+  placement.emplace(context, world.models(), world.instances(), on_device);
+  placement->place(on_device, world.state(0).instances);
+}
 
-HitRecorder::HitRecorder(TracedScene& traced, const TraceConfig& trace)
+Drive plan_drive(const TracedWorld& traced, uint32_t frames, uint32_t least, const std::string& where) {
+  return plan_drive(
+      traced.world.transmitters(), [&](uint32_t frame) { return traced.world.state(frame); },
+      traced.world.frame_count(), traced.scene.origin_m, frames, least, where);
+}
+
+HitRecorder::HitRecorder(TracedWorld& traced, const TraceConfig& trace)
     : traced_(traced),
       trace_(reflections(trace)),
       discovery_(traced.context, traced.on_device, trace_, {.follower = this}) {}
 
-FrameHits HitRecorder::operator()(const glm::dvec3& transmitter_m) {
+FrameHits HitRecorder::operator()(uint32_t transmitter, uint32_t frame) {
   found_.assign(trace_.max_depth, std::vector<Hit>(*trace_.rays));
+  const WorldState world = traced_.world.state(frame);
+  if (traced_.placement) traced_.placement->place(traced_.on_device, world.instances);
   discovery_.sequences().clear();
   discovery_.sequences().begin_frame();
-  discovery_.find(traced_.on_device,
-                  {.who = launchers({transmitter_m - traced_.scene.origin_m}), .rays = *trace_.rays});
+  discovery_.find(traced_.on_device, {.who = {launcher_of(0, world.transmitters[transmitter])}, .rays = *trace_.rays});
   return std::move(found_);
 }
 

@@ -1,35 +1,43 @@
 // What every ray of a launch hit, depth by depth, read back to the host: it follows the rays of a discovery.
 // Assumes few rays: planes of the queue are copied at every depth.
 #pragma once
-#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 #include "simulation/discovery.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/world.hpp"
 #include "study/coherence.hpp"
+#include "study/coherence_frames.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::study {
 
-// A static scene on a device, for experiments that look at rays instead of paths.
-struct TracedScene {
-  // transmitters_m: all that will launch rays, file coordinates.
-  TracedScene(const Config& config, const std::string& device_text, const std::vector<glm::dvec3>& transmitters_m);
+// A world on a device, for experiments that look at rays instead of paths.
+struct TracedWorld {
+  TracedWorld(const Config& config, const std::string& device_text);
 
   gpu::Context context;
   Scene scene;
+  World world;
   DeviceScene on_device;
+  std::optional<InstancePlacement> placement;  // where there are vehicles
   DeviceSummary device;
 };
+
+// See plan_drive() of coherence_frames.hpp.
+Drive plan_drive(const TracedWorld& traced, uint32_t frames, uint32_t least, const std::string& where);
 
 class HitRecorder final : public RayFollower {
  public:
   // Takes rays, directions, seed and max_depth of `trace`; rays are reflected, and nothing else. `traced` must outlive
   // it.
-  HitRecorder(TracedScene& traced, const TraceConfig& trace);
-  // Hits of the rays of a transmitter, file coordinates; their points are recentred.
-  FrameHits operator()(const glm::dvec3& transmitter_m);
+  HitRecorder(TracedWorld& traced, const TraceConfig& trace);
+  // Hits of the rays of a transmitter in a frame of the world; their points are recentred. The vehicle that carries it
+  // is in no way of its rays.
+  FrameHits operator()(uint32_t transmitter, uint32_t frame);
 
  private:
   void begin_batch(std::vector<LaunchPart> parts) override { parts_ = std::move(parts); }
@@ -38,7 +46,7 @@ class HitRecorder final : public RayFollower {
   // Of a sample of the batch.
   uint64_t launch_index(uint32_t sample) const;
 
-  TracedScene& traced_;
+  TracedWorld& traced_;
   TraceConfig trace_;
   Discovery discovery_;
   std::vector<LaunchPart> parts_;

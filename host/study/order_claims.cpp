@@ -82,7 +82,19 @@ Judge<OrderRow> fastest_are(std::vector<std::string> best, std::vector<std::stri
 
 Judge<OrderRow> none_slower_than_ws(std::vector<std::string> methods) {
   return both_gains([=](const Rows& rows, Gain gain) {
-    return std::ranges::all_of(methods, [&](const std::string& method) { return gain_of(rows, method, gain) >= 1; });
+    const std::set<uint64_t> counts = counts_between(rows, 0, UINT64_MAX);
+    return std::ranges::all_of(methods, [&](const std::string& method) {
+      return std::ranges::all_of(counts, [&](uint64_t rays) { return gain_at(rows, method, rays, gain) >= 1; });
+    });
+  });
+}
+
+Judge<OrderRow> slightly_slower(const std::string& method, std::vector<std::string> than) {
+  return both_gains([=](const Rows& rows, Gain gain) {
+    return std::ranges::all_of(than, [&](const std::string& other) {
+      const double factor = gain_of(rows, other, gain) / gain_of(rows, method, gain);
+      return factor > 1 && factor <= 1.25;
+    });
   });
 }
 

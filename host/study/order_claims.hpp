@@ -15,8 +15,10 @@ Claims<OrderRow> h3dh_gains();
 // "yes with the sort not paid, no with it paid", at the most rays: none of `others`, in one dimension, gains more than
 // the worst of `best`.
 Judge<OrderRow> fastest_are(std::vector<std::string> best, std::vector<std::string> others);
-// Likewise: each of these takes no more time than WS.
+// Likewise: each of these takes no more time than WS, at every number of rays.
 Judge<OrderRow> none_slower_than_ws(std::vector<std::string> methods);
+// Likewise, at the most rays: the order takes more time than each of others, but no more than a quarter more.
+Judge<OrderRow> slightly_slower(const std::string& method, std::vector<std::string> than);
 // "yes with the sort not paid, no with it paid": at every measured number of rays from `first` to `last`, the order
 // takes no more than a twentieth more time than another one; "not measured" where there is none.
 Judge<OrderRow> no_slower(const std::string& method, const std::string& than, uint64_t first, uint64_t last);

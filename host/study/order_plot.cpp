@@ -1,5 +1,5 @@
-// Both axes are logarithmic. Times are divided by the rays, because a factor of two is thin on an axis of four decades.
-// Assumes gnuplot 5.
+// Both axes are logarithmic. Times are divided by the rays of all transmitters, because a factor of two is thin on an
+// axis of four decades. Assumes gnuplot 5.
 #include <fmt/format.h>
 #include <set>
 #include "study/order_rows.hpp"
@@ -27,7 +27,7 @@ std::string line(const std::string& name, const std::vector<Series>& series, siz
       "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' ? 1e9 * column({}) / column({}) : NaN) "
       "with linespoints linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize 0.5 title '{}'",
       name, column_number("rays"), column_number("mnemonic"), s.mnemonic, column_number("shape"), s.shape,
-      column_number(column), column_number("rays"), colour(series, index),
+      column_number(column), column_number("launched"), colour(series, index),
       own_shape         ? "1"
       : s.shape == "2d" ? "'-'"
                         : "'.'",
@@ -47,16 +47,16 @@ std::string order_script(const std::string& name, const std::string& title, cons
   std::string text = script_head(name, 1150, 540);
   text += fmt::format(
       "stats '{0}.csv' using {1} skip 1 name 'rays' nooutput\n"
-      "stats '{0}.csv' using (1e9 * ${2} / ${1}) skip 1 name 'unpaid' nooutput\n"
-      "stats '{0}.csv' using (1e9 * ${3} / ${1}) skip 1 name 'paid' nooutput\n",
-      name, column_number("rays"), column_number("unpaid_s"), column_number("paid_s"));
+      "stats '{0}.csv' using (1e9 * ${2} / ${4}) skip 1 name 'unpaid' nooutput\n"
+      "stats '{0}.csv' using (1e9 * ${3} / ${4}) skip 1 name 'paid' nooutput\n",
+      name, column_number("rays"), column_number("unpaid_s"), column_number("paid_s"), column_number("launched"));
   text += fmt::format(
       "set logscale xy\n"
       "set xrange [rays_min / 1.25 : 1.25 * rays_max]\n"
       "set yrange [0.8 * unpaid_min : 1.25 * paid_max]\n"
       "set format x '10^{{%T}}'\n"
       "do for [k = -3:6] {{ do for [m in '1 2 5'] {{ set ytics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }} }}\n"
-      "set xlabel 'rays'\n"
+      "set xlabel 'rays of each transmitter'\n"
       "set ylabel 'device time a ray (ns)'\n"
       "{}set multiplot title '{}' noenhanced\n"
       "set tmargin at screen 0.86\n"

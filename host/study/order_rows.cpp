@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include "output/median.hpp"
 #include "study/ray_counts.hpp"
 #include "wavetracer/error.hpp"
@@ -12,11 +13,22 @@
 namespace wavetracer::study {
 namespace {
 
-struct Subject {
+struct OrderSubject {
   Simulation simulation;
-  FrameCounts counts;
-  std::vector<StageSeconds> samples;
+  uint64_t rays = 0, segments = 0, paths = 0, sequences = 0;  // of all frames that count
+  std::vector<StageSeconds> samples{};
+
+  void count(const FrameResult& frame) {
+    rays += frame.counts.rays;
+    segments += frame.counts.segments;
+    paths += frame.counts.paths;
+    sequences += frame.counts.sequences;
+  }
 };
+
+double average(std::vector<double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 void check_same(const OrderRow& a, const OrderRow& b) {
   if (a.paths == b.paths && a.sequences == b.sequences) return;
@@ -45,6 +57,7 @@ const Columns<OrderRow>& order_columns(bool averages) {
       {"sequences", &R::sequences},
       {"gain_unpaid", &R::gain_unpaid},
       {"gain_paid", &R::gain_paid},
+      {"launched", &R::launched},
   };
   static const Columns<R> many = [] {
     Columns<R> all = one_frame;
@@ -67,16 +80,16 @@ void require_segments(double segments, const Config& config) {
                   config.file.empty() ? "" : config.file + ": "));
 }
 
-OrderTimes summarise(const std::vector<StageSeconds>& samples, uint32_t frames) {
+OrderTimes summarise(const std::vector<StageSeconds>& samples, double (*summary)(std::vector<double>)) {
   std::map<std::string, std::vector<double>> values;
   for (const StageSeconds& sample : samples)
     for (const auto& [stage, seconds] : sample) values[stage].push_back(seconds);
-  StageSeconds medians;
-  for (const auto& [stage, seconds] : values) medians[stage] = median(seconds) / frames;
-  return {.trace_s = stage_seconds(medians, "trace"),
-          .order_s = part_seconds(medians, FramePart::order),
-          .unpaid_s = part_seconds(medians, FramePart::discovery),
-          .frame_s = part_seconds(medians, FramePart::whole)};
+  StageSeconds summaries;
+  for (const auto& [stage, seconds] : values) summaries[stage] = summary(seconds);
+  return {.trace_s = stage_seconds(summaries, "trace"),
+          .order_s = part_seconds(summaries, FramePart::order),
+          .unpaid_s = part_seconds(summaries, FramePart::discovery),
+          .frame_s = part_seconds(summaries, FramePart::whole)};
 }
 
 void compare(std::span<OrderRow> rows) {
@@ -91,28 +104,36 @@ void compare(std::span<OrderRow> rows) {
 }
 
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
-                                     uint32_t frames, const std::string& device, uint32_t repeats) {
-  std::vector<Subject> subjects;
+                                     const OrderFrames& of, const std::string& device) {
+  std::vector<OrderSubject> subjects;
   for (const Series& one : series) {
     Config applied = config;
     apply(applied, one, rays);
-    subjects.push_back({Simulation(applied, device), {}, {}});
-    subjects.back().counts = subjects.back().simulation.run_frame(0).counts;
-    require_segments(static_cast<double>(subjects.back().counts.segments), config);
+    subjects.push_back({.simulation = Simulation(applied, device)});
+    const FrameResult first = subjects.back().simulation.run_frame(of.frames == 0 ? of.still : 0);
+    if (of.frames == 0) subjects.back().count(first);
   }
-  for (uint32_t repeat = 0; repeat < repeats; ++repeat)
+  const uint64_t rounds = of.frames > 0 ? of.frames : of.repeats;
+  for (uint64_t round = 0; round < rounds; ++round)
     for (size_t i = 0; i < subjects.size(); ++i) {
-      Subject& subject = subjects[(i + repeat) % subjects.size()];  // so that no series always follows the same one
-      subject.samples.push_back(subject.simulation.run_frame(0).seconds);
+      OrderSubject& subject = subjects[(i + round) % subjects.size()];  // so that no series always follows the same one
+      const FrameResult frame =
+          subject.simulation.run_frame(of.frames > 0 ? static_cast<uint32_t>(round + 1) : of.still);
+      if (of.frames > 0) subject.count(frame);
+      subject.samples.push_back(frame.seconds);
     }
   std::vector<OrderRow> rows;
-  for (size_t i = 0; i < subjects.size(); ++i)
+  for (size_t i = 0; i < subjects.size(); ++i) {
+    require_segments(static_cast<double>(subjects[i].segments), config);
+    const uint64_t frames = std::max<uint64_t>(of.frames, 1);
     rows.push_back({.rays = rays,
                     .frames = frames,
+                    .launched = static_cast<double>(subjects[i].rays) / static_cast<double>(frames),
                     .series = series[i],
-                    .times = summarise(subjects[i].samples, frames),
-                    .paths = subjects[i].counts.paths,
-                    .sequences = subjects[i].counts.sequences});
+                    .times = summarise(subjects[i].samples, of.frames > 0 ? average : median),
+                    .paths = subjects[i].paths,
+                    .sequences = subjects[i].sequences});
+  }
   compare(rows);
   return rows;
 }

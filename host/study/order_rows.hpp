@@ -1,5 +1,5 @@
 // Orders of rays, measured: every series at one number of rays, timed in turns so that a slow spell of the machine hits
-// all. Times are medians of warm frames; the first frame of each series is dropped.
+// all. The first frame of each series is dropped.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -22,15 +22,16 @@ struct OrderTimes {
 };
 
 struct OrderRow {
-  uint64_t rays = 0;    // a transmitter
-  uint32_t frames = 1;  // that the times are an average of
+  uint64_t rays = 0;    // of each transmitter
+  uint64_t frames = 1;  // that the times are an average of
+  double launched = 0;  // rays of all transmitters, of a frame on average
   Series series;
   OrderTimes times;
   uint64_t paths = 0, sequences = 0;      // of all frames together
   double gain_unpaid = 1, gain_paid = 1;  // unpaid_s and paid_s of the unordered launch over those of this series
 };
 
-// From `rays` to `gain_paid`; of averages over frames also `frames` and the reductions of time, in percent, that the
+// From `rays` to `launched`; of averages over frames also `frames` and the reductions of time, in percent, that the
 // gains amount to.
 const Columns<OrderRow>& order_columns(bool averages);
 
@@ -40,16 +41,24 @@ double reduction_percent(double gain);
 // Throws ConfigError where frames of this config traced nothing, so that there is no time to compare.
 void require_segments(double segments, const Config& config);
 
-// Of the seconds of several frames, stage by stage the median; and their sums as above, divided by `frames`.
-OrderTimes summarise(const std::vector<StageSeconds>& samples, uint32_t frames);
+// Of the seconds of several frames, stage by stage the median or another summary; and their sums as above.
+OrderTimes summarise(const std::vector<StageSeconds>& samples, double (*summary)(std::vector<double>));
 
 // Sets the gains of rows of one number of rays against the first. Throws RuntimeError where two series of the same
 // directions differ in paths or sequences, which no order may change.
 void compare(std::span<OrderRow> rows);
 
-// `config` with each series applied to it, on the device; `frames` transmitters stand for as many frames.
+// What the times are of: `repeats` times the frame `still`, as medians; or, where `frames` is not 0, the frames 1 to
+// `frames`, once each, as means.
+struct OrderFrames {
+  uint64_t frames = 0;
+  uint32_t still = 0;
+  uint32_t repeats = 1;
+};
+
+// `config` with each series applied to it, on the device.
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
-                                     uint32_t frames, const std::string& device, uint32_t repeats);
+                                     const OrderFrames& of, const std::string& device);
 
 // Null where the series was not measured at that number of rays.
 const OrderRow* find_row(const std::vector<OrderRow>& rows, const Series& series, uint64_t rays);

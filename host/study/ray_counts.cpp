@@ -2,6 +2,7 @@
 // Numbers are read as std::from_chars reads them, so the locale does not matter.
 #include "study/ray_counts.hpp"
 #include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -38,15 +39,16 @@ RayRange parse_ray_range(const std::string& text) {
 std::vector<uint64_t> ray_counts(RayRange range) {
   std::vector<uint64_t> counts;
   for (uint64_t decade = fewest; decade <= most; decade *= 10)
-    for (const uint64_t count : {decade, 2 * decade, 5 * decade}) {
-      if (count == 50000 && range.first <= claimed_many && claimed_many <= range.last) counts.push_back(claimed_many);
-      if (range.first <= count && count <= range.last) counts.push_back(count);
-    }
+    for (const uint64_t count : {decade, 2 * decade, 5 * decade})
+      if (count <= most) counts.push_back(count);
+  counts.insert(counts.end(), {claimed_many, thesis_most});
+  std::ranges::sort(counts);
+  std::erase_if(counts, [&](uint64_t count) { return count < range.first || count > range.last; });
   if (counts.empty())
     throw ConfigError(
         fmt::format("--rays {}:{}: no ray count of the figure lies in it; those are 1, 2 and 5 times a power of ten, "
-                    "and {}",
-                    range.first, range.last, grouped(claimed_many)));
+                    "{} and {}",
+                    range.first, range.last, grouped(claimed_many), grouped(thesis_most)));
   return counts;
 }
 

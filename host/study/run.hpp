@@ -17,9 +17,10 @@ struct Request {
   std::string device;            // as Simulation takes it
   std::optional<RayRange> rays;  // not given: those of the figure
   uint32_t repeats = 5;
-  uint64_t frames = 0;       // of a drive; 0: what suits the device
-  bool quick = false;        // fewer rays and frames
-  std::string command_line;  // for the report
+  uint64_t frames = 0;                 // of a drive; 0: what suits the device
+  bool quick = false;                  // fewer rays and frames
+  std::optional<double> minutes = {};  // after which a figure of orders begins no more points; else: by device
+  std::string command_line;            // for the report
 };
 
 // What the program lends: a line of progress, whether the user wants to stop, and how far a task is.
@@ -52,7 +53,7 @@ Findings measure(const LagFigure& figure, const Experiment& experiment, const Re
 // What figures say of their rows.
 Words order_words(const Experiment& experiment, const std::vector<OrderRow>& rows, const std::string& device);
 Words frame_words(const Experiment& experiment, const std::vector<FramePair>& rows, const Drive& drive,
-                  const std::string& device);
+                  const std::string& world, const std::string& device);
 Words lag_words(const Experiment& experiment, const std::vector<LagRow>& rows, const std::string& device);
 // What a figure of caches shows of its study.
 Findings show(const Experiment& experiment, const CacheMeasurement& measured, const Request& request);

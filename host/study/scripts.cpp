@@ -120,7 +120,8 @@ std::string line_script(const LinePlot& plot) {
 std::string depth_script(const DepthPlot& plot) {
   const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
   std::string text =
-      script_head(plot.name, 1150, 80 + 340 * rows) + "set key off\n" + (plot.log_x ? "set logscale x\n" : "") +
+      script_head(plot.name, 1150, 80 + 340 * rows) + "set key off\n" +
+      (plot.log_x ? "set logscale x\n" : "set xrange [0:*]\n") +
       fmt::format(
           "set yrange [*<-0.05:1.05]\nset autoscale yfixmin\nset ytics 0.2\nset xlabel '{}'\n{}set multiplot "
           "layout {},{} title '{}' noenhanced margins screen 0.07,0.88,0.1,0.88 spacing screen 0.06,0.16\n",

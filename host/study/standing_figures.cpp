@@ -1,6 +1,7 @@
 // Figures 6.1 to 6.9: orders, and the chained and the open table, in a standing scene.
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
 #include "study/cache_claims.hpp"
+#include "study/cache_regions.hpp"
 #include "study/experiment.hpp"
 #include "study/order_claims.hpp"
 
@@ -29,7 +30,9 @@ const Names all_chained = with_printed(chained_tables), all_counted = with_print
             mutexes_and_chained = with_printed({"mutex uniform", "mutex Morton", "mutex mixed", "chained mixed"});
 const Names printed_readers = {"printed readers uniform", "printed readers Morton", "printed readers mixed"};
 
+constexpr const char* no_timer = "a kernel has no timer that could tell its steps apart";
 constexpr const char* operations_caption = "Time a segment of the cache's operations against the depth of the segment";
+constexpr const char* regions_caption = "Time a segment of the cache's operations in each region of the table";
 constexpr const char* times_caption = "Time of a frame against the number of rays";
 
 std::shared_ptr<const CacheStudy> shared(CacheStudy study) {
@@ -43,13 +46,14 @@ Setting counted(Setting setting) {
           }};
 }
 
-// One number of rays, depth by depth.
-CacheStudy operations_study(const std::string& name, std::vector<Setting> settings) {
+// One number of rays, depth by depth, or transmitter by transmitter.
+CacheStudy operations_study(const std::string& name, std::vector<Setting> settings, bool by_transmitter) {
   return {.name = name,
           .settings = std::move(settings),
           .rays = {operation_rays},
           .few_rays = {operation_rays},
-          .by_depth = true};
+          .by_depth = !by_transmitter,
+          .by_transmitter = by_transmitter};
 }
 
 // 1,000 doubled up to the thesis' 20,480,000 at most, which is the last.
@@ -62,6 +66,10 @@ CacheStudy rays_study(const std::string& name, std::vector<Setting> settings) {
 }
 
 bool writes_longer_than_reads(const CacheRow& row) { return write_ns(row) > read_ns(row); }
+bool writes_as_three_reads(const CacheRow& row) {
+  const double reads = write_ns(row) / read_ns(row);
+  return reads >= 2.5 && reads <= 3.5;
+}
 bool gathers_quickly(const CacheRow& row) { return gather_ns(row) < 0.1 * write_ns(row); }
 bool some_unused(const CacheRow& row) { return entries_used(row) < row.cache.entries; }
 bool some_never_answer(const CacheRow& row) {
@@ -78,6 +86,22 @@ Claims<CacheRow> trace_claims(const Names& settings) {
            of_each(settings, [](const CacheRow& row) { return trace_ns(row) > write_ns(row); })}};
 }
 
+// What figure 6.3 claims beside that.
+Claims<CacheRow> bucket_claims() {
+  Claims<CacheRow> claims = trace_claims(all_chained);
+  claims.push_back({"tracing takes longer for buckets than for other nodes", not_judged(no_timer)});
+  return claims;
+}
+
+// What figure 6.7 claims beside the same.
+Claims<CacheRow> region_claims() {
+  Claims<CacheRow> claims = trace_claims(all_mutexes);
+  claims.push_back({"regions that take longer to write and read are faster to trace",
+                    across_regions(all_mutexes, access_ns, trace_ns, true)});
+  claims.push_back({"busier regions are faster to trace", across_regions(all_mutexes, region_lookups, trace_ns, true)});
+  return claims;
+}
+
 OrderFigure all_orders() {
   Series direction_origin = ordered("direction-origin");
   direction_origin.each_depth = true;  // what it is for: rays that no longer share their origin
@@ -86,8 +110,10 @@ OrderFigure all_orders() {
   Claims<OrderRow> claims = h3dh_gains();
   claims.push_back({"H3DH and HZ are the fastest of the six orders, at {most} rays",
                     fastest_are({h3dh, hz}, {"morton", to_2d, to_3d})});
-  claims.push_back({"WS is the slowest, at {most} rays", none_slower_than_ws({"morton", h3dh, hz, to_2d, to_3d})});
-  claims.push_back({"Z is slightly slower than H3DH, at {most} rays", fastest_are({h3dh}, {"morton"})});
+  claims.push_back(
+      {"WS is the slowest, at every number of rays", none_slower_than_ws({"morton", h3dh, hz, to_2d, to_3d})});
+  claims.push_back({"Z is slightly slower than H3DH and HZ, by a quarter at most, at {most} rays",
+                    slightly_slower("morton", {h3dh, hz})});
   claims.push_back({"H3DH2DH is not slower than Z up to 50,000,000 rays", no_slower(to_2d, "morton", 0, 50000000)});
   claims.push_back({"H3DH2DH degrades sharply beyond 50,000,000 rays", degrades_beyond(to_2d, h3dh, 50000000)});
   claims.push_back({"H3DH3DH is not slower than H3DH2DH up to 16,000,000 rays", no_slower(to_3d, to_2d, 0, 16777216)});
@@ -95,16 +121,20 @@ OrderFigure all_orders() {
   return {.series = {unordered(), ordered("morton"), ordered(h3dh), ordered(hz), ordered(to_2d), ordered(to_3d),
                      direction_origin, born_ordered(), with_shape(unordered(), "2d"), with_shape(unordered(), "3d"),
                      with_shape(ordered(h3dh), "2d"), with_shape(ordered(h3dh), "3d")},
-          .frames = 1,
+          .moves = false,
           .claims = claims};
 }
 
-const auto chained_operations = shared(
-    operations_study("chained-operations", {no_cache(), chained(1), chained(2), chained(3), as_printed(chained(1)),
-                                            as_printed(chained(2)), as_printed(chained(3))}));
-const auto open_operations = shared(operations_study(
-    "open-operations", {no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), chained(3), as_printed(open_mutex(1)),
-                        as_printed(open_mutex(2)), as_printed(open_mutex(3)), as_printed(chained(3))}));
+const auto chained_operations =
+    shared(operations_study("chained-operations",
+                            {no_cache(), chained(1), chained(2), chained(3), as_printed(chained(1)),
+                             as_printed(chained(2)), as_printed(chained(3))},
+                            false));
+const auto open_operations = shared(
+    operations_study("open-operations",
+                     {no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), chained(3), as_printed(open_mutex(1)),
+                      as_printed(open_mutex(2)), as_printed(open_mutex(3)), as_printed(chained(3))},
+                     true));
 // Apart from the operations, whose times counting would change.
 const auto chained_hits = shared(
     {.name = "chained-hits",
@@ -147,7 +177,9 @@ const std::vector<Experiment> standing = {
                            .view = operations(all_chained),
                            .claims = {{"writes take longer than reads", of_each(all_chained, writes_longer_than_reads)},
                                       {"the rest takes next to nothing: gathering less than a tenth of a write",
-                                       of_each(all_chained, gathers_quickly)}}}},
+                                       of_each(all_chained, gathers_quickly)},
+                                      {"writes and reads take longer in buckets than in other nodes",
+                                       not_judged(no_timer)}}}},
     {.name = "figure-6.3",
      .doc = "chained cache: writes and reads against tracing",
      .title = "Operations of the chained table and tracing",
@@ -157,8 +189,7 @@ const std::vector<Experiment> standing = {
          "(section 6.3.1, figure 6.3; writes take 120 ms at most in figure 6.2). Measured on {device} at {rays} rays. "
          "A cache can only save time where a read is cheaper than tracing.",
      .figure =
-         CacheFigure{
-             .study = chained_operations, .view = operations(all_chained, true), .claims = trace_claims(all_chained)}},
+         CacheFigure{.study = chained_operations, .view = operations(all_chained, true), .claims = bucket_claims()}},
     {.name = "figure-6.4",
      .doc = "chained cache: hits per entry",
      .title = "Hits of the chained table's entries",
@@ -168,7 +199,9 @@ const std::vector<Experiment> standing = {
                   "rays, after a cold frame and a warm one.",
      .figure = CacheFigure{.study = chained_hits,
                            .view = hits_of_entries(all_counted),
-                           .claims = {{"some entries are left unused", of_all(all_counted, some_unused)},
+                           .claims = {{"hits are spread evenly over the entries, as chance would spread them",
+                                       of_each(all_counted, hits_are_even)},
+                                      {"some entries are left unused", of_all(all_counted, some_unused)},
                                       {"some entries never answer", of_all(all_counted, some_never_answer)}}}},
     {.name = "figure-6.5",
      .doc = "chained cache against none, 1,000 to 20,480,000 rays, by hash",
@@ -191,13 +224,21 @@ const std::vector<Experiment> standing = {
     {.name = "figure-6.6",
      .doc = "open cache: what a write and a read of a segment take, by hash",
      .title = "Operations of the open table",
-     .caption = operations_caption,
+     .caption = regions_caption,
      .paragraph = "The thesis finds most writes to the open table to take three times as long as most reads (60 ms "
                   "against 20 ms), and both to take less than in the chained table (section 6.3.1, figure 6.6). "
                   "Measured on {device} at {rays} rays.",
      .figure = CacheFigure{.study = open_operations,
-                           .view = operations(mutexes_and_chained),
+                           .view = regions(mutexes_and_chained),
                            .claims = {{"writes take longer than reads", of_each(all_mutexes, writes_longer_than_reads)},
+                                      {"writes take three times as long as reads",
+                                       of_each(all_mutexes, writes_as_three_reads)},
+                                      {"the rest takes next to nothing: gathering less than a tenth of a write",
+                                       of_each(all_mutexes, gathers_quickly)},
+                                      {"busier regions take longer to write",
+                                       across_regions(all_mutexes, region_lookups, write_ns, false)},
+                                      {"busier regions take longer to read",
+                                       across_regions(all_mutexes, region_lookups, read_ns, false)},
                                       {"writes take less than in the chained table, with the mixed hash",
                                        is_less(write_ns, "mutex mixed", "chained mixed")},
                                       {"reads take less than in the chained table, with the mixed hash",
@@ -205,12 +246,11 @@ const std::vector<Experiment> standing = {
     {.name = "figure-6.7",
      .doc = "open cache: writes and reads against tracing",
      .title = "Operations of the open table and tracing",
-     .caption = operations_caption,
+     .caption = regions_caption,
      .paragraph = "The thesis finds operations of the open table much faster than tracing, 1 to 2.5 s against some "
                   "0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
-     .figure = CacheFigure{.study = open_operations,
-                           .view = operations(mutexes_and_chained, true),
-                           .claims = trace_claims(all_mutexes)}},
+     .figure =
+         CacheFigure{.study = open_operations, .view = regions(mutexes_and_chained, true), .claims = region_claims()}},
     {.name = "figure-6.8",
      .doc = "open cache with two locks against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the open table",
@@ -220,9 +260,13 @@ const std::vector<Experiment> standing = {
                   "Measured on {device} with a warm table, one of them saves time {saves}.",
      .figure = CacheFigure{.study = open_rays,
                            .view = times_by_rays,
-                           .claims = {{"a gain beyond 50,000 rays", everywhere(above(50000), saves(readers))},
+                           .claims = {{"the time of no cache, within 10%, up to 50,000 rays",
+                                       everywhere(up_to(50000), all_take_the_time_of_none(readers, 10))},
+                                      {"a gain beyond 50,000 rays", everywhere(above(50000), saves(readers))},
                                       {"the mixed hash is the fastest beyond 50,000 rays",
                                        everywhere(above(50000), fastest_is("readers mixed", readers))},
+                                      {"Morton codes are the slowest of the three beyond 50,000 rays",
+                                       everywhere(above(50000), slowest_is("readers Morton", readers))},
                                       {"as printed: a gain beyond 50,000 rays",
                                        everywhere(above(50000), saves(printed_readers))}},
                            .settings = readers}},
@@ -237,6 +281,7 @@ const std::vector<Experiment> standing = {
      .figure = CacheFigure{.study = open_rays_ordered,
                            .view = times_by_rays,
                            .claims = {{"a gain beyond 16,000 rays", everywhere(above(16000), saves(mutexes))},
+                                      {"most seconds are saved at 2,048,000 rays", saves_most_at(mutexes, 2048000)},
                                       {"as printed: a gain beyond 16,000 rays",
                                        everywhere(above(16000), saves(printed_mutexes))}},
                            .settings = mutexes}},

@@ -1,5 +1,6 @@
 // How far a study of caches is, and whether it is to stop.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include "study/cache_study.hpp"
@@ -20,11 +21,18 @@ struct StudyWatch {
   }
 };
 
+// What a point is cut into beside the whole.
+struct PointCuts {
+  uint32_t depths;
+  size_t transmitters;
+};
+
 // Frames of all settings at a point.
-inline uint64_t frames_of_point(const CacheStudy& study, const Config& config, uint64_t frames, uint32_t repeats) {
+inline uint64_t frames_of_point(const CacheStudy& study, const PointCuts& cuts, uint64_t frames, uint32_t repeats) {
   const uint64_t groups = (study.settings.size() - 1 + study.at_once - 1) / study.at_once,
-                 settings = study.settings.size() - 1 + groups +
-                            (study.by_depth ? config.trace.max_depth * study.settings.size() : 0);
+                 settings =
+                     study.settings.size() - 1 + groups + (study.by_depth ? cuts.depths * study.settings.size() : 0) +
+                     (study.by_transmitter ? std::min(cuts.transmitters, most_regions) * study.settings.size() : 0);
   return settings * (frames <= 1 ? 1 + 2 * uint64_t{repeats} : frames);
 }
 

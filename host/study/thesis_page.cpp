@@ -18,11 +18,11 @@ std::vector<CacheRow> best_known(const std::vector<CacheRow>& rows) {
   for (const CacheRow& row : rows) most[key(row)] = std::max(most[key(row)], row.rays);
   std::vector<CacheRow> out;
   for (const CacheRow& row : rows)
-    if (row.depth == 0 && row.rays == most.at(key(row))) out.push_back(row);
+    if (is_whole(row) && row.rays == most.at(key(row))) out.push_back(row);
   return out;
 }
 
-bool shown(const CacheRow& row) { return row.depth == 0 && row.error.reference_paths > 0 && row.cache.on; }
+bool shown(const CacheRow& row) { return is_whole(row) && row.error.reference_paths > 0 && row.cache.on; }
 
 // Of each cache at its most rays.
 NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {

@@ -41,29 +41,20 @@ Scene wall() {
 
 }  // namespace
 
-TEST_CASE("the drive goes as the transmitter's velocity says, else at 50 km/h along +x") {
-  Config config;
-  config.transmitters.push_back({});
-  config.transmitters[0].position_m = {1, 2, 3};
-  CHECK(plan_drive(config).place_m(100).x == doctest::Approx(1 + 13.9));
-  CHECK(plan_drive(config).moved_m(1) == doctest::Approx(0.139));
-  config.transmitters[0].velocity_m_s = {0, -3, 4};
-  const Drive drive = plan_drive(config);
-  CHECK(drive.place_m(200).y == doctest::Approx(2 - 6));
-  CHECK(drive.place_m(200).z == doctest::Approx(3 + 8));
-  CHECK(drive.moved_m(200) == doctest::Approx(10));
-  CHECK(drive.time_s(drive.frames - 1) == doctest::Approx(2));
-}
-
 TEST_CASE("a drive through the scene is an error, one that ends before a wall or passes it is not") {
-  Drive drive{.start_m = {100, 0, 0}, .velocity_m_s = {10, 0, 0}};  // 20 m, the wall is 5 m away
-  CHECK_THROWS_WITH_AS(check_way(drive, wall(), "ego"),
+  const auto drive = [](uint32_t frames, double y_m) {  // 0.1 m a frame, the wall is 5 m away
+    Drive out{.name = "ego"};
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+      out.at_s.push_back(7 + 0.01 * frame);
+      out.place_m.push_back({100 + 0.1 * frame, y_m, 0.5});
+    }
+    return out;
+  };
+  CHECK_THROWS_WITH_AS(check_way(drive(201, 0), wall()),
                        doctest::Contains("transmitter \"ego\": its way of 20.0 m leads through the scene"),
                        ConfigError);
-  drive.frames = 41;  // 4 m
-  CHECK_NOTHROW(check_way(drive, wall(), "ego"));
-  drive = {.start_m = {100, 11, 0}, .velocity_m_s = {10, 0, 0}};
-  CHECK_NOTHROW(check_way(drive, wall(), "ego"));
+  CHECK_NOTHROW(check_way(drive(41, 0), wall()));  // 4 m
+  CHECK_NOTHROW(check_way(drive(201, 11), wall()));
 }
 
 TEST_CASE("coherence-frames: means of subsequent frames, the last frame with the first, the claim") {
@@ -72,17 +63,25 @@ TEST_CASE("coherence-frames: means of subsequent frames, the last frame with the
       frame_pair("previous", 1, 1, 0.9, 0.5, 0.8),  frame_pair("previous", 1, 2, 0.2, 0.1, 0.8),
       frame_pair("first", 2, 1, 0.61, 0.5, 0.4),    frame_pair("first", 2, 2, study::undefined, 0.1, 0.4),
       frame_pair("previous", 2, 1, 0.7, 0.3, 0.72), frame_pair("previous", 2, 2, 0.26, study::undefined, 0.8)};
-  const Drive drive{.start_m = {0, 0, 0}, .velocity_m_s = {10, 0, 0}};
+  const Drive drive{.at_s = {3, 3.01, 3.02}, .place_m = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}}};
   const std::string text =
-      squeezed(words_text(frame_words(find_experiment("coherence-frames"), rows, drive, "the device")));
+      squeezed(words_text(frame_words(find_experiment("coherence-frames"), rows, drive, "a made world", "the device")));
   CAPTURE(text);
-  CHECK(contains(text, "Measured on the device, 49,000 rays of a transmitter that drives 0.2 m"));
+  CHECK(contains(
+      text, "Measured on the device, 49,000 rays of a transmitter that drives 0.2 m through a made world in 3 frames"));
   CHECK(contains(text, "subsequent ones are 0.100 m apart"));
   CHECK(contains(text, "| depth 1 | depth 2 |\n"));
   CHECK(contains(text, "| subsequent frames, points paired by ray and bounce | 0.80 | 0.23 |"));
   CHECK(contains(text, "| last frame with the first, points paired by ray and bounce | 0.61 | undefined |"));
   CHECK(contains(text, "| subsequent frames, points paired by place | 0.40 | 0.10 |"));
-  CHECK(contains(text, "| at depth 1 if paired by ray and bounce, at depth 1 if paired by place |"));
+  // Means .8 and .23, from .7 to .9 and from .2 to .26; by place .4 and .1, from .3 to .5.
+  CHECK(contains(text, "on average: 20 to 30% | at depth 2 if paired by ray and bounce, at no depth if paired by"));
+  CHECK(contains(text, "falls below 5% | at no depth if paired by ray and bounce, at no depth if paired by place |"));
+  CHECK(contains(text, "no further | at no depth if paired by ray and bounce, at depth 1 if paired by place |"));
+  CHECK(correlate_on_average(0.3, 0.9)(rows) ==
+        "at depth 1 if paired by ray and bounce, at depth 1 if paired by place");
+  CHECK(correlation_falls_below(0.25)(rows) == "at depth 2 if paired by ray and bounce, at depth 2 if paired by place");
+  CHECK(correlation_rises_to(0.9)(rows) == "at depth 1 if paired by ray and bounce, at no depth if paired by place");
   CHECK(contains(text, "| subsequent frames: rays that hit in both of those that hit in one | 0.76 | 0.80 |"));
   CHECK(contains(text, "| subsequent frames: of these, on the same surface | 0.38 | 0.40 |"));
   CHECK(contains(text, "| subsequent frames: of these, after the same surfaces | 0.19 | 0.20 |"));

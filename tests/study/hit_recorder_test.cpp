@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include "study/worlds.hpp"
 #include "wavetracer/config_file.hpp"
 
 using namespace wavetracer;
@@ -23,6 +24,7 @@ TraceConfig launch() {
 Config city() {
   return parse_config(
       "scene.generate = \"--blocks 2\"\n[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 6]\n"
+      "velocity_m_s = [0.01, 0, 0]\n"
       "[[receiver]]\nname = \"b\"\nposition_m = [50, 0, 2]\n",
       "test");
 }
@@ -34,9 +36,9 @@ bool device_present() { return !gpu::list_devices().empty(); }
 TEST_CASE("points lie on their surfaces, at their distance from the hit before, in the mirrored direction") {
   if (!device_present()) return;
   const glm::dvec3 from{0, 0, 6};
-  TracedScene traced(city(), "", {from});
+  TracedWorld traced(city(), "");
   HitRecorder record(traced, launch());
-  const study::FrameHits hits = record(from);
+  const study::FrameHits hits = record(0, 0);
   REQUIRE(hits.size() == depths);
   uint64_t ended = 0, went_on = 0;
   for (uint32_t ray = 0; ray < ray_count; ++ray) {
@@ -69,10 +71,9 @@ TEST_CASE("points lie on their surfaces, at their distance from the hit before, 
 
 TEST_CASE("the same transmitter gives the same frame, one that moved a little nearly the same") {
   if (!device_present()) return;
-  const glm::dvec3 from{0, 0, 6}, to{0.001, 0, 6};
-  TracedScene traced(city(), "", {from, to});
+  TracedWorld traced(driven(city(), 2), "");  // 0.1 mm a frame
   HitRecorder record(traced, launch());
-  const study::FrameHits first = record(from), moved = record(to), again = record(from);
+  const study::FrameHits first = record(0, 0), moved = record(0, 2), again = record(0, 0);
   for (const study::DepthCoherence& at : study::compare_frames(first, again)) {
     CHECK(at.both == 1);
     CHECK(at.same_sequence == 1);
@@ -85,4 +86,36 @@ TEST_CASE("the same transmitter gives the same frame, one that moved a little ne
   }
   const std::vector<glm::dvec3> a = study::hit_points(first[0]), b = study::hit_points(again[0]);
   CHECK(a == b);
+}
+
+TEST_CASE("rays of an antenna on a vehicle pass that vehicle, and meet others where they are in the frame") {
+  if (!device_present()) return;
+  // Two vans on an open plain: the one ahead leaves, from 10 m away to 30 m.
+  const Config config = parse_config(
+      "scene.generate = \"--blocks 1\"\n[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1]\n"
+      "[[track]]\nid = \"a\"\ntype = \"passenger\"\nwaypoints = [[0, 0, -53, 0], [1, 0.001, -53, 0]]\n"
+      "[[track]]\nid = \"b\"\ntype = \"passenger\"\nwaypoints = [[0, 10, -53, 0], [1, 30, -53, 0]]\n"
+      "[time]\nstep_s = 0.5\n",
+      "test");
+  TracedWorld traced(config, "");
+  REQUIRE(traced.world.frame_count() == 3);
+  HitRecorder record(traced, launch());
+  const uint32_t static_surfaces = static_cast<uint32_t>(traced.scene.surfaces.size()),
+                 second = traced.world.instances().at(1).first_surface;
+  double nearest_before_m = 0;
+  for (const uint32_t frame : {0u, 1u, 2u}) {
+    CAPTURE(frame);
+    const glm::dvec3 at = traced.world.state(frame).transmitters[0].position_m;
+    double nearest_m = 1e9;
+    const study::FrameHits hits = record(0, frame);
+    for (const study::Hit& hit : hits[0])
+      if (is_hit(hit) && hit.surface >= static_surfaces) {
+        CHECK(hit.surface >= second);  // never the own vehicle
+        nearest_m = std::min(nearest_m, glm::distance(at, hit.point_m));
+      }
+    CHECK(nearest_m > 10.0 + 10.0 * frame - 4);  // half a car's length, and some
+    CHECK(nearest_m < 10.0 + 10.0 * frame);
+    CHECK(nearest_m > nearest_before_m + 5);
+    nearest_before_m = nearest_m;
+  }
 }

@@ -19,6 +19,14 @@ const std::string receiver = "[[receiver]]\nname = \"car\"\nposition_m = [30, -5
 const std::string traffic =
     "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -53, 0], [1, 20, -53, 0]]\n"
     "[[track]]\nid = \"b\"\nwaypoints = [[0, 30, -53, 0], [1, 40, -53, 0]]\n[time]\nstep_s = 0.5\n";
+const std::string parked =
+    "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -53, 0]]\n[[track]]\nid = \"b\"\nwaypoints = [[0, 30, -53, 0]]\n";
+const std::string later =
+    "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -53, 0], [1, 20, -53, 0]]\n"
+    "[[track]]\nid = \"b\"\nwaypoints = [[0.5, 30, -53, 0], [1, 40, -53, 0]]\n[time]\nstep_s = 0.5\n";
+const std::string grid = "[[receiver_grid]]\nname = \"g\"\nstep_m = 40\n";
+const std::string second_mast = "[[transmitter]]\nname = \"mast 2\"\nposition_m = [20, -50, 8]\n";
+const std::string live = "[[live_vehicle]]\ntype = \"passenger\"\n";
 const std::string mount = "[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n";
 
 struct Kind {
@@ -27,13 +35,22 @@ struct Kind {
   std::string of_experiments, of_series, of_drives, of_caches;
 };
 
-const std::string no_mast = "launches rays from the first [[transmitter]], and there is none";
 const std::string no_link = "no transmitter launches rays in the frames that are measured, because no link is wanted";
+const std::string one_frame = "there is one frame alone";
+const std::string needs_poses = "needs to know where vehicles are";
 const std::string late_cache = "cache.first_depth = 2 is larger than trace.max_depth = 1";
 
 const std::vector<Kind> kinds = {
     {"a mast and a receiver", mast + receiver, "", "", "", ""},
-    {"vehicles alone", traffic + mount, no_mast, "", no_mast, ""},
+    {"vehicles alone", traffic + mount, "", "", "", ""},
+    {"vehicles alone, in one frame", parked + mount, "", "", one_frame, ""},
+    {"vehicles alone, in later frames", later + mount, "", "", "", ""},
+    {"a mast and a grid", mast + grid, "", "", "", ""},
+    {"two masts", mast + second_mast + receiver, "", "", "", ""},
+    {"waves through walls", "trace.transmission = true\n" + mast + receiver, "", "", "", ""},
+    {"rough walls", "[[material]]\nname = \"concrete\"\nscattering = 0.4\n" + mast + receiver, "", "", "", ""},
+    {"no receiver", mast, "no [[receiver]]", "no [[receiver]]", "no [[receiver]]", "no [[receiver]]"},
+    {"vehicles of a client", mount + live, needs_poses, needs_poses, needs_poses, needs_poses},
     {"a mast and vehicles with antennas", mast + receiver + traffic + mount, "", "", "", ""},
     {"links one way, by name", "links.transmitters = [\"mast\"]\nlinks.i2i = false\n" + mast + traffic + mount, "", "",
      "", ""},
@@ -47,8 +64,8 @@ const std::vector<Kind> kinds = {
 
 const std::string& answer(const Kind& kind, const Experiment& experiment) {
   if (experiment.study()) return kind.of_caches;
-  if (!experiment.as<OrderFigure>()) return kind.of_experiments;
-  return experiment.needs_transmitter() ? kind.of_drives : kind.of_series;
+  if (experiment.as<OrderFigure>()) return experiment.moves() ? kind.of_drives : kind.of_series;
+  return experiment.moves() && kind.of_drives == one_frame ? kind.of_drives : kind.of_experiments;
 }
 
 std::string contents(const std::string& file) {
@@ -69,8 +86,9 @@ Outcome bench(const Experiment& experiment, const Folder& folder, const std::str
 // In which kinds a experiment draws its figure here: caches and experiments launch many rays, so in one each, and
 // figure-6.1 has a dozen series.
 bool drawn(const Kind& kind, const Experiment& experiment) {
-  if (experiment.name == "figure-6.1") return contains(kind.name, "vehicles");
-  if (experiment.as<OrderFigure>()) return true;
+  if (experiment.name == "figure-6.1") return kind.name == "vehicles alone, in later frames";
+  if (experiment.as<OrderFigure>() || experiment.name == "figure-6.13") return true;
+  if (experiment.name == "coherence-rays") return kind.name == "vehicles alone, in one frame";
   return experiment.name != "cache-division" && experiment.name != "coherence-frames" &&
          kind.name == "a mast and vehicles with antennas";
 }
@@ -99,7 +117,7 @@ TEST_CASE("every experiment with every kind of configuration: a figure, or a mes
       const std::string table = contents(folder.path("out/" + experiment.name + ".csv"));
       if (!refused.empty()) {
         CHECK(run.code == 2);
-        CHECK(contains(run.err, "a.toml: "));
+        CHECK(contains(run.err, "a.toml:"));
         CHECK(contains(run.err, refused));
         CHECK(table.empty());
         continue;
@@ -112,29 +130,54 @@ TEST_CASE("every experiment with every kind of configuration: a figure, or a mes
   }
 }
 
-TEST_CASE("figure-6.18 counts the frames of its transmitter alone: vehicles with antennas send nothing") {
+TEST_CASE("figures of orders count each ray once: of masts, of vehicles, of a mast that is driven") {
   if (!device_present()) return;
   const Folder folder;
-  const auto sequences = [&](const std::string& text) {
-    const std::string config = folder.file("a.toml", scene + mast + receiver + text);
-    const Outcome run = bench(find_experiment("figure-6.18"), folder, config);
+  // Rays of a frame, in the table.
+  const auto launched = [&](const std::string& figure, const std::string& text) {
+    const std::string config = folder.file("a.toml", scene + text);
+    const Outcome run = bench(find_experiment(figure), folder, config);
     CAPTURE(run.err);
     REQUIRE(run.code == 0);
-    std::istringstream lines(contents(folder.path("out/figure-6.18.csv")));
-    std::string cells, first;
-    std::getline(lines, cells);
+    std::istringstream lines(contents(folder.path("out/" + figure + ".csv")));
+    std::string heads, first, head, cell;
+    std::getline(lines, heads);
     std::getline(lines, first);
-    std::istringstream in(first);
-    std::string cell;
-    for (int i = 0; i < 12; ++i) std::getline(in, cell, ',');
-    return cell;
+    std::istringstream names(heads), cells(first);
+    while (std::getline(names, head, ',') && std::getline(cells, cell, ','))
+      if (head == "launched") return cell;
+    return std::string("no such column");
   };
-  // Vehicles without a body: what rays meet is the same, whoever is there to receive.
-  const std::string bodiless = "[[vehicle_type]]\nname = \"passenger\"\nmodel = \"none\"\n";
-  CHECK(sequences(bodiless + traffic + mount) == sequences(""));
+  CHECK(launched("figure-6.1", mast + receiver) == "1000");
+  CHECK(launched("figure-6.1", mast + second_mast + receiver) == "2000");
+  CHECK(launched("figure-6.1", mast + receiver + traffic + mount) == "3000");
+  CHECK(launched("figure-6.18", mast + receiver + traffic + mount) == "3000");
+  CHECK(launched("figure-6.18", traffic + mount) == "2000");
+  CHECK(launched("figure-6.18", mast + second_mast + receiver) == "1000");
 }
 
-TEST_CASE("thesis: a configuration of vehicles alone has a page, which names the figures that need a mast") {
+TEST_CASE("a figure of orders ends when its minutes are up, and says which numbers of rays it left out") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string config = folder.file("a.toml", scene + mast + receiver);
+  const Outcome run = run_program(
+      {"bench", "figure-6.18", "-c", config, "-o", folder.path("out"), "--minutes", "0.001", "--frames", "2"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  // The first number of rays is measured in any case; the largest of the thesis never is in 60 ms.
+  const std::string table = contents(folder.path("out/figure-6.18.csv"));
+  CHECK(contains(table, "\n1000,"));
+  CHECK_FALSE(contains(table, "\n90000000,"));
+  const std::string page = squeezed(contents(folder.path("out/figure-6.18.md")));
+  CHECK(contains(page, "to 90,000,000 rays, as the next number of rays would end later than 0.001 minutes after"));
+  CHECK_FALSE(contains(page, "interrupted"));
+  const Outcome all = run_program({"bench", "figure-6.18", "-c", config, "-o", folder.path("out"), "--rays",
+                                   "1000:5000", "--frames", "2", "--repeat", "1"});
+  CHECK(all.code == 0);
+  CHECK_FALSE(contains(contents(folder.path("out/figure-6.18.md")), "left out"));
+}
+
+TEST_CASE("thesis: a configuration of vehicles alone has all figures that are measured at so few rays") {
   if (!device_present()) return;
   const Folder folder;
   const std::string config = folder.file("a.toml", scene + traffic + mount);
@@ -149,9 +192,8 @@ TEST_CASE("thesis: a configuration of vehicles alone has a page, which names the
   const std::string page = contents(folder.path("out/thesis.html"));
   for (const Experiment* experiment : thesis_experiments())
     CHECK(contains(page, "<section id=\"" + experiment->name + "\">"));
-  CHECK(contains(page, "failed: " + config + ": figure-6.13 launches rays from the first [[transmitter]]"));
-  CHECK(contains(page, "failed: " + config + ": figure-6.18 launches rays from the first [[transmitter]]"));
-  CHECK(contains(outcome.out, "16 of 22 figures are whole"));
+  CHECK_FALSE(contains(page, "failed: " + config));
+  CHECK(contains(outcome.out, "18 of 22 figures are whole"));
 }
 
 TEST_CASE("innerframe: frames that are each alone, and a page that says how many groups were traced") {

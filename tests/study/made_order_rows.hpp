@@ -18,7 +18,8 @@ inline std::vector<wavetracer::study::OrderRow> made_rows(const wavetracer::stud
     for (const Series& series : figure.series) {
       const auto [unpaid, order] = cost(series, rays);
       point.push_back({.rays = rays,
-                       .frames = figure.frames,
+                       .frames = figure.moves ? 20u : 1u,
+                       .launched = static_cast<double>(rays),
                        .series = series,
                        .times = {.trace_s = 0.9 * unpaid, .order_s = order, .unpaid_s = unpaid, .frame_s = 2 * unpaid},
                        .paths = 30,

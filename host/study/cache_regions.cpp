@@ -1,0 +1,99 @@
+// Rows of one region each, to a plot, a table and verdicts.
+// Assumes rows as add_regions() of cache_study.cpp leaves them.
+#include "study/cache_regions.hpp"
+#include <fmt/format.h>
+#include <cmath>
+#include "study/ray_counts.hpp"
+#include "study/statistics.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+constexpr double clear_correlation = 0.5;
+constexpr const char* regions_note =
+    "the thesis draws its times over the entries of the table, by clocks inside the kernel, which are no timers; here "
+    "a "
+    "region is measured by the rays of its transmitter alone, in the same table, and region 0 is the rays of all. The "
+    "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
+    "table costs besides is the gathering of missed rays";
+
+// Of a setting at the first number of rays.
+std::vector<const CacheRow*> regions_of(const CacheRows& rows, const std::string& setting) {
+  std::vector<const CacheRow*> out;
+  for (const CacheRow& row : rows)
+    if (row.setting == setting && row.region > 0 && row.rays == rows.front().rays && row.drive == rows.front().drive)
+      out.push_back(&row);
+  return out;
+}
+
+std::string cell(double value) { return fmt::format("{:.6g}", value); }
+
+void add_row(CacheShown& shown, const CacheRow& row, bool with_trace) {
+  shown.table += fmt::format("{},{},{},{},{},{},{},{},{}\n", row.drive, row.setting, row.region,
+                             cell(row.counts.lookups), cell(hit_rate(row)), cell(write_ns(row)), cell(read_ns(row)),
+                             cell(gather_ns(row)), cell(trace_ns(row)));
+  shown.numbers.rows.push_back({row.setting, row.region == 0 ? "all" : row.transmitter,
+                                grouped(static_cast<uint64_t>(row.counts.lookups)), share_words(hit_rate(row)),
+                                plain(write_ns(row)), plain(read_ns(row)), plain(gather_ns(row))});
+  if (with_trace) shown.numbers.rows.back().push_back(plain(trace_ns(row)));
+}
+
+}  // namespace
+
+double region_lookups(const CacheRow& row) { return row.counts.lookups; }
+double access_ns(const CacheRow& row) { return write_ns(row) + read_ns(row); }
+
+CacheView regions(std::vector<std::string> settings, bool with_trace) {
+  return [=](const CacheMeasurement& measured) {
+    const CacheRows& rows = measured.rows;
+    CacheShown out{
+        .plot = {.columns = {"drive", "setting", "region", "lookups", "hit_rate", "write_ns", "read_ns", "gather_ns",
+                             "trace_ns"},
+                 .settings = settings,
+                 .x = "region",
+                 .x_label = "region of the table, one for each transmitter (0: all)",
+                 .points = true,
+                 .panels_a_row = with_trace ? 2u : 3u,
+                 .panels = panels_of(rows, {{"write (cache_store)", "write_ns", "ns a segment", "", with_trace},
+                                            {"read (cache_lookup)", "read_ns", "ns a segment", "", with_trace},
+                                            {"gather missed rays", "gather_ns", "ns a segment", "", with_trace}})},
+        .table = "drive,setting,region,lookups,hit_rate,write_ns,read_ns,gather_ns,trace_ns\n",
+        .numbers = {.caption = fmt::format("Nanoseconds a segment, at {} rays:", grouped(rows.front().rays)),
+                    .heads = {"setting", "transmitter", "look-ups", "answered", "write", "read", "gather"},
+                    .rows = {}},
+        .notes = {regions_note}};
+    if (with_trace) {
+      out.numbers.heads.emplace_back("trace");
+      const auto traced = panels_of(rows, {{"trace", "trace_ns", "ns a segment", "", true}});
+      out.plot.panels.insert(out.plot.panels.end(), traced.begin(), traced.end());
+    }
+    for (const std::string& setting : settings) {
+      const CacheRow* whole = find_cached(rows, setting, rows.front().rays, rows.front().drive);
+      if (whole) add_row(out, *whole, with_trace);
+      for (const CacheRow* row : regions_of(rows, setting)) add_row(out, *row, with_trace);
+    }
+    return out;
+  };
+}
+
+Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite) {
+  return [=](const CacheRows& rows) -> std::string {
+    std::vector<std::string> yes, no;
+    for (const std::string& setting : settings) {
+      std::vector<double> a, b;
+      for (const CacheRow* row : regions_of(rows, setting)) {
+        a.push_back(value(*row));
+        b.push_back(with(*row));
+      }
+      const double found = a.size() < 3 ? undefined : pearson(a, b);
+      if (std::isnan(found)) continue;
+      const bool holds = opposite ? found <= -clear_correlation : found >= clear_correlation;
+      (holds ? yes : no).push_back(fmt::format("\"{}\" ({:.2f})", setting, found));
+    }
+    if (yes.empty() && no.empty()) return "not measured";
+    if (yes.empty()) return "not confirmed for " + list_words(no);
+    return "confirmed for " + list_words(yes) + (no.empty() ? "" : ", not for " + list_words(no));
+  };
+}
+
+}  // namespace wavetracer::study

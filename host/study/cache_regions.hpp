@@ -1,0 +1,21 @@
+// The regions of a cache's table, one for each transmitter: the patchwork of figures 6.6 and 6.7 of the thesis.
+#pragma once
+#include <string>
+#include <vector>
+#include "study/cache_claims.hpp"
+#include "study/cache_views.hpp"
+
+namespace wavetracer::study {
+
+// Nanoseconds a segment to write, to read, to gather (and to trace) of these settings, region by region.
+CacheView regions(std::vector<std::string> settings, bool with_trace = false);
+
+double region_lookups(const CacheRow& row);  // how busy it is
+double access_ns(const CacheRow& row);       // a write and a read
+
+// Of each of these settings: "confirmed for "A" (0.91), not for "B" (-0.20)", where a value of the regions correlates
+// with another one by at least a half, or, where they are said to be opposite, by minus a half at most; "not measured"
+// where there are fewer than three regions.
+Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite);
+
+}  // namespace wavetracer::study

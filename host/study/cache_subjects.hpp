@@ -1,0 +1,40 @@
+// Settings of a study while they are measured: a Simulation each, all alive at once, their frames interleaved so that a
+// slow spell of the machine hits all.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+#include "study/cache_rows.hpp"
+#include "study/cache_settings.hpp"
+#include "study/study_watch.hpp"
+
+namespace wavetracer::study {
+
+// What a setting's frames add up to.
+struct CacheSubject {
+  explicit CacheSubject(Simulation s) : simulation(std::move(s)) {}
+
+  Simulation simulation;
+  std::vector<CacheTimes> cold, warm;
+  std::vector<double> frame_s;
+  RunningMean loop_s, segments, lookups, hits, groups, shared, paths, sequences;
+  PathErrorMean error;
+  RunningMean centroid_m;
+  std::vector<CentroidError> centroids;
+  FrameResult first, last;
+};
+
+// Segments of a frame, and of one depth of it.
+CacheCounts counts_of(const FrameResult& frame);
+CacheCounts counts_of(const FrameResult& frame, uint32_t depth);
+
+// Of a config with this number of rays. Throws ConfigError where a setting contradicts it.
+std::vector<CacheSubject> make_subjects(const std::vector<Setting>& settings, const Config& config, uint64_t rays,
+                                        const std::string& device);
+
+// A standing world `repeats` times, cold and warm; else `frames` frames after the cold one. With empty tables all are
+// cold, and count as warm ones do. False: stopped.
+bool run_frames(std::vector<CacheSubject>& subjects, uint64_t frames, bool empty_tables, const Request& request,
+                StudyWatch& watch);
+
+}  // namespace wavetracer::study

@@ -1,0 +1,71 @@
+// Regions of a cache's table: their claims and their table, on made rows.
+// Correlations are those of lists whose coefficient is known.
+#include "study/cache_regions.hpp"
+#include <doctest/doctest.h>
+#include <algorithm>
+#include "study/cache_verdicts.hpp"
+#include "study/squeezed.hpp"
+#include "study/text.hpp"
+
+using namespace wavetracer::study;
+using namespace cache_verdicts;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Rows of figure 6.6 with regions, whose look-ups and nanoseconds a read are given, in one setting.
+CacheMeasurement with_regions(const std::string& setting, const std::vector<double>& lookups,
+                              const std::vector<double>& read) {
+  CacheMeasurement out = made_measurement(*find_experiment("figure-6.6").study(), {50000}, same);
+  const CacheRow whole = *find_cached(out.rows, setting, 50000);
+  for (size_t i = 0; i < lookups.size(); ++i) {
+    CacheRow row = whole;
+    row.region = static_cast<uint32_t>(i + 1);
+    row.transmitter = "mast " + std::to_string(i + 1);
+    row.counts.lookups = lookups[i];
+    row.warm.lookup_s = 1e-9 * read[i] * lookups[i];
+    out.rows.push_back(row);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("regions whose values go along, against each other, and not at all") {
+  const auto judge = [](const std::vector<double>& read, bool opposite) {
+    return across_regions({"mutex mixed"}, region_lookups, read_ns,
+                          opposite)(with_regions("mutex mixed", {100, 200, 300, 400}, read).rows);
+  };
+  CHECK(judge({1, 2, 3, 4}, false) == "confirmed for \"mutex mixed\" (1.00)");
+  CHECK(judge({1, 2, 3, 4}, true) == "not confirmed for \"mutex mixed\" (1.00)");
+  CHECK(judge({4, 3, 2, 1}, true) == "confirmed for \"mutex mixed\" (-1.00)");
+  CHECK(judge({4, 3, 2, 1}, false) == "not confirmed for \"mutex mixed\" (-1.00)");
+  CHECK(judge({1, 2, 2, 1}, false) == "not confirmed for \"mutex mixed\" (0.00)");
+  const auto two = with_regions("mutex mixed", {100, 200}, {1, 2}).rows;
+  CHECK(across_regions({"mutex mixed"}, region_lookups, read_ns, false)(two) == "not measured");
+  CHECK(across_regions({"no such setting"}, region_lookups, read_ns, false)(two) == "not measured");
+}
+
+TEST_CASE("a figure's regions are in its table, and no row of the whole frame is taken for one") {
+  CacheMeasurement made = with_regions("mutex mixed", {100, 200, 300}, {10, 20, 40});
+  const CacheShown shown = regions({"mutex mixed"})(made);
+  CHECK(contains(shown.table, "drive,setting,region,lookups,"));
+  CHECK(contains(shown.table, "\nstill,mutex mixed,0,100,"));
+  CHECK(contains(shown.table, "\nstill,mutex mixed,3,300,"));
+  CHECK(std::ranges::count(shown.table, '\n') == 1 + 4);
+  const std::string numbers = squeezed(markdown(shown.numbers));
+  CHECK(contains(numbers, "| mutex mixed | all | 100 |"));
+  CHECK(contains(numbers, "| mutex mixed | mast 3 | 300 | 25% | 0 | 40.0 |"));
+  // Whole rows are found also where regions come first.
+  std::ranges::rotate(made.rows, made.rows.end() - 3);
+  CHECK(find_cached(made.rows, "mutex mixed", 50000)->region == 0);
+}
+
+TEST_CASE("figures 6.6 and 6.7 launch from several masts of the built-in city, and from those of a file") {
+  for (const char* name : {"figure-6.6", "figure-6.7"}) {
+    CHECK(find_experiment(name).study()->by_transmitter);
+    CHECK(experiment_config(find_experiment(name), "", {}).transmitters.size() == 4);
+  }
+  CHECK(experiment_config(find_experiment("figure-6.2"), "", {}).transmitters.size() == 1);
+}
