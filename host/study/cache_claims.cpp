@@ -89,16 +89,14 @@ AtPoint slowest_is(const std::string& setting, std::vector<std::string> settings
 
 AtPoint largest_are(CacheValue value, std::vector<std::string> largest, std::vector<std::string> others) {
   return [=](const CacheRows& rows, const CachePoint& at) {
-    if (std::ranges::any_of(largest, [&](const std::string& a) { return !find_cached(rows, a, at.rays, at.drive); }))
-      return false;
     const auto value_of_one = [&](const std::string& setting) {
       const CacheRow* row = find_cached(rows, setting, at.rays, at.drive);
       return row ? value(*row) : undefined;
     };
     return std::ranges::all_of(largest, [&](const std::string& a) {
-      return std::ranges::all_of(others, [&](const std::string& b) {
-        return std::ranges::find(largest, b) != largest.end() || value_of_one(a) >= value_of_one(b);
-      });
+      return value_of_one(a) > 0 && std::ranges::all_of(others, [&](const std::string& b) {
+               return std::ranges::find(largest, b) != largest.end() || value_of_one(a) >= value_of_one(b);
+             });
     });
   };
 }

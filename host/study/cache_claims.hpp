@@ -35,7 +35,8 @@ AtPoint all_take_the_time_of_none(std::vector<std::string> settings, double perc
 // `setting` takes the least time, or the most, of all `settings` that were measured.
 AtPoint fastest_is(const std::string& setting, std::vector<std::string> settings);
 AtPoint slowest_is(const std::string& setting, std::vector<std::string> settings);
-// None of `others`, but those of `largest` themselves, has a larger value than the least of `largest`.
+// None of `others`, but those of `largest` themselves, has a larger value than the least of `largest`,
+// which is not 0.
 AtPoint largest_are(CacheValue value, std::vector<std::string> largest, std::vector<std::string> others);
 // The value of one setting, times `factor`, below that of another; both must be measured.
 AtPoint less(CacheValue value, const std::string& setting, const std::string& than, double factor = 1);

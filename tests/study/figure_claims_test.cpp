@@ -127,6 +127,7 @@ TEST_CASE("figure-6.15: ranks of hash functions by error") {
         in_both(always));
   CHECK(verdict_of("figure-6.15", worst, {1000}, errors(by_precision + "uniform", 5, by_position + "mixed", 4)) ==
         in_both(never));
+  CHECK(verdict_of("figure-6.15", worst, {1000}, same) == in_both(never));  // nothing is off
   CHECK(verdict_of("figure-6.15", better, {1000}, errors(by_precision + "Morton", 5, by_position + "Morton", 4)) ==
         in_both(always));
   CHECK(verdict_of("figure-6.15", better, {1000}, errors(by_precision + "Morton", 4, by_position + "Morton", 5)) ==
