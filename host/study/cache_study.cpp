@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include "output/median.hpp"
+#include "simulation/name_pattern.hpp"
 #include "study/cache_subjects.hpp"
 #include "study/ray_counts.hpp"
 #include "study/run.hpp"
@@ -134,6 +135,16 @@ bool add_regions(const Point& at, const std::vector<std::string>& transmitters, 
   return true;
 }
 
+// Names of the ends that [links] wants as transmitters.
+std::vector<std::string> wanted_transmitters(const Config& config) {
+  std::vector<std::string> out;
+  for (const RadioEnd& end : config.transmitters)
+    if (std::ranges::any_of(config.links.transmitters,
+                            [&](const std::string& pattern) { return matches(pattern, end.name); }))
+      out.push_back(end.name);
+  return out;
+}
+
 std::string point_line(const CacheStudy& study, const std::vector<CacheRow>& point) {
   std::string text = fmt::format("{}: {} rays, {}:", study.name, grouped(point.front().rays), point.front().drive);
   for (const CacheRow& row : point)
@@ -180,8 +191,7 @@ CacheMeasurement measure_study(const CacheStudy& study, const Request& request, 
   out.planned = counts.size() * drives.size();
   host.say(fmt::format("{}: {} settings at {} to {} rays on {}", study.name, study.settings.size(),
                        grouped(counts.front()), grouped(counts.back()), out.device.name));
-  std::vector<std::string> transmitters;
-  for (const RadioEnd& end : probe.config().transmitters) transmitters.push_back(end.name);
+  const std::vector<std::string> transmitters = wanted_transmitters(probe.config());
   StudyWatch watch{host, study.name};
   for (const uint64_t rays : counts)
     watch.all +=
