@@ -89,16 +89,14 @@ AtPoint slowest_is(const std::string& setting, std::vector<std::string> settings
 
 AtPoint largest_are(CacheValue value, std::vector<std::string> largest, std::vector<std::string> others) {
   return [=](const CacheRows& rows, const CachePoint& at) {
-    if (std::ranges::any_of(largest, [&](const std::string& a) { return !find_cached(rows, a, at.rays, at.drive); }))
-      return false;
     const auto value_of_one = [&](const std::string& setting) {
       const CacheRow* row = find_cached(rows, setting, at.rays, at.drive);
       return row ? value(*row) : undefined;
     };
     return std::ranges::all_of(largest, [&](const std::string& a) {
-      return std::ranges::all_of(others, [&](const std::string& b) {
-        return std::ranges::find(largest, b) != largest.end() || value_of_one(a) >= value_of_one(b);
-      });
+      return value_of_one(a) > 0 && std::ranges::all_of(others, [&](const std::string& b) {
+               return std::ranges::find(largest, b) != largest.end() || value_of_one(a) >= value_of_one(b);
+             });
     });
   };
 }
@@ -221,17 +219,21 @@ Judge<CacheRow> saves_most_at(std::vector<std::string> settings, uint64_t rays) 
   };
 }
 
-bool hits_are_even(const CacheRow& row) {
-  const std::vector<uint64_t>& entries = row.cache.entries_by_hits;
-  double all = 0, hits = 0;
-  for (size_t i = 0; i < entries.size(); ++i) {
-    const auto [from, to] = hits_of_class(i);
-    all += static_cast<double>(entries[i]);
-    hits += static_cast<double>(entries[i]) * 0.5 * static_cast<double>(from + to);
-  }
-  if (all == 0) return false;
-  const double by_chance = std::exp(-hits / all), found = static_cast<double>(entries.front()) / all;
-  return std::abs(found - by_chance) <= 0.2 * by_chance;
+Judge<CacheRow> gains_earlier(const std::string& setting, const std::string& than) {
+  return [=](const CacheRows& rows) -> std::string {
+    const std::string& drive = rows.front().drive;
+    const std::vector<uint64_t> all = rays_of(rows);
+    if (!find_cached(rows, setting, all.front(), drive) || !find_cached(rows, than, all.front(), drive))
+      return "not measured";
+    const auto from = [&](const std::string& one) {
+      return std::ranges::find_if(all, [&](uint64_t rays) { return saves({one})(rows, {drive, rays}); });
+    };
+    const auto words = [&](const auto& at) {
+      return at == all.end() ? "nowhere" : "from " + grouped(*at) + " rays on";
+    };
+    return fmt::format("{}, {}; the other {}", verdict(from(setting) < from(than)), words(from(setting)),
+                       words(from(than)));
+  };
 }
 
 Judge<CacheRow> not_judged(const std::string& why) {

@@ -35,7 +35,8 @@ AtPoint all_take_the_time_of_none(std::vector<std::string> settings, double perc
 // `setting` takes the least time, or the most, of all `settings` that were measured.
 AtPoint fastest_is(const std::string& setting, std::vector<std::string> settings);
 AtPoint slowest_is(const std::string& setting, std::vector<std::string> settings);
-// None of `others`, but those of `largest` themselves, has a larger value than the least of `largest`.
+// None of `others`, but those of `largest` themselves, has a larger value than the least of `largest`,
+// which is not 0.
 AtPoint largest_are(CacheValue value, std::vector<std::string> largest, std::vector<std::string> others);
 // The value of one setting, times `factor`, below that of another; both must be measured.
 AtPoint less(CacheValue value, const std::string& setting, const std::string& than, double factor = 1);
@@ -72,9 +73,9 @@ Judge<CacheRow> at_first(CacheValue value, const std::string& setting, double lo
 Judge<CacheRow> saving_grows(const std::string& setting);
 // In the first world: the fastest of `settings` saves most seconds at this number of rays. "not measured" without it.
 Judge<CacheRow> saves_most_at(std::vector<std::string> settings, uint64_t rays);
-// The share of entries that never answered is what chance leaves, within a fifth of it, if every entry is as likely to
-// be asked: exp(-m), m the mean of the hits of an entry. Needs cache.statistics.
-bool hits_are_even(const CacheRow& row);
+// In the first world: the fewest rays at which a setting saves time are fewer than those of another one. "confirmed,
+// from 64,000 rays on; the other nowhere".
+Judge<CacheRow> gains_earlier(const std::string& setting, const std::string& than);
 // For a claim about times inside of a kernel, which has no timer.
 Judge<CacheRow> not_judged(const std::string& why);
 // One setting's value below that of another at the first number of rays: "confirmed", "not confirmed".

@@ -78,6 +78,10 @@ uint64_t entries_used(const CacheRow& row);
 // "0", "1", "2", "3-4", "5-8", ...: the fewest and most hits of a class of CacheSummary::entries_by_hits.
 std::pair<uint64_t, uint64_t> hits_of_class(size_t index);
 
+// The share of entries that never answered is what chance leaves, within a fifth of it, if every entry is as likely to
+// be asked: exp(-m), m the mean of the hits of an entry. Needs cache.statistics.
+bool hits_are_even(const CacheRow& row);
+
 // Sets saved_percent of rows of one point, whose first is the reference.
 void set_savings(std::vector<CacheRow>& point);
 

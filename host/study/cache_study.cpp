@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include "output/median.hpp"
+#include "simulation/name_pattern.hpp"
 #include "study/cache_subjects.hpp"
 #include "study/ray_counts.hpp"
 #include "study/run.hpp"
@@ -110,21 +111,38 @@ bool add_depths(const Point& at, std::vector<CacheRow>& rows) {
   return true;
 }
 
-// Adds a row per transmitter: its rays alone, in its region of the same table. False: stopped.
+// Adds a row per transmitter: its rays alone, in its region of the same table. All regions take turns, so that a slow
+// spell of the machine makes none of them differ. Errors are left out: frames have no reference among other regions.
+// False: stopped.
 bool add_regions(const Point& at, const std::vector<std::string>& transmitters, std::vector<CacheRow>& rows) {
-  for (uint32_t region = 1; region <= std::min<size_t>(transmitters.size(), most_regions); ++region) {
-    Config one = at.config;
-    one.links.transmitters = {transmitters[region - 1]};
-    const std::vector<CacheSubject> subjects = at.measured(at.study.settings, one);
-    if (subjects.empty()) return false;
-    if (subjects.front().segments.mean() == 0) continue;  // no link of it is wanted
-    for (size_t i = 0; i < subjects.size(); ++i) {
-      rows.push_back(row_of(at.study, at.study.settings[i], subjects[i], at.drive, at.rays));
-      rows.back().region = region;
-      rows.back().transmitter = transmitters[region - 1];
-    }
+  std::vector<Setting> settings;
+  const size_t count = std::min(transmitters.size(), most_regions);
+  for (size_t region = 0; region < count; ++region)
+    for (const Setting& setting : at.study.settings)
+      settings.push_back({setting.name, [apply = setting.apply, name = transmitters[region]](Config& config) {
+                            apply(config);
+                            config.links.transmitters = {name};
+                          }});
+  const std::vector<CacheSubject> subjects = at.measured(settings, at.config);
+  if (subjects.empty()) return false;
+  for (size_t i = 0; i < subjects.size(); ++i) {
+    if (subjects[i].segments.mean() == 0) continue;  // no link of it is wanted
+    rows.push_back(row_of(at.study, settings[i], subjects[i], at.drive, at.rays));
+    rows.back().region = static_cast<uint32_t>(i / at.study.settings.size() + 1);
+    rows.back().transmitter = transmitters[i / at.study.settings.size()];
+    rows.back().error = {};
   }
   return true;
+}
+
+// Names of the ends that [links] wants as transmitters.
+std::vector<std::string> wanted_transmitters(const Config& config) {
+  std::vector<std::string> out;
+  for (const RadioEnd& end : config.transmitters)
+    if (std::ranges::any_of(config.links.transmitters,
+                            [&](const std::string& pattern) { return matches(pattern, end.name); }))
+      out.push_back(end.name);
+  return out;
 }
 
 std::string point_line(const CacheStudy& study, const std::vector<CacheRow>& point) {
@@ -173,8 +191,7 @@ CacheMeasurement measure_study(const CacheStudy& study, const Request& request, 
   out.planned = counts.size() * drives.size();
   host.say(fmt::format("{}: {} settings at {} to {} rays on {}", study.name, study.settings.size(),
                        grouped(counts.front()), grouped(counts.back()), out.device.name));
-  std::vector<std::string> transmitters;
-  for (const RadioEnd& end : probe.config().transmitters) transmitters.push_back(end.name);
+  const std::vector<std::string> transmitters = wanted_transmitters(probe.config());
   StudyWatch watch{host, study.name};
   for (const uint64_t rays : counts)
     watch.all +=

@@ -53,6 +53,27 @@ TEST_CASE("figure-6.8: the time of no cache up to 50,000 rays, Morton codes the 
   CHECK(verdict_of("figure-6.8", slowest, {1000, 64000}, growing("readers mixed", 0.5, 1.1)) == "not confirmed");
 }
 
+TEST_CASE("figure-6.8: a gain from fewer rays on than with the chained table") {
+  const std::string words = "a gain from fewer rays on than with the chained table, with the mixed hash";
+  const auto gaining = [](uint64_t open_from, uint64_t chained_from) {
+    return [=](const std::string& setting, uint64_t rays) {
+      const bool gains =
+          (setting == "readers mixed" && rays >= open_from) || (setting == "chained mixed" && rays >= chained_from);
+      return std::pair{gains ? 0.9 : 1.0, 0.0};
+    };
+  };
+  const std::vector<uint64_t> rays = {1000, 16000, 64000};
+  CHECK(verdict_of("figure-6.8", words, rays, gaining(16000, 64000)) ==
+        "confirmed, from 16,000 rays on; the other from 64,000 rays on");
+  CHECK(verdict_of("figure-6.8", words, rays, gaining(16000, 99999)) ==
+        "confirmed, from 16,000 rays on; the other nowhere");
+  CHECK(verdict_of("figure-6.8", words, rays, gaining(64000, 64000)) ==
+        "not confirmed, from 64,000 rays on; the other from 64,000 rays on");
+  CHECK(verdict_of("figure-6.8", words, rays, gaining(99999, 99999)) == "not confirmed, nowhere; the other nowhere");
+  CHECK(gains_earlier("readers mixed", "absent")(
+            made_measurement(*find_experiment("figure-6.8").study(), rays, same).rows) == "not measured");
+}
+
 TEST_CASE("figure-6.9: most seconds are saved at 2,048,000 rays") {
   const char* words = "most seconds are saved at 2,048,000 rays";
   const auto saving = [](double at_bound_s, double beyond_s) {
@@ -127,6 +148,7 @@ TEST_CASE("figure-6.15: ranks of hash functions by error") {
         in_both(always));
   CHECK(verdict_of("figure-6.15", worst, {1000}, errors(by_precision + "uniform", 5, by_position + "mixed", 4)) ==
         in_both(never));
+  CHECK(verdict_of("figure-6.15", worst, {1000}, same) == in_both(never));  // nothing is off
   CHECK(verdict_of("figure-6.15", better, {1000}, errors(by_precision + "Morton", 5, by_position + "Morton", 4)) ==
         in_both(always));
   CHECK(verdict_of("figure-6.15", better, {1000}, errors(by_precision + "Morton", 4, by_position + "Morton", 5)) ==

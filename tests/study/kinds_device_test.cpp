@@ -156,6 +156,23 @@ TEST_CASE("figures of orders count each ray once: of masts, of vehicles, of a ma
   CHECK(launched("figure-6.18", mast + second_mast + receiver) == "1000");
 }
 
+TEST_CASE("figure-6.6 has a region for each transmitter that [links] wants, and none for others") {
+  if (!device_present()) return;
+  const Folder folder;
+  const auto regions = [&](const std::string& text) {
+    const std::string config = folder.file("a.toml", scene + text);
+    const Outcome run = bench(find_experiment("figure-6.6"), folder, config);
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    std::istringstream lines(contents(folder.path("out/figure-6.6.csv")));
+    size_t count = 0;
+    for (std::string line; std::getline(lines, line);) count += contains(line, ",mutex uniform,");
+    return count - 1;  // without that of all transmitters
+  };
+  CHECK(regions(mast + second_mast + receiver) == 2);
+  CHECK(regions("links.transmitters = [\"mast\"]\n" + mast + receiver + traffic + mount) == 1);
+}
+
 TEST_CASE("a figure of orders ends when its minutes are up, and says which numbers of rays it left out") {
   if (!device_present()) return;
   const Folder folder;
