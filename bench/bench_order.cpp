@@ -161,6 +161,7 @@ void print_place(const Place& place, uint64_t rays, const std::vector<Subject>& 
     result.unit = "ms";
     result.better = Better::lower;
     result.error = static_cast<double>(same_rays ? missed + added : missed);
+    result.exact = same_rays;
     const double unpaid = median(s.unpaid), trace = median(s.trace), order = median(s.order);
     result.detail = fmt::format("order and sort {:.3g} ms, trace {:.3g} ms; {} paths", order, trace, s.paths.size());
     if (!same_rays) result.detail += fmt::format(", {} that the random launch misses", added);

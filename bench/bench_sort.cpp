@@ -202,6 +202,7 @@ class Bench {
     result.value = n / m.seconds.wall * 1e-9;
     result.unit = "Gkeys/s";
     result.error = static_cast<double>(m.wrong);
+    result.exact = true;
     result.detail = fmt::format("{:.4g} us, {:.4g} us in kernels", m.seconds.wall * 1e6, m.seconds.device * 1e6);
     result.extra = {{"n", m.shape.n},           {"key_bits", m.shape.key_bits},  {"sorted_bits", m.shape.bits},
                     {"wall_s", m.seconds.wall}, {"kernels_s", m.seconds.device}, {"copy_gb_s", copy_ * 1e-9}};

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "wavetracer/error.hpp"
+
 namespace wavetracer::bench {
 
 enum class Better { higher, lower };
@@ -23,6 +25,7 @@ struct Result {
   std::optional<double> baseline_value;  // in the same unit
   double error = 0;                      // what the speed costs, in the words of the benchmark's documentation; 0 where
                                          // exact, NaN where it was not measured
+  bool exact = false;                    // error counts what is wrong, and a result with any is none
   std::string detail;                    // a short remark for the table; may be empty
   nlohmann::ordered_json extra = nlohmann::ordered_json::object();  // fields of this benchmark alone
 };
@@ -35,7 +38,11 @@ inline std::string command_line(int argc, const char* const* argv) {
 }
 
 // ratio says how many times better the value is than the baseline's, whichever way the unit points.
+// Throws RuntimeError instead, so that the benchmark fails, for a result that must be exact and is not.
 inline void print(const Result& result, const std::string& command) {
+  if (result.exact && result.error != 0)
+    throw RuntimeError(result.name + ": " + std::to_string(static_cast<uint64_t>(result.error)) +
+                       " elements are wrong, so its speed is not published");
   nlohmann::ordered_json line;
   line["bench"] = result.bench;
   line["case"] = result.name;

@@ -30,6 +30,17 @@ def read_results(folder):
     return sorted(results, key=lambda result: result["date"])
 
 
+# Benchmarks whose error counts what is wrong: their numbers are worth nothing where it is not 0.
+EXACT = ("hard", "kernels", "leaks", "order", "scaling", "sort", "trace")
+
+
+def refuse_wrong(results):
+    for result in results:
+        if result["bench"] in EXACT and result["error"]:
+            raise SystemExit(f"bench/results: {result['bench']}, {result['case']}, on {result['device']}: "
+                             f"{result['error']:.0f} wrong; mend the cause and measure again")
+
+
 def number(value):
     """Four significant digits, without exponents where they fit."""
     if value is None:
@@ -64,6 +75,7 @@ def main():
     lines += headlines.first_page(groups, folder)
     lines += ["", "## All results", "", "A line opens its table."]
     for (bench, device), cases in sorted(groups.items()):
+        refuse_wrong(cases.values())
         lines += ["", f"<details><summary>{bench} on {device}: {len(cases)} cases</summary>", ""] + table(cases.values())
         commands = {}
         for result in cases.values():

@@ -161,6 +161,20 @@ TEST_CASE("direction-origin: directions lead, origins decide among equal ones") 
   CHECK((keys[0] >> 12) != (keys[6] >> 12));
 }
 
+TEST_CASE("direction-origin: launch indices and rays have the same cells of directions, finer ones at launch") {
+  for (const Directions map : std::to_array<Directions>({"hilbert", "fibonacci", "random"})) {
+    CAPTURE(map);
+    const LaunchDirections directions(map, 5000, 3);
+    OrderKeys order_keys(context(), OrderKey::direction_origin, 16, directions, 10);
+    gpu::Buffer<uint32_t> buffer = context().buffer<uint32_t>(5000 + 16, "keys");
+    order_keys(uint64_t{0}, 5000, buffer);
+    const std::vector<uint32_t> of_launch = buffer.read(0, 5000),
+                                of_rays = keys_of(order_keys, launched(directions, 5000));
+    REQUIRE(order_keys.launch_bits() == 16);
+    for (size_t i = 0; i < of_rays.size(); ++i) REQUIRE((of_launch[i] >> 4) == (of_rays[i] >> 12));
+  }
+}
+
 TEST_CASE("direction-origin at launch: cells of directions, neighbours in key are neighbours on the sphere") {
   const LaunchDirections directions("random", 4000, 3);
   const std::vector<Ray> rays = download(launched(directions, 4000));
