@@ -83,12 +83,20 @@ Outcome bench(const Experiment& experiment, const Folder& folder, const std::str
   return run_program(words);
 }
 
+// The first of the experiments that share its study; the test of `thesis` below draws them all.
+bool stands_for_its_study(const Experiment& experiment) {
+  for (const Experiment& other : wavetracer::study::experiments())
+    if (other.study() == experiment.study()) return other.name == experiment.name;
+  return false;
+}
+
 // In which kinds a experiment draws its figure here: caches and experiments launch many rays, so in one each, and
 // figure-6.1 has a dozen series.
 bool drawn(const Kind& kind, const Experiment& experiment) {
   if (experiment.name == "figure-6.1") return kind.name == "vehicles alone, in later frames";
   if (experiment.as<OrderFigure>() || experiment.name == "figure-6.13") return true;
   if (experiment.name == "coherence-rays") return kind.name == "vehicles alone, in one frame";
+  if (experiment.study() && !stands_for_its_study(experiment)) return false;
   return experiment.name != "cache-division" && experiment.name != "coherence-frames" &&
          kind.name == "a mast and vehicles with antennas";
 }
