@@ -25,9 +25,9 @@ struct Result {
   std::optional<double> baseline_value;  // in the same unit
   double error = 0;                      // what the speed costs, in the words of the benchmark's documentation; 0 where
                                          // exact, NaN where it was not measured
-  bool exact = false;                    // error counts what is wrong, and a result with any is none
   std::string detail;                    // a short remark for the table; may be empty
   nlohmann::ordered_json extra = nlohmann::ordered_json::object();  // fields of this benchmark alone
+  bool exact = false;  // error counts what is wrong, and a result with any is none
 };
 
 // The command as a user would repeat it: the program without its folder, and its arguments.

@@ -33,9 +33,14 @@ function(wavetracer_linked_folders out)
 endfunction()
 
 # wavetracer_unity(TARGET): its sources are compiled several at a time, which takes a third of the time. So names in
-# anonymous namespaces differ within a folder.
+# anonymous namespaces differ within a folder. Which sources meet changes when a file is added: so the build for the
+# sanitizers compiles a folder of host/ as one.
 function(wavetracer_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${WAVETRACER_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  set(batch 8)
+  if(WAVETRACER_SANITIZE AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/host/")
+    set(batch 0)
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${WAVETRACER_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
   # A type of an anonymous namespace is seen by an include of the generated file, which GCC takes for a header.
   target_compile_options(${target} PRIVATE "$<$<BOOL:${WAVETRACER_UNITY}>:-Wno-subobject-linkage>")
 endfunction()

@@ -27,15 +27,9 @@ struct ConvertOptions {
   ImportOptions import;
 };
 
-std::vector<std::string> format_names() {
-  std::vector<std::string> names;
-  for (const Exporter& exporter : exporters()) names.push_back(exporter.name);
-  return names;
-}
-
 std::string formats_in_words() {
   std::string words;
-  for (const std::string& name : format_names()) words += (words.empty() ? "" : ", ") + name;
+  for (const std::string& name : exporter_names()) words += (words.empty() ? "" : ", ") + name;
   return words;
 }
 
@@ -49,7 +43,7 @@ const Exporter& named_exporter(const std::string& name) {
   for (const Exporter& exporter : exporters())
     if (name == exporter.name) return exporter;
   throw ConfigError(fmt::format("--to {}: there is no such format{}; formats are {}", name,
-                                spelling_hint(name, format_names()), formats_in_words()));
+                                spelling_hint(name, exporter_names()), formats_in_words()));
 }
 
 const Exporter& chosen_exporter(const ConvertOptions& options) {

@@ -16,12 +16,6 @@ std::vector<std::string> experiment_names() {
   return out;
 }
 
-std::vector<std::string> format_names() {
-  std::vector<std::string> out;
-  for (const Exporter& exporter : exporters()) out.emplace_back(exporter.name);
-  return out;
-}
-
 std::vector<std::string> material_names() {
   std::vector<std::string> out;
   for (const Material& material : itu_materials())
@@ -43,7 +37,7 @@ std::vector<std::string> help_topics(const CLI::App& program) {
 std::vector<std::string> known_values(const CLI::App& program, const std::string& path, const CLI::Option& option) {
   const std::string name = option.get_lnames().empty() ? option.get_name(true) : option.get_lnames().front();
   if (path == "bench" && name == "experiment") return experiment_names();
-  if (path == "convert" && name == "to") return format_names();
+  if (path == "convert" && name == "to") return exporter_names();
   if (path == "plot" && name == "what") return {plots::plot_names.begin(), plots::plot_names.end()};
   if (path == "help" && name == "topic") return help_topics(program);
   if (name.ends_with("-material") || (path == "scene city" && name == "ground")) return material_names();

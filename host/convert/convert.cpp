@@ -18,4 +18,10 @@ std::span<const Exporter> exporters() {
   return list;
 }
 
+std::vector<std::string> exporter_names() {
+  std::vector<std::string> names;
+  for (const Exporter& exporter : exporters()) names.push_back(exporter.name);
+  return names;
+}
+
 }  // namespace wavetracer

@@ -33,6 +33,7 @@ struct Exporter {
 };
 
 std::span<const Exporter> exporters();
+std::vector<std::string> exporter_names();
 
 using Written = std::vector<std::filesystem::path>;
 using Warnings = std::vector<std::string>;

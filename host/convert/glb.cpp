@@ -46,8 +46,8 @@ class GlbWriter {
   }
 
   void add_scene();
-  void add_vehicles(const std::vector<Track>& tracks);
-  void add_ends(const std::vector<Track>& transmitters, const std::vector<Track>& receivers);
+  void add_vehicles(const std::vector<NodeTrack>& tracks);
+  void add_ends(const std::vector<NodeTrack>& transmitters, const std::vector<NodeTrack>& receivers);
   void add_paths(const SavedFrame& frame, Warnings& warnings);
   // times_s: of the frames that all tracks have keys of.
   void set_times(std::vector<float> times_s) { times_s_ = std::move(times_s); }
@@ -65,8 +65,8 @@ class GlbWriter {
   size_t line_material();
   json primitive(const Scene& scene, const std::vector<uint32_t>& triangles, const glm::dvec3& offset_m);
   json primitives(const Scene& scene, std::vector<uint32_t> triangles, const glm::dvec3& offset_m);
-  void add_moving(size_t parent, const std::string& name, const Track& track, std::optional<size_t> mesh);
-  void animate(size_t node, const Track& track);
+  void add_moving(size_t parent, const std::string& name, const NodeTrack& track, std::optional<size_t> mesh);
+  void animate(size_t node, const NodeTrack& track);
   void channel(size_t node, const char* path, size_t times, size_t values, const char* interpolation);
   size_t marker(const char* name, GlbFile::Colour colour);
 
@@ -167,7 +167,7 @@ void GlbWriter::channel(size_t target, const char* path, size_t times, size_t va
 }
 
 // Positions and rotations where they change; what is absent has the size 0.
-void GlbWriter::animate(size_t target, const Track& track) {
+void GlbWriter::animate(size_t target, const NodeTrack& track) {
   if (!all_times_) all_times_ = file_.add_times(times_s_);
   std::vector<float> times_s;
   std::vector<glm::vec3> positions, scales;
@@ -195,7 +195,7 @@ void GlbWriter::animate(size_t target, const Track& track) {
   if (gaps) channel(target, "scale", *all_times_, file_.add_translations(scales), "STEP");
 }
 
-void GlbWriter::add_moving(size_t parent, const std::string& name, const Track& track, std::optional<size_t> mesh) {
+void GlbWriter::add_moving(size_t parent, const std::string& name, const NodeTrack& track, std::optional<size_t> mesh) {
   if (!track.ever_present()) return;
   const auto& key = *std::ranges::find_if(track.keys, [](const auto& k) { return k.has_value(); });
   const glm::dvec3 p = key->position_m - world_.scene.origin_m;
@@ -207,7 +207,7 @@ void GlbWriter::add_moving(size_t parent, const std::string& name, const Track& 
   if (track.keys.size() > 1) animate(index, track);
 }
 
-void GlbWriter::add_vehicles(const std::vector<Track>& tracks) {
+void GlbWriter::add_vehicles(const std::vector<NodeTrack>& tracks) {
   if (tracks.empty()) return;
   const size_t parent = child(root_, {{"name", "vehicles"}});
   std::vector<std::optional<size_t>> mesh_of(world_.models.size());
@@ -241,7 +241,7 @@ size_t GlbWriter::marker(const char* name, GlbFile::Colour colour) {
   return file_.add("meshes", {{"name", name}, {"primitives", {primitive}}});
 }
 
-void GlbWriter::add_ends(const std::vector<Track>& transmitters, const std::vector<Track>& receivers) {
+void GlbWriter::add_ends(const std::vector<NodeTrack>& transmitters, const std::vector<NodeTrack>& receivers) {
   const auto add = [this](const char* kind, GlbFile::Colour colour, const auto& ends, const auto& tracks) {
     if (tracks.empty()) return;
     const size_t parent = child(root_, {{"name", kind}}), mesh = marker(kind, colour);
@@ -292,7 +292,7 @@ Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& 
   const SavedWorld world = load_saved_world(run);
   warnings.insert(warnings.end(), world.warnings.begin(), world.warnings.end());
   const SavedFrame first = run.frame(options.first_row);
-  const Tracks tracks(run, options, first);
+  const NodeTracks tracks(run, options, first);
   GlbWriter writer(run, world);
   writer.set_times(tracks.times_s);
   writer.add_scene();

@@ -6,7 +6,7 @@
 
 namespace wavetracer {
 
-Tracks::Tracks(const SavedRun& run, const ExportOptions& options, const SavedFrame& first)
+NodeTracks::NodeTracks(const SavedRun& run, const ExportOptions& options, const SavedFrame& first)
     : vehicles(run.instances().size()), transmitters(run.transmitters().size()), receivers(run.receivers().size()) {
   add(first, 0);
   for (size_t row = options.first_row + 1; row <= options.last_row; ++row) {
@@ -16,14 +16,14 @@ Tracks::Tracks(const SavedRun& run, const ExportOptions& options, const SavedFra
   }
 }
 
-void Tracks::add(const SavedFrame& frame, float time_s) {
+void NodeTracks::add(const SavedFrame& frame, float time_s) {
   times_s.push_back(time_s);
   for (auto* tracks : {&vehicles, &transmitters, &receivers})
-    for (Track& track : *tracks) track.keys.emplace_back();
+    for (NodeTrack& track : *tracks) track.keys.emplace_back();
   for (const SavedPose& pose : frame.poses)
     if (is_finite(pose))
       vehicles[pose.instance].keys.back() = {pose.position_m, glm::normalize(glm::quat_cast(pose.rotation))};
-  const auto add_ends = [](std::vector<Track>& ends, const std::vector<glm::dvec3>& positions_m) {
+  const auto add_ends = [](std::vector<NodeTrack>& ends, const std::vector<glm::dvec3>& positions_m) {
     for (size_t i = 0; i < ends.size(); ++i)
       if (is_finite(positions_m[i])) ends[i].keys.back() = {.position_m = positions_m[i]};
   };

@@ -10,7 +10,7 @@
 namespace wavetracer {
 
 // Where a node is, frame by frame; nothing while it is absent.
-struct Track {
+struct NodeTrack {
   struct Key {
     glm::dvec3 position_m{0};
     glm::dquat rotation{1, 0, 0, 0};
@@ -25,12 +25,12 @@ struct Track {
   }
 };
 
-struct Tracks {
+struct NodeTracks {
   std::vector<float> times_s;  // since the first frame
-  std::vector<Track> vehicles, transmitters, receivers;
+  std::vector<NodeTrack> vehicles, transmitters, receivers;
 
   // Reads the rows after the first one, a frame at a time. first: the frame of options.first_row.
-  Tracks(const SavedRun& run, const ExportOptions& options, const SavedFrame& first);
+  NodeTracks(const SavedRun& run, const ExportOptions& options, const SavedFrame& first);
 
  private:
   void add(const SavedFrame& frame, float time_s);

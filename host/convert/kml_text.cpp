@@ -6,7 +6,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr char32_t replacement = 0xFFFD;
+constexpr char32_t replacement_of_xml = 0xFFFD;
 
 bool is_xml(char32_t c) { return c >= 0x20 ? c != 0xFFFE && c != 0xFFFF : c == '\t' || c == '\n' || c == '\r'; }
 
@@ -48,7 +48,7 @@ std::string xml_text(std::string_view utf8) {
         out += "&apos;";
         break;
       default:
-        append_utf8(out, is_xml(c) ? c : replacement);
+        append_utf8(out, is_xml(c) ? c : replacement_of_xml);
     }
   }
   return out;

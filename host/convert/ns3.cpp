@@ -27,7 +27,7 @@ void check_files(size_t nodes) {
                     nodes, files, most_files));
 }
 
-double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+double in_degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
 // One line of comma-separated values, each read back as the same double.
 template <typename Value>
@@ -42,7 +42,7 @@ std::string line(const Rows& rows, Value value) {
 std::string step_text(const Paths& paths, const Rows& rows, bool reversed) {
   if (rows.empty()) return "0\n";
   const auto angle = [&](const std::vector<double>& radians) {
-    return line(rows, [&](uint32_t row) { return degrees(radians[row]); });
+    return line(rows, [&](uint32_t row) { return in_degrees(radians[row]); });
   };
   const std::string departure = angle(paths.aod_theta_rad) + angle(paths.aod_phi_rad),
                     arrival = angle(paths.aoa_theta_rad) + angle(paths.aoa_phi_rad);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> output_names{"paths.h5", "waypoints.h5", "links.csv", "summary.json",
                                                        "view.html"};
-constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_name = "run.json",
+constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_file = "run.json",
                            merged_name = "merged.json";
 
 // Files of the folder for which `which` holds of their names.
@@ -40,7 +40,7 @@ bool is_output(const std::string& name) { return std::ranges::find(output_names,
 
 bool is_temporary(const std::string& name) {
   if (!name.ends_with(".tmp")) return false;
-  return name.starts_with(manifest_prefix) || name.starts_with(shard_prefix) || name.starts_with(record_name) ||
+  return name.starts_with(manifest_prefix) || name.starts_with(shard_prefix) || name.starts_with(record_file) ||
          name.starts_with(merged_name) ||
          std::ranges::any_of(output_names, [&](std::string_view output) { return name.starts_with(output); });
 }
@@ -76,7 +76,7 @@ void remove_shards(const fs::path& directory, std::span<const PendingFile> excep
                [](const std::string& name) { return name.starts_with(manifest_prefix) || name == merged_name; });
   sync_folder(folder);  // no manifest may list the files that go now
   remove_files(folder, [except](const std::string& name) {
-    return (name.starts_with(shard_prefix) || name == record_name) &&
+    return (name.starts_with(shard_prefix) || name == record_file) &&
            std::ranges::none_of(except, [&](const PendingFile& file) { return file.temporary().filename() == name; });
   });
   fs::remove(folder, ignored);  // not if there is something else in it

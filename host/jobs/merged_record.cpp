@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t most_record_bytes = uint64_t{1} << 30;  // it has the seconds of every frame
+constexpr uint64_t most_merged_bytes = uint64_t{1} << 30;  // it has the seconds of every frame
 
 bool has_length(const fs::path& file, uint64_t bytes) {
   std::error_code error;
@@ -33,7 +33,7 @@ std::optional<Shard> read_merged_record(const fs::path& directory) {
   std::error_code none;
   if (!fs::exists(record, none)) return std::nullopt;
   const std::vector<Shard> lines =
-      decode_manifest(read_text(record, most_record_bytes, "check its permissions, or remove it and run again"),
+      decode_manifest(read_text(record, most_merged_bytes, "check its permissions, or remove it and run again"),
                       record.string(), ManifestOf::outputs);
   const auto is_there = [&](const ShardFile& file) { return has_length(directory / file.name, file.bytes); };
   if (lines.size() != 1 || !std::ranges::all_of(lines[0].files, is_there)) return std::nullopt;

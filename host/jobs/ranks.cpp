@@ -15,7 +15,7 @@ namespace {
 constexpr uint32_t most_ranks = 1u << 20;
 constexpr uint32_t last_slurm_step = 0xFFFFFFEFu;  // beyond are the batch script, interactive and external steps
 
-std::optional<uint32_t> number(std::string_view text) {
+std::optional<uint32_t> count_in(std::string_view text) {
   uint32_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -29,7 +29,7 @@ std::string text_of(const Environment& variable, const char* name) {
 
 // Nothing where it is not set or no number.
 std::optional<uint32_t> number_of(const Environment& variable, const char* name) {
-  return number(text_of(variable, name));
+  return count_in(text_of(variable, name));
 }
 
 // The first of these variables that is set.
@@ -83,9 +83,9 @@ uint32_t tasks_of_node(const std::string& list, uint32_t node) {
     const std::string item = list.substr(at, list.find(',', at) - at);
     at += item.size() + 1;
     const size_t times = item.find("(x");
-    const auto tasks = number(item.substr(0, times));
+    const auto tasks = count_in(item.substr(0, times));
     const auto nodes = times == std::string::npos ? std::optional<uint32_t>(1)
-                       : item.ends_with(')')      ? number(item.substr(times + 2, item.size() - times - 3))
+                       : item.ends_with(')')      ? count_in(item.substr(times + 2, item.size() - times - 3))
                                                   : std::nullopt;
     if (!tasks || !nodes) return 0;
     first += *nodes;
@@ -125,8 +125,8 @@ Ranks ranks_of_this_process() {
 
 ShardChoice parse_shard(const std::string& text) {
   const size_t slash = text.find('/');
-  const auto index = number(std::string_view(text).substr(0, slash));
-  const auto count = slash == std::string::npos ? std::nullopt : number(std::string_view(text).substr(slash + 1));
+  const auto index = count_in(std::string_view(text).substr(0, slash));
+  const auto count = slash == std::string::npos ? std::nullopt : count_in(std::string_view(text).substr(slash + 1));
   if (!index || !count || *count == 0 || *count > most_ranks)
     throw ConfigError(
         fmt::format("--shard {}: give K/N, that is part K (from 0 to N - 1) of N parts, with N up to {}; parts are "

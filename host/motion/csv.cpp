@@ -17,7 +17,7 @@ namespace wavetracer {
 namespace {
 
 enum Column : size_t { time_column, id_column, x_column, y_column, z_column, yaw_column, speed_column, type_column };
-constexpr std::array<std::string_view, 8> names = {"time", "id", "x", "y", "z", "yaw", "speed", "type"};
+constexpr std::array<std::string_view, 8> column_names = {"time", "id", "x", "y", "z", "yaw", "speed", "type"};
 constexpr size_t needed = 4;  // of the names
 constexpr size_t absent = ~size_t{0};
 constexpr std::string_view columns_advice =
@@ -116,19 +116,19 @@ class CsvReader {
   void read_header(std::string_view content) {
     std::string unused;
     for (size_t i = 0; i < cells_.size(); ++i) {
-      const auto name = std::find(names.begin(), names.end(), lower_case(cells_[i]));
-      if (name == names.end()) {
+      const auto name = std::find(column_names.begin(), column_names.end(), lower_case(cells_[i]));
+      if (name == column_names.end()) {
         unused += fmt::format("{}'{}'", unused.empty() ? "" : ", ", cells_[i]);
         continue;
       }
-      size_t& column = column_[static_cast<size_t>(name - names.begin())];
+      size_t& column = column_[static_cast<size_t>(name - column_names.begin())];
       if (column != absent) fail(fmt::format("the header has the column '{}' twice", *name));
       column = i;
     }
     for (size_t i = 0; i < needed; ++i) {
       if (column_[i] != absent) continue;
       const bool semicolons = content.find(';') != content.npos;
-      fail(fmt::format("the header has no column '{}'; {}{}", names[i], columns_advice,
+      fail(fmt::format("the header has no column '{}'; {}{}", column_names[i], columns_advice,
                        semicolons ? "; they are separated by commas, not by semicolons" : ""));
     }
     if (!unused.empty()) {
@@ -143,8 +143,8 @@ class CsvReader {
   double number(Column column) const {
     const std::optional<double> value = finite_number(cell(column));
     if (!value) {
-      fail(
-          fmt::format("column {} ({}): '{}' is not a finite number", column_[column] + 1, names[column], cell(column)));
+      fail(fmt::format("column {} ({}): '{}' is not a finite number", column_[column] + 1, column_names[column],
+                       cell(column)));
     }
     return *value;
   }
@@ -170,8 +170,8 @@ class CsvReader {
 
   Lines lines_;
   TrackBuilder tracks_;
-  std::array<size_t, names.size()> column_;  // place of each of the names in a row
-  size_t width_ = 0;                         // cells of a row
+  std::array<size_t, column_names.size()> column_;  // place of each of the names in a row
+  size_t width_ = 0;                                // cells of a row
   std::vector<std::string> cells_;
 };
 

@@ -9,7 +9,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Directivity of a thin half-wave dipole: 4 / Cin(2 pi) (Balanis, Antenna Theory, 4th edition, eq. 4-91).
 constexpr double half_wave_directivity = 1.6409223769845852;

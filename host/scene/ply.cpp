@@ -22,9 +22,9 @@ namespace {
 using ply::Element, ply::Format, ply::Header, ply::Property, ply::Type;
 
 // The values after the header, in file order.
-class Body {
+class PlyBody {
  public:
-  Body(std::string_view bytes, Format format, const std::string& file)
+  PlyBody(std::string_view bytes, Format format, const std::string& file)
       : next_(bytes.data()), end_(bytes.data() + bytes.size()), format_(format), file_(file) {}
 
   // Starts an element; refuses counts that the rest of the file cannot hold.
@@ -123,7 +123,7 @@ class Body {
   uint64_t index_ = 0;
 };
 
-void read_vertices(Body& body, const Element& element, const std::string& file, std::vector<glm::dvec3>& vertices) {
+void read_vertices(PlyBody& body, const Element& element, const std::string& file, std::vector<glm::dvec3>& vertices) {
   std::vector<int> axis(element.properties.size(), -1);  // property -> coordinate
   int found = 0;
   for (size_t i = 0; i < axis.size(); ++i) {
@@ -158,7 +158,7 @@ struct Faces {
 };
 
 // Corners are checked later: an element 'face' may come before 'vertex'.
-Faces read_faces(Body& body, const Element& element, const std::string& file) {
+Faces read_faces(PlyBody& body, const Element& element, const std::string& file) {
   size_t list = element.properties.size();
   for (size_t i = 0; i < element.properties.size(); ++i) {
     const Property& p = element.properties[i];
@@ -196,7 +196,7 @@ PlyMesh read_ply(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string content = read_file(path);
   const Header header = ply::parse_header(content, file);
-  Body body(std::string_view(content).substr(header.size), header.format, file);
+  PlyBody body(std::string_view(content).substr(header.size), header.format, file);
   PlyMesh mesh;
   std::optional<Faces> faces;
   bool has_vertices = false;

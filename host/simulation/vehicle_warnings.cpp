@@ -17,17 +17,17 @@ constexpr uint64_t most_places = 20000;  // in all: below 0.2 s
 constexpr double step_m = 1;             // vehicles may stand so much above the ground,
 constexpr double sunk_m = 0.5;           // or below it: kerbs, ramps and rounding of maps are less
 
-enum Kind { through, below, above, beside, kinds };
-constexpr std::array<const char*, kinds> words = {"drive through closed bodies", "are below the ground",
-                                                  "are above the ground", "drive off the ground"};
+enum VehicleFault { through, sunk, floating, beside, vehicle_faults };
+constexpr std::array<const char*, vehicle_faults> fault_words = {"drive through closed bodies", "are below the ground",
+                                                                 "are above the ground", "drive off the ground"};
 constexpr const char* belong = "check trajectories.offset_m, and whether map and drive belong together";
-constexpr std::array<const char*, kinds> advice = {
+constexpr std::array<const char*, vehicle_faults> advice = {
     belong, belong, belong,
     "nothing reflects there; check trajectories.offset_m, or import the map anew with `wavetracer convert --net` or "
     "`--traffic`"};
 
 struct Finding {
-  Kind kind;
+  VehicleFault kind;
   std::string text;   // `through "house"`, "by 1.5 m"
   bool room = false;  // the body is so large that all may be meant to be inside of it
 };
@@ -35,13 +35,13 @@ struct Finding {
 // grounded: most of the scene has a ground, so that it is missed where there is none.
 std::optional<Finding> look(const Surroundings& around, bool grounded, const Pose& pose, double height_m) {
   const glm::dvec3& p = pose.position_m;
-  const auto by = [](Kind kind, double metres) { return Finding{kind, fmt::format("by {:.3g} m", metres)}; };
-  if (const auto depth = around.below_ground(p); depth && depth->metres > sunk_m) return by(below, depth->metres);
+  const auto by = [](VehicleFault kind, double metres) { return Finding{kind, fmt::format("by {:.3g} m", metres)}; };
+  if (const auto depth = around.below_ground(p); depth && depth->metres > sunk_m) return by(sunk, depth->metres);
   if (const auto body = around.body_at(p + pose.orientation * glm::dvec3(0, 0, height_m / 2)))
     return Finding{through, "through " + around.name_of(body->object), !around.small(*body)};
   const auto over = around.height_above(p, step_m);
-  if (over && *over < -sunk_m) return by(below, -*over);
-  if (over && *over > step_m) return by(above, *over);
+  if (over && *over < -sunk_m) return by(sunk, -*over);
+  if (over && *over > step_m) return by(floating, *over);
   if (!over && grounded) {
     const glm::dvec3 at = p + around.scene().origin_m;
     return Finding{beside, fmt::format("at ({:.0f}, {:.0f}) m", at.x, at.y)};
@@ -77,11 +77,11 @@ class Drive {
     const uint64_t most = std::max<uint64_t>(most_places / std::max<size_t>(all.tracks.size(), 1), 1);
     const bool grounded = around.has_ground();
     for (const Track& track : all.tracks) {
-      std::array<bool, 2 * kinds> seen{};
+      std::array<bool, 2 * vehicle_faults> seen{};
       visit_frames(world, track, most, [&](double time_s, const Pose& pose) {
         const auto found = look(around, grounded, pose, all.types[track.type].height_m);
         free_ |= !found;
-        if (!found || std::exchange(seen[found->kind + (found->room ? kinds : 0)], true)) return;
+        if (!found || std::exchange(seen[found->kind + (found->room ? vehicle_faults : 0)], true)) return;
         Count& count = found->room ? in_rooms_ : counts_[found->kind];
         if (count.vehicles++ == 0 || time_s < count.time_s) count = {count.vehicles, time_s, track.id, found->text};
       });
@@ -91,18 +91,19 @@ class Drive {
   // Where all are in a room it is the scene, as a garage is.
   std::vector<std::string> warnings(size_t vehicles) const {
     std::vector<std::string> out;
-    const auto say = [&](const Count& c, Kind kind) {
+    const auto say = [&](const Count& c, VehicleFault kind) {
       if (c.vehicles > 0)
         out.push_back(fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {:g} s on: {}", c.vehicles,
-                                  vehicles, words[kind], c.id, c.text, c.time_s, advice[kind]));
+                                  vehicles, fault_words[kind], c.id, c.text, c.time_s, advice[kind]));
     };
-    for (int kind = 0; kind < kinds; ++kind) say(counts_[static_cast<size_t>(kind)], static_cast<Kind>(kind));
+    for (int kind = 0; kind < vehicle_faults; ++kind)
+      say(counts_[static_cast<size_t>(kind)], static_cast<VehicleFault>(kind));
     if (free_) say(in_rooms_, through);
     return out;
   }
 
  private:
-  std::array<Count, kinds> counts_;
+  std::array<Count, vehicle_faults> counts_;
   Count in_rooms_;
   bool free_ = false;  // a vehicle was where nothing is to be said of
 };

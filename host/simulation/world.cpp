@@ -183,15 +183,15 @@ void World::State::set_links(const LinksConfig& config) {
 
 // A transmitter and a receiver are one end where they stand in one place, or on one vehicle in one place.
 void World::State::set_twins() {
-  using Place = std::tuple<uint32_t, double, double, double>;
+  using PlaceKey = std::tuple<uint32_t, double, double, double>;
   const auto place = [](const EndsOfRole& role, size_t i) {
     const bool stands = i < role.standing.size();
     const glm::dvec3& p = stands ? role.standing[i].position_m : role.mounted[i - role.standing.size()].offset_m;
-    return Place{stands ? no_vehicle : role.mounted[i - role.standing.size()].track, p.x, p.y, p.z};
+    return PlaceKey{stands ? no_vehicle : role.mounted[i - role.standing.size()].track, p.x, p.y, p.z};
   };
   receiver_of_transmitter.assign(transmitters.ends.size(), no_end);
   transmitter_of_receiver.assign(receivers.ends.size(), no_end);
-  std::map<Place, uint32_t> at;
+  std::map<PlaceKey, uint32_t> at;
   for (uint32_t rx = 0; rx < receivers.ends.size(); ++rx) at.emplace(place(receivers, rx), rx);
   for (uint32_t tx = 0; tx < transmitters.ends.size(); ++tx) {
     const auto found = at.find(place(transmitters, tx));

@@ -16,7 +16,7 @@
 namespace wavetracer::study {
 namespace {
 
-constexpr uint64_t cpu_frames = 20;
+constexpr uint64_t most_cpu_frames = 20;
 
 double mean(std::vector<double> values) {
   RunningMean mean;
@@ -169,7 +169,7 @@ std::vector<uint64_t> study_rays(const CacheStudy& study, const Request& request
 
 uint64_t study_frames(const CacheStudy& study, const Request& request, bool gpu) {
   if (request.frames > 0) return request.frames;
-  const uint64_t frames = gpu ? study.most_frames : cpu_frames;
+  const uint64_t frames = gpu ? study.most_frames : most_cpu_frames;
   return request.quick ? frames / 5 : frames;
 }
 

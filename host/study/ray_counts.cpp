@@ -11,14 +11,14 @@
 namespace wavetracer::study {
 namespace {
 
-constexpr uint64_t fewest = claimed_few, most = 1000000000;  // 10^9
+constexpr uint64_t fewest_rays = claimed_few, most_rays = 1000000000;  // 10^9
 
 // 0, which no range may hold, where the text is no whole number.
 uint64_t whole_number(std::string_view text) {
   double value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = problem == std::errc() && end == text.data() + text.size() && value == std::floor(value);
-  return whole && value > 0 && value <= static_cast<double>(most) * 10 ? static_cast<uint64_t>(value) : 0;
+  return whole && value > 0 && value <= static_cast<double>(most_rays) * 10 ? static_cast<uint64_t>(value) : 0;
 }
 
 }  // namespace
@@ -29,18 +29,18 @@ RayRange parse_ray_range(const std::string& text) {
   if (colon != std::string::npos)
     range = {whole_number(std::string_view(text).substr(0, colon)),
              whole_number(std::string_view(text).substr(colon + 1))};
-  if (range.first < fewest || range.last > most || range.first > range.last)
+  if (range.first < fewest_rays || range.last > most_rays || range.first > range.last)
     throw ConfigError(
         fmt::format("--rays {}: not a range of ray counts; give A:B with {} <= A <= B <= {}, such as 1000:1e6", text,
-                    grouped(fewest), grouped(most)));
+                    grouped(fewest_rays), grouped(most_rays)));
   return range;
 }
 
 std::vector<uint64_t> ray_counts(RayRange range) {
   std::vector<uint64_t> counts;
-  for (uint64_t decade = fewest; decade <= most; decade *= 10)
+  for (uint64_t decade = fewest_rays; decade <= most_rays; decade *= 10)
     for (const uint64_t count : {decade, 2 * decade, 5 * decade})
-      if (count <= most) counts.push_back(count);
+      if (count <= most_rays) counts.push_back(count);
   counts.insert(counts.end(), {claimed_many, thesis_most});
   std::ranges::sort(counts);
   std::erase_if(counts, [&](uint64_t count) { return count < range.first || count > range.last; });

@@ -108,9 +108,9 @@ class LinkColumns {
   Packer frame_, tx_, rx_, paths_, gain_, narrowband_, spread_, missed_, los_;
 };
 
-void grow(std::optional<Extent>& box, const glm::dvec3& point) {
+void grow(std::optional<PageBounds>& box, const glm::dvec3& point) {
   if (!std::isfinite(point.x + point.y + point.z)) return;
-  box = box ? Extent{glm::min(box->lower, point), glm::max(box->upper, point)} : Extent{point, point};
+  box = box ? PageBounds{glm::min(box->lower, point), glm::max(box->upper, point)} : PageBounds{point, point};
 }
 
 // What a first look at all frames tells: how strong rows are, and what takes room in any case.

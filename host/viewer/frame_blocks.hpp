@@ -20,7 +20,7 @@ struct FrameSelection {
   LinkTable links = {};                  // of the run
 };
 
-struct Extent {
+struct PageBounds {
   glm::dvec3 lower, upper;
 };
 
@@ -29,8 +29,8 @@ struct FrameBlocks {
       nlohmann::json::array();           // a row per frame: number, time_s, paths there were and paths on the page
   double lowest_db = 0, highest_db = 0;  // of the finite gains on the page; 0, 0: there is none
   uint32_t highest_order = 0;
-  uint32_t interactions = 0;     // of all paths, bits as in paths.h5
-  std::optional<Extent> ends_m;  // around ends and vehicles in all frames, file coordinates; nothing without any
+  uint32_t interactions = 0;         // of all paths, bits as in paths.h5
+  std::optional<PageBounds> ends_m;  // around ends and vehicles in all frames, file coordinates; nothing without any
   uint64_t paths = 0, shown_paths = 0, links = 0, shown_links = 0;
 };
 

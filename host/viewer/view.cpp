@@ -89,7 +89,7 @@ json missed_ranges(const Missed& missed) {
   return {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
 }
 
-json box(const Extent& of, const glm::dvec3& centre_m) {
+json box(const PageBounds& of, const glm::dvec3& centre_m) {
   const glm::dvec3 lower = of.lower - centre_m, upper = of.upper - centre_m;
   return {{lower.x, lower.y, lower.z}, {upper.x, upper.y, upper.z}};
 }

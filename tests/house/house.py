@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """The rules of the house that a program can check.
 
-usage: house.py SOURCE format|names|sizes
+usage: house.py SOURCE format|names|sizes|types
 
 format  every source is what clang-format makes of it with .clang-format
 names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
+types   no two types of one namespace have one name: their functions would be one to the linker, and which is chance
 """
 import pathlib
 import re
@@ -103,7 +104,25 @@ def wrong_sizes(root):
                   if name not in found]
 
 
-CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes}
+def types_twice(root):
+    files = {}
+    for path in sources(root):
+        if path.relative_to(root).parts[0] not in ("host", "include") or path.suffix not in (".cpp", ".hpp"):
+            continue
+        spaces = []
+        for line in path.read_text().splitlines():
+            opened = re.match(r"namespace( [\w:]+)? \{", line)
+            defined = re.match(r"(?:struct|class|enum class|enum) (\w+)(?: final)?(?: :[^;]*)?\s*\{", line)
+            if opened:
+                spaces.append(opened[1] or "")
+            elif line.startswith("}  // namespace") and spaces:
+                spaces.pop()
+            elif defined and "" not in spaces:
+                files.setdefault("::".join(spaces).replace(" ", "") + "::" + defined[1], []).append(path.relative_to(root))
+    return [f"{name}: " + " and ".join(map(str, where)) for name, where in files.items() if len(set(where)) > 1]
+
+
+CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes, "types": types_twice}
 
 
 def main():
