@@ -1,5 +1,5 @@
 // bitonic_sort: stable sort of keys with a payload by comparators alone (K. Batcher, "Sorting networks and their
-// applications", AFIPS 1968). Sorts blocks in local memory; above them merges a step a launch, then blocks again.
+// applications", AFIPS 1968). Sorts blocks in local memory; above them merges a step per launch, then blocks again.
 //
 // Every merge begins with a flip (position p meets its mirror image), so that each comparator puts the smaller key at
 // the lower position. Then positions from n on, were they there, would hold infinity and never move: any n will do.
@@ -131,7 +131,7 @@ inline void wt_sort(local wt_key* keys, local uint* index, uint n) {
 }
 #endif
 
-// One block a work-group. A sort of one block ends here. Of several, the indices go to `index` (where the payload is
+// One block per work-group. A sort of one block ends here. Of several, the indices go to `index` (where the payload is
 // the indices that is `values`), and the values, if any, are put aside behind them.
 kernel void sort_blocks(global wt_key* keys, global uint* values, global uint* index, uint n) {
   local wt_key block_keys[WT_BLOCK];
@@ -159,13 +159,13 @@ kernel void sort_blocks(global wt_key* keys, global uint* values, global uint* i
   }
 }
 
-// One step over all keys, a comparator a work-item.
+// One step over all keys, a comparator per work-item.
 kernel void one_step(global wt_key* keys, global uint* index, uint n, uint stride, uint mask) {
   const uint low = wt_low(get_global_id(0), stride), high = low ^ mask;
   if (high < n) wt_compare_global(keys, index, low, high);
 }
 
-// The steps of a merge that stay inside blocks. One block a work-group.
+// The steps of a merge that stay inside blocks. One block per work-group.
 kernel void merge_blocks(global wt_key* keys, global uint* index, uint n) {
   local wt_key block_keys[WT_BLOCK];
   local uint block_index[WT_PAYLOAD != 0 ? WT_BLOCK : 1];

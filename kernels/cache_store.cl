@@ -70,7 +70,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
   flush_tally(cache, region);
 }
 #else
-// One ray a work-item. Neighbours mostly belong to one region, for which the group adds up.
+// One ray per work-item. Neighbours mostly belong to one region, for which the group adds up.
 kernel void cache_store(global float* rays, const global float* missed, const global float* missed_hits,
                         const global uint* indices, global float* hits, global wt_cache_entry* entries,
                         global uint* heads, global uint* used, const global wt_cache_region* regions,

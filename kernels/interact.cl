@@ -92,7 +92,7 @@ kernel void interact(const global float* rays, const global float* hits, const g
   wt_note_quarters(quarters, last_node, found);
 }
 #else
-// One ray a work-item, one block a work-group.
+// One ray per work-item, one block per work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void interact(
     const global float* rays, const global float* hits, const global uint* block_offsets,
     const global wt_surface* surfaces, global ulong* table, global uint* quarters, global wt_counters* counters,

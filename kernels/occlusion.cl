@@ -1,4 +1,4 @@
-// occlusion: is a leg of a solved path obstructed? One leg a work-item; lib/legs.clh has the rule.
+// occlusion: is a leg of a solved path obstructed? One leg per work-item; lib/legs.clh has the rule.
 // Consumes solved paths; sets wt_solved::blocked.
 #include "lib/legs.clh"
 #include "wavetracer/device/arguments.h"

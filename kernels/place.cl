@@ -5,7 +5,7 @@
 
 inline double turned(const global double* row, double3 v) { return row[0] * v.x + row[1] * v.y + row[2] * v.z; }
 
-// One surface a work-item; surface_instances[i] is the instance of surface first_surface + i.
+// One surface per work-item; surface_instances[i] is the instance of surface first_surface + i.
 kernel void place(const global wt_exact_instance* instances, const global wt_model_surface* models,
                   const global uint* surface_instances, uint first_surface, uint surface_count,
                   global wt_exact_surface* exact, global wt_surface* surfaces) {

@@ -21,7 +21,7 @@ inline bool trace_ray(const global wt_centred_node* nodes, const global wt_bvh2_
 }
 
 #ifdef WT_COUNT_BLOCKS
-// One ray a work-item, one block a work-group.
+// One ray per work-item, one block per work-group.
 __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
     const global wt_centred_node* nodes, const global wt_bvh2_triangle* triangles, uint triangle_slots,
     const global float4* moving, float extent_m, const global float* rays, uint capacity, uint ray_count,
@@ -36,7 +36,7 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
   if (get_local_id(0) == 0) block_hits[get_group_id(0)] = count;
 }
 #else
-// One ray a work-item, in a launch of any shape; blocks are counted by a pass of their own (compact).
+// One ray per work-item, in a launch of any shape; blocks are counted by a pass of their own (compact).
 kernel void trace(const global wt_centred_node* nodes, const global wt_bvh2_triangle* triangles, uint triangle_slots,
                   const global float4* moving, float extent_m, const global float* rays, uint capacity, uint ray_count,
                   global float* hits, global uint* block_hits) {

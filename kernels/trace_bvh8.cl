@@ -6,7 +6,7 @@
 #include "lib/moving.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// One block a work-item, its rays in turn.
+// One block per work-item, its rays in turn.
 kernel void trace(const global wt_bvh8_node* nodes, const global wt_triangle_block* blocks, const global float4* moving,
                   float extent_m, const global float* rays, uint capacity, uint ray_count, global float* hits,
                   global uint* block_hits) {

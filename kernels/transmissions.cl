@@ -42,7 +42,7 @@ inline int passes_before(const global wt_exact_surface* surfaces, const global w
   return a->along < b->along;
 }
 
-// One path a work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
+// One path per work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
 kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                           const global double4* transmitters, const global double4* receivers,
                           const global wt_exact_surface* surfaces, const global wt_surface* boxes,

@@ -11,7 +11,7 @@ inline void store_waypoint(global wt_waypoint* to, float3 position, uint surface
   to->surface = surface;
 }
 
-// One ray a work-item. depth: interactions of the rays so far. Samples count from first_sample.
+// One ray per work-item. depth: interactions of the rays so far. Samples count from first_sample.
 kernel void waypoints(const global float* rays, const global float* hits, uint capacity, uint ray_count,
                       uint first_sample, uint depth, uint stride, global wt_waypoint* out) {
   const uint i = get_global_id(0);
@@ -30,7 +30,7 @@ kernel void waypoints(const global float* rays, const global float* hits, uint c
     store_waypoint(row + depth + 1, (float3)(fma(t, d.x, o.x), fma(t, d.y, o.y), fma(t, d.z, o.z)), surface);
 }
 
-// Row k of `out` becomes row list[k]. One waypoint a work-item.
+// Row k of `out` becomes row list[k]. One waypoint per work-item.
 kernel void gather_waypoints(const global wt_waypoint* rows, const global uint* list, uint count, uint stride,
                              global wt_waypoint* out) {
   const size_t i = get_global_id(0);

@@ -13,7 +13,7 @@ inline uint by_other_face(const global ulong* table, uint mask, const global uin
   return beside == WT_NONE ? 0u : wt_found_by(quarters, beside);
 }
 
-// One node a work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
+// One node per work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
 // entry wt_wedge_key is what to sort by, and its prefix is listed.
 kernel void wedge_prefixes(const global ulong* table, const global uint* quarters, const global uint* nodes,
                            const global double4* origins, const global wt_exact_surface* surfaces,

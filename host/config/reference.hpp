@@ -8,8 +8,8 @@
 
 namespace wavetracer {
 
-// One paragraph a key, as `wavetracer help` prints it. topic: a table, a key with its table or without; all keys where
-// it is empty. Empty where there is nothing of this name.
+// One paragraph per key, as `wavetracer help` prints it. topic: a table, a key with its table or without; all keys
+// where it is empty. Empty where there is nothing of this name.
 std::string field_help(std::string_view topic = {});
 
 }  // namespace wavetracer

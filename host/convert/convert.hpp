@@ -1,4 +1,4 @@
-// Runs in the formats of other programs: one function a format, and the list that `wavetracer convert --to` offers.
+// Runs in the formats of other programs: one function per format, and the list that `wavetracer convert --to` offers.
 // Each writes what its readers expect, whole or not at all, and says in its own file which conventions that means.
 #pragma once
 #include <cstdint>

@@ -1,5 +1,5 @@
 // A scenario of ns-3's QdChannelModel (https://github.com/signetlabdei/qd-channel), as its reader of
-// NodesPosition.csv parses it: a channel between every two nodes, a step a frame, in degrees but for the phase.
+// NodesPosition.csv parses it: a channel between every two nodes, a step per frame, in degrees but for the phase.
 #include <fmt/format.h>
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-// One temporary file a HDF5 output, OUTPUT.rows, which is one part with a piece a frame and table (table_layout.hpp).
+// One temporary file a HDF5 output, OUTPUT.rows, which is one part with a piece per frame and table (table_layout.hpp).
 // Assumes a little-endian processor, as files have it.
 #include "output/frame_tables.hpp"
 #include <algorithm>

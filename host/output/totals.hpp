@@ -22,7 +22,7 @@ struct Totals {
   LeftOutPaths left_out;  // of counts.paths, which are those that were found; all 0 where nothing may be left out
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
-  std::map<std::string, std::vector<double>> seconds;  // stage -> one value a frame
+  std::map<std::string, std::vector<double>> seconds;  // stage -> one value per frame
   std::vector<std::string> warnings;                   // each text once, in order of first appearance
   MissingLinks missing;                                // of the first frame that was asked about
 };

@@ -1,4 +1,4 @@
-// waypoints.h5: one table, /waypoints, a row a waypoint.
+// waypoints.h5: one table, /waypoints, a row per waypoint.
 // Kinds are the numbers of WaypointKind; positions are those of the scene file.
 #include "output/waypoints_h5.hpp"
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ void append_waypoints_h5(const Run&, const FrameResult& frame, FrameTables& tabl
                     "wavetracer, report it",
                     frame.frame));
   tables.group("/waypoints",
-               "one row a waypoint of a sampled ray, sorted by frame, tx, sample, depth; hits of a segment, by "
+               "one row per waypoint of a sampled ray, sorted by frame, tx, sample, depth; hits of a segment, by "
                "receiver, come before its end");
   const auto column = [&](const char* name, const char* description, const auto& values) {
     tables.append(name, {"1", description}, std::span(values));

@@ -1,4 +1,4 @@
-// The memory of a ray cache on the device, one region a transmitter, and the definitions that its kernels are built
+// The memory of a ray cache on the device, one region per transmitter, and the definitions that its kernels are built
 // with. What lies in heads and used depends on the kind: see kernels/lib/cache_*.clh.
 #pragma once
 #include <vector>

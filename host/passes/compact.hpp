@@ -9,7 +9,7 @@ namespace wavetracer {
 
 class Compact {
  public:
-  // Who takes the words: a work-group a block, or a work-item many blocks. device: items on CPUs, groups elsewhere.
+  // Who takes the words: a work-group per block, or a work-item many blocks. device: items on CPUs, groups elsewhere.
   enum class Form { device, groups, items };
 
   // Blocks as long as those of rays.

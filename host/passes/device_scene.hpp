@@ -13,7 +13,7 @@
 
 namespace wavetracer {
 
-// How rays traverse: GPUs one ray a work-item through a BVH2; CPUs through a BVH8, or in packets of 16 through the
+// How rays traverse: GPUs one ray per work-item through a BVH2; CPUs through a BVH8, or in packets of 16 through the
 // BVH2.
 enum class TraceShape { bvh2, bvh8, packet16 };
 

@@ -1,5 +1,5 @@
 // Host side of kernels/occlusion.cl.
-// One leg a work-item.
+// One leg per work-item.
 #include "passes/occlusion.hpp"
 #include "wavetracer/device/arguments.h"
 

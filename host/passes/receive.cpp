@@ -1,5 +1,5 @@
 // Host side of kernels/receive.cl.
-// One ray a work-item. A list that is too short is made longer, and the same rays run again.
+// One ray per work-item. A list that is too short is made longer, and the same rays run again.
 #include "passes/receive.hpp"
 
 #include "passes/growing_list.hpp"

@@ -1,5 +1,5 @@
 // Host side of kernels/solve.cl.
-// One candidate a work-item.
+// One candidate per work-item.
 #include "passes/solve.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Host side of kernels/transmissions.cl.
-// One path a work-item.
+// One path per work-item.
 #include "passes/transmissions.hpp"
 #include "wavetracer/device/arguments.h"
 

@@ -1,5 +1,5 @@
 // Host side of kernels/waypoints.cl.
-// One ray a work-item.
+// One ray per work-item.
 #include "passes/waypoints.hpp"
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_solve.cl.
-// One candidate a work-item.
+// One candidate per work-item.
 #include "passes/wedge_solve.hpp"
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Host side of kernels/wedges.cl.
-// One wedge of an instance a work-item; the lists of surfaces do not change with frames.
+// One wedge of an instance per work-item; the lists of surfaces do not change with frames.
 #include "passes/wedges.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What coherence says: numbers, a column a depth, and what they mean for the claims.
+// What coherence says: numbers, a column per depth, and what they mean for the claims.
 // Correlations and shares have two decimals; whoever compares them with the table rounds likewise.
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,7 +15,7 @@ std::string number(double value) {
   return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0);  // + 0.0: no minus before a zero
 }
 
-// A column a depth.
+// A column per depth.
 NumberTable depth_table(const std::string& caption, size_t depths) {
   NumberTable table{.caption = caption, .heads = {""}, .rows = {}};
   for (size_t depth = 1; depth <= depths; ++depth) table.heads.push_back(fmt::format("depth {}", depth));
@@ -43,7 +43,7 @@ using FrameValue = std::function<double(const FramePair&)>;
 double by_ray(const FramePair& row) { return row.found.points.total; }
 double by_place(const FramePair& row) { return row.by_place; }
 
-// A list a depth: the values of all frames against their previous ones, where they are defined.
+// A list per depth: the values of all frames against their previous ones, where they are defined.
 std::vector<std::vector<double>> previous_values(const std::vector<FramePair>& rows, const FrameValue& value) {
   std::vector<std::vector<double>> out;
   for (const FramePair& row : rows) {
@@ -66,7 +66,7 @@ double greatest_value(const std::vector<double>& values) {
 
 using FrameSummary = double (*)(const std::vector<double>&);
 
-// A value a depth, of what subsequent frames have.
+// A value per depth, of what subsequent frames have.
 std::vector<double> summaries(const std::vector<FramePair>& rows, const FrameValue& value, FrameSummary summary) {
   std::vector<double> out;
   for (const std::vector<double>& values : previous_values(rows, value)) out.push_back(summary(values));
@@ -86,7 +86,7 @@ Judge<FramePair> where_correlations(FrameSummary summary, const std::function<bo
   };
 }
 
-// A value a depth, of the last frame against the first.
+// A value per depth, of the last frame against the first.
 std::vector<double> last_values(const std::vector<FramePair>& rows, const FrameValue& value) {
   std::vector<double> out;
   for (const FramePair& row : rows)
@@ -100,7 +100,7 @@ const LagRow* find_lag(const std::vector<LagRow>& rows, const std::string& direc
   return nullptr;
 }
 
-// A value a depth, of neighbours.
+// A value per depth, of neighbours.
 std::vector<double> neighbours(const std::vector<LagRow>& rows, const std::string& directions,
                                double LagCoherence::*value) {
   std::vector<double> out;

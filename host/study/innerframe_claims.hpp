@@ -1,5 +1,5 @@
-// What is claimed of tracing one ray a group, as predicates on rows: one row for each setting, C_E and number of rays.
-// Assumes that the first row of a number of rays has no cache, and that set_savings() has run.
+// What is claimed of tracing one ray per group, as predicates on rows: one row for each setting, C_E and number of
+// rays. Assumes that the first row of a number of rays has no cache, and that set_savings() has run.
 #pragma once
 #include <functional>
 #include <string>

@@ -35,7 +35,7 @@ Judge<OrderRow> shapes_gain();
 // change.
 Fields order_fields(const std::vector<OrderRow>& rows, const std::string& device);
 
-// Speed against WS, a series a row, the fastest at the most rays first, a number of rays a column: where the thesis
+// Speed against WS, a series per row, the fastest at the most rays first, a number of rays per column: where the thesis
 // states its gain and at the most rays, as far as they were measured. "3.00 (2.40)": sort not paid, and paid.
 NumberTable gain_table(const std::vector<OrderRow>& rows);
 

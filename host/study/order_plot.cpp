@@ -10,7 +10,7 @@ namespace {
 
 size_t column_number(const std::string& name) { return column_of(names_of(order_columns(false)), name); }
 
-// One colour a mnemonic; launch shapes of one method differ in their dashes.
+// One colour per mnemonic; launch shapes of one method differ in their dashes.
 std::string_view colour(const std::vector<Series>& series, size_t index) {
   std::set<std::string> earlier;
   for (const Series& other : series) {

@@ -47,13 +47,17 @@ Section section_of(const Experiment& experiment, const Findings& found) {
           .notes = found.notes};
 }
 
+std::string heading_markdown(const Heading& heading) {
+  return fmt::format("- device: {}\n- scene: {}\n- date: {}, wavetracer {}\n- command: `{}`\n",
+                     device_words(heading.device), heading.scene, heading.date, WAVETRACER_VERSION,
+                     heading.command_line);
+}
+
 std::string page_markdown(const Section& section, const Heading& heading) {
-  std::string text = fmt::format("# {}\n\n{}\n\n![{}]({}.svg)\n\n- device: {}\n- scene: {}\n", section.title,
-                                 words_text(section.words), section.caption, section.name, device_words(heading.device),
-                                 heading.scene);
+  std::string text = fmt::format("# {}\n\n{}\n\n![{}]({}.svg)\n\n{}", section.title, words_text(section.words),
+                                 section.caption, section.name, heading_markdown(heading));
   for (const std::string& note : section.notes) text += "- " + note + "\n";
-  return text + fmt::format("- date: {}, wavetracer {}\n- command: `{}`\n", heading.date, WAVETRACER_VERSION,
-                            heading.command_line);
+  return text;
 }
 
 std::string escaped(std::string text) {

@@ -32,6 +32,9 @@ struct Section {
 };
 Section section_of(const Experiment& experiment, const Findings& found);
 
+// Device, scene, date, version and command, a line each.
+std::string heading_markdown(const Heading& heading);
+
 // A page of one section, whose plot is NAME.svg beside it.
 std::string page_markdown(const Section& section, const Heading& heading);
 

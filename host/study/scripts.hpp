@@ -21,7 +21,7 @@ size_t column_of(const std::vector<std::string>& columns, const std::string& nam
 std::string script_head(const std::string& name, size_t width, size_t height);
 constexpr const char* script_grid = "set grid linecolor '#dddddd'\nset border 3\nset tics nomirror\n";
 
-// Of figures of orders: one panel without and one with the time of ordering, each a line a series.
+// Of figures of orders: one panel without and one with the time of ordering, each a line per series.
 std::string order_script(const std::string& name, const std::string& title, const std::vector<Series>& series);
 
 // Panels with a line per setting, or its points, of tables in which every row has a drive and a setting.

@@ -89,8 +89,9 @@ void write_page(ThesisPage& page, const fs::path& directory, const Host& host, R
       host.say(problem);
   }
   write(named("thesis.html"), thesis_html(page));
+  write(named("thesis.md"), thesis_markdown(page));
   folder.keep();
-  report.files.push_back(named("thesis.html"));
+  for (const char* name : {"thesis.html", "thesis.md"}) report.files.push_back(named(name));
 }
 
 }  // namespace

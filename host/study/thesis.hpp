@@ -21,16 +21,18 @@ struct ThesisPage {
 
 // Of a cache: the setting without its hash function.
 std::string family(const std::string& setting);
-// The table thesis.csv, and the script that draws it: time saved against errors, a point a row.
+// The table thesis.csv, and the script that draws it: time saved against errors, a point per row.
 std::string speed_error_table(const std::vector<CacheRow>& rows);
 std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device);
 // Every claim with what was measured; of a figure without one, what there is to know of it. Columns: figure, claim,
 // measured.
 NumberTable verdicts_of(const std::vector<Section>& figures);
 std::string thesis_html(const ThesisPage& page);
+// The verdicts, then every figure's words and plot, which is NAME.svg beside it.
+std::string thesis_markdown(const ThesisPage& page);
 
 // `request_for`: the config of an experiment with its scene; throws for a mistake of the user's. Writes the files of
-// every figure and thesis.{csv,gp,svg,html}.
+// every figure and thesis.{csv,gp,svg,html,md}.
 Report run_thesis(const std::function<Request(const Experiment&)>& request_for, const Host& host);
 
 }  // namespace wavetracer::study

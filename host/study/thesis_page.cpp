@@ -131,4 +131,18 @@ std::string thesis_html(const ThesisPage& page) {
   return document_html("Ray orders and ray caches", "body{max-width:1280px}.problem{color:#b00}", text);
 }
 
+std::string thesis_markdown(const ThesisPage& page) {
+  std::string text = "# Ray orders and ray caches: the thesis' figures, measured\n\n" + heading_markdown(page.heading) +
+                     "\n## Verdicts\n\n" + markdown(verdicts_of(page.figures)) + "\n\n## Speed against error\n\n";
+  text += page.svg.empty() ? "No cache was measured.\n" : "![Speed against error of all caches](thesis.svg)\n";
+  for (const Section& figure : page.figures) {
+    text += fmt::format("\n## {}: {}\n\n", figure.name, figure.title);
+    if (!figure.words.paragraph.empty()) text += figure.words.paragraph + "\n\n";
+    if (!figure.svg.empty()) text += fmt::format("![{}]({}.svg)\n\n", figure.caption, figure.name);
+    for (const std::string& note : figure.notes) text += "- " + note + "\n";
+    if (!figure.problem.empty()) text += "- " + figure.problem + "\n";
+  }
+  return text;
+}
+
 }  // namespace wavetracer::study

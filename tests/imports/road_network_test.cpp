@@ -84,6 +84,8 @@ TEST_CASE("what is no network is an error with its line") {
   CHECK(error_of("<routes/>") ==
         "a.net.xml: the root element is <routes>, but that of a SUMO network is <net>: give the .net.xml that "
         "netconvert wrote");
+  CHECK(error_of("") ==
+        "a.net.xml: this is no XML text, but a SUMO network is one: give the .net.xml that netconvert wrote");
   CHECK(error_of("<net>\n<edge>\n</net>").starts_with("a.net.xml:3: not well-formed XML: "));
   CHECK(error_of("<net></net>") == "a.net.xml: the network has no lane");
   CHECK(error_of(net("<lane id=\"e_0\" shape=\"0,1 2;3\"/>")) ==

@@ -84,7 +84,7 @@ class Walk {
       CHECK(record.row[row].s[3] == static_cast<float>(placement.position_m[row]));
     }
     CHECK(record.first_surface == instance.first_surface);
-    CHECK(record.first_primitive == instance.first_surface);  // a surface a triangle
+    CHECK(record.first_primitive == instance.first_surface);  // a surface per triangle
     if (instance.model == 0) CHECK(record.root == 0);
     if (instance.model == 1) CHECK(record.root > 0);
     const Scene& model = traffic_.models[instance.model];

@@ -82,7 +82,7 @@ TEST_CASE(
       CAPTURE(power_estimated);
       CAPTURE(power_truth);
       CHECK(power_estimated > power_truth / 2);
-      CHECK(power_estimated < 2 * power_truth + static_cast<double>(launches) / count);  // one path a launch
+      CHECK(power_estimated < 2 * power_truth + static_cast<double>(launches) / count);  // one path per launch
     }
 }
 

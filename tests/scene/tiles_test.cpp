@@ -16,7 +16,7 @@ using glm::dvec3;
 
 namespace {
 
-// One surface a triangle list, all in one plane; the material of each is given by its scattering coefficient.
+// One surface per triangle list, all in one plane; the material of each is given by its scattering coefficient.
 struct Patch {
   std::vector<std::array<dvec3, 3>> triangles;
   double scattering;

@@ -257,7 +257,7 @@ TEST_CASE("a receiver that moves: what a cache of everything goes on to receive,
   Config config = sphere_config(file, {{0, 0, 5}}, {}, 50000, 0, 2);
   config.output.waypoints = *config.trace.rays;
   config.vehicle_types = {{"passenger", "none"}};
-  config.tracks = {{"walker", "passenger", {{0, 20, 0, 5}, {4, 20, 6, 5}}}};  // 1.5 m a frame
+  config.tracks = {{"walker", "passenger", {{0, 20, 0, 5}, {4, 20, 6, 5}}}};  // 1.5 m per frame
   config.mounts = {{.name = "ear", .role = "receiver"}};
   config.time.step_s = 1;
   const std::vector<uint32_t> frames{0, 1, 4};

@@ -42,7 +42,7 @@ Scene wall() {
 }  // namespace
 
 TEST_CASE("a drive through the scene is an error, one that ends before a wall or passes it is not") {
-  const auto drive = [](uint32_t frames, double y_m) {  // 0.1 m a frame, the wall is 5 m away
+  const auto drive = [](uint32_t frames, double y_m) {  // 0.1 m per frame, the wall is 5 m away
     Drive out{.name = "ego"};
     for (uint32_t frame = 0; frame < frames; ++frame) {
       out.at_s.push_back(7 + 0.01 * frame);

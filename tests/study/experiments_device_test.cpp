@@ -136,7 +136,7 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
   CHECK(contains(run.out, folder.path("out/figure-6.1.svg")));
   CHECK(contains(plot, "<svg "));
   CHECK(contains(plot, "</svg>"));
-  CHECK(occurrences(plot, "id=\"gnuplot_plot_") == 2 * 12);  // a line a series, sort not paid and paid
+  CHECK(occurrences(plot, "id=\"gnuplot_plot_") == 2 * 12);  // a line per series, sort not paid and paid
 }
 
 TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to install") {
@@ -193,7 +193,7 @@ TEST_CASE("coherence-rays and coherence-frames: table, plot and paragraph agree"
     if (contains(run.err, "gnuplot is not installed")) continue;
     const std::string plot = contents(folder.path("out/" + name + ".svg"));
     CHECK(contains(plot, "</svg>"));
-    CHECK(occurrences(plot, "id=\"gnuplot_plot_") == (frames ? 4 : 6) * 2);  // a line a panel and depth
+    CHECK(occurrences(plot, "id=\"gnuplot_plot_") == (frames ? 4 : 6) * 2);  // a line per panel and depth
   }
 }
 
@@ -284,6 +284,10 @@ TEST_CASE("thesis: every figure on one page without links to elsewhere, also wha
     CHECK(contains(page, fmt::format("<section id=\"figure-6.{}\">", figure)));
   CHECK(contains(page, "<section id=\"cache-division\">"));
   CHECK_FALSE(contains(page, "http:"));
+  const std::string markdown = contents(folder.path("out/thesis.md"));
+  for (int figure = 1; figure <= 18; ++figure) CHECK(contains(markdown, fmt::format("\n## figure-6.{}: ", figure)));
+  CHECK(contains(markdown, "\n- device: "));
+  CHECK(contains(markdown, "| figure-6.1 "));
   // Experiments beyond the figures have no point at so few rays: a page says what failed, and holds the rest.
   // Each is said in the table of verdicts and in its section.
   CHECK(occurrences(page, "failed: --rays 1000:1000: ") == 2 * 4);

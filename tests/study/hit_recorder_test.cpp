@@ -71,7 +71,7 @@ TEST_CASE("points lie on their surfaces, at their distance from the hit before, 
 
 TEST_CASE("the same transmitter gives the same frame, one that moved a little nearly the same") {
   if (!device_present()) return;
-  TracedWorld traced(driven(city(), 2), "");  // 0.1 mm a frame
+  TracedWorld traced(driven(city(), 2), "");  // 0.1 mm per frame
   HitRecorder record(traced, launch());
   const study::FrameHits first = record(0, 0), moved = record(0, 2), again = record(0, 0);
   for (const study::DepthCoherence& at : study::compare_frames(first, again)) {

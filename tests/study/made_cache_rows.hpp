@@ -1,5 +1,5 @@
 // Rows of a study of caching as a device would give them, with numbers that a test chooses.
-// Every setting of a study gets a row at each number of rays; the first takes a second a frame.
+// Every setting of a study gets a row at each number of rays; the first takes a second per frame.
 #pragma once
 #include <functional>
 #include <vector>

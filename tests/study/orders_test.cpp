@@ -234,7 +234,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
   }
 }
 
-TEST_CASE("the script draws a line a series in each of two panels") {
+TEST_CASE("the script draws a line per series in each of two panels") {
   const Experiment& experiment = find_experiment("figure-6.1");
   const std::string script = order_script("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series);
   CHECK(occurrences(script, "with linespoints") == 2 * experiment.as<OrderFigure>()->series.size());

@@ -133,7 +133,7 @@ TEST_CASE("a figure that failed or was not reached is said to have, and the rest
   CHECK(contains(html, "<section id=\"figure-6.18\">"));
 }
 
-TEST_CASE("the picture: caches without their hash, a point a row, none of the reference") {
+TEST_CASE("the picture: caches without their hash, a point per row, none of the reference") {
   CHECK(family("position Morton") == "position");
   CHECK(family("chained mixed 500000 entries") == "chained 500000 entries");
   CHECK(family("precision 0.0125 uniform") == "precision 0.0125");

@@ -35,7 +35,7 @@ function geometry_of(positions) {
 
 function solid(positions, colour) {
   const geometry = geometry_of(positions);
-  geometry.computeVertexNormals();  // without an index: a normal a triangle
+  geometry.computeVertexNormals();  // without an index: a normal per triangle
   const material = new THREE.MeshLambertMaterial({
     color: colour, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
   });
