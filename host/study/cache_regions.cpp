@@ -77,8 +77,9 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
 }
 
 Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite) {
-  return [=](const CacheRows& rows) -> std::string {
+  return [=](const CacheRows& rows) {
     std::vector<std::string> yes, no;
+    Tally tally;
     for (const std::string& setting : settings) {
       std::vector<double> a, b;
       for (const CacheRow* row : regions_of(rows, setting)) {
@@ -88,11 +89,14 @@ Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue val
       const double found = a.size() < 3 ? undefined : pearson(a, b);
       if (std::isnan(found)) continue;
       const bool holds = opposite ? found <= -clear_correlation : found >= clear_correlation;
+      tally.add(holds);
       (holds ? yes : no).push_back(fmt::format("\"{}\" ({:.2f})", setting, found));
     }
-    if (yes.empty() && no.empty()) return "not measured";
-    if (yes.empty()) return "not confirmed for " + list_words(no);
-    return "confirmed for " + list_words(yes) + (no.empty() ? "" : ", not for " + list_words(no));
+    if (yes.empty() && no.empty()) return not_measured();
+    const std::string words =
+        yes.empty() ? "not confirmed for " + list_words(no)
+                    : "confirmed for " + list_words(yes) + (no.empty() ? "" : ", not for " + list_words(no));
+    return Judgement{tally.outcome(), words};
   };
 }
 

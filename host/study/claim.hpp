@@ -3,14 +3,15 @@
 #include <functional>
 #include <string>
 #include <vector>
+#include "study/judgement.hpp"
 #include "study/text.hpp"
 
 namespace wavetracer::study {
 
-// The verdict on rows, in words. Predicates are made by order_claims.hpp, cache_claims.hpp, cache_regions.hpp and
+// The verdict on rows. Predicates are made by order_claims.hpp, cache_claims.hpp, cache_regions.hpp and
 // coherence_frames.hpp.
 template <class Row>
-using Judge = std::function<std::string(const std::vector<Row>&)>;
+using Judge = std::function<Judgement(const std::vector<Row>&)>;
 
 template <class Row>
 struct Claim {
@@ -24,7 +25,10 @@ using Claims = std::vector<Claim<Row>>;
 template <class Row>
 std::vector<Verdict> judged(const Claims<Row>& claims, const std::vector<Row>& rows, const Fields& fields) {
   std::vector<Verdict> out;
-  for (const Claim<Row>& claim : claims) out.push_back({filled(claim.words, fields), claim.judge(rows)});
+  for (const Claim<Row>& claim : claims) {
+    Judgement found = claim.judge(rows);
+    out.push_back({filled(claim.words, fields), found.outcome, std::move(found.words)});
+  }
   return out;
 }
 

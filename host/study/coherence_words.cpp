@@ -28,11 +28,13 @@ void add(NumberTable& table, const std::string& what, const std::vector<double>&
   table.rows.back().resize(table.heads.size(), "undefined");
 }
 
-// Where values are so: "at every depth", "at no depth", "at depths 1 and 3".
-std::string where_depths(const std::vector<double>& values, const std::function<bool(double)>& are_so) {
+// Where values are so: "at every depth", "at no depth", "at depths 1 and 3". Each depth is a case of `tally`.
+std::string where_depths(const std::vector<double>& values, const std::function<bool(double)>& are_so, Tally& tally) {
   std::vector<std::string> words;
-  for (size_t i = 0; i < values.size(); ++i)
+  for (size_t i = 0; i < values.size(); ++i) {
+    tally.add(are_so(values[i]));
     if (are_so(values[i])) words.push_back(std::to_string(i + 1));
+  }
   if (words.empty()) return "at no depth";
   if (words.size() == values.size()) return "at every depth";
   return (words.size() == 1 ? "at depth " : "at depths ") + list_words(words);
@@ -80,9 +82,11 @@ std::vector<double> previous_means(const std::vector<FramePair>& rows, const Fra
 // Where a summary of the correlations of subsequent frames is so, for both pairings.
 Judge<FramePair> where_correlations(FrameSummary summary, const std::function<bool(double)>& are_so) {
   return [=](const std::vector<FramePair>& rows) {
-    return fmt::format("{} if paired by ray and bounce, {} if paired by place",
-                       where_depths(summaries(rows, by_ray, summary), are_so),
-                       where_depths(summaries(rows, by_place, summary), are_so));
+    Tally tally;
+    const std::string rays = where_depths(summaries(rows, by_ray, summary), are_so, tally),
+                      places = where_depths(summaries(rows, by_place, summary), are_so, tally);
+    return Judgement{tally.outcome(),
+                     fmt::format("{} if paired by ray and bounce, {} if paired by place", rays, places)};
   };
 }
 

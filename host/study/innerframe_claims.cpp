@@ -36,10 +36,12 @@ std::vector<RowList> ladders(const CacheRows& rows, const std::vector<std::strin
   return out;
 }
 
-std::string most(double value, double claimed) {
-  if (std::isnan(value)) return "not measured";
-  return value >= claimed ? fmt::format("confirmed: up to {} times", plain(value))
-                          : fmt::format("not confirmed: {} times at most", plain(value));
+Judgement most(double value, double claimed) {
+  if (std::isnan(value)) return not_measured();
+  Tally tally;
+  tally.add(value >= claimed, value >= exceeding * claimed);
+  return {tally.outcome(), value >= claimed ? fmt::format("confirmed: up to {} times", plain(value))
+                                            : fmt::format("not confirmed: {} times at most", plain(value))};
 }
 
 template <class Value>
@@ -53,20 +55,20 @@ double largest(const CacheRows& rows, Value value) {
 }  // namespace
 
 Judge<CacheRow> one_ray_a_group(std::vector<std::string> settings) {
-  return [=](const CacheRows& rows) -> std::string {
+  return [=](const CacheRows& rows) -> Judgement {
     const RowList found = rows_of_settings(rows, settings);
-    if (found.empty()) return "not measured";
-    return verdict(std::ranges::all_of(found, [](const CacheRow* row) {
+    if (found.empty()) return not_measured();
+    return judgement(std::ranges::all_of(found, [](const CacheRow* row) {
       return row->counts.groups > 0 && std::abs(row->counts.traced() - row->counts.groups) < 0.5;
     }));
   };
 }
 
 Judge<CacheRow> somewhere_faster(std::vector<std::string> settings, double lost_share) {
-  return [=](const CacheRows& rows) -> std::string {
+  return [=](const CacheRows& rows) -> Judgement {
     const RowList found = rows_of_settings(rows, settings);
-    if (found.empty()) return "not measured";
-    return where_words(rays_of(rows), [&](uint64_t rays) {
+    if (found.empty()) return not_measured();
+    return where_judged(rays_of(rows), [&](uint64_t rays) {
       return std::ranges::any_of(found, [&](const CacheRow* row) {
         return row->rays == rays && row->saved_percent >= 0.5 && row->error.lost_share <= lost_share;
       });
@@ -87,18 +89,18 @@ Judge<CacheRow> times_as_fast(double claimed) {
 }
 
 Judge<CacheRow> error_grows(std::vector<std::string> settings) {
-  return [=](const CacheRows& rows) -> std::string {
+  return [=](const CacheRows& rows) -> Judgement {
     const std::vector<RowList> all = ladders(rows, settings);
     const bool measured = std::ranges::any_of(all, [](const RowList& ladder) { return ladder.size() > 1; });
-    if (!measured) return "not measured";
-    return verdict(std::ranges::all_of(all, [](const RowList& ladder) {
+    if (!measured) return not_measured();
+    return judgement(std::ranges::all_of(all, [](const RowList& ladder) {
       return ladder.size() < 2 || ladder.back()->error.lost_share > ladder.front()->error.lost_share;
     }));
   };
 }
 
 Judge<CacheRow> error_is_controlled(std::vector<std::string> settings, double factor, double negligible) {
-  return [=](const CacheRows& rows) -> std::string {
+  return [=](const CacheRows& rows) -> Judgement {
     // By world, setting and place on the ladder, which is that of one C_E: the shares at all numbers of rays.
     std::map<std::tuple<std::string, std::string, size_t>, std::vector<double>> shares;
     for (const RowList& ladder : ladders(rows, settings))
@@ -111,7 +113,7 @@ Judge<CacheRow> error_is_controlled(std::vector<std::string> settings, double fa
       const auto [low, high] = std::ranges::minmax(values);
       all = all && (high < negligible || high <= factor * low);
     }
-    return measured ? verdict(all) : "not measured";
+    return measured ? judgement(all) : not_measured();
   };
 }
 

@@ -12,6 +12,8 @@ namespace {
 using Rows = std::vector<OrderRow>;
 using Gain = double OrderRow::*;
 
+constexpr double negligible_gain = 0.05;
+
 std::string paid_and_not(const char* unpaid, const char* paid) {
   return fmt::format("{} with the sort not paid, {} with it paid", unpaid, paid);
 }
@@ -20,8 +22,14 @@ std::string paid_and_not(const char* unpaid, const char* paid) {
 template <class Holds>
 Judge<OrderRow> both_gains(Holds holds) {
   return [holds](const Rows& rows) {
-    const auto word = [&](Gain gain) { return holds(rows, gain) ? "yes" : "no"; };
-    return paid_and_not(word(&OrderRow::gain_unpaid), word(&OrderRow::gain_paid));
+    Tally tally;
+    const auto word = [&](Gain gain) {
+      const bool yes = holds(rows, gain);
+      tally.add(yes);
+      return yes ? "yes" : "no";
+    };
+    const char *unpaid = word(&OrderRow::gain_unpaid), *paid = word(&OrderRow::gain_paid);
+    return Judgement{tally.outcome(), paid_and_not(unpaid, paid)};
   };
 }
 
@@ -57,11 +65,14 @@ std::string reason(const Rows& rows) {
 }  // namespace
 
 Judge<OrderRow> gains(const Series& series, uint64_t rays, double claimed_gain) {
-  return [=](const Rows& rows) -> std::string {
+  return [=](const Rows& rows) -> Judgement {
     const OrderRow* row = find_row(rows, series, rays);
-    if (!row) return "not measured";
+    if (!row) return not_measured();
+    Tally tally;
+    for (const double gain : {row->gain_unpaid, row->gain_paid})
+      tally.add(gain >= claimed_gain, gain >= exceeding * claimed_gain);
     const auto word = [&](double gain) { return gain >= claimed_gain ? "reached" : "not reached"; };
-    return paid_and_not(word(row->gain_unpaid), word(row->gain_paid));
+    return {tally.outcome(), paid_and_not(word(row->gain_unpaid), word(row->gain_paid))};
   };
 }
 
@@ -99,22 +110,22 @@ Judge<OrderRow> slightly_slower(const std::string& method, std::vector<std::stri
 }
 
 Judge<OrderRow> no_slower(const std::string& method, const std::string& than, uint64_t first, uint64_t last) {
-  return [=](const Rows& rows) -> std::string {
+  return [=](const Rows& rows) -> Judgement {
     const std::set<uint64_t> counts = counts_between(rows, first, last);
-    if (counts.empty()) return "not measured";
+    if (counts.empty()) return not_measured();
     return both_gains([=](const Rows& all, Gain gain) {
       return std::ranges::all_of(counts, [&](uint64_t rays) {
-        return gain_at(all, method, rays, gain) * 1.05 >= gain_at(all, than, rays, gain);
+        return gain_at(all, method, rays, gain) * (1 + negligible_gain) >= gain_at(all, than, rays, gain);
       });
     })(rows);
   };
 }
 
 Judge<OrderRow> degrades_beyond(const std::string& method, const std::string& against, uint64_t bound) {
-  return [=](const Rows& rows) -> std::string {
+  return [=](const Rows& rows) -> Judgement {
     const std::set<uint64_t> below = counts_between(rows, 0, bound),
                              beyond = counts_between(rows, bound + 1, UINT64_MAX);
-    if (below.empty() || beyond.empty()) return "not measured";
+    if (below.empty() || beyond.empty()) return not_measured();
     return both_gains([=](const Rows& all, Gain gain) {
       const auto speed = [&](uint64_t rays) {
         return gain_at(all, method, rays, gain) / gain_at(all, against, rays, gain);
@@ -125,8 +136,8 @@ Judge<OrderRow> degrades_beyond(const std::string& method, const std::string& ag
 }
 
 Judge<OrderRow> gain_grows(const std::string& method) {
-  return [=](const Rows& rows) -> std::string {
-    if (rows.front().rays == rows.back().rays) return "not measured";
+  return [=](const Rows& rows) -> Judgement {
+    if (rows.front().rays == rows.back().rays) return not_measured();
     return both_gains([=](const Rows& all, Gain gain) {
       return gain_of(all, method, gain) > gain_at(all, method, all.front().rays, gain);
     })(rows);
@@ -143,7 +154,7 @@ Judge<OrderRow> shapes_gain() {
         best = std::max(best, time(series) / time(with_shape(series, shape)));
     for (const char* mapped : {"hilbert3d-histogram-hilbert2d", "hilbert3d-histogram-hilbert3d"})
       best = std::max(best, time(h3dh) / time(ordered(mapped)));
-    return fmt::format("a factor of {:.2f} at most", best);
+    return judgement(best <= 1 + negligible_gain, fmt::format("a factor of {:.2f} at most", best));
   };
 }
 

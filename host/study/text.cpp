@@ -28,8 +28,9 @@ std::string line(const std::vector<std::string>& cells, const std::vector<size_t
 }  // namespace
 
 NumberTable verdict_table(const std::vector<Verdict>& verdicts) {
-  NumberTable out{.caption = "", .heads = {"claim", "measured"}, .rows = {}};
-  for (const auto& [claim, measured] : verdicts) out.rows.push_back({claim, measured});
+  NumberTable out{.caption = "", .heads = {"claim", "verdict", "measured"}, .rows = {}};
+  for (const auto& [claim, outcome, measured] : verdicts)
+    out.rows.push_back({claim, std::string(word(outcome)), measured});
   return out;
 }
 

@@ -5,11 +5,14 @@
 #include <map>
 #include <string>
 #include <vector>
+#include "study/judgement.hpp"
 
 namespace wavetracer::study {
 
 struct Verdict {
-  std::string claim, measured;
+  std::string claim;
+  Outcome outcome;
+  std::string measured;
 };
 
 struct NumberTable {

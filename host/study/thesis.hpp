@@ -24,9 +24,11 @@ std::string family(const std::string& setting);
 // The table thesis.csv, and the script that draws it: time saved against errors, a point per row.
 std::string speed_error_table(const std::vector<CacheRow>& rows);
 std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device);
-// Every claim with what was measured; of a figure without one, what there is to know of it. Columns: figure, claim,
-// measured.
+// Every claim with its outcome and what was measured; of a figure without one, what there is to know of it. Columns:
+// figure, claim, verdict, measured.
 NumberTable verdicts_of(const std::vector<Section>& figures);
+// "Of 90 claims, 40 are reproduced, 10 are exceeded, 20 hold in part, 15 are refuted, and 5 could not be judged."
+std::string outcome_counts(const std::vector<Section>& figures);
 std::string thesis_html(const ThesisPage& page);
 // The verdicts, then every figure's words and plot, which is NAME.svg beside it.
 std::string thesis_markdown(const ThesisPage& page);

@@ -45,12 +45,12 @@ NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {
 
 // Every claim, and where more of it is.
 std::string verdicts_html(const std::vector<Section>& figures) {
-  std::string text =
-      "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
-      "<th>claim</th><th>measured</th></tr></thead>\n<tbody>\n";
+  std::string text = "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<p>" + outcome_counts(figures) +
+                     "</p>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
+                     "<th>claim</th><th>verdict</th><th>measured</th></tr></thead>\n<tbody>\n";
   for (const auto& row : verdicts_of(figures).rows)
-    text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td></tr>\n", row[0], escaped(row[1]),
-                        escaped(row[2]));
+    text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n", row[0],
+                        escaped(row[1]), escaped(row[2]), escaped(row[3]));
   return text +
          "</tbody>\n</table>\n<p><a href=\"#speed-error\">Speed against error of all caches</a></p>\n"
          "</section>\n";
@@ -59,16 +59,31 @@ std::string verdicts_html(const std::vector<Section>& figures) {
 }  // namespace
 
 NumberTable verdicts_of(const std::vector<Section>& figures) {
-  NumberTable table{.caption = "", .heads = {"figure", "claim", "measured"}, .rows = {}};
+  NumberTable table{.caption = "", .heads = {"figure", "claim", "verdict", "measured"}, .rows = {}};
   for (const Section& figure : figures) {
     std::vector<Verdict> verdicts = figure.words.verdicts;
     if (figure.words.paragraph.empty())
-      verdicts = {{figure.title, figure.problem}};
+      verdicts = {{figure.title, Outcome::not_judged, figure.problem}};
     else if (verdicts.empty())
-      verdicts = {{figure.title, "no claim to judge; the numbers are in its section"}};
-    for (const auto& [claim, measured] : verdicts) table.rows.push_back({figure.name, claim, measured});
+      verdicts = {{figure.title, Outcome::not_judged, "no claim to judge; the numbers are in its section"}};
+    for (const auto& [claim, outcome, measured] : verdicts)
+      table.rows.push_back({figure.name, claim, std::string(word(outcome)), measured});
   }
   return table;
+}
+
+std::string outcome_counts(const std::vector<Section>& figures) {
+  std::map<Outcome, size_t> counts;
+  size_t claims = 0;
+  for (const Section& figure : figures)
+    for (const Verdict& verdict : figure.words.verdicts) {
+      ++counts[verdict.outcome];
+      ++claims;
+    }
+  return fmt::format(
+      "Of {} claims, {} are reproduced, {} are exceeded, {} hold in part, {} are refuted, and {} could not be judged.",
+      claims, counts[Outcome::reproduced], counts[Outcome::exceeded], counts[Outcome::in_part],
+      counts[Outcome::refuted], counts[Outcome::not_judged]);
 }
 
 std::string family(const std::string& setting) {
@@ -133,7 +148,8 @@ std::string thesis_html(const ThesisPage& page) {
 
 std::string thesis_markdown(const ThesisPage& page) {
   std::string text = "# Ray orders and ray caches: the thesis' figures, measured\n\n" + heading_markdown(page.heading) +
-                     "\n## Verdicts\n\n" + markdown(verdicts_of(page.figures)) + "\n\n## Speed against error\n\n";
+                     "\n## Verdicts\n\n" + outcome_counts(page.figures) + "\n\n" + markdown(verdicts_of(page.figures)) +
+                     "\n\n## Speed against error\n\n";
   text += page.svg.empty() ? "No cache was measured.\n" : "![Speed against error of all caches](thesis.svg)\n";
   for (const Section& figure : page.figures) {
     text += fmt::format("\n## {}: {}\n\n", figure.name, figure.title);

@@ -75,7 +75,7 @@ TEST_CASE("judges: everywhere, where, of settings") {
 }
 
 TEST_CASE("figures 6.2, 6.3, 6.6 and 6.7: writes, reads and tracing of a segment") {
-  const std::string no_timer = "not judged: a kernel has no timer that could tell its steps apart";
+  const std::string no_timer = "a kernel has no timer that could tell its steps apart";
   // 80 segments are written, 100 read; nanoseconds as given.
   const auto times = [](double write, double read, double gather, double trace) {
     return [=](CacheRow& one) {

@@ -21,17 +21,21 @@ inline std::vector<std::string> verdicts_of(const std::string& name, const std::
   if (change)
     for (CacheRow& one : rows) change(one);
   std::vector<std::string> out;
-  for (const Claim<CacheRow>& claim : experiment.as<CacheFigure>()->claims) out.push_back(claim.judge(rows));
+  for (const Claim<CacheRow>& claim : experiment.as<CacheFigure>()->claims) out.push_back(claim.judge(rows).words);
   return out;
 }
 
 // The verdict on one claim of a figure, by its words.
-inline std::string verdict_of(const std::string& name, const std::string& words, const std::vector<uint64_t>& rays,
+inline Judgement judgement_of(const std::string& name, const std::string& words, const std::vector<uint64_t>& rays,
                               const CacheCost& cost) {
   const Experiment& experiment = find_experiment(name);
   for (const Claim<CacheRow>& claim : experiment.as<CacheFigure>()->claims)
     if (claim.words == words) return claim.judge(made_measurement(*experiment.study(), rays, cost).rows);
   throw std::logic_error(name + " has no claim \"" + words + "\"");
+}
+inline std::string verdict_of(const std::string& name, const std::string& words, const std::vector<uint64_t>& rays,
+                              const CacheCost& cost) {
+  return judgement_of(name, words, rays, cost).words;
 }
 
 // Of one setting seconds and metres, of all others a second and nothing.

@@ -48,7 +48,7 @@ ThesisPage page() {
   out.svg = inline_svg(drawing, "thesis-");
   for (const Experiment* experiment : thesis_experiments()) {
     Section figure{.name = experiment->name, .title = experiment->title};
-    figure.words = {"a < b & c", {{"a > b", "not <confirmed>"}}, {"Numbers:", {"x"}, {{"1 & 2"}}}};
+    figure.words = {"a < b & c", {{"a > b", Outcome::in_part, "not <confirmed>"}}, {"Numbers:", {"x"}, {{"1 & 2"}}}};
     figure.svg = inline_svg(drawing, experiment->name + "-");
     figure.notes = {"a note"};
     out.figures.push_back(figure);
@@ -98,10 +98,10 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
   const std::string table = html.substr(begin, end - begin);
   for (const Section& figure : made.figures)
     CHECK(contains(table, "<td><a href=\"#" + figure.name + "\">" + figure.name + "</a></td>"));
-  CHECK(contains(table, "<td>a &gt; b</td><td>not &lt;confirmed&gt;</td>"));
-  CHECK(contains(
-      table, "#figure-6.5\">figure-6.5</a></td><td>" + escaped(made.figures[4].title) + "</td><td>no claim to judge"));
-  CHECK(contains(table, "<td>Operations</td><td>failed: no memory</td>"));
+  CHECK(contains(table, "<td>a &gt; b</td><td>in part</td><td>not &lt;confirmed&gt;</td>"));
+  CHECK(contains(table, "#figure-6.5\">figure-6.5</a></td><td>" + escaped(made.figures[4].title) +
+                            "</td><td>not judged</td><td>no claim to judge"));
+  CHECK(contains(table, "<td>Operations</td><td>not judged</td><td>failed: no memory</td>"));
   // Every link leads to a section, and numbers are a table in theirs.
   static const std::regex link(R"re(<a href="#([^"]+)")re");
   size_t links = 0;
@@ -111,6 +111,16 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
   CHECK(contains(html, "<thead><tr><th>x</th></tr></thead>\n<tbody>\n<tr><td>1 &amp; 2</td></tr>"));
   // No number has an exponent.
   CHECK_FALSE(std::regex_search(html, std::regex(R"([0-9]e[-+][0-9])")));
+}
+
+TEST_CASE("claims are counted by what came of them, figures without one and figures that failed not at all") {
+  std::vector<Section> figures(3);
+  figures[0].words = {
+      "text", {{"a", Outcome::refuted, ""}, {"b", Outcome::exceeded, ""}, {"c", Outcome::refuted, ""}}, {}};
+  figures[1].words = {"text", {{"d", Outcome::reproduced, ""}, {"e", Outcome::not_judged, ""}}, {}};
+  CHECK(outcome_counts(figures) ==
+        "Of 5 claims, 1 are reproduced, 1 are exceeded, 0 hold in part, 2 are refuted, and 1 could not be judged.");
+  CHECK(contains(thesis_markdown({.heading = {}, .rows = {}, .svg = "", .figures = figures}), "Of 5 claims, 1 are"));
 }
 
 TEST_CASE("the table has the most rays of every cache") {

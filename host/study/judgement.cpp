@@ -1,0 +1,44 @@
+// Cases to an outcome.
+// One case that holds and one that does not make "in part", whatever else is there.
+#include "study/judgement.hpp"
+#include <array>
+#include "study/text.hpp"
+
+namespace wavetracer::study {
+
+std::string_view word(Outcome outcome) {
+  static constexpr std::array words = {"not judged", "refuted", "in part", "reproduced", "exceeded"};
+  return words.at(static_cast<size_t>(outcome));
+}
+
+std::ostream& operator<<(std::ostream& out, const Judgement& judgement) {
+  return out << word(judgement.outcome) << ": " << judgement.words;
+}
+
+void Tally::add(bool holds, bool goes_beyond) {
+  ++(holds ? held_ : failed_);
+  if (holds && goes_beyond) ++beyond_;
+}
+
+void Tally::add(Outcome outcome) {
+  if (outcome == Outcome::in_part) in_part_ = true;
+  if (outcome == Outcome::in_part || outcome == Outcome::not_judged) return;
+  add(outcome != Outcome::refuted, outcome == Outcome::exceeded);
+}
+
+Outcome Tally::outcome() const {
+  if (in_part_ || (held_ > 0 && failed_ > 0)) return Outcome::in_part;
+  if (failed_ > 0) return Outcome::refuted;
+  if (held_ == 0) return Outcome::not_judged;
+  return beyond_ == held_ ? Outcome::exceeded : Outcome::reproduced;
+}
+
+Judgement not_measured() { return {Outcome::not_judged, "not measured"}; }
+
+Judgement judgement(bool holds) { return judgement(holds, verdict(holds)); }
+
+Judgement judgement(bool holds, std::string words) {
+  return {holds ? Outcome::reproduced : Outcome::refuted, std::move(words)};
+}
+
+}  // namespace wavetracer::study
