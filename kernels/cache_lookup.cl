@@ -2,11 +2,13 @@
 // where ray i is to be traced, else WT_NONE. WT_RAYS_PER_ITEM rays per work-item (1 on GPUs).
 //   WT_CACHE_OWN_POINT   an answer names the surface, and the ray meets its plane itself; else the ray is replaced by
 //                        the one that was traced
-//   WT_CACHE_STATISTICS  counts hits per entry and links entries along paths, by the plane WT_RAY_ENTRY
+//   WT_CACHE_STATISTICS  counts hits per entry, keeps the cycles of its last answer, and links entries along paths, by
+//                        the plane WT_RAY_ENTRY
 //   WT_CACHE_ALL         entries hold what moves, too: those that movement has made wrong are withdrawn, but by the
 //                        thesis' tables as printed (WT_CACHE_THESIS)
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
+#include "lib/clock.clh"
 #include "wavetracer/device/arguments.h"
 
 // What moves, with WT_CACHE_ALL; else placeholders.
@@ -60,7 +62,7 @@ kernel void cache_lookup(global float* rays, global float* hits, global float* m
                          global wt_cache_counters* counters, const global wt_surface* surfaces,
                          const global wt_exact_surface* exact_surfaces, const global float* receivers,
                          const global uint* instance_since, global uint* receptions, global uint* entry_hits,
-                         global uint* uses, wt_cache_lookup_arguments args) {
+                         global uint* uses, global wt_cache_cycles* cycles, wt_cache_lookup_arguments args) {
   const wt_cache cache = {entries, heads, used, regions, counters};
   const wt_cache_movement movement = {receivers, args.radius_m, exact_surfaces, instance_since};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
@@ -78,6 +80,9 @@ kernel void cache_lookup(global float* rays, global float* hits, global float* m
     for (uint k = 0; k < ahead; ++k) {
       const uint i = next + k, left_surface = wt_load_word(rays, args.capacity, WT_RAY_SURFACE, i);
       wt_cache_entry e;
+#ifdef WT_CACHE_STATISTICS
+      const ulong before = wt_clock();
+#endif
       const uint slot = look_up(cache, questions[k], left_surface, args.static_surfaces, surfaces, movement, &e);
       wt_store_word(missed, args.capacity, 0, i, slot == WT_NONE ? i : WT_NONE);
 #ifdef WT_CACHE_ALL
@@ -92,6 +97,7 @@ kernel void cache_lookup(global float* rays, global float* hits, global float* m
       wt_store_float3(rays, args.capacity, WT_RAY_DIRECTION, i, vload3(0, e.direction));
 #endif
 #ifdef WT_CACHE_STATISTICS
+      cycles[slot].read = wt_cycles_since(before);
       wt_fetch_add_u32(entry_hits + slot, 1u);
       wt_cache_link_path(cache, rays, args.capacity, i, slot);
 #endif

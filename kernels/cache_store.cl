@@ -1,15 +1,17 @@
 // cache_store: rays that were traced because the cache had no answer. Consumes missed[k], its hit, and indices[k],
 // which ray of the whole queue it is; produces that ray's hit, and an entry. One missed ray a work-item.
-// With WT_CACHE_STATISTICS entries are linked along paths; with WT_CACHE_ALL they keep receptions[k], the first
-// receiver that the segment passed, and so does receivers[i].
+// With WT_CACHE_STATISTICS entries are linked along paths and keep the cycles of their write; with WT_CACHE_ALL they
+// keep receptions[k], the first receiver that the segment passed, and so does receivers[i].
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
+#include "lib/clock.clh"
 #include "wavetracer/device/arguments.h"
 
 // Ray k of the missed ones: its hit to the whole queue, and into the table.
 inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, uint capacity,
                       const global float* missed, const global float* missed_hits, uint missed_capacity, uint k, uint i,
-                      global float* hits, uint static_surfaces, const global uint* receptions, global uint* receivers) {
+                      global float* hits, uint static_surfaces, const global uint* receptions, global uint* receivers,
+                      global wt_cache_cycles* cycles) {
   const float t = missed_hits[k];
   const uint primitive = wt_load_word(missed_hits, missed_capacity, WT_HIT_PRIMITIVE, k);
   const uint surface = wt_load_word(missed_hits, missed_capacity, WT_HIT_SURFACE, k);
@@ -24,7 +26,13 @@ inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, u
   uint slot = WT_NONE;
   if (wt_cache_may_ask(q, wt_load_word(missed, missed_capacity, WT_RAY_SURFACE, k), static_surfaces)) {
     const wt_cache_entry e = wt_cache_answer(q, t, primitive, surface, receiver);
+#ifdef WT_CACHE_STATISTICS
+    const ulong before = wt_clock();
     slot = wt_cache_put(cache, q, &e);
+    if (slot != WT_NONE) cycles[slot].write = wt_cycles_since(before);
+#else
+    slot = wt_cache_put(cache, q, &e);
+#endif
   }
 #ifdef WT_CACHE_STATISTICS
   wt_cache_link_path(cache, rays, capacity, i, slot);
@@ -43,7 +51,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
                         const global uint* indices, global float* hits, global wt_cache_entry* entries,
                         global uint* heads, global uint* used, const global wt_cache_region* regions,
                         global wt_cache_counters* counters, const global uint* receptions, global uint* receivers,
-                        wt_cache_store_arguments args) {
+                        global wt_cache_cycles* cycles, wt_cache_store_arguments args) {
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
@@ -64,7 +72,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
         region = questions[j].region;
       }
       store_hit(cache, questions[j], rays, args.capacity, missed, missed_hits, args.missed_capacity, next + j,
-                indices[next + j], hits, args.static_surfaces, receptions, receivers);
+                indices[next + j], hits, args.static_surfaces, receptions, receivers, cycles);
     }
   }
   flush_tally(cache, region);
@@ -75,7 +83,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
                         const global uint* indices, global float* hits, global wt_cache_entry* entries,
                         global uint* heads, global uint* used, const global wt_cache_region* regions,
                         global wt_cache_counters* counters, const global uint* receptions, global uint* receivers,
-                        wt_cache_store_arguments args) {
+                        global wt_cache_cycles* cycles, wt_cache_store_arguments args) {
   local uint stored, claimed, region;
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
@@ -88,7 +96,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
   if (k < args.missed_count) {
     const wt_cache_question q = wt_cache_ask(missed, args.missed_capacity, k, args.widths, args.now);
     store_hit(cache, q, rays, args.capacity, missed, missed_hits, args.missed_capacity, k, indices[k], hits,
-              args.static_surfaces, receptions, receivers);
+              args.static_surfaces, receptions, receivers, cycles);
     if (q.region != region) flush_tally(cache, q.region);
   }
   if (tally.stored) atomic_add(&stored, tally.stored);

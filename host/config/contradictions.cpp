@@ -122,6 +122,14 @@ void check_waypoints(const Config& config, Found& out) {
 
 void check_cache(const Config& config, Found& out) {
   const CacheConfig& cache = config.cache;
+  if (config.output.cache_entries && (cache.kind == "none" || !cache.statistics))
+    out.push_back(
+        {{"output.cache_entries"},
+         fmt::format(
+             "output.cache_entries = true writes what the ray cache counted for each entry, but {}: {} "
+             "or remove output.cache_entries",
+             cache.kind == "none" ? "cache.kind = \"none\"" : "cache.statistics = false",
+             cache.kind == "none" ? "choose a kind of cache with cache.statistics = true," : "set it to true,")});
   if (cache.kind == "none") return;
   if (cache.key == "exact" && cache.scope == "all")
     out.push_back({{"cache.key", "cache.scope"},

@@ -64,6 +64,9 @@ Table cache_table();
 
 // Of live_fields.cpp: what comes in at run time.
 Table live_table();
+
+// Of output_fields.cpp.
+Table output_table();
 Table live_vehicle_table();
 
 // Of scene_fields.cpp: what stands.

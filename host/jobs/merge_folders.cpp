@@ -151,9 +151,11 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   const MergeParts parts = parts_of(found.shards, [&](const Shard& shard) {
     return found.places.at({shard.unit.first, shard.unit.block});
   });
-  const std::span<const H5Output> outputs = h5_outputs(record.config);
+  const std::vector<H5Output> outputs = h5_outputs(record.config);
   if (parts.files.size() != outputs.size() + 1)
-    throw RuntimeError(found.record.string() + " does not belong to the parts beside it: output.waypoints differs");
+    throw RuntimeError(found.record.string() +
+                       " does not belong to the parts beside it: output.waypoints or "
+                       "output.cache_entries differs");
   PendingDirectory folder(directory);
   std::vector<PendingFile> files = merge_outputs(
       record.config, parts, Parts::foreign, Proof::none, directory, [&](const H5Output& output, hdf5::File& head) {

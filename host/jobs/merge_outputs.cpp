@@ -78,7 +78,7 @@ void merge_h5(const Draft& draft, Parts whose, Proof proof) {
 std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose, Proof proof,
                                        const fs::path& directory, const WriteHead& write_head) {
   std::vector<PendingFile> files;
-  const std::span<const H5Output> outputs = h5_outputs(config);
+  const std::vector<H5Output> outputs = h5_outputs(config);
   for (size_t i = 0; i < outputs.size(); ++i) {
     PendingFile& file = files.emplace_back(directory / outputs[i].name);
     merge_h5({outputs[i], parts.files.at(i), parts.of_one_frame, write_head, file, config.output.compression}, whose,

@@ -43,6 +43,7 @@ std::string encode_run_record(const Run& run) {
   json["config"] = run.config.text;
   json["reuse"] = run.config.trace.reuse;
   json["waypoints"] = run.config.output.waypoints;
+  json["cache_entries"] = run.config.output.cache_entries;
   json["compression"] = run.config.output.compression;
   json["cache"] = {{"kind", run.config.cache.kind.word()}, {"key", run.config.cache.key.word()}};
   json["scene_file"] = run.scene.file;
@@ -77,6 +78,7 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   if (json.contains("config")) out.config.text = json.at("config");
   out.config.trace.reuse = json.at("reuse");
   out.config.output.waypoints = whole<uint64_t>(json.at("waypoints"));
+  if (json.contains("cache_entries")) out.config.output.cache_entries = json.at("cache_entries").get<bool>();
   if (json.contains("compression")) out.config.output.compression = whole<uint32_t>(json.at("compression"));
   if (out.config.output.compression > 9) throw RuntimeError(name + ": \"compression\" is no level from 0 to 9");
   out.config.cache.kind = CacheKind::named(json.at("cache").at("kind").get<std::string>());

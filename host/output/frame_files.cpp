@@ -24,6 +24,7 @@ void FrameFiles::add(const FrameResult& frame) {
     limited.world = frame.world;
     limited.paths = select_rows(frame.paths, written);
     limited.waypoints = frame.waypoints;
+    limited.cache_entries = frame.cache_entries;
     append(limited);
   }
   links_.add(frame, written);
@@ -33,13 +34,13 @@ void FrameFiles::add(const FrameResult& frame) {
 }
 
 void FrameFiles::append(const FrameResult& frame) {
-  const std::span<const H5Output> outputs = h5_outputs(run_.config);
+  const std::vector<H5Output> outputs = h5_outputs(run_.config);
   for (size_t i = 0; i < outputs.size(); ++i) outputs[i].append_frame(run_, frame, tables_[i]);
 }
 
 std::vector<PendingFile> FrameFiles::finish(uint32_t compression) {
   std::vector<PendingFile> files;
-  const std::span<const H5Output> outputs = h5_outputs(run_.config);
+  const std::vector<H5Output> outputs = h5_outputs(run_.config);
   for (size_t i = 0; i < outputs.size(); ++i) {
     hdf5::File head;
     make_head(outputs[i], run_, head);

@@ -1,20 +1,27 @@
-// The table of HDF5 outputs. Those that are not always written come last.
+// The table of HDF5 outputs.
 #include "output/h5_outputs.hpp"
 #include <array>
+#include "output/cache_entries_h5.hpp"
 #include "output/paths_h5.hpp"
 #include "output/waypoints_h5.hpp"
 
 namespace wavetracer {
 namespace {
 
-constexpr std::array<H5Output, 2> outputs{
+constexpr std::array<H5Output, 3> outputs{
     {{"paths.h5", ".h5", encode_head_h5, append_frame_h5, growing_groups},
-     {"waypoints.h5", ".waypoints.h5", encode_waypoints_head_h5, append_waypoints_h5, growing_waypoint_groups}}};
+     {"waypoints.h5", ".waypoints.h5", encode_waypoints_head_h5, append_waypoints_h5, growing_waypoint_groups},
+     {"cache_entries.h5", ".cache_entries.h5", encode_cache_entries_head_h5, append_cache_entries_h5,
+      growing_cache_entry_groups}}};
 
 }  // namespace
 
-std::span<const H5Output> h5_outputs(const Config& config) {
-  return std::span(outputs).first(config.output.waypoints > 0 ? 2 : 1);
+std::vector<H5Output> h5_outputs(const Config& config) {
+  const std::array wanted = {true, config.output.waypoints > 0, config.output.cache_entries};
+  std::vector<H5Output> out;
+  for (size_t i = 0; i < outputs.size(); ++i)
+    if (wanted[i]) out.push_back(outputs[i]);
+  return out;
 }
 
 }  // namespace wavetracer

@@ -1,6 +1,7 @@
 // The HDF5 files of a run: what each is called, whole and in shards, and how it is made of a run and its frames.
 #pragma once
 #include <span>
+#include <vector>
 #include "output/frame_tables.hpp"
 #include "output/hdf5.hpp"
 #include "wavetracer/output.hpp"
@@ -17,7 +18,8 @@ struct H5Output {
   std::span<const char* const> growing_groups;  // in the order of the file
 };
 
-// Those that runs of this configuration write: paths.h5, and with output.waypoints waypoints.h5.
-std::span<const H5Output> h5_outputs(const Config& config);
+// Those that runs of this configuration write: paths.h5, with output.waypoints waypoints.h5, with output.cache_entries
+// cache_entries.h5.
+std::vector<H5Output> h5_outputs(const Config& config);
 
 }  // namespace wavetracer

@@ -22,7 +22,7 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
   kernel_(work_.range(rays.count), "cache_lookup", rays.planes, hits.planes, missed, table.entries, table.heads,
           table.used, table.device_regions, table.counters, scene.surfaces, scene.exact_surfaces, movement.receivers,
-          movement.instance_since, receptions, table.hits, table.uses,
+          movement.instance_since, receptions, table.hits, table.uses, table.cycles,
           wt_cache_lookup_arguments{.capacity = rays.capacity,
                                     .count = rays.count,
                                     .now = now,

@@ -23,7 +23,7 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
   if (missed.count == 0) return;
   kernel_(work_.range(missed.count), "cache_store", rays.planes, missed.planes, missed_hits.planes, indices,
           hits.planes, table.entries, table.heads, table.used, table.device_regions, table.counters, receptions,
-          receivers,
+          receivers, table.cycles,
           wt_cache_store_arguments{.capacity = rays.capacity,
                                    .missed_capacity = missed.capacity,
                                    .missed_count = missed.count,

@@ -38,7 +38,8 @@ uint32_t empty_head(const CacheConfig& config) {
 }
 
 double bytes_an_entry(const CacheConfig& config) {
-  return sizeof(wt_cache_entry) + 4 * (head_words_an_entry(config) + 1) + (config.statistics ? 4 : 0);
+  return sizeof(wt_cache_entry) + 4 * (head_words_an_entry(config) + 1) +
+         (config.statistics ? 4 + sizeof(wt_cache_cycles) : 0);
 }
 
 uint32_t share_of(const CacheConfig& config, uint32_t transmitter_count, const gpu::DeviceInfo& device) {
@@ -102,6 +103,7 @@ CacheTable make_cache_table(gpu::Context& context, const CacheConfig& config, ui
   table.device_regions = context.buffer(table.regions, "cache regions");
   table.counters = context.buffer(std::vector<wt_cache_counters>(1), "cache counters");
   table.hits = context.buffer<uint32_t>(config.statistics ? entries : 1, "cache hits");
+  table.cycles = context.buffer<wt_cache_cycles>(config.statistics ? entries : 1, "cache cycles");
   table.uses = context.buffer<uint32_t>(entries, "cache uses");
   table.clear(context);
   return table;
@@ -144,7 +146,7 @@ gpu::Definitions CacheTable::definitions(bool bulk) const {
 
 uint64_t CacheTable::bytes() const {
   return entries.bytes() + heads.bytes() + used.bytes() + device_regions.bytes() + counters.bytes() + hits.bytes() +
-         uses.bytes();
+         cycles.bytes() + uses.bytes();
 }
 
 void CacheTable::clear(gpu::Context& context, uint32_t region) {
@@ -160,7 +162,10 @@ void CacheTable::clear(gpu::Context& context, uint32_t region) {
     fill(context, heads, head, words * r.first_entry, words * r.entries);
   }
   fill(context, used, 0, region, 1);
-  if (config.statistics) fill(context, hits, 0, r.first_entry, r.entries);
+  if (config.statistics) {
+    fill(context, hits, 0, r.first_entry, r.entries);
+    fill(context, cycles, 0, r.first_entry, r.entries);
+  }
   fill(context, uses, 0, r.first_entry, r.entries);
 }
 
@@ -169,6 +174,7 @@ void CacheTable::clear(gpu::Context& context) {
   fill(context, heads, empty_head(config), 0, heads.size());
   fill(context, used, 0, 0, used.size());
   fill(context, hits, 0, 0, hits.size());
+  fill(context, cycles, 0, 0, cycles.size());
   fill(context, uses, 0, 0, uses.size());
 }
 

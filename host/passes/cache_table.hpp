@@ -20,6 +20,7 @@ struct CacheTable {
   gpu::Buffer<device::wt_cache_counters> counters;  // one
   // With config.statistics: answers of each slot since its region was cleared; else a placeholder.
   gpu::Buffer<uint32_t> hits;
+  gpu::Buffer<device::wt_cache_cycles> cycles;  // likewise, of each slot
 
   // One of the thesis' tables, faults and all.
   bool as_printed() const { return config.kind == "thesis" || config.kind == "thesis-chained"; }

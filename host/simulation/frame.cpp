@@ -61,6 +61,7 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
       discover(task, out.world, block ? &*block : nullptr);  // order_keys to refine (discovery.cpp)
   account.discovered(found);
   if (s_.cache) out.cache = s_.cache->summary();
+  if (s_.cache && s_.config.output.cache_entries) s_.cache->add_entries(task.frame, out.cache_entries);
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();
 
   const bool spheres = s_.trails && s_.trails->receives();

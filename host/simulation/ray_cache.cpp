@@ -2,6 +2,7 @@
 // Two host reads for each depth: the rays that were not answered, and (by the caller) those that hit; one or two more
 // with cache.innerframe.
 #include "simulation/ray_cache.hpp"
+#include "simulation/cache_entries.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -217,6 +218,10 @@ CacheSummary RayCache::summary() {
   s.bytes = table_.bytes();
   if (table_.config.statistics) s.entries_by_hits = entries_by_hits();
   return s;
+}
+
+void RayCache::add_entries(uint32_t frame, CacheEntryRows& rows) const {
+  add_cache_entries(table_, frame, frame_, rows);
 }
 
 // Groups of 0, 1, 2, 3 to 4, 5 to 8, ... answers, of entries that were written.

@@ -55,6 +55,8 @@ class RayCache final : public HitFinder {
   // Where receptions are kept, also with what receivers.
   std::optional<AnsweredRays> answered(uint32_t depth) const override;
   void count_blocks(const RayQueue& rays, HitList& hits, uint32_t depth) override;
+  // The entries of the table as it is, for frame `frame`; reads the device. Needs cache.statistics.
+  void add_entries(uint32_t frame, CacheEntryRows& rows) const;
   // Of the frame so far; reads the device.
   CacheSummary summary();
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "wavetracer/cache_entries.hpp"
 #include "wavetracer/missed.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/ray_waypoints.hpp"
@@ -70,7 +71,8 @@ struct FrameResult {
   StageSeconds seconds;
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
-  WaypointRows waypoints;  // of output.waypoints samples per transmitter
+  WaypointRows waypoints;        // of output.waypoints samples per transmitter
+  CacheEntryRows cache_entries;  // with output.cache_entries
   std::vector<std::string> warnings;
   MissingLinks missing;  // set by Simulation::explain_missing, else empty
 };

@@ -51,11 +51,11 @@ Run make_run(const Simulation& simulation, uint64_t frames_asked = 1, const std:
 // Consecutive frames, sorted by their number.
 using Frames = std::span<const FrameResult>;
 
-// Writes paths.h5, waypoints.h5 (where output.waypoints asks for it), links.csv and summary.json of a run that fits in
-// memory, in place of all that an earlier run left there, and returns their paths in that order.
-// The folder is created if it is missing. A file appears under its name only when all are complete and on the disk;
-// after a failure neither temporary files nor a folder made here are left. Throws RuntimeError.
-// Not to be called from two threads at once: the HDF5 library is not thread safe.
+// Writes paths.h5, waypoints.h5 and cache_entries.h5 (where output.waypoints and output.cache_entries ask for them),
+// links.csv and summary.json of a run that fits in memory, in place of all that an earlier run left there, and returns
+// their paths in that order. The folder is created if it is missing. A file appears under its name only when all are
+// complete and on the disk; after a failure neither temporary files nor a folder made here are left. Throws
+// RuntimeError. Not to be called from two threads at once: the HDF5 library is not thread safe.
 std::vector<std::filesystem::path> write_outputs(const std::filesystem::path& directory, const Run& run, Frames frames);
 
 }  // namespace wavetracer

@@ -173,6 +173,16 @@ TEST_CASE("reception spheres take whole rays that are spread evenly") {
   check_contains(of("trace.sphere_radius_m = 0"), "it must be a number above 0 up to 10000 (m)");
 }
 
+TEST_CASE("entries of a cache are those of a cache that counts") {
+  CHECK(of("output.cache_entries = true\ncache.kind = \"open\"\ncache.statistics = true") == "no error");
+  CHECK(of("output.cache_entries = true") ==
+        "a.toml:2:24: output.cache_entries = true writes what the ray cache counted for each entry, but cache.kind = "
+        "\"none\": choose a kind of cache with cache.statistics = true, or remove output.cache_entries");
+  CHECK(of("output.cache_entries = true\ncache.kind = \"open\"") ==
+        "a.toml:2:24: output.cache_entries = true writes what the ray cache counted for each entry, but "
+        "cache.statistics = false: set it to true, or remove output.cache_entries");
+}
+
 TEST_CASE("waypoints are those of a known number of rays") {
   CHECK(of("output.waypoints = 100") == "no error");
   CHECK(of("output.waypoints = 100\ntrace.rays = \"auto\"") ==

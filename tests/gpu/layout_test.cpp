@@ -191,6 +191,7 @@ const std::vector<Record> records{
      {FIELD(wt_cache_counters, conflicts), FIELD(wt_cache_counters, stale), FIELD(wt_cache_counters, stored),
       FIELD(wt_cache_counters, replaced), FIELD(wt_cache_counters, duplicates), FIELD(wt_cache_counters, dropped),
       FIELD(wt_cache_counters, exhausted), FIELD(wt_cache_counters, evicted), FIELD(wt_cache_counters, linked)}},
+    {"wt_cache_cycles", sizeof(wt_cache_cycles), {FIELD(wt_cache_cycles, read), FIELD(wt_cache_cycles, write)}},
     {"wt_cache_widths",
      sizeof(wt_cache_widths),
      {FIELD(wt_cache_widths, cell_bits), FIELD(wt_cache_widths, surface_bits), FIELD(wt_cache_widths, primitive_bits)}},

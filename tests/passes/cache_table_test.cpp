@@ -28,8 +28,8 @@ TEST_CASE("sizes of tables: shares, buckets, and errors that name limit and valu
   CHECK(table.regions[2].first_bucket == 222);
   CHECK(table.entries.size() == 999);
   CHECK(table.heads.size() == 333 + 2 * 999);
-  CHECK(table.bytes() ==
-        999 * 64 + 4 * (333 + 3 * 999) + 3 * 4 + 3 * sizeof(wt_cache_region) + sizeof(wt_cache_counters) + 4);
+  CHECK(table.bytes() == 999 * 64 + 4 * (333 + 3 * 999) + 3 * 4 + 3 * sizeof(wt_cache_region) +
+                             sizeof(wt_cache_counters) + 4 + sizeof(wt_cache_cycles));
   CHECK(make_cache_table(context(), chained(16, 64), 1, 10, 10).regions[0].buckets == 1);
   CacheConfig config = chained(1000);
   config.kind = "concurrent";

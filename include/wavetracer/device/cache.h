@@ -39,6 +39,11 @@ typedef struct {
   wt_uint stamp;  // hash of that key, never 0: what the thesis' table as printed compares
 } wt_cache_region;
 
+// With cache.statistics: cycles of the device's clock (lib/clock.clh) that an entry's last answer and last write took.
+typedef struct {
+  wt_uint read, write;
+} wt_cache_cycles;
+
 // What happened, besides plain hits and misses.
 typedef struct {
   wt_uint conflicts;   // look-ups that met a writer or a reader, counted as misses
