@@ -167,30 +167,17 @@ Judge<CacheRow> not_judged(const std::string& why) {
   return [=](const CacheRows&) { return Judgement{Outcome::not_judged, why}; };
 }
 
-Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds) {
+Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<std::optional<bool>(const CacheRow&)> holds) {
   return [=](const CacheRows& rows) -> Judgement {
     const auto [drive, rays] = first_point(rows);
     std::vector<std::string> yes, no;
     for (const std::string& setting : settings)
       if (const CacheRow* row = find_cached(rows, setting, rays, drive))
-        (holds(*row) ? yes : no).push_back('"' + setting + '"');
+        if (const std::optional<bool> found = holds(*row)) (*found ? yes : no).push_back('"' + setting + '"');
     if (yes.empty() && no.empty()) return not_measured();
     if (no.empty()) return judgement(true, "confirmed for all");
     if (yes.empty()) return judgement(false, "not confirmed for any");
     return {Outcome::in_part, fmt::format("confirmed for {}, not for {}", list_words(yes), list_words(no))};
-  };
-}
-
-Judge<CacheRow> of_all(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds) {
-  return [=](const CacheRows& rows) -> Judgement {
-    const auto [drive, rays] = first_point(rows);
-    bool measured = false, all = true;
-    for (const std::string& setting : settings)
-      if (const CacheRow* row = find_cached(rows, setting, rays, drive)) {
-        measured = true;
-        all = all && holds(*row);
-      }
-    return measured ? judgement(all) : not_measured();
   };
 }
 

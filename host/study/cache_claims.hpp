@@ -2,6 +2,7 @@
 // Assumes that set_savings() has run.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 #include "study/cache_points.hpp"
@@ -17,11 +18,9 @@ Judge<CacheRow> everywhere(AtRays within, AtPoint holds);
 Judge<CacheRow> where(AtPoint holds, CacheValue defined = nullptr);
 // Likewise of the numbers of rays at which a setting saves this share of the time, which more can exceed.
 Judge<CacheRow> where_saved(const std::string& setting, double percent);
-// Of each of these settings at the first number of rays: "confirmed for all", "not confirmed for any", "confirmed for
-// "A", not for "B"".
-Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds);
-// Of all of these settings: "confirmed", "not confirmed", or "not measured" where there is none.
-Judge<CacheRow> of_all(std::vector<std::string> settings, std::function<bool(const CacheRow&)> holds);
+// Of each of these settings at the first number of rays, where it can be said: "confirmed for all", "not confirmed for
+// any", "confirmed for "A", not for "B"".
+Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<std::optional<bool>(const CacheRow&)> holds);
 // Of each world, the mean of a value over the numbers of rays where both settings have it, as a factor of that of
 // another setting: "fixed transmitter: confirmed, a factor of 3.2; ..." where it is from `low` to `high`.
 Judge<CacheRow> on_average(CacheValue value, const std::string& setting, const std::string& than, double low,

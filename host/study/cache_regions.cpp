@@ -3,6 +3,7 @@
 #include "study/cache_regions.hpp"
 #include <fmt/format.h>
 #include <cmath>
+#include "study/entry_views.hpp"
 #include "study/ray_counts.hpp"
 #include "study/statistics.hpp"
 
@@ -11,9 +12,11 @@ namespace {
 
 constexpr double clear_correlation = 0.5;
 constexpr const char* regions_note =
-    "the thesis draws its times over the entries of the table, by clocks inside the kernel, which are no timers; here "
-    "a "
-    "region is measured by the rays of its transmitter alone, in the same table, and region 0 is the rays of all. The "
+    "nanoseconds of a region are those of the rays of its transmitter alone, in the same table, and region 0 is the "
+    "rays "
+    "of all; cycles are means over the entries of a region, by the device's own clock, in a frame of all "
+    "transmitters. "
+    "The "
     "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
     "table costs besides is the gathering of missed rays";
 
@@ -28,10 +31,12 @@ std::vector<const CacheRow*> regions_of(const CacheRows& rows, const std::string
 
 std::string cell(double value) { return fmt::format("{:.6g}", value); }
 
-void add_row(CacheShown& shown, const CacheRow& row, bool with_trace) {
-  shown.table += fmt::format("{},{},{},{},{},{},{},{},{}\n", row.drive, row.setting, row.region,
-                             cell(row.counts.lookups), cell(hit_rate(row)), cell(write_ns(row)), cell(read_ns(row)),
-                             cell(gather_ns(row)), cell(trace_ns(row)));
+void add_row(CacheShown& shown, const CacheRows& rows, const CacheRow& row, bool with_trace) {
+  const EntryGroup* entries = row.region == 0 ? nullptr : entries_of_region(rows, row, row.region - 1);
+  shown.table += fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{}\n", row.drive, row.setting, row.region, cell(row.counts.lookups),
+      cell(hit_rate(row)), cell(write_ns(row)), cell(read_ns(row)), cell(gather_ns(row)), cell(trace_ns(row)),
+      cell(entries ? entries->write_cycles : undefined), cell(entries ? entries->read_cycles : undefined));
   shown.numbers.rows.push_back({row.setting, row.region == 0 ? "all" : row.transmitter,
                                 grouped(static_cast<uint64_t>(row.counts.lookups)), share_words(hit_rate(row)),
                                 plain(write_ns(row)), plain(read_ns(row)), plain(gather_ns(row))});
@@ -48,7 +53,7 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
     const CacheRows& rows = measured.rows;
     CacheShown out{
         .plot = {.columns = {"drive", "setting", "region", "lookups", "hit_rate", "write_ns", "read_ns", "gather_ns",
-                             "trace_ns"},
+                             "trace_ns", "write_cycles", "read_cycles"},
                  .settings = settings,
                  .x = "region",
                  .x_label = "region of the table, one for each transmitter (0: all)",
@@ -57,11 +62,17 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
                  .panels = panels_of(rows, {{"write (cache_store)", "write_ns", "ns a segment", "", with_trace},
                                             {"read (cache_lookup)", "read_ns", "ns a segment", "", with_trace},
                                             {"gather missed rays", "gather_ns", "ns a segment", "", with_trace}})},
-        .table = "drive,setting,region,lookups,hit_rate,write_ns,read_ns,gather_ns,trace_ns\n",
+        .table = "drive,setting,region,lookups,hit_rate,write_ns,read_ns,gather_ns,trace_ns,write_cycles,read_cycles\n",
         .numbers = {.caption = fmt::format("Nanoseconds a segment, at {} rays:", grouped(rows.front().rays)),
                     .heads = {"setting", "transmitter", "look-ups", "answered", "write", "read", "gather"},
                     .rows = {}},
         .notes = {regions_note}};
+    const std::string& drive = rows.front().drive;
+    if (!with_trace) {
+      out.plot.panels_a_row = 2;
+      out.plot.panels.push_back({"write, inside the table", "write_cycles", "cycles", drive});
+      out.plot.panels.push_back({"read, inside the table", "read_cycles", "cycles", drive});
+    }
     if (with_trace) {
       out.numbers.heads.emplace_back("trace");
       const auto traced = panels_of(rows, {{"trace", "trace_ns", "ns a segment", "", true}});
@@ -69,24 +80,28 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
     }
     for (const std::string& setting : settings) {
       const CacheRow* whole = find_cached(rows, setting, rows.front().rays, rows.front().drive);
-      if (whole) add_row(out, *whole, with_trace);
-      for (const CacheRow* row : regions_of(rows, setting)) add_row(out, *row, with_trace);
+      if (whole) add_row(out, rows, *whole, with_trace);
+      for (const CacheRow* row : regions_of(rows, setting)) add_row(out, rows, *row, with_trace);
     }
     return out;
   };
 }
 
-Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite) {
+namespace {
+
+// Two values of each region.
+struct RegionPairs {
+  std::vector<double> a, b;
+};
+
+Judge<CacheRow> correlated(std::vector<std::string> settings,
+                           std::function<RegionPairs(const CacheRows&, const std::string&)> pairs, bool opposite) {
   return [=](const CacheRows& rows) {
     std::vector<std::string> yes, no;
     Tally tally;
     for (const std::string& setting : settings) {
-      std::vector<double> a, b;
-      for (const CacheRow* row : regions_of(rows, setting)) {
-        a.push_back(value(*row));
-        b.push_back(with(*row));
-      }
-      const double found = a.size() < 3 ? undefined : pearson(a, b);
+      const RegionPairs regions = pairs(rows, setting);
+      const double found = regions.a.size() < 3 ? undefined : pearson(regions.a, regions.b);
       if (std::isnan(found)) continue;
       const bool holds = opposite ? found <= -clear_correlation : found >= clear_correlation;
       tally.add(holds);
@@ -98,6 +113,35 @@ Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue val
                     : "confirmed for " + list_words(yes) + (no.empty() ? "" : ", not for " + list_words(no));
     return Judgement{tally.outcome(), words};
   };
+}
+
+}  // namespace
+
+Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite) {
+  const auto pairs = [=](const CacheRows& rows, const std::string& setting) {
+    RegionPairs out;
+    for (const CacheRow* row : regions_of(rows, setting)) {
+      out.a.push_back(value(*row));
+      out.b.push_back(with(*row));
+    }
+    return out;
+  };
+  return correlated(std::move(settings), pairs, opposite);
+}
+
+Judge<CacheRow> across_entries(std::vector<std::string> settings, double EntryGroup::*cycles) {
+  const auto pairs = [=](const CacheRows& rows, const std::string& setting) {
+    RegionPairs out;
+    const CacheRow* row = find_cached(rows, setting, rows.front().rays, rows.front().drive);
+    if (!row) return out;
+    for (const EntryGroup& region : row->entries.by_region) {
+      if (std::isnan(region.*cycles)) continue;
+      out.a.push_back(static_cast<double>(region.hits));
+      out.b.push_back(region.*cycles);
+    }
+    return out;
+  };
+  return correlated(std::move(settings), pairs, false);
 }
 
 }  // namespace wavetracer::study

@@ -17,5 +17,7 @@ double access_ns(const CacheRow& row);       // a write and a read
 // with another one by at least a half, or, where they are said to be opposite, by minus a half at most; "not measured"
 // where there are fewer than three regions.
 Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite);
+// Likewise of the entries of each region, whose hits say how busy it is, in one frame of all transmitters.
+Judge<CacheRow> across_entries(std::vector<std::string> settings, double EntryGroup::*cycles);
 
 }  // namespace wavetracer::study

@@ -68,24 +68,6 @@ uint64_t entries_used(const CacheRow& row) {
   return std::accumulate(row.cache.entries_by_hits.begin(), row.cache.entries_by_hits.end(), uint64_t{0});
 }
 
-std::pair<uint64_t, uint64_t> hits_of_class(size_t index) {
-  if (index < 2) return {index, index};
-  return {(uint64_t{1} << (index - 2)) + 1, uint64_t{1} << (index - 1)};
-}
-
-bool hits_are_even(const CacheRow& row) {
-  const std::vector<uint64_t>& entries = row.cache.entries_by_hits;
-  double all = 0, hits = 0;
-  for (size_t i = 0; i < entries.size(); ++i) {
-    const auto [from, to] = hits_of_class(i);
-    all += static_cast<double>(entries[i]);
-    hits += static_cast<double>(entries[i]) * 0.5 * static_cast<double>(from + to);
-  }
-  if (all == 0) return false;
-  const double by_chance = std::exp(-hits / all), found = static_cast<double>(entries.front()) / all;
-  return std::abs(found - by_chance) <= 0.2 * by_chance;
-}
-
 void set_savings(std::vector<CacheRow>& point) {
   for (CacheRow& row : point) row.saved_percent = 100 * (1 - row.warm.loop_s / point.front().warm.loop_s);
 }

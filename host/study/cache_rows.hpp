@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include "study/columns.hpp"
+#include "study/entry_summary.hpp"
 #include "study/path_error.hpp"
 #include "wavetracer/simulation.hpp"
 
@@ -58,6 +59,7 @@ struct CacheRow {
   double paths = 0, sequences = 0;         // of a warm frame on average
   PathError error{};                       // of warm frames
   double saved_percent = 0;                // of the time of the first setting, warm
+  EntrySummary entries{};                  // of the last frame, of settings that keep entries
   std::vector<CentroidError> centroids{};  // frame by frame, of studies that keep them
 };
 
@@ -74,13 +76,6 @@ double trace_ns(const CacheRow& row);
 
 // Entries of the table that hold a segment, as cache.statistics counts them.
 uint64_t entries_used(const CacheRow& row);
-
-// "0", "1", "2", "3-4", "5-8", ...: the fewest and most hits of a class of CacheSummary::entries_by_hits.
-std::pair<uint64_t, uint64_t> hits_of_class(size_t index);
-
-// The share of entries that never answered is what chance leaves, within a fifth of it, if every entry is as likely to
-// be asked: exp(-m), m the mean of the hits of an entry. Needs cache.statistics.
-bool hits_are_even(const CacheRow& row);
 
 // Sets saved_percent of rows of one point, whose first is the reference.
 void set_savings(std::vector<CacheRow>& point);

@@ -12,6 +12,7 @@ namespace wavetracer::study {
 struct Setting {
   std::string name;
   std::function<void(Config&)> apply;  // to a config that has its number of rays
+  bool whole_only = false;             // measured over whole frames, not by depth or transmitter
 };
 
 constexpr uint32_t thesis_division = 200000, thesis_precision_division = 10000;

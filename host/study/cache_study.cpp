@@ -45,6 +45,7 @@ CacheRow row_of(const CacheStudy& study, const Setting& setting, const CacheSubj
                .paths = subject.paths.mean(),
                .sequences = subject.sequences.mean(),
                .error = subject.error.mean()};
+  if (cache.statistics) row.entries = summary_of(subject.last.cache_entries);
   if (!still) row.warm_error_s = subject.loop_s.standard_error();
   if (study.centroids) row.centroids = subject.centroids;
   return row;
@@ -89,14 +90,15 @@ std::vector<CacheRow> measure_point(const Point& at) {
 // Adds a row per depth: what a frame that ends there takes more than one that ends before. No clock runs inside a
 // kernel, so this is as far as a frame can be told apart. False: stopped.
 bool add_depths(const Point& at, std::vector<CacheRow>& rows) {
-  std::vector<CacheTimes> cold_before(at.study.settings.size()), warm_before(at.study.settings.size());
+  const std::vector<Setting> settings = cut_settings(at.study);
+  std::vector<CacheTimes> cold_before(settings.size()), warm_before(settings.size());
   for (uint32_t depth = 1; depth <= at.config.trace.max_depth; ++depth) {
     Config cut = at.config;
     cut.trace.max_depth = depth;
-    const std::vector<CacheSubject> subjects = at.measured(at.study.settings, cut);
+    const std::vector<CacheSubject> subjects = at.measured(settings, cut);
     if (subjects.empty()) return false;
     for (size_t i = 0; i < subjects.size(); ++i) {
-      CacheRow row = row_of(at.study, at.study.settings[i], subjects[i], at.drive, at.rays);
+      CacheRow row = row_of(at.study, settings[i], subjects[i], at.drive, at.rays);
       row.depth = depth;
       const CacheTimes cold = row.cold, warm = row.warm;
       row.cold = cold - cold_before[i];
@@ -115,10 +117,11 @@ bool add_depths(const Point& at, std::vector<CacheRow>& rows) {
 // spell of the machine makes none of them differ. Errors are left out: frames have no reference among other regions.
 // False: stopped.
 bool add_regions(const Point& at, const std::vector<std::string>& transmitters, std::vector<CacheRow>& rows) {
+  const std::vector<Setting> cut = cut_settings(at.study);
   std::vector<Setting> settings;
   const size_t count = std::min(transmitters.size(), most_regions);
   for (size_t region = 0; region < count; ++region)
-    for (const Setting& setting : at.study.settings)
+    for (const Setting& setting : cut)
       settings.push_back({setting.name, [apply = setting.apply, name = transmitters[region]](Config& config) {
                             apply(config);
                             config.links.transmitters = {name};
@@ -128,8 +131,8 @@ bool add_regions(const Point& at, const std::vector<std::string>& transmitters, 
   for (size_t i = 0; i < subjects.size(); ++i) {
     if (subjects[i].segments.mean() == 0) continue;  // no link of it is wanted
     rows.push_back(row_of(at.study, settings[i], subjects[i], at.drive, at.rays));
-    rows.back().region = static_cast<uint32_t>(i / at.study.settings.size() + 1);
-    rows.back().transmitter = transmitters[i / at.study.settings.size()];
+    rows.back().region = static_cast<uint32_t>(i / cut.size() + 1);
+    rows.back().transmitter = transmitters[i / cut.size()];
     rows.back().error = {};
   }
   return true;
@@ -154,6 +157,12 @@ std::string point_line(const CacheStudy& study, const std::vector<CacheRow>& poi
 }
 
 }  // namespace
+
+std::vector<Setting> cut_settings(const CacheStudy& study) {
+  std::vector<Setting> out = study.settings;
+  std::erase_if(out, [](const Setting& setting) { return setting.whole_only; });
+  return out;
+}
 
 std::vector<uint64_t> study_rays(const CacheStudy& study, const Request& request, bool gpu) {
   if (!request.rays) return gpu && !request.quick ? study.rays : study.few_rays;

@@ -29,6 +29,9 @@ struct CacheStudy {
   bool centroids = false;       // rows keep the error of every frame
 };
 
+// Those that are also measured by depth or by transmitter.
+std::vector<Setting> cut_settings(const CacheStudy& study);
+
 struct CacheMeasurement {
   DeviceSummary device;
   std::vector<CacheRow> rows;

@@ -34,8 +34,8 @@ NumberTable operations_table(const std::vector<CacheRow>& rows, const std::vecto
 }
 
 constexpr const char* operations_note =
-    "the thesis draws its times over the entries of the table, by clocks inside the kernel, which are no timers; here "
-    "a depth is what a frame that ends there takes more than one that ends before, which for the few segments of deep "
+    "rays are traced in packets, so that no ray has a time of its own and a segment's depth stands for the entry: a "
+    "depth is what a frame that ends there takes more than one that ends before, which for the few segments of deep "
     "paths is a small difference of large numbers and can come out negative; a row of depth 0 is all of a frame. The "
     "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
     "table costs besides is the gathering of missed rays";
@@ -106,34 +106,6 @@ CacheView operations(std::vector<std::string> settings, bool with_trace) {
                      .panels = panels_of(measured.rows, panels)},
             .numbers = operations_table(measured.rows, settings, with_trace),
             .notes = {operations_note}};
-  };
-}
-
-CacheView hits_of_entries(std::vector<std::string> settings) {
-  return [=](const CacheMeasurement& measured) {
-    const std::string& drive = measured.rows.front().drive;
-    CacheShown out{.plot = {.columns = {"drive", "setting", "hits_from", "hits_to", "entries"},
-                            .x = "hits_to",
-                            .x_label = "hits of an entry, at most",
-                            .panels_a_row = 1,
-                            .panels = {{"entries by their hits", "entries", "entries", drive}}},
-                   .table = "drive,setting,hits_from,hits_to,entries\n",
-                   .numbers = {.caption = "Entries of the table:",
-                               .heads = {"setting", "all", "that hold a segment", "of these, that never answered"},
-                               .rows = {}}};
-    for (const std::string& setting : settings) {
-      const CacheRow* row = find_cached(measured.rows, setting, measured.rows.front().rays, drive);
-      if (!row || row->cache.entries_by_hits.empty()) continue;
-      out.plot.settings.push_back(setting);
-      const std::vector<uint64_t>& entries = row->cache.entries_by_hits;
-      for (size_t i = 0; i < entries.size(); ++i) {
-        const auto [from, to] = hits_of_class(i);
-        out.table += fmt::format("{},{},{},{},{}\n", drive, setting, from, to, entries[i]);
-      }
-      out.numbers.rows.push_back({setting.substr(0, setting.rfind(" counted")), grouped(row->cache.entries),
-                                  grouped(entries_used(*row)), grouped(entries.front())});
-    }
-    return out;
   };
 }
 

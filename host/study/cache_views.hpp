@@ -19,8 +19,6 @@ using CacheView = std::function<CacheShown(const CacheMeasurement&)>;
 
 // Nanoseconds a segment to write, to read, to gather (and to trace) of these settings, depth by depth.
 CacheView operations(std::vector<std::string> settings, bool with_trace = false);
-// Entries of the table by the hits they had, of these settings.
-CacheView hits_of_entries(std::vector<std::string> settings);
 // Against the number of rays: times with a warm table and with an empty one; time and what is saved of it; errors.
 CacheShown times_by_rays(const CacheMeasurement& measured);
 CacheShown savings_by_rays(const CacheMeasurement& measured);

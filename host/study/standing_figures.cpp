@@ -2,6 +2,7 @@
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
 #include "study/cache_claims.hpp"
 #include "study/cache_regions.hpp"
+#include "study/entry_views.hpp"
 #include "study/experiment.hpp"
 #include "study/order_claims.hpp"
 
@@ -13,9 +14,13 @@ using Names = std::vector<std::string>;
 constexpr uint64_t operation_rays = 50000;
 constexpr uint64_t large_buffer = 10 * thesis_chained_buffer;
 const Names chained_tables = {"chained uniform", "chained Morton", "chained mixed"},
-            counted_tables = {"chained uniform counted", "chained Morton counted", "chained mixed counted"},
             mutexes = {"mutex uniform", "mutex Morton", "mutex mixed"},
             readers = {"readers uniform", "readers Morton", "readers mixed"};
+
+Names counted_names(Names names) {
+  for (std::string& name : names) name = counted_name(name);
+  return names;
+}
 
 // Ours, then the same as the thesis prints them.
 Names with_printed(Names names) {
@@ -24,26 +29,26 @@ Names with_printed(Names names) {
   return names;
 }
 
-const Names all_chained = with_printed(chained_tables), all_counted = with_printed(counted_tables),
-            all_mutexes = with_printed(mutexes), printed_chained = Names(all_chained.begin() + 3, all_chained.end()),
+const Names all_chained = with_printed(chained_tables), all_mutexes = with_printed(mutexes),
+            printed_chained = Names(all_chained.begin() + 3, all_chained.end()),
             printed_mutexes = Names(all_mutexes.begin() + 3, all_mutexes.end()),
             mutexes_and_chained = with_printed({"mutex uniform", "mutex Morton", "mutex mixed", "chained mixed"});
-const Names printed_readers = {"printed readers uniform", "printed readers Morton", "printed readers mixed"};
+const Names printed_readers = {"printed readers uniform", "printed readers Morton", "printed readers mixed"},
+            chained_counted = counted_names(all_chained), mutexes_counted = counted_names(all_mutexes);
 
-constexpr const char* no_timer = "a kernel has no timer that could tell its steps apart";
+constexpr const char* no_time_of_a_ray = "rays are traced in packets and groups, so that no ray has a time of its own";
 constexpr const char* operations_caption = "Time a segment of the cache's operations against the depth of the segment";
 constexpr const char* regions_caption = "Time a segment of the cache's operations in each region of the table";
 constexpr const char* times_caption = "Time of a frame against the number of rays";
-
 std::shared_ptr<const CacheStudy> shared(CacheStudy study) {
   return std::make_shared<const CacheStudy>(std::move(study));
 }
 
-Setting counted(Setting setting) {
-  return {setting.name + " counted", [apply = setting.apply](Config& config) {
-            apply(config);
-            config.cache.statistics = true;
-          }};
+// Of settings, each with its counted twin.
+std::vector<Setting> with_counted(std::vector<Setting> settings) {
+  const size_t count = settings.size();
+  for (size_t i = 1; i < count; ++i) settings.push_back(counted(settings[i]));
+  return settings;
 }
 
 // One number of rays, depth by depth, or transmitter by transmitter.
@@ -71,10 +76,12 @@ bool writes_as_three_reads(const CacheRow& row) {
   return reads >= 2.5 && reads <= 3.5;
 }
 bool gathers_quickly(const CacheRow& row) { return gather_ns(row) < 0.1 * write_ns(row); }
-bool some_unused(const CacheRow& row) { return entries_used(row) < row.cache.entries; }
-bool some_never_answer(const CacheRow& row) {
-  return !row.cache.entries_by_hits.empty() && row.cache.entries_by_hits.front() > 0;
+// Of the chained tables that keep their entries.
+Judge<CacheRow> of_entries(std::optional<bool> (*holds)(const EntrySummary&)) {
+  return of_each(chained_counted, [holds](const CacheRow& row) { return holds(row.entries); });
 }
+bool some_unused(const CacheRow& row) { return entries_used(row) < row.cache.entries; }
+bool some_never_answer(const CacheRow& row) { return row.cache.entries_by_hits.front() > 0; }
 
 // What figures 6.3 and 6.7 claim of tracing a segment against looking it up.
 Claims<CacheRow> trace_claims(const Names& settings) {
@@ -89,10 +96,9 @@ Claims<CacheRow> trace_claims(const Names& settings) {
 // What figure 6.3 claims beside that.
 Claims<CacheRow> bucket_claims() {
   Claims<CacheRow> claims = trace_claims(all_chained);
-  claims.push_back({"tracing takes longer for buckets than for other nodes", not_judged(no_timer)});
+  claims.push_back({"tracing takes longer for buckets than for other nodes", not_judged(no_time_of_a_ray)});
   return claims;
 }
-
 // What figure 6.7 claims beside the same.
 Claims<CacheRow> region_claims() {
   Claims<CacheRow> claims = trace_claims(all_mutexes);
@@ -127,21 +133,14 @@ OrderFigure all_orders() {
 
 const auto chained_operations =
     shared(operations_study("chained-operations",
-                            {no_cache(), chained(1), chained(2), chained(3), as_printed(chained(1)),
-                             as_printed(chained(2)), as_printed(chained(3))},
+                            with_counted({no_cache(), chained(1), chained(2), chained(3), as_printed(chained(1)),
+                                          as_printed(chained(2)), as_printed(chained(3))}),
                             false));
-const auto open_operations = shared(
-    operations_study("open-operations",
-                     {no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), chained(3), as_printed(open_mutex(1)),
-                      as_printed(open_mutex(2)), as_printed(open_mutex(3)), as_printed(chained(3))},
-                     true));
-// Apart from the operations, whose times counting would change.
-const auto chained_hits = shared(
-    {.name = "chained-hits",
-     .settings = {no_cache(), counted(chained(1)), counted(chained(2)), counted(chained(3)),
-                  counted(as_printed(chained(1))), counted(as_printed(chained(2))), counted(as_printed(chained(3)))},
-     .rays = {operation_rays},
-     .few_rays = {operation_rays}});
+const auto open_operations = shared(operations_study(
+    "open-operations",
+    with_counted({no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), chained(3), as_printed(open_mutex(1)),
+                  as_printed(open_mutex(2)), as_printed(open_mutex(3)), as_printed(chained(3))}),
+    true));
 const auto chained_rays =
     shared(rays_study("chained-rays", {no_cache(), chained(1), chained(2), chained(3), chained(1, large_buffer),
                                        chained(2, large_buffer), chained(3, large_buffer), as_printed(chained(1)),
@@ -173,13 +172,15 @@ const std::vector<Experiment> standing = {
                   "ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next to nothing "
                   "(section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. What the table adds besides is "
                   "the gathering of missed rays.",
-     .figure = CacheFigure{.study = chained_operations,
-                           .view = operations(all_chained),
-                           .claims = {{"writes take longer than reads", of_each(all_chained, writes_longer_than_reads)},
-                                      {"the rest takes next to nothing: gathering less than a tenth of a write",
-                                       of_each(all_chained, gathers_quickly)},
-                                      {"writes and reads take longer in buckets than in other nodes",
-                                       not_judged(no_timer)}}}},
+     .figure =
+         CacheFigure{
+             .study = chained_operations,
+             .view = operations_by_tree_depth(all_chained),
+             .claims = {{"writes take longer than reads", of_each(all_chained, writes_longer_than_reads)},
+                        {"the rest takes next to nothing: gathering less than a tenth of a write",
+                         of_each(all_chained, gathers_quickly)},
+                        {"writes take longer in buckets than in other nodes", of_entries(writes_longer_in_buckets)},
+                        {"reads take longer in buckets than in other nodes", of_entries(reads_longer_in_buckets)}}}},
     {.name = "figure-6.3",
      .doc = "chained cache: writes and reads against tracing",
      .title = "Operations of the chained table and tracing",
@@ -193,16 +194,17 @@ const std::vector<Experiment> standing = {
     {.name = "figure-6.4",
      .doc = "chained cache: hits per entry",
      .title = "Hits of the chained table's entries",
-     .caption = "Entries of the chained table by the hits they had",
+     .caption = "Hits of the chained table's entries along the table",
      .paragraph = "The thesis finds hits spread evenly over the entries, entries of the buffer that are never used, "
                   "and some that are but never answer (section 6.3.1, figure 6.4). Measured on {device} at {rays} "
                   "rays, after a cold frame and a warm one.",
-     .figure = CacheFigure{.study = chained_hits,
-                           .view = hits_of_entries(all_counted),
-                           .claims = {{"hits are spread evenly over the entries, as chance would spread them",
-                                       of_each(all_counted, hits_are_even)},
-                                      {"some entries are left unused", of_all(all_counted, some_unused)},
-                                      {"some entries never answer", of_all(all_counted, some_never_answer)}}}},
+     .figure = CacheFigure{.study = chained_operations,
+                           .view = hits_along_table(all_chained),
+                           .claims = {{"hits are spread over the entries at least as evenly as by chance",
+                                       of_entries(are_even)},
+                                      {"there are no clusters of busy entries", of_entries(is_without_clusters)},
+                                      {"some entries are left unused", of_each(chained_counted, some_unused)},
+                                      {"some entries never answer", of_each(chained_counted, some_never_answer)}}}},
     {.name = "figure-6.5",
      .doc = "chained cache against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the chained table",
@@ -236,9 +238,9 @@ const std::vector<Experiment> standing = {
                                       {"the rest takes next to nothing: gathering less than a tenth of a write",
                                        of_each(all_mutexes, gathers_quickly)},
                                       {"busier regions take longer to write",
-                                       across_regions(all_mutexes, region_lookups, write_ns, false)},
+                                       across_entries(mutexes_counted, &EntryGroup::write_cycles)},
                                       {"busier regions take longer to read",
-                                       across_regions(all_mutexes, region_lookups, read_ns, false)},
+                                       across_entries(mutexes_counted, &EntryGroup::read_cycles)},
                                       {"writes take less than in the chained table, with the mixed hash",
                                        is_less(write_ns, "mutex mixed", "chained mixed")},
                                       {"reads take less than in the chained table, with the mixed hash",

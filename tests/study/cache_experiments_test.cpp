@@ -290,18 +290,26 @@ TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and
   CHECK(contains(errors, "| none | none | none | undefined | right |\n"));
 }
 
-TEST_CASE("figure-6.4: classes of hits, unused entries, entries that never answer") {
-  const Experiment& experiment = find_experiment("figure-6.4");
+TEST_CASE("figures 6.2 and 6.4: entries by their depth, and along the table") {
   const auto same = [](const std::string&, uint64_t) { return std::pair{1.0, 0.0}; };
-  const Findings found = show(experiment, made_measurement(*experiment.study(), {50000}, same), {});
-  CHECK(found.table.starts_with("drive,setting,hits_from,hits_to,entries\nstill,chained uniform counted,0,0,100\n"));
-  CHECK(contains(found.table, "chained mixed counted,3,4,400\n"));
-  const std::string text = squeezed(words_text(found.words));
-  CHECK(contains(text, "| setting | all | that hold a segment | of these, that never answered |"));
-  CHECK(contains(text, "| chained Morton | 50,000 | 1,000 | 100 |"));
-  CHECK(contains(text,
-                 "| some entries are left unused | reproduced | confirmed |\n| some entries never answer | reproduced "
-                 "| confirmed |"));
+  const auto findings = [&](const char* name) {
+    const Experiment& experiment = find_experiment(name);
+    return show(experiment, made_measurement(*experiment.study(), {50000}, same), {});
+  };
+  const Findings depths = findings("figure-6.2"), along = findings("figure-6.4");
+  CHECK(
+      depths.table.starts_with("drive,setting,tree_depth,entries,hits,write_cycles,read_cycles\n"
+                               "still,chained uniform,1,700,1500,160,130\nstill,chained uniform,2,300,500,260,180\n"));
+  const std::string cycles = squeezed(words_text(depths.words));
+  CHECK(contains(cycles, "| chained Morton | 0 | 0 | 0 | 160 | 260 | 130 | 180 |"));
+  CHECK(contains(cycles, "| reads take longer in buckets than in other nodes | refuted | not confirmed for any |"));
+  CHECK(along.table.starts_with("drive,setting,first_slot,entries,hits\nstill,chained uniform,0,500,2.5\n"));
+  CHECK(contains(along.table, "still,printed chained mixed,500,500,1.5\n"));
+  const std::string text = squeezed(words_text(along.words));
+  CHECK(contains(text, "| chained Morton | 50,000 | 1,000 | 100 | 0.800 | 6.00 |"));
+  CHECK(contains(text, "| hits are spread over the entries at least as evenly as by chance | reproduced | "));
+  CHECK(contains(text, "| there are no clusters of busy entries | refuted | not confirmed for any |"));
+  CHECK(contains(text, "| some entries are left unused | reproduced | confirmed for all |"));
 }
 
 TEST_CASE("all figures of caching: a script with a line per setting, whose columns are in the table") {

@@ -30,18 +30,6 @@ CacheCost growing(const std::string& setting, double few_s, double many_s) {
 
 }  // namespace
 
-TEST_CASE("figure-6.4: hits that are spread by chance, and hits in clusters") {
-  CacheRow row;
-  row.cache.entries_by_hits = {3679, 3679, 1839, 797};  // Poisson of mean 1: e^-1, e^-1, e^-1/2 and the rest
-  CHECK(hits_are_even(row));
-  row.cache.entries_by_hits = {9000, 0, 0, 0, 0, 0, 0, 1000};  // a tenth has all of them
-  CHECK_FALSE(hits_are_even(row));
-  row.cache.entries_by_hits = {0, 10000};  // more even than chance
-  CHECK_FALSE(hits_are_even(row));
-  row.cache.entries_by_hits = {};
-  CHECK_FALSE(hits_are_even(row));
-}
-
 TEST_CASE("figure-6.8: the time of no cache up to 50,000 rays, Morton codes the slowest beyond") {
   const char *alike = "the time of no cache, within 10%, up to 50,000 rays",
              *slowest = "Morton codes are the slowest of the three beyond 50,000 rays";

@@ -35,6 +35,12 @@ inline wavetracer::study::CacheMeasurement made_measurement(const wavetracer::st
         row.cache.on = setting.name != study.settings.front().name;
         row.cache.entries = 50000;
         row.cache.entries_by_hits = {100, 200, 300, 400};
+        if (setting.whole_only)
+          row.entries = {.by_depth = {{1, 700, 1500, 130, 160}, {2, 300, 500, 180, 260}},
+                         .by_region = {{0, 1000, 2000, 150, 190}},
+                         .runs = {{0, 500, 2.5}, {500, 500, 1.5}},
+                         .dispersion = 0.8,
+                         .clustering = 6};
         point.push_back(row);
       }
       set_savings(point);

@@ -1,0 +1,130 @@
+// Groups of rows of one table.
+// Means of cycles leave the longest and shortest out, as a few operations are interrupted for thousands of times as
+// long as the others take. Medians would not do: clocks tick in steps of some twenty cycles.
+#include "study/entry_summary.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include "study/statistics.hpp"
+
+namespace wavetracer::study {
+namespace {
+
+// Of the cycles that were measured, the mean of the middle nine tenths.
+struct Cycles {
+  std::vector<double> values;
+  void add(uint32_t cycles) {
+    if (cycles > 0) values.push_back(cycles);
+  }
+  double middle() {
+    std::ranges::sort(values);
+    const auto out = static_cast<std::ptrdiff_t>(values.size() / 20);
+    RunningMean mean;
+    for (auto at = values.begin() + out; at != values.end() - out; ++at) mean.add(*at);
+    return mean.mean();
+  }
+};
+
+struct Gathered {
+  EntryGroup group;
+  Cycles read, write;
+};
+
+std::vector<EntryGroup> grouped_by(const CacheEntryRows& rows, const std::vector<uint32_t>& numbers,
+                                   uint32_t first_number) {
+  std::map<uint32_t, Gathered> found;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (numbers[i] < first_number) continue;
+    Gathered& one = found[numbers[i]];
+    ++one.group.entries;
+    one.group.hits += rows.hits[i];
+    one.read.add(rows.read_cycles[i]);
+    one.write.add(rows.write_cycles[i]);
+  }
+  std::vector<EntryGroup> out;
+  for (auto& [number, one] : found) {
+    one.group.number = number;
+    one.group.read_cycles = one.read.middle();
+    one.group.write_cycles = one.write.middle();
+    out.push_back(one.group);
+  }
+  return out;
+}
+
+double variance(const RunningMean& mean) {
+  return std::pow(mean.standard_error(), 2) * static_cast<double>(mean.count());
+}
+
+// Of depth 1, and of all below it, weighted by their entries.
+struct Levels {
+  double bucket = undefined, below = undefined;
+};
+
+Levels levels_of(const EntrySummary& entries, double EntryGroup::*cycles) {
+  Levels out;
+  double sum = 0, count = 0;
+  for (const EntryGroup& group : entries.by_depth) {
+    if (std::isnan(group.*cycles)) continue;
+    if (group.number == 1) {
+      out.bucket = group.*cycles;
+    } else {
+      sum += static_cast<double>(group.entries) * group.*cycles;
+      count += static_cast<double>(group.entries);
+    }
+  }
+  if (count > 0) out.below = sum / count;
+  return out;
+}
+
+std::optional<bool> longer_in_buckets(const EntrySummary& entries, double EntryGroup::*cycles) {
+  const Levels levels = levels_of(entries, cycles);
+  if (std::isnan(levels.bucket) || std::isnan(levels.below)) return std::nullopt;
+  return levels.bucket > levels.below;
+}
+
+}  // namespace
+
+EntrySummary summary_of(const CacheEntryRows& rows) {
+  EntrySummary out;
+  out.by_depth = grouped_by(rows, rows.depth, 1);
+  out.by_region = grouped_by(rows, rows.region, 0);
+  RunningMean all, means;
+  double run_entries = 0;
+  for (uint32_t run = 0; run < slot_runs; ++run) {
+    const size_t begin = rows.size() * run / slot_runs, end = rows.size() * (run + 1) / slot_runs;
+    if (begin == end) continue;
+    RunningMean hits;
+    for (size_t i = begin; i < end; ++i) {
+      hits.add(rows.hits[i]);
+      all.add(rows.hits[i]);
+    }
+    out.runs.push_back({rows.slot[begin], end - begin, hits.mean()});
+    means.add(hits.mean());
+    run_entries += static_cast<double>(end - begin);
+  }
+  run_entries /= static_cast<double>(std::max<size_t>(out.runs.size(), 1));
+  out.dispersion = variance(all) / all.mean();
+  const double by_chance = variance(all) / run_entries;
+  out.clustering = by_chance > 0 ? variance(means) / by_chance : by_chance;  // all alike: 0; too few: NaN
+  return out;
+}
+
+std::optional<bool> reads_longer_in_buckets(const EntrySummary& entries) {
+  return longer_in_buckets(entries, &EntryGroup::read_cycles);
+}
+
+std::optional<bool> writes_longer_in_buckets(const EntrySummary& entries) {
+  return longer_in_buckets(entries, &EntryGroup::write_cycles);
+}
+
+std::optional<bool> are_even(const EntrySummary& entries) {
+  if (std::isnan(entries.dispersion)) return std::nullopt;
+  return entries.dispersion <= 1.5;
+}
+
+std::optional<bool> is_without_clusters(const EntrySummary& entries) {
+  if (std::isnan(entries.clustering)) return std::nullopt;
+  return entries.clustering <= 2;
+}
+
+}  // namespace wavetracer::study

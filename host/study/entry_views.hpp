@@ -1,0 +1,24 @@
+// What a figure shows of the entries of a cache's table: figures 6.2, 6.4 and 6.6 of the thesis.
+#pragma once
+#include <string>
+#include <vector>
+#include "study/cache_settings.hpp"
+#include "study/cache_views.hpp"
+
+namespace wavetracer::study {
+
+// A setting whose cache counts and keeps its entries, for whole frames: "chained mixed counted". Apart from those that
+// are timed, as counting costs time.
+Setting counted(Setting setting);
+std::string counted_name(const std::string& setting);
+
+// Cycles of reads and writes by the depth of an entry in the tree of its bucket, of the counted twins of these
+// settings, beside the nanoseconds per segment of the settings themselves.
+CacheView operations_by_tree_depth(std::vector<std::string> settings);
+// Hits of entries along the table, of the counted twins of these settings.
+CacheView hits_along_table(std::vector<std::string> settings);
+
+// The entries of the counted twin of a row's setting in one region, from 0; null where there are none.
+const EntryGroup* entries_of_region(const std::vector<CacheRow>& rows, const CacheRow& row, uint32_t region);
+
+}  // namespace wavetracer::study
