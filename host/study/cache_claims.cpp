@@ -62,7 +62,7 @@ Judge<CacheRow> where(AtPoint holds, CacheValue defined) {
         const CacheRow* row = find_cached(rows, rows.front().setting, n, drive);
         return defined && (!row || std::isnan(defined(*row)));
       });
-      if (rays.empty()) return {Outcome::not_judged, "no path has a vertex"};
+      if (rays.empty()) return {ClaimOutcome::not_judged, "no path has a vertex"};
       return where_judged(rays, [&](uint64_t n) { return holds(rows, {drive, n}); });
     };
     return of_each_drive(rows, of_drive);
@@ -87,7 +87,7 @@ Judge<CacheRow> on_average(CacheValue value, const std::string& setting, const s
       const std::vector<RunningMean> means = means_of(rows, drive, value, {setting, than});
       const double a = means[0].mean(), b = means[1].mean();
       if (std::isnan(a)) return not_measured();
-      if (a == 0 && b == 0) return {Outcome::not_judged, "both are 0"};
+      if (a == 0 && b == 0) return {ClaimOutcome::not_judged, "both are 0"};
       if (b == 0) return judgement(false, "not confirmed, the other is 0");
       return measured(a / b >= low && a / b <= high, fmt::format("a factor of {}", plain(a / b)));
     });
@@ -164,7 +164,7 @@ Judge<CacheRow> gains_earlier(const std::string& setting, const std::string& tha
 }
 
 Judge<CacheRow> not_judged(const std::string& why) {
-  return [=](const CacheRows&) { return Judgement{Outcome::not_judged, why}; };
+  return [=](const CacheRows&) { return Judgement{ClaimOutcome::not_judged, why}; };
 }
 
 Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<std::optional<bool>(const CacheRow&)> holds) {
@@ -177,7 +177,7 @@ Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<std::op
     if (yes.empty() && no.empty()) return not_measured();
     if (no.empty()) return judgement(true, "confirmed for all");
     if (yes.empty()) return judgement(false, "not confirmed for any");
-    return {Outcome::in_part, fmt::format("confirmed for {}, not for {}", list_words(yes), list_words(no))};
+    return {ClaimOutcome::in_part, fmt::format("confirmed for {}, not for {}", list_words(yes), list_words(no))};
   };
 }
 

@@ -6,7 +6,7 @@
 
 namespace wavetracer::study {
 
-std::string_view word(Outcome outcome) {
+std::string_view word(ClaimOutcome outcome) {
   static constexpr std::array words = {"not judged", "refuted", "in part", "reproduced", "exceeded"};
   return words.at(static_cast<size_t>(outcome));
 }
@@ -20,25 +20,25 @@ void Tally::add(bool holds, bool goes_beyond) {
   if (holds && goes_beyond) ++beyond_;
 }
 
-void Tally::add(Outcome outcome) {
-  if (outcome == Outcome::in_part) in_part_ = true;
-  if (outcome == Outcome::in_part || outcome == Outcome::not_judged) return;
-  add(outcome != Outcome::refuted, outcome == Outcome::exceeded);
+void Tally::add(ClaimOutcome outcome) {
+  if (outcome == ClaimOutcome::in_part) in_part_ = true;
+  if (outcome == ClaimOutcome::in_part || outcome == ClaimOutcome::not_judged) return;
+  add(outcome != ClaimOutcome::refuted, outcome == ClaimOutcome::exceeded);
 }
 
-Outcome Tally::outcome() const {
-  if (in_part_ || (held_ > 0 && failed_ > 0)) return Outcome::in_part;
-  if (failed_ > 0) return Outcome::refuted;
-  if (held_ == 0) return Outcome::not_judged;
-  return beyond_ == held_ ? Outcome::exceeded : Outcome::reproduced;
+ClaimOutcome Tally::outcome() const {
+  if (in_part_ || (held_ > 0 && failed_ > 0)) return ClaimOutcome::in_part;
+  if (failed_ > 0) return ClaimOutcome::refuted;
+  if (held_ == 0) return ClaimOutcome::not_judged;
+  return beyond_ == held_ ? ClaimOutcome::exceeded : ClaimOutcome::reproduced;
 }
 
-Judgement not_measured() { return {Outcome::not_judged, "not measured"}; }
+Judgement not_measured() { return {ClaimOutcome::not_judged, "not measured"}; }
 
 Judgement judgement(bool holds) { return judgement(holds, verdict(holds)); }
 
 Judgement judgement(bool holds, std::string words) {
-  return {holds ? Outcome::reproduced : Outcome::refuted, std::move(words)};
+  return {holds ? ClaimOutcome::reproduced : ClaimOutcome::refuted, std::move(words)};
 }
 
 }  // namespace wavetracer::study

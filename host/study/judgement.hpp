@@ -6,7 +6,7 @@
 
 namespace wavetracer::study {
 
-enum class Outcome {
+enum class ClaimOutcome {
   not_judged,  // nothing was measured that could speak for or against the claim
   refuted,     // it holds in no case
   in_part,     // it holds in some cases
@@ -18,10 +18,10 @@ enum class Outcome {
 constexpr double exceeding = 1.1;
 
 // "not judged", "refuted", "in part", "reproduced", "exceeded"
-std::string_view word(Outcome outcome);
+std::string_view word(ClaimOutcome outcome);
 
 struct Judgement {
-  Outcome outcome;
+  ClaimOutcome outcome;
   std::string words;
 
   bool operator==(std::string_view text) const { return words == text; }
@@ -32,8 +32,8 @@ std::ostream& operator<<(std::ostream& out, const Judgement& judgement);
 class Tally {
  public:
   void add(bool holds, bool goes_beyond = false);
-  void add(Outcome outcome);
-  Outcome outcome() const;
+  void add(ClaimOutcome outcome);
+  ClaimOutcome outcome() const;
 
  private:
   int failed_ = 0, held_ = 0, beyond_ = 0;  // beyond_: of those that held

@@ -11,7 +11,7 @@ namespace wavetracer::study {
 
 struct Verdict {
   std::string claim;
-  Outcome outcome;
+  ClaimOutcome outcome;
   std::string measured;
 };
 

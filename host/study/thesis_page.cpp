@@ -63,9 +63,9 @@ NumberTable verdicts_of(const std::vector<Section>& figures) {
   for (const Section& figure : figures) {
     std::vector<Verdict> verdicts = figure.words.verdicts;
     if (figure.words.paragraph.empty())
-      verdicts = {{figure.title, Outcome::not_judged, figure.problem}};
+      verdicts = {{figure.title, ClaimOutcome::not_judged, figure.problem}};
     else if (verdicts.empty())
-      verdicts = {{figure.title, Outcome::not_judged, "no claim to judge; the numbers are in its section"}};
+      verdicts = {{figure.title, ClaimOutcome::not_judged, "no claim to judge; the numbers are in its section"}};
     for (const auto& [claim, outcome, measured] : verdicts)
       table.rows.push_back({figure.name, claim, std::string(word(outcome)), measured});
   }
@@ -73,7 +73,7 @@ NumberTable verdicts_of(const std::vector<Section>& figures) {
 }
 
 std::string outcome_counts(const std::vector<Section>& figures) {
-  std::map<Outcome, size_t> counts;
+  std::map<ClaimOutcome, size_t> counts;
   size_t claims = 0;
   for (const Section& figure : figures)
     for (const Verdict& verdict : figure.words.verdicts) {
@@ -82,8 +82,8 @@ std::string outcome_counts(const std::vector<Section>& figures) {
     }
   return fmt::format(
       "Of {} claims, {} are reproduced, {} are exceeded, {} hold in part, {} are refuted, and {} could not be judged.",
-      claims, counts[Outcome::reproduced], counts[Outcome::exceeded], counts[Outcome::in_part],
-      counts[Outcome::refuted], counts[Outcome::not_judged]);
+      claims, counts[ClaimOutcome::reproduced], counts[ClaimOutcome::exceeded], counts[ClaimOutcome::in_part],
+      counts[ClaimOutcome::refuted], counts[ClaimOutcome::not_judged]);
 }
 
 std::string family(const std::string& setting) {

@@ -12,7 +12,7 @@ using namespace cache_verdicts;
 
 namespace {
 
-Outcome outcome_of(const std::vector<std::pair<bool, bool>>& cases) {
+ClaimOutcome outcome_of(const std::vector<std::pair<bool, bool>>& cases) {
   Tally tally;
   for (const auto& [holds, beyond] : cases) tally.add(holds, beyond);
   return tally.outcome();
@@ -21,27 +21,27 @@ Outcome outcome_of(const std::vector<std::pair<bool, bool>>& cases) {
 }  // namespace
 
 TEST_CASE("a tally: all, none, some, and all beyond what was claimed") {
-  CHECK(outcome_of({}) == Outcome::not_judged);
-  CHECK(outcome_of({{true, false}, {true, false}}) == Outcome::reproduced);
-  CHECK(outcome_of({{true, true}, {true, false}}) == Outcome::reproduced);
-  CHECK(outcome_of({{true, true}, {true, true}}) == Outcome::exceeded);
-  CHECK(outcome_of({{false, false}, {false, true}}) == Outcome::refuted);
-  CHECK(outcome_of({{true, true}, {false, false}}) == Outcome::in_part);
+  CHECK(outcome_of({}) == ClaimOutcome::not_judged);
+  CHECK(outcome_of({{true, false}, {true, false}}) == ClaimOutcome::reproduced);
+  CHECK(outcome_of({{true, true}, {true, false}}) == ClaimOutcome::reproduced);
+  CHECK(outcome_of({{true, true}, {true, true}}) == ClaimOutcome::exceeded);
+  CHECK(outcome_of({{false, false}, {false, true}}) == ClaimOutcome::refuted);
+  CHECK(outcome_of({{true, true}, {false, false}}) == ClaimOutcome::in_part);
 }
 
 TEST_CASE("outcomes of worlds join to one: what was not judged speaks for nothing") {
-  const auto joined = [](std::initializer_list<Outcome> outcomes) {
+  const auto joined = [](std::initializer_list<ClaimOutcome> outcomes) {
     Tally tally;
-    for (const Outcome outcome : outcomes) tally.add(outcome);
+    for (const ClaimOutcome outcome : outcomes) tally.add(outcome);
     return tally.outcome();
   };
-  CHECK(joined({Outcome::reproduced, Outcome::not_judged}) == Outcome::reproduced);
-  CHECK(joined({Outcome::exceeded, Outcome::reproduced}) == Outcome::reproduced);
-  CHECK(joined({Outcome::exceeded, Outcome::exceeded}) == Outcome::exceeded);
-  CHECK(joined({Outcome::refuted, Outcome::exceeded}) == Outcome::in_part);
-  CHECK(joined({Outcome::in_part, Outcome::reproduced}) == Outcome::in_part);
-  CHECK(joined({Outcome::refuted, Outcome::not_judged}) == Outcome::refuted);
-  CHECK(joined({Outcome::not_judged}) == Outcome::not_judged);
+  CHECK(joined({ClaimOutcome::reproduced, ClaimOutcome::not_judged}) == ClaimOutcome::reproduced);
+  CHECK(joined({ClaimOutcome::exceeded, ClaimOutcome::reproduced}) == ClaimOutcome::reproduced);
+  CHECK(joined({ClaimOutcome::exceeded, ClaimOutcome::exceeded}) == ClaimOutcome::exceeded);
+  CHECK(joined({ClaimOutcome::refuted, ClaimOutcome::exceeded}) == ClaimOutcome::in_part);
+  CHECK(joined({ClaimOutcome::in_part, ClaimOutcome::reproduced}) == ClaimOutcome::in_part);
+  CHECK(joined({ClaimOutcome::refuted, ClaimOutcome::not_judged}) == ClaimOutcome::refuted);
+  CHECK(joined({ClaimOutcome::not_judged}) == ClaimOutcome::not_judged);
 }
 
 TEST_CASE("caches: a share of time that is saved, less, more, and in one world of two alone") {
@@ -49,35 +49,35 @@ TEST_CASE("caches: a share of time that is saved, less, more, and in one world o
   const auto outcome = [&](double seconds) {
     return judgement_of("figure-6.11", words, {1000, 5000}, only("position mixed", seconds)).outcome;
   };
-  CHECK(outcome(0.86) == Outcome::refuted);
-  CHECK(outcome(0.845) == Outcome::reproduced);
-  CHECK(outcome(0.8) == Outcome::exceeded);
+  CHECK(outcome(0.86) == ClaimOutcome::refuted);
+  CHECK(outcome(0.845) == ClaimOutcome::reproduced);
+  CHECK(outcome(0.8) == ClaimOutcome::exceeded);
   const CacheCost late = [](const std::string& setting, uint64_t rays) {
     return std::pair{setting == "position mixed" && rays == 5000 ? 0.5 : 1.0, 0.0};
   };
-  CHECK(judgement_of("figure-6.11", words, {1000, 5000}, late).outcome == Outcome::in_part);
+  CHECK(judgement_of("figure-6.11", words, {1000, 5000}, late).outcome == ClaimOutcome::in_part);
 }
 
 TEST_CASE("caches: every kind of judge says the outcome that its words say") {
   const auto outcome = [](const char* figure, const char* words, const std::vector<uint64_t>& rays,
                           const CacheCost& cost) { return judgement_of(figure, words, rays, cost).outcome; };
   const char* gain = "a gain from 2,560,000 to 10,240,000 rays";  // everywhere()
-  CHECK(outcome("figure-6.5", gain, {2560000}, only("chained mixed", 0.5)) == Outcome::reproduced);
-  CHECK(outcome("figure-6.5", gain, {2560000}, same) == Outcome::refuted);
-  CHECK(outcome("figure-6.5", gain, {1000}, same) == Outcome::not_judged);
+  CHECK(outcome("figure-6.5", gain, {2560000}, only("chained mixed", 0.5)) == ClaimOutcome::reproduced);
+  CHECK(outcome("figure-6.5", gain, {2560000}, same) == ClaimOutcome::refuted);
+  CHECK(outcome("figure-6.5", gain, {1000}, same) == ClaimOutcome::not_judged);
   const char* twice = "by position, on average twice as far off with Morton codes as with the uniform hash";
   const auto off = [](double morton, double uniform) {
     return errors("position Morton", morton, "position uniform", uniform);
   };
-  CHECK(outcome("figure-6.15", twice, {1000}, off(2, 1)) == Outcome::reproduced);
-  CHECK(outcome("figure-6.15", twice, {1000}, off(1, 1)) == Outcome::refuted);
-  CHECK(outcome("figure-6.15", twice, {1000}, off(0, 0)) == Outcome::not_judged);
+  CHECK(outcome("figure-6.15", twice, {1000}, off(2, 1)) == ClaimOutcome::reproduced);
+  CHECK(outcome("figure-6.15", twice, {1000}, off(1, 1)) == ClaimOutcome::refuted);
+  CHECK(outcome("figure-6.15", twice, {1000}, off(0, 0)) == ClaimOutcome::not_judged);
   const char* five = "around 5 m by precision with the uniform hash";
   const auto metres = [](double m) { return only("precision 0.0125 uniform", 1, m); };
-  CHECK(outcome("figure-6.17", five, {1000}, metres(5)) == Outcome::reproduced);
-  CHECK(outcome("figure-6.17", five, {1000}, metres(50)) == Outcome::refuted);
+  CHECK(outcome("figure-6.17", five, {1000}, metres(5)) == ClaimOutcome::reproduced);
+  CHECK(outcome("figure-6.17", five, {1000}, metres(50)) == ClaimOutcome::refuted);
   CHECK(outcome("figure-6.3", "tracing takes longer for buckets than for other nodes", {1000}, same) ==
-        Outcome::not_judged);
+        ClaimOutcome::not_judged);
 }
 
 TEST_CASE("orders: a gain that is reached, exceeded, missed, and reached with the sort not paid alone") {
@@ -87,10 +87,10 @@ TEST_CASE("orders: a gain that is reached, exceeded, missed, and reached with th
     });
     return gains(ordered("hilbert3d-histogram"), 49000, 2.5)(rows).outcome;
   };
-  CHECK(outcome(0.5, 0) == Outcome::refuted);
-  CHECK(outcome(0.39, 0) == Outcome::reproduced);
-  CHECK(outcome(0.3, 0) == Outcome::exceeded);
-  CHECK(outcome(0.3, 0.2) == Outcome::in_part);
+  CHECK(outcome(0.5, 0) == ClaimOutcome::refuted);
+  CHECK(outcome(0.39, 0) == ClaimOutcome::reproduced);
+  CHECK(outcome(0.3, 0) == ClaimOutcome::exceeded);
+  CHECK(outcome(0.3, 0.2) == ClaimOutcome::in_part);
 }
 
 TEST_CASE("coherence between frames: depths and pairings are cases") {
@@ -104,7 +104,7 @@ TEST_CASE("coherence between frames: depths and pairings are cases") {
     }
     return correlation_falls_below(0.1)(rows).outcome;
   };
-  CHECK(outcome(0.05, 0.02) == Outcome::reproduced);
-  CHECK(outcome(0.05, 0.3) == Outcome::in_part);
-  CHECK(outcome(0.2, 0.3) == Outcome::refuted);
+  CHECK(outcome(0.05, 0.02) == ClaimOutcome::reproduced);
+  CHECK(outcome(0.05, 0.3) == ClaimOutcome::in_part);
+  CHECK(outcome(0.2, 0.3) == ClaimOutcome::refuted);
 }

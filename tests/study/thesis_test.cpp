@@ -48,7 +48,8 @@ ThesisPage page() {
   out.svg = inline_svg(drawing, "thesis-");
   for (const Experiment* experiment : thesis_experiments()) {
     Section figure{.name = experiment->name, .title = experiment->title};
-    figure.words = {"a < b & c", {{"a > b", Outcome::in_part, "not <confirmed>"}}, {"Numbers:", {"x"}, {{"1 & 2"}}}};
+    figure.words = {
+        "a < b & c", {{"a > b", ClaimOutcome::in_part, "not <confirmed>"}}, {"Numbers:", {"x"}, {{"1 & 2"}}}};
     figure.svg = inline_svg(drawing, experiment->name + "-");
     figure.notes = {"a note"};
     out.figures.push_back(figure);
@@ -116,8 +117,10 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
 TEST_CASE("claims are counted by what came of them, figures without one and figures that failed not at all") {
   std::vector<Section> figures(3);
   figures[0].words = {
-      "text", {{"a", Outcome::refuted, ""}, {"b", Outcome::exceeded, ""}, {"c", Outcome::refuted, ""}}, {}};
-  figures[1].words = {"text", {{"d", Outcome::reproduced, ""}, {"e", Outcome::not_judged, ""}}, {}};
+      "text",
+      {{"a", ClaimOutcome::refuted, ""}, {"b", ClaimOutcome::exceeded, ""}, {"c", ClaimOutcome::refuted, ""}},
+      {}};
+  figures[1].words = {"text", {{"d", ClaimOutcome::reproduced, ""}, {"e", ClaimOutcome::not_judged, ""}}, {}};
   CHECK(outcome_counts(figures) ==
         "Of 5 claims, 1 are reproduced, 1 are exceeded, 0 hold in part, 2 are refuted, and 1 could not be judged.");
   CHECK(contains(thesis_markdown({.heading = {}, .rows = {}, .svg = "", .figures = figures}), "Of 5 claims, 1 are"));
