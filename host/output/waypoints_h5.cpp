@@ -13,7 +13,7 @@ bool is_rectangular(const WaypointRows& rows) {
   const size_t count = rows.size();
   return rows.frame.size() == count && rows.sample.size() == count && rows.depth.size() == count &&
          rows.kind.size() == count && rows.position_m.size() == count && rows.surface.size() == count &&
-         rows.instance.size() == count;
+         rows.instance.size() == count && rows.source.size() == count;
 }
 
 // What the numbers of WaypointKind mean, in their order.
@@ -31,7 +31,7 @@ std::string kind_legend() {
 void encode_waypoints_head_h5(const Run& run, hdf5::File& file) {
   const auto text = [&](const char* name, const std::string& value) { hdf5::write_attribute(file.id(), name, value); };
   text("format", "wavetracer waypoints");
-  hdf5::write_attribute(file.id(), "format_version", uint32_t{1});
+  hdf5::write_attribute(file.id(), "format_version", uint32_t{2});
   text("version", run.summary.version);
   text("config_file", run.config.file);
   text("config", run.config.text);
@@ -68,6 +68,12 @@ void append_waypoints_h5(const Run&, const FrameResult& frame, FrameTables& tabl
          "of a reflection the surface of the scene, or of the model of the instance that was hit, as in /vertices of "
          "paths.h5; of a hit the row of /receivers there; 4294967295 elsewhere",
          rows.surface);
+  static_assert(sizeof(WaypointSource) == sizeof(uint8_t));
+  tables.append<uint8_t>("source",
+                         {"1",
+                          "who found where the segment before the waypoint ends: 0 launch (there is none), 1 traced, 2 "
+                          "the ray cache, 3 not known (the segment after the last interaction)"},
+                         {reinterpret_cast<const uint8_t*>(rows.source.data()), rows.size()});
   column("instance", "row of /instances of paths.h5, the vehicle that was hit; 4294967295 for the static scene",
          rows.instance);
 }

@@ -22,9 +22,10 @@ void Waypoints::begin_batch(uint32_t first_sample, uint32_t count) {
   first_sample_ = first_sample;
 }
 
-void Waypoints::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth) {
-  kernel_({rays.count, local_}, "waypoints", rays.planes, hits.planes, rays.capacity, rays.count, first_sample_, depth,
-          stride_, list_);
+void Waypoints::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth,
+                           const gpu::Buffer<float>* traced) {
+  kernel_({rays.count, local_}, "waypoints", rays.planes, hits.planes, traced, rays.capacity, rays.count, first_sample_,
+          depth, stride_, list_);
 }
 
 std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {

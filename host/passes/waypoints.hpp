@@ -16,8 +16,9 @@ class Waypoints {
   // Rows for the samples first_sample .. first_sample + count - 1. What was there is lost.
   void begin_batch(uint32_t first_sample, uint32_t count);
   // The segments of rays that have lived through `depth` interactions. Where segments after the last interaction end is
-  // not kept.
-  void operator()(const RayQueue& rays, const HitList& hits, uint32_t depth);
+  // not kept. traced: of each ray WT_NONE where a ray cache answered it; null without a cache.
+  void operator()(const RayQueue& rays, const HitList& hits, uint32_t depth,
+                  const gpu::Buffer<float>* traced = nullptr);
   // The rows of these samples, stride() waypoints each. What follows on a miss is undefined.
   std::vector<wt_waypoint> rows(const std::vector<uint32_t>& samples);
   uint32_t stride() const { return stride_; }

@@ -81,8 +81,8 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
 }
 
 std::optional<AnsweredRays> RayCache::answered(uint32_t depth) const {
-  if (!trails_ || !asked(depth)) return {};
-  return AnsweredRays{answers_.missed, answers_.receivers};
+  if (!asked(depth)) return {};
+  return AnsweredRays{answers_.missed, trails_ ? &answers_.receivers : nullptr, table_.config.scope == "all"};
 }
 
 void RayCache::count_blocks(const RayQueue& rays, HitList& hits, uint32_t depth) {

@@ -52,7 +52,7 @@ class RayCache final : public HitFinder {
   // A frame begins: purges regions of transmitters that have moved away and, if room is short, entries without use.
   void begin_frame(const WorldState& world);
   void find(const DeviceScene& scene, RayQueue& rays, HitList& hits, uint32_t depth) override;
-  // Where receptions are kept, also with what receivers.
+  // With what receivers, where receptions are kept.
   std::optional<AnsweredRays> answered(uint32_t depth) const override;
   void count_blocks(const RayQueue& rays, HitList& hits, uint32_t depth) override;
   // The entries of the table as it is, for frame `frame`; reads the device. Needs cache.statistics.

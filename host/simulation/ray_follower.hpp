@@ -17,10 +17,11 @@ struct LaunchPart {
   uint64_t first_index, stride = 1;
 };
 
-// Rays that a cache has answered, see Receive.
+// Rays of which a cache has answered some, see Receive.
 struct AnsweredRays {
-  const gpu::Buffer<float>& traced;
-  const gpu::Buffer<uint32_t>& receivers;
+  const gpu::Buffer<float>& traced;        // WT_NONE where it has
+  const gpu::Buffer<uint32_t>* receivers;  // that their segments passed, where entries keep them; else null
+  bool vehicles;                           // entries know what moves, too; else vehicles are always traced
 };
 
 class RayFollower {

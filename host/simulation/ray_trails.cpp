@@ -26,6 +26,11 @@ std::vector<uint32_t> chosen(const LaunchPart& part, uint64_t wanted) {
   return out;
 }
 
+// Of the segment that ends there.
+WaypointSource source_of(const wt_waypoint& waypoint) {
+  return waypoint.answered ? WaypointSource::cache : WaypointSource::traced;
+}
+
 }  // namespace
 
 RayTrails::RayTrails(gpu::Context& context, const TraceConfig& trace, uint64_t samples_a_transmitter, uint32_t depth,
@@ -57,10 +62,11 @@ void RayTrails::begin_batch(std::vector<LaunchPart> parts) {
 void RayTrails::follow(const RayQueue& rays, const HitList& hits, uint32_t depth,
                        const std::optional<AnsweredRays>& answered) {
   if (rays.count == 0) return;
-  waypoints_(rays, hits, depth);
+  waypoints_(rays, hits, depth, answered ? &answered->traced : nullptr);
+  vehicles_cached_ = answered && answered->vehicles;
   if (!reception_) return;
-  if (answered)
-    reception_->receive()(ends_, rays, hits, depth, answered->traced, answered->receivers);
+  if (answered && answered->receivers)
+    reception_->receive()(ends_, rays, hits, depth, answered->traced, *answered->receivers);
   else
     reception_->receive()(ends_, rays, hits, depth);
 }
@@ -108,7 +114,7 @@ void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_
                     std::span<const wt_reception> hits) {
   const glm::dvec3& origin_m = surfaces_.scene(0).origin_m;
   const auto push = [&](uint32_t depth, WaypointKind kind, const glm::dvec3& position_m, uint32_t surface,
-                        uint32_t instance) {
+                        uint32_t instance, WaypointSource source) {
     rows_.frame.push_back(frame_);
     rows_.tx.push_back(part.transmitter);
     rows_.sample.push_back(part.first_index + part.stride * (sample - part.first_sample));
@@ -117,22 +123,24 @@ void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_
     rows_.position_m.push_back(position_m);
     rows_.surface.push_back(surface);
     rows_.instance.push_back(instance);
+    rows_.source.push_back(source);
   };
   glm::dvec3 start_m{0};  // of the segment that ends in k
   for (uint32_t k = 0; k <= row.size(); ++k) {
     for (; !hits.empty() && hits.front().depth + 1 == k; hits = hits.subspan(1))
       push(k, WaypointKind::hit, origin_m + world_.receivers[hits.front().receiver].position_m, hits.front().receiver,
-           no_instance);
+           no_instance, k < row.size() ? source_of(row[k]) : WaypointSource::unknown);
     if (k == row.size()) break;  // hits of the segment after the last interaction
     const glm::dvec3 position_m{row[k].position[0], row[k].position[1], row[k].position[2]};
     if (row[k].surface == WT_WAYPOINT_LAUNCH) {
-      push(k, WaypointKind::launch, origin_m + position_m, no_surface, no_instance);
+      push(k, WaypointKind::launch, origin_m + position_m, no_surface, no_instance, WaypointSource::launch);
     } else if (row[k].surface == WT_WAYPOINT_MISS) {
-      push(k, WaypointKind::miss, start_m + position_m, no_surface, no_instance);
+      push(k, WaypointKind::miss, start_m + position_m, no_surface, no_instance, source_of(row[k]));
       break;
     } else {
       const WorldPlace place = surfaces_.at(row[k].surface);
-      push(k, WaypointKind::reflection, origin_m + on_surface(position_m, place), place.index, place.instance);
+      push(k, WaypointKind::reflection, origin_m + on_surface(position_m, place), place.index, place.instance,
+           place.instance != no_instance && !vehicles_cached_ ? WaypointSource::traced : source_of(row[k]));
     }
     start_m = rows_.position_m.back();
   }

@@ -52,6 +52,7 @@ class RayTrails final : public RayFollower {
   Waypoints waypoints_;
   std::optional<SphereReception> reception_;
   uint32_t frame_ = 0;
+  bool vehicles_cached_ = false;
   RadioEnds ends_;
   WorldState world_;
   std::vector<LaunchPart> parts_;

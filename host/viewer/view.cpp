@@ -11,6 +11,7 @@
 #include "viewer/frame_blocks.hpp"
 #include "viewer/grid_maps.hpp"
 #include "viewer/page_files.hpp"
+#include "viewer/ray_blocks.hpp"
 #include "viewer/scene_blocks.hpp"
 #include "viewer/street_blocks.hpp"
 #include "wavetracer/error.hpp"
@@ -135,6 +136,18 @@ void warn_of_losses(const FrameBlocks& blocks, ViewPage& page) {
                                         blocks.shown_links, blocks.links));
 }
 
+// Sampled rays, for which a quarter of the page is kept; null where the run holds none.
+json ray_rows(const SavedRun& run, const std::vector<size_t>& rows, const ViewOptions& options,
+              const glm::dvec3& centre_m, std::string& elements, ViewPage& page) {
+  const std::optional<SavedWaypoints> waypoints = saved_waypoints(run);
+  if (!waypoints) return {};
+  std::vector<uint32_t> numbers;
+  for (const size_t row : rows) numbers.push_back(run.number(row));
+  const RayBlocks blocks = add_ray_blocks(*waypoints, numbers, centre_m, options.max_bytes / 4, elements);
+  if (!blocks.warning.empty()) page.warnings.push_back(blocks.warning);
+  return {{"points", blocks.frames}, {"highest_depth", blocks.highest_depth}, {"sources", blocks.sources}};
+}
+
 // Bytes of names that are not UTF-8 become the replacement character.
 std::string meta_text(const json& meta) {
   return script_text(meta.dump(-1, ' ', true, json::error_handler_t::replace));
@@ -174,7 +187,7 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   std::string scripts = "<script>/*\n" + std::string(page_file("three_license.txt")) + "*/\n" +
                         std::string(page_file("three.min.js")) + "\n</script>\n";
   for (const char* name :
-       {"data.js", "palette.js", "camera.js", "roofs.js", "world.js", "lines.js", "pick.js", "coverage.js",
+       {"data.js", "palette.js", "camera.js", "roofs.js", "world.js", "lines.js", "rays.js", "pick.js", "coverage.js",
         "overlay.js", "filters.js", "find.js", "details.js", "charts.js", "chosen.js", "player.js", "main.js"})
     scripts += script(name);
 
@@ -191,6 +204,7 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
   const std::vector<bool> own = outside_of_grids(grids, run.receivers().size());
   const json grid_rows =
       add_grid_blocks(grids, run.receivers(), run.frame(rows.front()).receiver_position_m, centre, elements);
+  const json rays = ray_rows(run, rows, options, centre, elements, page);
   LinkTable links = link_table(run);
   if (!links.warning.empty()) page.warnings.push_back(links.warning);
   json meta = run_facts(run, world, options);
@@ -199,6 +213,7 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
                {"grids", grid_rows},
                {"scene", scene},
                {"models", models},
+               {"rays", rays},
                {"warnings", page.warnings}});
   const uint64_t taken = form_bytes + scripts.size() + elements.size() + meta_text(meta).size();
   const uint64_t room = taken + least_frame_bytes < options.max_bytes ? options.max_bytes - taken : least_frame_bytes;

@@ -15,6 +15,14 @@ enum class WaypointKind : uint8_t {
   miss = 4,  // a point 1 m along the segment that met nothing
 };
 
+// Who found where the segment before a waypoint ends.
+enum class WaypointSource : uint8_t {
+  launch = 0,   // there is no segment before it
+  traced = 1,   // the ray was traced
+  cache = 2,    // the ray cache answered: an entry of its table, or the ray that was traced for a group
+  unknown = 3,  // the segment after the last interaction of a ray, whose end is not kept
+};
+
 struct WaypointRows {
   std::vector<uint32_t> frame, tx;
   std::vector<uint64_t> sample;  // launch index of the ray, counted for its transmitter
@@ -23,6 +31,7 @@ struct WaypointRows {
   std::vector<glm::dvec3> position_m;  // file coordinates
   std::vector<uint32_t> surface;       // as in Paths; the receiver of a hit; no_surface of launches and misses
   std::vector<uint32_t> instance;      // the vehicle of a moving surface, else no_instance
+  std::vector<WaypointSource> source;
 
   size_t size() const { return tx.size(); }
 };

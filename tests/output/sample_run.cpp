@@ -67,9 +67,11 @@ WaypointRows sample_waypoints(uint32_t frame, size_t count) {
       .kind = {WaypointKind::launch, WaypointKind::reflection, WaypointKind::hit, WaypointKind::miss},
       .position_m = {{1e6 + frame, 0, 0}, {1e6 + frame, 0.25, -1}, {1e6 + frame, 0.5, -2}, {1e6 + frame, 0.75, -3}},
       .surface = {no_surface, 17, 1, no_surface},
-      .instance = {no_instance, 1, no_instance, no_instance}};
+      .instance = {no_instance, 1, no_instance, no_instance},
+      .source = {WaypointSource::launch, WaypointSource::cache, WaypointSource::unknown, WaypointSource::traced}};
   const auto shorten = [count](auto&... columns) { (columns.resize(count), ...); };
-  shorten(rows.frame, rows.tx, rows.sample, rows.depth, rows.kind, rows.position_m, rows.surface, rows.instance);
+  shorten(rows.frame, rows.tx, rows.sample, rows.depth, rows.kind, rows.position_m, rows.surface, rows.instance,
+          rows.source);
   return rows;
 }
 

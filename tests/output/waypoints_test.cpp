@@ -41,6 +41,7 @@ TEST_CASE("waypoints.h5 holds every column of every frame, in order") {
   CHECK(h5.numbers("/waypoints/kind") == Values{0, 1, 3, 4, 0, 1, 3, 4});
   CHECK(h5.numbers("/waypoints/surface") == Values{none, 17, 1, none, none, 17, 1, none});
   CHECK(h5.numbers("/waypoints/instance") == Values{none, 1, none, none, none, 1, none, none});
+  CHECK(h5.numbers("/waypoints/source") == Values{0, 2, 3, 1, 0, 2, 3, 1});
   CHECK(h5.shape("/waypoints/position_m") == Shape{8, 3});
   const Values position_m = h5.numbers("/waypoints/position_m");
   CHECK(Values(position_m.begin() + 18, position_m.begin() + 24) == Values{1e6 + 9, 0.5, -2, 1e6 + 9, 0.75, -3});

@@ -164,3 +164,35 @@ TEST_CASE("spheres in traffic: a cache of the static scene with exact keys chang
     }
   }
 }
+
+TEST_CASE("who found where a segment ends: the first frame traces, the second is answered but for vehicles") {
+  const SceneFile file(street());
+  Config config = config_of(file.path(), {{-40, 2, 6}}, {{40, 3, 1.5}}, 4000, 3);
+  config.output.waypoints = 4000;
+  config.trace.reuse = false;
+  add_vehicles(config, {{"a", "passenger", {-30, 4, 0}, {12, 0, 0}, 0, 2}}, 0.5);
+  const auto counts = [](const WaypointRows& rows) {
+    std::array<size_t, 4> out{};
+    for (const WaypointSource source : rows.source) ++out[static_cast<size_t>(source)];
+    return out;
+  };
+  Simulation plain(config);
+  const WaypointRows without = plain.run_frame(0).waypoints;
+  CHECK(counts(without)[0] == 4000);
+  CHECK(counts(without)[1] == without.size() - 4000);
+  config.cache.kind = "concurrent";
+  config.cache.key = "exact";
+  config.cache.buffer_size = 65536;
+  Simulation cached(config);
+  const WaypointRows first = cached.run_frame(0).waypoints, second = cached.run_frame(1).waypoints;
+  CHECK(counts(first)[2] == 0);
+  CHECK(counts(second)[2] > counts(second)[1]);
+  size_t on_vehicles = 0, wrong = 0;
+  for (size_t i = 0; i < second.size(); ++i) {
+    if (second.instance[i] == no_instance) continue;
+    ++on_vehicles;
+    wrong += second.source[i] != WaypointSource::traced;
+  }
+  CHECK(on_vehicles > 0);
+  CHECK(wrong == 0);
+}

@@ -147,4 +147,36 @@ void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem:
   write_outputs(folder, {config, {}, {}, {}, made_summary()}, std::span(&frame, 1));
 }
 
+void write_made_rays(const std::filesystem::path& folder) {
+  Config config;
+  config.radio.frequency_hz = frequency_hz;
+  config.text =
+      "[scene]\ngenerate = \"--seed 1 --blocks 2x2\"\n[[transmitter]]\nname = \"rsu\"\nposition_m = [0.0, 0.0, 10.0]\n"
+      "[[receiver]]\nname = \"car\"\nposition_m = [15.0, 5.0, 1.5]\n";
+  config.transmitters = {{.name = "rsu", .position_m = {0, 0, 10}}};
+  config.receivers = {{.name = "car", .position_m = {15, 5, 1.5}}};
+  config.output.waypoints = 2;
+  std::vector<FrameResult> frames(2);
+  for (uint32_t f = 0; f < 2; ++f) {
+    frames[f].frame = f;
+    frames[f].world.transmitters = {{.position_m = {0, 0, 10}}};
+    frames[f].world.receivers = {{.position_m = {15, 5, 1.5}}};
+    using enum WaypointKind;
+    using Source = WaypointSource;
+    WaypointRows& rows = frames[f].waypoints;
+    rows.frame.assign(8, f);
+    rows.tx.assign(8, 0);
+    rows.sample = {3, 3, 3, 3, 3, 9, 9, 9};
+    rows.depth = {0, 1, 2, 2, 3, 0, 1, 2};
+    rows.kind = {launch, reflection, hit, reflection, miss, launch, reflection, miss};
+    rows.position_m = {{0, 0, 10},        {10.0 + f, 0, 0}, {15, 5, 1.5},     {10.0 + f, 10, 5},
+                       {10.0 + f, 10, 6}, {0, 0, 10},       {20.0 + f, 0, 0}, {20.0 + f, 0, 1}};
+    rows.surface.assign(8, no_surface);
+    rows.instance.assign(8, no_instance);
+    rows.source = {Source::launch, Source::traced, Source::cache, Source::cache,
+                   Source::traced, Source::launch, Source::cache, Source::traced};
+  }
+  write_outputs(folder, {config, {}, {}, {}, made_summary()}, frames);
+}
+
 }  // namespace wavetracer::test

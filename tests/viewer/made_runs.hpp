@@ -19,4 +19,9 @@ void write_made_run(const MadeRun& made, const std::filesystem::path& folder);
 // of columns 0, 3, 6 ... have a direct and a reflected path, those of 1, 4, 7 ... a reflected one, the others none.
 void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder);
 
+// Two frames, f = 0 and 1, without paths, of two sampled rays that start at (0, 0, 10). The first meets (10 + f, 0, 0),
+// passes the receiver, meets (10 + f, 10, 5), which the cache answered, and is lost; the second meets (20 + f, 0, 0),
+// which the cache answered, and is lost.
+void write_made_rays(const std::filesystem::path& folder);
+
 }  // namespace wavetracer::test

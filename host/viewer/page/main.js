@@ -18,6 +18,8 @@ const charts = new Charts((row) => player.go(row));
 const player = new Player((row) => show_frame(row));
 const world = new WorldView();
 world.scene.add(lines.object);
+const rays = new RayLines();
+world.scene.add(rays.object);
 
 const warnings = [...meta.warnings];
 const renderer = (() => {
@@ -65,6 +67,7 @@ function draw_legends() {
   parent.replaceChildren();
   if (lines.visible.length || !grids.length) draw_legend(parent, control("colour").value);
   coverage.draw_legend(parent);
+  if (rays.object.visible) rays.draw_legend(parent, control("rays_by").value);
   parent.hidden = !parent.firstChild;
 }
 
@@ -85,6 +88,7 @@ function show_frame(row) {
   follow();
   state.selected = chosen.find(state.frame);
   refilter();
+  refresh_rays();
   if (state.selected >= 0) show_path(control("details"), state.frame, state.selected);
   else if (chosen.link) show_hint(control("details"), "The selected path does not exist in this frame.");
   else if (grid_of[filters.rx] >= 0) show_cell(control("details"), state.frame, filters.rx, coverage.rows[filters.rx]);
@@ -195,6 +199,7 @@ function resize() {
 function paint() {
   world.paint();
   refilter();
+  refresh_rays();
 }
 
 function apply_toggles() {
@@ -273,6 +278,7 @@ for (const part of document.querySelectorAll(".of_maps")) part.hidden = !grids.l
 document.addEventListener("keydown", key);
 control("toggles").addEventListener("input", apply_toggles);
 control("colour").addEventListener("change", paint);
+prepare_rays_control();
 control("home").addEventListener("click", () => show_all(true));
 control("top").addEventListener("click", () => show_all(false, Math.PI / 2));
 dark_scheme.addEventListener("change", paint);
@@ -293,7 +299,7 @@ apply_toggles();
 })();
 
 window.wavetracer = {
-  meta, state, timing, charts, coverage, chosen, search, orbit, world, overlay, lines, filters, player, draw, select,
+  meta, state, timing, rays, charts, coverage, chosen, search, orbit, world, overlay, lines, filters, player, draw, select,
   click, refilter, projector,
   renderer, ready_ms: performance.now(),
   setFrame: (row) => player.go(row),

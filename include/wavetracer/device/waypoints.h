@@ -11,6 +11,7 @@
 typedef struct {
   float position[3];  // recentred metres; of a miss the direction in which the ray was lost
   wt_uint surface;
+  wt_uint answered;  // 1: a ray cache answered the segment that ends here; 0: it was traced
 } wt_waypoint;
 
 // A segment that passed within the radius of a receiver.
