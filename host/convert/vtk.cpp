@@ -5,7 +5,9 @@
 #include "convert/convert.hpp"
 #include "convert/vtk_file.hpp"
 #include "convert/vtk_glb_kml.hpp"
+#include "convert/vtk_rays.hpp"
 #include "output/path_kinds.hpp"
+#include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
 
 namespace wavetracer {
@@ -212,6 +214,7 @@ VtkFile paths_file(const SavedRun& run, const SavedFrame& frame, size_t& left_ou
 Written export_vtk(const SavedRun& run, const ExportOptions& options, Warnings& warnings) {
   const SavedWorld world = load_saved_world(run, true);
   warnings.insert(warnings.end(), world.warnings.begin(), world.warnings.end());
+  const std::optional<SavedWaypoints> waypoints = saved_waypoints(run);
   PendingFolder folder(options.output);
   std::vector<std::string> names{"run.pvd"}, constant;
   if (!world.scene.triangles.empty()) {
@@ -237,6 +240,11 @@ Written export_vtk(const SavedRun& run, const ExportOptions& options, Warnings& 
     if (!run.instances().empty()) add_part("vehicles", vehicles_file(run, world, frame));
     add_part("ends", ends_file(run, frame));
     add_part("paths", paths_file(run, frame, left_out));
+    if (waypoints) {
+      VtkFile rays = rays_file(waypoints->frame(frame.number));
+      add_time(rays, frame);
+      add_part("rays", rays);
+    }
     for (size_t i = 0; i < parts.size(); ++i)
       times += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", frame.time_s, i, parts[i]);
   }

@@ -84,7 +84,7 @@ with h5py.File(os.path.join(sys.argv[1], "run/paths.h5"), "r") as file:
     offset, first = file["paths/vertex_offset"][...].astype(int), file["frames/path_offset"][...].astype(int)
     for row, frame in enumerate(number):
         assert steps[time_s[row]] == ["scene.vtp", "edges.vtp"] + [f"{kind}_{frame:05}.vtp"
-                                                                   for kind in ("vehicles", "ends", "paths")]
+                                                                   for kind in ("vehicles", "ends", "paths", "rays")]
         paths = read(f"paths_{frame:05}.vtp")
         assert array(paths.GetFieldData(), "TimeValue")[0] == time_s[row]
         assert texts(paths.GetFieldData(), "tx_names") == list(file["transmitters/name"].asstr())
@@ -129,4 +129,22 @@ with h5py.File(os.path.join(sys.argv[1], "run/paths.h5"), "r") as file:
             assert np.array_equal(points(radio)[rows], where[there])
             names = file[f"{kind}s/name"].asstr()[...][there]
             assert list(np.array(texts(radio.GetPointData(), "name"))[rows]) == list(names)
+
+# Rays: every waypoint but receivers that rays pass, a line from each launch to the point before the next.
+none = 2**32 - 1
+with h5py.File(os.path.join(sys.argv[1], "run/waypoints.h5"), "r") as file:
+    column = {name: file["waypoints"][name][...] for name in file["waypoints"]}
+    for frame in number:
+        rows = np.nonzero((column["frame"] == frame) & (column["kind"] != 3))[0]
+        rays = read(f"rays_{frame:05}.vtp")
+        assert np.array_equal(points(rays), column["position_m"][rows]) and len(rows) == 5
+        for name in ("depth", "kind", "source"):
+            assert np.array_equal(array(rays.GetPointData(), name), column[name][rows]), name
+        for name, of in (("surface", "surface"), ("vehicle", "instance")):
+            expected = [-1 if value == none else value for value in column[of][rows]]
+            assert list(array(rays.GetPointData(), name)) == expected, name
+        launches = rows[column["kind"][rows] == 0]
+        assert list(array(rays.GetCellData(), "tx")) == list(column["tx"][launches])
+        assert list(array(rays.GetCellData(), "sample")) == list(column["sample"][launches])
+        assert list(vtk_to_numpy(rays.GetLines().GetOffsetsArray())) == [0, 3, 5]
 print(f"vtk: {len(number)} frames as in paths.h5")

@@ -59,6 +59,21 @@ void add_path(Paths& paths, const WorldState& world, const glm::dvec3& origin_m,
   paths.vertex_offset.push_back(paths.vertex_position_m.size());
 }
 
+// Two rays: one that a car reflects and that passes a receiver, one that is lost at once.
+WaypointRows made_rays(uint32_t frame) {
+  using enum WaypointKind;
+  using Source = WaypointSource;
+  return {.frame = std::vector<uint32_t>(6, frame),
+          .tx = {0, 0, 0, 0, 1, 1},
+          .sample = {7, 7, 7, 7, uint64_t{1} << 40, uint64_t{1} << 40},
+          .depth = {0, 1, 2, 2, 0, 1},
+          .kind = {launch, reflection, hit, reflection, launch, miss},
+          .position_m = {{0, 0, 6}, {1.0 * frame, 2, 0}, {3, 3, 1}, {4, 4, 2.5}, {-8, 0, 2}, {-8, 0, 3}},
+          .surface = {no_surface, 3, 0, 17, no_surface, no_surface},
+          .instance = {no_instance, 0, no_instance, no_instance, no_instance, no_instance},
+          .source = {Source::launch, Source::traced, Source::cache, Source::cache, Source::launch, Source::traced}};
+}
+
 }  // namespace
 
 void write_geometry_run(const std::filesystem::path& folder) {
@@ -67,6 +82,7 @@ void write_geometry_run(const std::filesystem::path& folder) {
   const World world(config, scene);
   config.transmitters = world.transmitters();
   config.receivers = world.receivers();
+  config.output.waypoints = 2;
   std::vector<FrameResult> frames;
   for (uint32_t number = first_frame; number < first_frame + frame_count; ++number) {
     FrameResult frame;
@@ -77,6 +93,7 @@ void write_geometry_run(const std::filesystem::path& folder) {
     frame.counts.paths = rows;
     frame.segments_per_depth = {1};
     frame.seconds = {{"frame", 0.1}};
+    frame.waypoints = made_rays(number);
     frames.push_back(std::move(frame));
   }
   write_outputs(folder, Run{config, scene, world.instances(), world.models(), {}}, frames);

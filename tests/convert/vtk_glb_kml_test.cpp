@@ -93,7 +93,7 @@ TEST_CASE("files for the scripts: a drive as .glb, a folder for ParaView, a .kml
   Warnings warnings;
   CHECK(export_glb(run(), options("drive.glb"), warnings).size() == 1);
   const Written vtk = export_vtk(run(), options("vtk"), warnings);
-  CHECK(vtk.size() == 1 + 2 + 3 * test::frame_count);
+  CHECK(vtk.size() == 1 + 2 + 4 * test::frame_count);
   for (const fs::path& file : vtk) CHECK(fs::exists(file));
   CHECK_THROWS_AS(export_vtk(run(), options("vtk"), warnings), InputError);  // the folder is there already
   CHECK(warnings.empty());

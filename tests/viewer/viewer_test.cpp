@@ -15,7 +15,6 @@
 #include "viewer/link_rows.hpp"
 #include "viewer/made_runs.hpp"
 #include "viewer/page_files.hpp"
-#include "viewer/ray_blocks.hpp"
 #include "viewer/street_blocks.hpp"
 #include "viewer/strongest.hpp"
 #include "viewer/view.hpp"
@@ -279,21 +278,6 @@ TEST_CASE("no paths, one frame, thousands of frames") {
   const ViewPage page = write_page("long");
   CHECK(page.frames == 3000);
   CHECK(page.html.size() < 10e6);
-}
-
-TEST_CASE("sampled rays: on the page where a run holds them, and thinned out where they do not fit") {
-  test::write_made_rays(folder / "rays");
-  const ViewPage page = write_page("rays");
-  CHECK(page.warnings == std::vector<std::string>{});
-  CHECK(page.html.find("\"rays\":{\"highest_depth\":3,\"points\":[7,7],\"sources\":true}") != std::string::npos);
-  CHECK(write_page("empty").html.find("\"rays\":null") != std::string::npos);
-  std::string elements;
-  const SavedWaypoints waypoints(folder / "rays" / "waypoints.h5");
-  // 16 rows in 8 points' room: every second ray.
-  const RayBlocks half = add_ray_blocks(waypoints, {0, 1}, {0, 0, 0}, 8 * 20, elements);
-  CHECK(half.frames == nlohmann::json{4, 4});
-  CHECK(half.warning.find("one of every 2 sampled rays") != std::string::npos);
-  CHECK(half.highest_depth == 3);
 }
 
 TEST_CASE("a hundred vehicles, a hundred thousand paths per frame") {
