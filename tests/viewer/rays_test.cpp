@@ -1,8 +1,10 @@
 // Sampled rays on the page of a run, and how many of them. Writes the page that rays_page.py opens.
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <nlohmann/json.hpp>
-#include "made_runs.hpp"
+#include "base/file.hpp"
 #include "output/sample_run.hpp"
+#include "viewer/made_runs.hpp"
 #include "viewer/ray_blocks.hpp"
 #include "viewer/view.hpp"
 
@@ -11,21 +13,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "viewer";
+const fs::path pages = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "viewer";
 
 }  // namespace
 
 TEST_CASE("sampled rays: on the page where a run holds them, and thinned out where they do not fit") {
-  test::write_made_rays(folder / "rays");
-  const ViewPage page = make_view(SavedRun(folder / "rays"), {});
-  write_file(folder / "rays" / "view.html", page.html);
+  test::write_made_rays(pages / "rays");
+  const ViewPage page = make_view(SavedRun(pages / "rays"), {});
+  write_file(pages / "rays" / "view.html", page.html);
   CHECK(page.warnings == std::vector<std::string>{});
   CHECK(page.html.find("\"rays\":{\"highest_depth\":3,\"points\":[7,7],\"sources\":true}") != std::string::npos);
   const SampleRun sample;
-  write_outputs(folder / "without_rays", sample.run(), sample.empty());
-  CHECK(make_view(SavedRun(folder / "without_rays"), {}).html.find("\"rays\":null") != std::string::npos);
+  write_outputs(pages / "without_rays", sample.run(), sample.empty());
+  CHECK(make_view(SavedRun(pages / "without_rays"), {}).html.find("\"rays\":null") != std::string::npos);
   std::string elements;
-  const SavedWaypoints waypoints(folder / "rays" / "waypoints.h5");
+  const SavedWaypoints waypoints(pages / "rays" / "waypoints.h5");
   // 16 rows in 8 points' room: every second ray.
   const RayBlocks half = add_ray_blocks(waypoints, {0, 1}, {0, 0, 0}, 8 * 20, elements);
   CHECK(half.frames == nlohmann::json{4, 4});
