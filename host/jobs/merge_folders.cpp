@@ -151,17 +151,14 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   const MergeParts parts = parts_of(found.shards, [&](const Shard& shard) {
     return found.places.at({shard.unit.first, shard.unit.block});
   });
-  const std::vector<H5Output> outputs = h5_outputs(record.config);
-  if (parts.files.size() != outputs.size() + 1)
+  if (parts.files.size() != h5_outputs(record.config).size() + 1)
     throw RuntimeError(found.record.string() +
-                       " does not belong to the parts beside it: output.waypoints or "
-                       "output.cache_entries differs");
+                       " does not belong to the parts beside it: output.waypoints or output.cache_entries differs");
   PendingDirectory folder(directory);
-  std::vector<PendingFile> files = merge_outputs(
-      record.config, parts, Parts::foreign, Proof::none, directory, [&](const H5Output& output, hdf5::File& head) {
-        const fs::path& first = parts.files.at(static_cast<size_t>(&output - outputs.data())).front();
-        reading_part(first, [&] { copy_head(output, first, head); });
-      });
+  std::vector<PendingFile> files = merge_outputs(record.config, parts, Parts::foreign, Proof::none, directory,
+                                                 [&](const H5Output& output, const fs::path& first, hdf5::File& head) {
+                                                   reading_part(first, [&] { copy_head(output, first, head); });
+                                                 });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = encode_summary_json(record.run(), totals_of(found.shards), seconds, found.shards.size());
   files.emplace_back(directory / "summary.json", std::as_bytes(std::span(summary)));

@@ -27,7 +27,7 @@ struct Draft {
   Pieces tables(const BeginPart& begin) const {
     begin(parts.front());
     File head;
-    write_head(output, head);
+    write_head(output, parts.front(), head);
     const auto groups = of_one_frame ? groups_of_blocks(parts, output.growing_groups, begin)
                                      : growing_groups_of(parts, output.growing_groups, begin);
     return make_tables(file, head, groups, parts.size(), compression);

@@ -11,7 +11,7 @@
 namespace wavetracer {
 
 // Writes what of an output does not grow with frames.
-using WriteHead = std::function<void(const H5Output&, hdf5::File&)>;
+using WriteHead = std::function<void(const H5Output&, const std::filesystem::path& first_part, hdf5::File&)>;
 
 // Whose parts they are: those of others are read in a child process (limited_child.hpp).
 enum class Parts { own, foreign };

@@ -247,9 +247,9 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
     add(totals, unfinished->totals());
   }
   const bool removes = !run.config.output.keep_shards && !unfinished && totals.frames == run.summary.frames_asked;
-  std::vector<PendingFile> files =
-      merge_outputs(run.config, parts, Parts::own, removes ? Proof::rows : Proof::none, directory_,
-                    [&run](const H5Output& output, hdf5::File& head) { make_head(output, run, head); });
+  std::vector<PendingFile> files = merge_outputs(
+      run.config, parts, Parts::own, removes ? Proof::rows : Proof::none, directory_,
+      [&run](const H5Output& output, const fs::path&, hdf5::File& head) { make_head(output, run, head); });
   const std::string summary = encode_summary_json(run, totals, write_seconds_ + since(start), shards_.size());
   files.emplace_back(directory_ / "summary.json", bytes(summary));
   if (fresh_) remove_shards(directory_);

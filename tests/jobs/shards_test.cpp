@@ -58,17 +58,18 @@ std::vector<std::string> names(const fs::path& folder) {
 
 TEST_CASE("shards merge into the files of a run that was written whole") {
   const TemporaryFolder folder;
-  const SampleRun sample = with_waypoints();
+  SampleRun sample = with_waypoints();
+  sample.config.output.cache_entries = true;
   const auto whole = write_outputs(folder.path() / "whole", sample.run(), sample.drive(3, 22));
   const auto drive = write_drive(folder.path() / "drive", sample);
-  const std::vector<std::string> outputs{"paths.h5", "waypoints.h5", "links.csv", "summary.json"};
+  const std::vector<std::string> outputs{"paths.h5", "waypoints.h5", "cache_entries.h5", "links.csv", "summary.json"};
   REQUIRE(whole.size() == outputs.size());
   REQUIRE(drive.size() == outputs.size());
   for (size_t i = 0; i < outputs.size(); ++i) {
     CHECK(whole[i] == folder.path() / "whole" / outputs[i]);
     CHECK(drive[i] == folder.path() / "drive" / outputs[i]);
   }
-  for (const auto& [file, columns] : {std::pair{size_t{0}, size_t{52}}, {1, 8}}) {
+  for (const auto& [file, columns] : {std::pair{size_t{0}, size_t{52}}, {1, 9}, {2, 9}}) {
     const auto expected = datasets(whole[file]), found = datasets(drive[file]);
     REQUIRE(expected.size() == columns);
     for (const auto& [name, value] : expected) {
@@ -78,7 +79,7 @@ TEST_CASE("shards merge into the files of a run that was written whole") {
     }
     CHECK(found.size() == expected.size());
   }
-  for (size_t i = 0; i < 3; ++i) {
+  for (size_t i = 0; i < 4; ++i) {
     const bool same_bytes = slurp(drive[i]) == slurp(whole[i]);
     CAPTURE(outputs[i]);
     CHECK(same_bytes);
@@ -94,7 +95,7 @@ TEST_CASE("shards merge into the files of a run that was written whole") {
   std::vector<double> frames;  // frame n has n % 4 rows
   for (uint32_t frame = 3; frame < 25; ++frame) frames.insert(frames.end(), frame % 4, frame);
   CHECK(waypoints.numbers("/waypoints/frame") == frames);
-  auto a = nlohmann::json::parse(slurp(whole[3])), b = nlohmann::json::parse(slurp(drive[3]));
+  auto a = nlohmann::json::parse(slurp(whole.back())), b = nlohmann::json::parse(slurp(drive.back()));
   CHECK(b["shards"] == 3);
   CHECK(b["seconds"]["frame"] == doctest::Approx(0.5135));
   for (const char* key : {"counts", "frames", "first_frame", "last_frame", "links", "segments_per_depth", "warnings"})

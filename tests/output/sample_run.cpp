@@ -49,6 +49,20 @@ FrameResult make_frame(const SampleRun& sample, uint32_t number, double time_s) 
   return frame;
 }
 
+// Numbers of the row alone.
+void add_entry(FrameResult& frame, uint32_t row) {
+  CacheEntryRows& rows = frame.cache_entries;
+  rows.frame.push_back(frame.frame);
+  rows.slot.push_back(10 * row);
+  rows.region.push_back(row);
+  rows.depth.push_back(row + 1);
+  rows.hits.push_back(5 * row);
+  rows.age.push_back(frame.frame);
+  rows.length_m.push_back(0.5 * row);
+  rows.read_cycles.push_back(100 * row);
+  rows.write_cycles.push_back(200);
+}
+
 void add_counts(FrameResult& frame) {
   frame.paths.rx_ports = 2;
   frame.counts = {1000, 2500, 1500, 40, 12, 8, frame.paths.size(), 3};
@@ -141,6 +155,7 @@ std::vector<FrameResult> SampleRun::drive(uint32_t first, uint32_t count) const 
     frame.world.transmitters[0].position_m.x += number;
     frame.world.instances[0].present = number % 3 > 0;
     frame.world.instances[1].position_m.y = 2.0 * number;
+    for (uint32_t row = 0; config.output.cache_entries && row < number % 3; ++row) add_entry(frame, row);
     if (config.output.waypoints > 0) frame.waypoints = sample_waypoints(number, number % 4);
     add_counts(frame);
     frames.push_back(frame);
