@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include "app/commands.hpp"
+#include "app/live_page.hpp"
 #include "app/named_files.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
@@ -16,6 +18,7 @@ namespace {
 struct ServeOptions {
   std::string file;
   std::vector<std::string> sets;
+  std::string page;
   live::ServeOptions serve;
 };
 
@@ -24,8 +27,14 @@ void serve(const ServeOptions& options) {
   check_inputs(config);
   catch_interrupts();
   Progress progress;
+  live::ServeOptions serving = options.serve;
+  std::optional<LivePage> page;
+  if (!options.page.empty()) {
+    page.emplace(options.page, [&](const std::string& text) { progress.line("warning: " + text); });
+    serving.solved = [&page](const Simulation& simulation, const LiveFrame& frame) { page->show(simulation, frame); };
+  }
   live::serve(
-      config, options.serve, interrupted, [&](const std::string& text) { progress.line(text); },
+      config, serving, interrupted, [&](const std::string& text) { progress.line(text); },
       [](const std::string& name) { std::cout << "listening on " << name << std::endl; });
   progress.line("ended");
 }
@@ -46,6 +55,9 @@ void add_serve(CLI::App& program, Invocation&) {
                       "OpenCL device: its index, or a part of its name or of its platform's name");
   command->add_option("--token-file", options->serve.token_file,
                       "File with the secret that clients must send; required unless the address is a loopback address");
+  command->add_option("--page", options->page,
+                      "Page that shows the newest frame, written at most once per second; open it in a browser, which "
+                      "loads it again by itself");
   command->callback([options] { serve(*options); });
 }
 

@@ -32,7 +32,7 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
   for (const std::string& warning : simulation.warnings()) log("warning: " + warning);
   simulation.run_frame(0);  // with nobody there: buffers are made, drivers finish compiling
   simulation.forget();
-  Server server(simulation, listener, token, log);
+  Server server(simulation, listener, token, log, options.solved);
   ready(listener.name());
   server.run(stop);
 }

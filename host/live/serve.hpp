@@ -13,6 +13,7 @@ struct ServeOptions {
   std::string listen = "tcp:127.0.0.1:7710";  // unix:PATH or tcp:ADDRESS:PORT
   std::string device;                         // as for Simulation
   std::string token_file;                     // empty: no token
+  FrameSolved solved = {};                    // called with every frame, on the thread that solves
 };
 
 // ready: called once, with the name of the endpoint. Everything that needs no device is checked first. Throws

@@ -30,14 +30,14 @@ bool is_guest(const Client& client) { return !client.ending() && !client.gone() 
 
 }  // namespace
 
-Server::Server(Simulation& simulation, const Listener& listener, std::string token, Log log)
+Server::Server(Simulation& simulation, const Listener& listener, std::string token, Log log, FrameSolved solved)
     : limits_(simulation.config().live),
       listener_(listener),
       token_(std::move(token)),
       world_line_(world_line(simulation)),
       places_(count_of(simulation.live_types())),
       log_(std::move(log)),
-      solver_(solve_with(simulation)),
+      solver_(solve_with(simulation, std::move(solved))),
       parser_([this](Line& line) { return parse(line); }) {}
 
 void Server::run(const std::function<bool()>& stop) {

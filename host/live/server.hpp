@@ -18,8 +18,8 @@ using Log = std::function<void(const std::string&)>;
 
 class Server {
  public:
-  // token: empty where none is asked for.
-  Server(Simulation& simulation, const Listener& listener, std::string token, Log log);
+  // token: empty where none is asked for. solved: as for solve_with().
+  Server(Simulation& simulation, const Listener& listener, std::string token, Log log, FrameSolved solved = {});
   // Until stop() says so, which is asked ten times per second. Throws DeviceError where the device fails.
   void run(const std::function<bool()>& stop);
 

@@ -8,13 +8,14 @@
 
 namespace wavetracer::live {
 
-Solve solve_with(Simulation& simulation) {
-  return [&simulation](const Job& job, bool afresh) {
+Solve solve_with(Simulation& simulation, FrameSolved solved) {
+  return [&simulation, solved = std::move(solved)](const Job& job, bool afresh) {
     const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
     const FrameMessage& message = job.message;
     const Clock::time_point start = Clock::now();
     if (message.cold || afresh) simulation.forget();
     const LiveFrame frame = simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
+    if (solved) solved(simulation, frame);
     const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
     return channels_line(message, frame, job.detail, job.skipped, times, simulation.config().radio.frequency_hz);
   };

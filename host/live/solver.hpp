@@ -11,6 +11,7 @@
 
 #include "live/message.hpp"
 #include "live/worker.hpp"
+#include "wavetracer/live.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::live {
@@ -36,7 +37,9 @@ struct Answer {
 // The answer to a job. afresh: nothing of earlier frames is to be relied upon. Throws PoseError where the poses are
 // wrong, DeviceError where the device is of no use any more, anything else where this one frame failed.
 using Solve = std::function<std::string(const Job& job, bool afresh)>;
-Solve solve_with(Simulation& simulation);
+// solved: told of every frame before it is answered; must not throw; may be empty.
+using FrameSolved = std::function<void(const Simulation&, const LiveFrame&)>;
+Solve solve_with(Simulation& simulation, FrameSolved solved = {});
 
 class Solver {
  public:

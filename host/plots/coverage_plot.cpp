@@ -46,12 +46,6 @@ std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, std:
   return text;
 }
 
-std::string wall_table(const std::vector<std::array<double, 4>>& walls) {
-  std::string text = "x0_m,y0_m,x1_m,y1_m\n";
-  for (const auto& [x0, y0, x1, y1] : walls) text += fmt::format("{},{},{},{}\n", x0, y0, x1, y1);
-  return text;
-}
-
 std::string trimmed_range(const std::vector<CoverageCell>& cells, double offset_db) {
   constexpr double span_db = 100, trimmed = 0.01;
   std::vector<double> gains;
@@ -147,6 +141,12 @@ std::vector<std::array<double, 4>> section(const Scene& scene, double height_m) 
     if (points.size() == 2) out.push_back({points[0].x, points[0].y, points[1].x, points[1].y});
   }
   return out;
+}
+
+std::string wall_table(const std::vector<std::array<double, 4>>& walls) {
+  std::string text = "x0_m,y0_m,x1_m,y1_m\n";
+  for (const auto& [x0, y0, x1, y1] : walls) text += fmt::format("{},{},{},{}\n", x0, y0, x1, y1);
+  return text;
 }
 
 Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::string& name, const std::string& grid,

@@ -26,6 +26,8 @@ std::vector<CoverageCell> coverage_cells(const SavedRun& run, const SavedFrame& 
 
 // Where the triangles of the scene cross the plane z = height_m: segments x0, y0, x1, y1, file coordinates.
 std::vector<std::array<double, 4>> section(const Scene& scene, double height_m);
+// As CSV: x0_m,y0_m,x1_m,y1_m.
+std::string wall_table(const std::vector<std::array<double, 4>>& walls);
 
 // name: of the figure's files. At least one cell must have a path. radio: received powers are drawn where it gives
 // them.

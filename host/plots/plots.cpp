@@ -8,6 +8,8 @@
 #include "base/spelling.hpp"
 #include "plots/coverage_plot.hpp"
 #include "plots/link_plots.hpp"
+#include "plots/rays_plot.hpp"
+#include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
 #include "wavetracer/error.hpp"
 
@@ -28,8 +30,9 @@ class Plotter {
 
   PlotReport plot() {
     check_choice();
-    if (std::any_of(plot_names.begin(), plot_names.end() - 1, [&](auto name) { return asked(name); })) plot_links();
+    if (std::any_of(plot_names.begin(), plot_names.end() - 2, [&](auto name) { return asked(name); })) plot_links();
     if (asked("coverage")) plot_coverage();
+    if (asked("rays")) plot_rays();
     return std::move(report_);
   }
 
@@ -60,7 +63,7 @@ class Plotter {
       throw ConfigError(fmt::format("--grid \"{}\" is not the name of a [[receiver_grid]] of the run, which has {}{}",
                                     choice_.grid, grids_.empty() ? "none" : fmt::format("{}", fmt::join(grids_, ", ")),
                                     spelling_hint(choice_.grid, grids_)));
-    if (run_.path_count() == 0)
+    if (run_.path_count() == 0 && choice_.what != std::vector<std::string>{"rays"})
       throw InputError(
           fmt::format("{}: the run found no path at all, so there is nothing to plot; look at the places of "
                       "its antennas, and at trace.max_depth",
@@ -116,6 +119,19 @@ class Plotter {
         add(coverage_figure(run_, frame, k == 0 ? "coverage" : fmt::format("coverage_{}", k + 1), grids_[k], cells, tx,
                             world_.scene, world_.config.radio));
     }
+  }
+
+  void plot_rays() {
+    const std::optional<SavedWaypoints> waypoints = saved_waypoints(run_);
+    if (!wanted("rays", waypoints.has_value(), "the run has no waypoints.h5: give output.waypoints a number of rays"))
+      return;
+    const size_t row = choice_.link.frame ? find_frame(run_, *choice_.link.frame) : 0;
+    const WaypointRows rows = waypoints->frame(run_.number(row));
+    if (ray_segments(rows, 1).empty())
+      report_.warnings.push_back(
+          fmt::format("rays: none of the sampled rays of frame {} meets anything", run_.number(row)));
+    else
+      add(rays_figure(rows, run_.frame_count() > 1 ? fmt::format(", {:g} s", run_.time_s(row)) : "", world_.scene));
   }
 };
 

@@ -13,7 +13,8 @@
 namespace wavetracer::plots {
 
 // By the names that --what takes; those are the names of the files too.
-constexpr std::array<std::string_view, 6> plot_names{"gain", "pdp", "delay-time", "doppler", "angles", "coverage"};
+constexpr std::array<std::string_view, 7> plot_names{"gain",   "pdp",      "delay-time", "doppler",
+                                                     "angles", "coverage", "rays"};
 
 struct PlotChoice {
   std::vector<std::string> what;  // of plot_names; empty: all that suit the run
@@ -28,7 +29,7 @@ struct PlotReport {
 };
 
 // Throws ConfigError for names that the run does not have and for plots that do not suit it, InputError for a run
-// without paths, RuntimeError where a file cannot be written.
+// without paths that is asked for more than its rays, RuntimeError where a file cannot be written.
 PlotReport plot_run(const SavedRun& run, const PlotChoice& choice, const std::filesystem::path& folder);
 
 }  // namespace wavetracer::plots

@@ -93,6 +93,10 @@ SavedWaypoints::SavedWaypoints(SavedWaypoints&&) noexcept = default;
 const fs::path& SavedWaypoints::file() const { return state_->path; }
 uint64_t SavedWaypoints::count() const { return state_->frames.size(); }
 
+uint64_t SavedWaypoints::count(uint32_t number) const {
+  return std::ranges::equal_range(state_->frames, number).size();
+}
+
 WaypointRows SavedWaypoints::frame(uint32_t number) const {
   try {
     return state_->read(number);

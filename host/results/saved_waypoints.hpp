@@ -17,7 +17,8 @@ class SavedWaypoints {
   SavedWaypoints(SavedWaypoints&&) noexcept;
 
   const std::filesystem::path& file() const;
-  uint64_t count() const;  // of all frames
+  uint64_t count() const;                 // of all frames
+  uint64_t count(uint32_t number) const;  // of this frame
   // The rows of a frame by its number; none where it has none. Sources are unknown in files of before format 2. Throws
   // InputError.
   WaypointRows frame(uint32_t number) const;

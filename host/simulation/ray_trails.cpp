@@ -26,11 +26,6 @@ std::vector<uint32_t> chosen(const LaunchPart& part, uint64_t wanted) {
   return out;
 }
 
-// Of the segment that ends there.
-WaypointSource source_of(const wt_waypoint& waypoint) {
-  return waypoint.answered ? WaypointSource::cache : WaypointSource::traced;
-}
-
 }  // namespace
 
 RayTrails::RayTrails(gpu::Context& context, const TraceConfig& trace, uint64_t samples_a_transmitter, uint32_t depth,
@@ -109,6 +104,13 @@ void RayTrails::keep_waypoints(std::vector<wt_reception> receptions) {
   }
 }
 
+WaypointSource RayTrails::source_of(const wt_waypoint& end) const {
+  const bool on_surface = end.surface != WT_WAYPOINT_LAUNCH && end.surface != WT_WAYPOINT_MISS;
+  const bool on_vehicle = on_surface && surfaces_.at(end.surface).instance != no_instance;
+  if (!end.answered || (on_vehicle && !vehicles_cached_)) return WaypointSource::traced;
+  return WaypointSource::cache;
+}
+
 // One sample: launch, then of every segment its hits and its end, up to a miss.
 void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_waypoint> row,
                     std::span<const wt_reception> hits) {
@@ -140,7 +142,7 @@ void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_
     } else {
       const WorldPlace place = surfaces_.at(row[k].surface);
       push(k, WaypointKind::reflection, origin_m + on_surface(position_m, place), place.index, place.instance,
-           place.instance != no_instance && !vehicles_cached_ ? WaypointSource::traced : source_of(row[k]));
+           source_of(row[k]));
     }
     start_m = rows_.position_m.back();
   }

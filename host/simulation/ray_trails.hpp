@@ -43,6 +43,8 @@ class RayTrails final : public RayFollower {
  private:
   glm::dvec3 on_surface(const glm::dvec3& position_m, const WorldPlace& place) const;
   void keep_waypoints(std::vector<wt_reception> receptions);
+  // Of the segment that ends there.
+  WaypointSource source_of(const wt_waypoint& end) const;
   void add(const LaunchPart& part, uint32_t sample, std::span<const wt_waypoint> row,
            std::span<const wt_reception> hits);
 

@@ -13,12 +13,9 @@ namespace {
 constexpr double clear_correlation = 0.5;
 constexpr const char* regions_note =
     "nanoseconds of a region are those of the rays of its transmitter alone, in the same table, and region 0 is the "
-    "rays "
-    "of all; cycles are means over the entries of a region, by the device's own clock, in a frame of all "
-    "transmitters. "
-    "The "
-    "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
-    "table costs besides is the gathering of missed rays";
+    "rays of all; cycles are means over the entries of a region, by the device's own clock, in a frame of all "
+    "transmitters. The hash is part of both read and write. The thesis' buffer call, the address of an entry, has no "
+    "counterpart; what a table costs besides is the gathering of missed rays";
 
 // Of a setting at the first number of rays.
 std::vector<const CacheRow*> regions_of(const CacheRows& rows, const std::string& setting) {
@@ -59,11 +56,11 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
                  .x_label = "region of the table, one for each transmitter (0: all)",
                  .points = true,
                  .panels_a_row = with_trace ? 2u : 3u,
-                 .panels = panels_of(rows, {{"write (cache_store)", "write_ns", "ns a segment", "", with_trace},
-                                            {"read (cache_lookup)", "read_ns", "ns a segment", "", with_trace},
-                                            {"gather missed rays", "gather_ns", "ns a segment", "", with_trace}})},
+                 .panels = panels_of(rows, {{"write (cache_store)", "write_ns", "ns per segment", "", with_trace},
+                                            {"read (cache_lookup)", "read_ns", "ns per segment", "", with_trace},
+                                            {"gather missed rays", "gather_ns", "ns per segment", "", with_trace}})},
         .table = "drive,setting,region,lookups,hit_rate,write_ns,read_ns,gather_ns,trace_ns,write_cycles,read_cycles\n",
-        .numbers = {.caption = fmt::format("Nanoseconds a segment, at {} rays:", grouped(rows.front().rays)),
+        .numbers = {.caption = fmt::format("Nanoseconds per segment, at {} rays:", grouped(rows.front().rays)),
                     .heads = {"setting", "transmitter", "look-ups", "answered", "write", "read", "gather"},
                     .rows = {}},
         .notes = {regions_note}};
@@ -75,7 +72,7 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
     }
     if (with_trace) {
       out.numbers.heads.emplace_back("trace");
-      const auto traced = panels_of(rows, {{"trace", "trace_ns", "ns a segment", "", true}});
+      const auto traced = panels_of(rows, {{"trace", "trace_ns", "ns per segment", "", true}});
       out.plot.panels.insert(out.plot.panels.end(), traced.begin(), traced.end());
     }
     for (const std::string& setting : settings) {

@@ -7,7 +7,7 @@
 
 namespace wavetracer::study {
 
-// Nanoseconds a segment to write, to read, to gather (and to trace) of these settings, region by region.
+// Nanoseconds per segment to write, to read, to gather (and to trace) of these settings, region by region.
 CacheView regions(std::vector<std::string> settings, bool with_trace = false);
 
 double region_lookups(const CacheRow& row);  // how busy it is

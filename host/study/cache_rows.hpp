@@ -68,7 +68,7 @@ inline bool is_whole(const CacheRow& row) { return row.depth == 0 && row.region 
 
 // Hits over look-ups; NaN without a look-up.
 double hit_rate(const CacheRow& row);
-// Nanoseconds a segment: writes of the cold frame, which finds nothing; reads of the warm ones; the rest of the cold.
+// Nanoseconds per segment: writes of the cold frame, which finds nothing; reads of the warm ones; the rest of the cold.
 double write_ns(const CacheRow& row);
 double read_ns(const CacheRow& row);
 double gather_ns(const CacheRow& row);

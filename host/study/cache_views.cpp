@@ -20,7 +20,7 @@ LinePlot by_rays(const CacheMeasurement& measured, const std::vector<LinePanel>&
 
 NumberTable operations_table(const std::vector<CacheRow>& rows, const std::vector<std::string>& settings,
                              bool with_trace) {
-  NumberTable table{.caption = fmt::format("Nanoseconds a segment, at {} rays:", grouped(rows.front().rays)),
+  NumberTable table{.caption = fmt::format("Nanoseconds per segment, at {} rays:", grouped(rows.front().rays)),
                     .heads = {"setting", "write", "read", "gather"},
                     .rows = {}};
   if (with_trace) table.heads.emplace_back("trace");
@@ -94,10 +94,10 @@ std::vector<std::string> summary_row(const CacheRow& row) {
 
 CacheView operations(std::vector<std::string> settings, bool with_trace) {
   return [=](const CacheMeasurement& measured) -> CacheShown {
-    std::vector<LinePanel> panels = {{"write (cache_store)", "write_ns", "ns a segment", "", with_trace},
-                                     {"read (cache_lookup)", "read_ns", "ns a segment", "", with_trace},
-                                     {"gather missed rays", "gather_ns", "ns a segment", "", with_trace}};
-    if (with_trace) panels.push_back({"trace", "trace_ns", "ns a segment", "", true});
+    std::vector<LinePanel> panels = {{"write (cache_store)", "write_ns", "ns per segment", "", with_trace},
+                                     {"read (cache_lookup)", "read_ns", "ns per segment", "", with_trace},
+                                     {"gather missed rays", "gather_ns", "ns per segment", "", with_trace}};
+    if (with_trace) panels.push_back({"trace", "trace_ns", "ns per segment", "", true});
     return {.plot = {.settings = settings,
                      .x = "depth",
                      .x_label = "depth of the segment in its path",

@@ -37,8 +37,9 @@ const Names printed_readers = {"printed readers uniform", "printed readers Morto
             chained_counted = counted_names(all_chained), mutexes_counted = counted_names(all_mutexes);
 
 constexpr const char* no_time_of_a_ray = "rays are traced in packets and groups, so that no ray has a time of its own";
-constexpr const char* operations_caption = "Time a segment of the cache's operations against the depth of the segment";
-constexpr const char* regions_caption = "Time a segment of the cache's operations in each region of the table";
+constexpr const char* operations_caption =
+    "Time per segment of the cache's operations against the depth of the segment";
+constexpr const char* regions_caption = "Time per segment of the cache's operations in each region of the table";
 constexpr const char* times_caption = "Time of a frame against the number of rays";
 std::shared_ptr<const CacheStudy> shared(CacheStudy study) {
   return std::make_shared<const CacheStudy>(std::move(study));

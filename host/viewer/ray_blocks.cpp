@@ -26,7 +26,9 @@ std::vector<size_t> shown_points(const WaypointRows& rows, uint64_t step) {
 RayBlocks add_ray_blocks(const SavedWaypoints& waypoints, const std::vector<uint32_t>& frames,
                          const glm::dvec3& centre_m, uint64_t bytes, std::string& elements) {
   const uint64_t most = std::max<uint64_t>(bytes * 3 / 4 / bytes_per_point, 1);
-  const uint64_t step = std::max<uint64_t>((waypoints.count() + most - 1) / most, 1);
+  uint64_t rows_of_all = 0;
+  for (const uint32_t number : frames) rows_of_all += waypoints.count(number);
+  const uint64_t step = std::max<uint64_t>((rows_of_all + most - 1) / most, 1);
   RayBlocks out;
   if (step > 1)
     out.warning =

@@ -114,6 +114,7 @@ json link_budget_row(const RadioConfig& radio) {
 json run_facts(const SavedRun& run, const SavedWorld& world, const ViewOptions& options) {
   const std::string folder = std::filesystem::absolute(run.file()).parent_path().filename().string();
   return {{"title", options.title.empty() ? folder : options.title},
+          {"reload_s", options.reload_s},
           {"version", run.version()},
           {"device", run.device()},
           {"frequency_hz", run.frequency_hz()},
@@ -177,8 +178,12 @@ std::string script(const char* name) { return fmt::format("<script>\n{}</script>
 }  // namespace
 
 ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
+  chosen_rows(run, options);  // throws before the world is loaded
+  return make_view(run, load_saved_world(run, true), options);
+}
+
+ViewPage make_view(const SavedRun& run, const SavedWorld& world, const ViewOptions& options) {
   const std::vector<size_t> rows = chosen_rows(run, options);
-  const SavedWorld world = load_saved_world(run, true);
   ViewPage page;
   page.warnings = world.warnings;
   page.frames = rows.size();
@@ -186,9 +191,9 @@ ViewPage make_view(const SavedRun& run, const ViewOptions& options) {
 
   std::string scripts = "<script>/*\n" + std::string(page_file("three_license.txt")) + "*/\n" +
                         std::string(page_file("three.min.js")) + "\n</script>\n";
-  for (const char* name :
-       {"data.js", "palette.js", "camera.js", "roofs.js", "world.js", "lines.js", "rays.js", "pick.js", "coverage.js",
-        "overlay.js", "filters.js", "find.js", "details.js", "charts.js", "chosen.js", "player.js", "main.js"})
+  for (const char* name : {"data.js", "palette.js", "camera.js", "roofs.js", "world.js", "lines.js", "rays.js",
+                           "pick.js", "coverage.js", "overlay.js", "filters.js", "find.js", "details.js", "charts.js",
+                           "chosen.js", "player.js", "reload.js", "main.js"})
     scripts += script(name);
 
   std::string elements;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 #include "results/saved_run.hpp"
+#include "results/saved_world.hpp"
 
 namespace wavetracer {
 
@@ -18,6 +19,7 @@ struct ViewOptions {
   uint64_t max_paths = 0;           // of all frames, the strongest; 0: as many as keep the page below max_bytes
   std::string title = {};           // empty: the run's folder
   uint64_t max_bytes = page_bytes;  // of the page, where the scene leaves room for 8 MB of frames
+  double reload_s = 0;              // after which the page loads itself again; 0: never
 };
 
 struct ViewPage {
@@ -29,5 +31,7 @@ struct ViewPage {
 
 // Throws ConfigError where the run has no frame between those two, InputError where its file is damaged.
 ViewPage make_view(const SavedRun& run, const ViewOptions& options);
+// The same of a run whose world was loaded already, with outlines.
+ViewPage make_view(const SavedRun& run, const SavedWorld& world, const ViewOptions& options);
 
 }  // namespace wavetracer

@@ -324,11 +324,13 @@ TEST_CASE("what the run does not have is an error that names what it has") {
   check_contains(refused(grid, choice), "which has g");
   choice.grid.clear();
   choice.what = {"gian"};
-  check_contains(
-      refused(drive, choice),
-      "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage; did you mean \"gain\"?");
+  check_contains(refused(drive, choice),
+                 "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage, rays; did "
+                 "you mean \"gain\"?");
   choice.what = {"coverage"};
   check_contains(refused(drive, choice), "--what coverage: the run has no [[receiver_grid]]");
+  choice.what = {"rays"};
+  check_contains(refused(drive, choice), "--what rays: the run has no waypoints.h5: give output.waypoints");
   choice.what = {"gain"};
   check_contains(refused(grid, choice), "only receivers of grids have paths");
   choice.link.rx = "g/0,0";

@@ -33,4 +33,8 @@ TEST_CASE("sampled rays: on the page where a run holds them, and thinned out whe
   CHECK(half.frames == nlohmann::json{4, 4});
   CHECK(half.warning.find("one of every 2 sampled rays") != std::string::npos);
   CHECK(half.highest_depth == 3);
+  // Fewer frames have room for more of their rays, as the warning says.
+  const RayBlocks one_frame = add_ray_blocks(waypoints, {1}, {0, 0, 0}, 8 * 20, elements);
+  CHECK(one_frame.frames == nlohmann::json{7});
+  CHECK(one_frame.warning.empty());
 }

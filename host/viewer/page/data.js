@@ -12,6 +12,9 @@ const shown_kinds = [...path_kinds.keys()].filter((kind) => path_kinds[kind].sho
 const code_of = (interaction) => path_kinds.find((kind) => kind.interaction === interaction).code;
 const words_of_kind = (kind) => path_kinds[kind].word.replace(/_/g, " ");
 
+// Places of a live world where no vehicle is have no names.
+const is_taken = ([name]) => name !== "" || !meta.reload_s;
+
 function block(name) {
   const element = document.getElementById("block_" + name);
   const text = atob(element ? element.textContent : "");

@@ -30,8 +30,9 @@ function set_select(select, ends, i) {
 class Filters {
   // changed(link_chosen): link_chosen says whether the user has just chosen another transmitter or receiver.
   constructor(changed) {
-    fill_select(control("transmitter"), meta.transmitters, meta.transmitters.keys());
-    fill_select(control("receiver"), meta.receivers, own_receivers);
+    fill_select(control("transmitter"), meta.transmitters,
+                [...meta.transmitters.keys()].filter((tx) => is_taken(meta.transmitters[tx])));
+    fill_select(control("receiver"), meta.receivers, own_receivers.filter((rx) => is_taken(meta.receivers[rx])));
     for (const kind of shown_kinds) {
       const label = document.createElement("label"), box = document.createElement("input");
       box.type = "checkbox";

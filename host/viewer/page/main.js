@@ -234,7 +234,7 @@ function key(event) {
 function antenna_count() {
   const names = new Set();
   let unnamed = 0;
-  for (const [name] of [...meta.transmitters, ...own_receivers.map((rx) => meta.receivers[rx])])
+  for (const [name] of [...meta.transmitters, ...own_receivers.map((rx) => meta.receivers[rx])].filter(is_taken))
     if (name) names.add(name); else ++unnamed;
   return names.size + unnamed;
 }
@@ -243,7 +243,7 @@ function fill_follow() {
   control("follow").parentElement.hidden = meta.instances.length === 0;
   control("follow").append(new Option("nothing", "-1"));
   const id = (i) => meta.instances[i][0];
-  const sorted = [...meta.instances.keys()].sort((a, b) => by_name.compare(id(a), id(b)));
+  const sorted = [...meta.instances.keys()].filter((i) => is_taken(meta.instances[i])).sort((a, b) => by_name.compare(id(a), id(b)));
   for (const i of sorted) control("follow").append(new Option(shortened(meta.instances[i][0], 40), String(i)));
 }
 
@@ -257,7 +257,7 @@ function write_facts() {
     shown === all ? count(all, "path", "paths") : `the ${shown} strongest of ${all} paths`,
     count(meta.frames.length, "frame", "frames"), count(antenna_count(), "antenna", "antennas"),
     ...grids.map(({name, columns, rows}) => `map ${name} of ${columns} \u00d7 ${rows} receivers`),
-    ...(meta.instances.length ? [count(meta.instances.length, "vehicle", "vehicles")] : []), `wavetracer ${meta.version}`].join(", ");
+    ...(meta.instances.length ? [count(meta.instances.filter(is_taken).length, "vehicle", "vehicles")] : []), `wavetracer ${meta.version}`].join(", ");
   control("missed").textContent = missed_text();
   if (all === 0) warnings.push("This run has no paths.");
   for (const warning of warnings) control("warnings").append(element("li", warning));
@@ -290,9 +290,10 @@ show_hint(control("details"));
 const search = new NameSearch(go_to);
 player.go(0);
 resize();
-show_all(false);
+if (!restore_view()) show_all(false);
 paint();
 apply_toggles();
+reload_later();
 (function loop() {
   if (dirty) draw();
   requestAnimationFrame(loop);
