@@ -1,14 +1,16 @@
-// glTF 2.0: the scene object by object, vehicles, paths of the first frame, ends; with several frames an animation.
-// The root node turns z up to glTF's y up and carries the scene's origin, so nodes below it are in file axes: a reader
-// that applies nodes in double has file coordinates (x, -z, y), and float32 vertices stay near zero.
+// glTF 2.0: the scene object by object, vehicles, paths and sampled rays of the first frame, ends; with several frames
+// an animation. The root node turns z up to glTF's y up and carries the scene's origin, so nodes below it are in file
+// axes: a reader that applies nodes in double has file coordinates (x, -z, y), and float32 vertices stay near zero.
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
 #include <optional>
 #include "convert/convert.hpp"
 #include "convert/glb_file.hpp"
+#include "convert/glb_lines.hpp"
 #include "convert/glb_tracks.hpp"
 #include "convert/vtk_glb_kml.hpp"
+#include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
 
 namespace wavetracer {
@@ -31,11 +33,6 @@ json base_colour(const std::string& material) {
   return {0.32, 0.32, 0.31, 1.0};  // as concrete
 }
 
-uint8_t linear_byte(uint8_t srgb) {
-  const double s = srgb / 255.0;
-  return static_cast<uint8_t>(std::lround(255 * (s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4))));
-}
-
 class GlbWriter {
  public:
   GlbWriter(const SavedRun& run, const SavedWorld& world) : run_(run), world_(world) {
@@ -49,6 +46,7 @@ class GlbWriter {
   void add_vehicles(const std::vector<NodeTrack>& tracks);
   void add_ends(const std::vector<NodeTrack>& transmitters, const std::vector<NodeTrack>& receivers);
   void add_paths(const SavedFrame& frame, Warnings& warnings);
+  void add_rays(const WaypointRows& rays);
   // times_s: of the frames that all tracks have keys of.
   void set_times(std::vector<float> times_s) { times_s_ = std::move(times_s); }
   void write(const std::filesystem::path& path) { file_.write(path); }
@@ -68,7 +66,7 @@ class GlbWriter {
   void add_moving(size_t parent, const std::string& name, const NodeTrack& track, std::optional<size_t> mesh);
   void animate(size_t node, const NodeTrack& track);
   void channel(size_t node, const char* path, size_t times, size_t values, const char* interpolation);
-  size_t marker(const char* name, GlbFile::Colour colour);
+  size_t line_mesh(const char* name, const GlbLines& lines);
 
   const SavedRun& run_;
   const SavedWorld& world_;
@@ -227,24 +225,20 @@ void GlbWriter::add_vehicles(const std::vector<NodeTrack>& tracks) {
   }
 }
 
-// An octahedron of lines, a metre in radius: no triangles, which a ray tracer would take for a body.
-size_t GlbWriter::marker(const char* name, GlbFile::Colour colour) {
-  const std::vector<glm::vec3> corners{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  const std::vector<uint32_t> edges{0, 1, 1, 2, 2, 3, 3, 0, 4, 0, 4, 1, 4, 2, 4,
-                                    3, 5, 0, 5, 1, 5, 2, 5, 3, 0, 2, 1, 3, 4, 5};  // and the axes
-  const json primitive{{"attributes",
-                        {{"POSITION", file_.add_positions(corners)},
-                         {"COLOR_0", file_.add_colours(std::vector(corners.size(), colour))}}},
-                       {"indices", file_.add_indices(edges)},
-                       {"material", line_material()},
-                       {"mode", 1}};
+size_t GlbWriter::line_mesh(const char* name, const GlbLines& lines) {
+  const json primitive{
+      {"attributes",
+       {{"POSITION", file_.add_positions(lines.positions)}, {"COLOR_0", file_.add_colours(lines.colours)}}},
+      {"indices", file_.add_indices(lines.legs)},
+      {"material", line_material()},
+      {"mode", 1}};
   return file_.add("meshes", {{"name", name}, {"primitives", {primitive}}});
 }
 
 void GlbWriter::add_ends(const std::vector<NodeTrack>& transmitters, const std::vector<NodeTrack>& receivers) {
   const auto add = [this](const char* kind, GlbFile::Colour colour, const auto& ends, const auto& tracks) {
     if (tracks.empty()) return;
-    const size_t parent = child(root_, {{"name", kind}}), mesh = marker(kind, colour);
+    const size_t parent = child(root_, {{"name", kind}}), mesh = line_mesh(kind, marker_lines(colour));
     for (size_t i = 0; i < tracks.size(); ++i) add_moving(parent, ends[i].name, tracks[i], mesh);
   };
   add("transmitters", {255, 26, 43, 255}, run_.transmitters(), transmitters);
@@ -260,30 +254,17 @@ void GlbWriter::add_paths(const SavedFrame& frame, Warnings& warnings) {
     extras["darkest_db"] = scale.weakest_db();
   }
   const size_t parent = child(root_, {{"name", "paths"}, {"extras", std::move(extras)}});
-  std::vector<glm::vec3> positions;
-  std::vector<GlbFile::Colour> colours;
-  std::vector<uint32_t> legs;
   size_t left_out = 0;
-  for (size_t i = 0; i < frame.paths.size(); ++i) {
-    const std::vector<glm::dvec3> points = path_points(frame, i);
-    if (points.empty()) ++left_out;
-    const Rgb c = gain_colour(scale.place(frame.paths.gain_db[i]));
-    for (size_t k = 0; k < points.size(); ++k) {
-      if (k > 0)
-        for (const size_t end : {positions.size() - 1, positions.size()}) legs.push_back(static_cast<uint32_t>(end));
-      positions.emplace_back(points[k] - world_.scene.origin_m);
-      colours.push_back({linear_byte(c[0]), linear_byte(c[1]), linear_byte(c[2]), 255});
-    }
-  }
+  const GlbLines lines = path_lines(frame, scale, world_.scene.origin_m, left_out);
   if (left_out > 0)
     warnings.push_back(fmt::format("glb: {} paths with points that are not finite are left out", left_out));
-  if (positions.empty()) return;
-  const json primitive{
-      {"attributes", {{"POSITION", file_.add_positions(positions)}, {"COLOR_0", file_.add_colours(colours)}}},
-      {"indices", file_.add_indices(legs)},
-      {"material", line_material()},
-      {"mode", 1}};
-  node(parent)["mesh"] = file_.add("meshes", {{"name", "paths"}, {"primitives", {primitive}}});
+  if (!lines.legs.empty()) node(parent)["mesh"] = line_mesh("paths", lines);
+}
+
+void GlbWriter::add_rays(const WaypointRows& rays) {
+  const GlbLines lines = ray_lines(rays, world_.scene.origin_m);
+  const size_t parent = child(root_, {{"name", "rays"}, {"extras", {{"segments", lines.legs.size() / 2}}}});
+  if (!lines.legs.empty()) node(parent)["mesh"] = line_mesh("rays", lines);
 }
 
 }  // namespace
@@ -298,6 +279,8 @@ Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& 
   writer.add_scene();
   writer.add_vehicles(tracks.vehicles);
   writer.add_paths(first, warnings);
+  if (const std::optional<SavedWaypoints> waypoints = saved_waypoints(run))
+    writer.add_rays(waypoints->frame(first.number));
   writer.add_ends(tracks.transmitters, tracks.receivers);
   writer.write(options.output);
   return {options.output};

@@ -9,7 +9,7 @@ namespace {
 
 using namespace device;
 
-constexpr const char* stage = "cache_purge";
+constexpr const char* read_stage = "cache_purge";
 constexpr uint32_t removed_tag = 1;  // WT_CACHE_REMOVED of lib/cache_concurrent.clh; 0 is a free one
 
 struct Tables {
@@ -58,10 +58,12 @@ struct Tables {
 
 void add_cache_entries(const CacheTable& table, uint32_t frame, uint32_t now, CacheEntryRows& rows) {
   if (!table.config.statistics) throw std::logic_error("cache entries: the table keeps no statistics");
-  Tables found{
-      table, table.entries.read(0, table.entries.size(), stage), table.heads.read(0, table.heads.size(), stage), {}};
-  const std::vector<uint32_t> hits = table.hits.read(0, table.hits.size(), stage);
-  const std::vector<wt_cache_cycles> cycles = table.cycles.read(0, table.cycles.size(), stage);
+  Tables found{table,
+               table.entries.read(0, table.entries.size(), read_stage),
+               table.heads.read(0, table.heads.size(), read_stage),
+               {}};
+  const std::vector<uint32_t> hits = table.hits.read(0, table.hits.size(), read_stage);
+  const std::vector<wt_cache_cycles> cycles = table.cycles.read(0, table.cycles.size(), read_stage);
   found.find_depths();
   for (uint32_t region = 0; region < table.regions.size(); ++region) {
     const wt_cache_region& part = table.regions[region];

@@ -143,6 +143,22 @@ def check(folder, name, rows):
         start = file["frames/transmitter_position_m"][rows[0], 0] - origin_m
         assert np.allclose(points[np.cumsum(depth + 2) - depth - 2], start, atol=1e-5)
 
+    # Sampled rays: a leg to every reflection, from the point of the ray before it.
+    with h5py.File(os.path.join(folder, "run/waypoints.h5"), "r") as file:
+        mine = (file["waypoints/frame"][...] == numbers[0]) & ~np.isin(file["waypoints/kind"][...], (3, 4))
+        kind, position = file["waypoints/kind"][...][mine], file["waypoints/position_m"][...][mine]
+    node = next(n for n in root["nodes"] if n["name"] == "rays")
+    primitive = root["meshes"][node["mesh"]]["primitives"][0]
+    points, legs = arrays[primitive["attributes"]["POSITION"]], arrays[primitive["indices"]].reshape(-1, 2)
+    assert node["extras"]["segments"] == len(legs) == np.sum(kind == 1) == 2
+    drawn = (kind != 0) | (np.append(kind[1:], 0) != 0)  # no launch that is followed by no segment
+    kind, position = kind[drawn], position[drawn]
+    ends = np.nonzero(kind == 1)[0]
+    assert np.array_equal(legs, np.stack([ends - 1, ends], axis=1))
+    assert np.allclose(points, position - origin_m, atol=1e-5)
+    colour = arrays[primitive["attributes"]["COLOR_0"]].astype(int)
+    assert colour[legs[0, 1], 1] > colour[legs[1, 1], 1]  # the first segment is the brighter
+
 
 check(sys.argv[1], "one.glb", [2])
 check(sys.argv[1], "drive.glb", [0, 1, 2, 3])
