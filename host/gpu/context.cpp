@@ -58,6 +58,8 @@ std::map<std::string, double> Context::profile() {
   }
 }
 
+KernelTimes Context::kernel_times() const { return state_->profile.kernels(); }
+
 void Context::set_profiling(bool on) {
   profile();  // what is pending belongs to the old queue
   try {

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "wavetracer/kernel_time.hpp"
+
 namespace wavetracer::gpu {
 
 struct DeviceInfo {
@@ -175,6 +177,8 @@ class Context {
 
   // Sums of the profiling events since the last reset, seconds per stage; finishes the queue first.
   std::map<std::string, double> profile();
+  // The same by kernels, without copies; to be read after profile().
+  KernelTimes kernel_times() const;
   void reset_profile();
   // Profiling is on at first. Off, profile() adds nothing, and launches that follow each other closely cost less (on an
   // H200 about half). Finishes the queue.

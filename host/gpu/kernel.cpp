@@ -78,7 +78,11 @@ void Kernel::enqueue(Range range, const char* stage) {
         code, fmt::format("launching kernel {} over {} items in groups of {} (the device allows {})", s.name,
                           fmt::join(padded, " x "), fmt::join(range.local, " x "), s.context->info.max_work_group));
   }
-  s.context->profile.add(stage, std::move(event));
+  if (!s.context->profile.on) return;
+  KernelTime& time = s.context->profile.kernel(s.profile_name);
+  time.launches++;
+  time.items += uint64_t{range.global[0]} * range.global[1] * range.global[2];
+  s.context->profile.add(stage, std::move(event), &time);
 }
 
 }  // namespace wavetracer::gpu

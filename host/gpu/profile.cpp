@@ -5,11 +5,11 @@
 
 namespace wavetracer::gpu {
 
-void Profile::add(std::string_view stage, cl::Event event) {
+void Profile::add(std::string_view stage, cl::Event event, KernelTime* kernel) {
   if (!on) return;
   auto entry = sums_.find(stage);
   if (entry == sums_.end()) entry = sums_.emplace(stage, 0.0).first;
-  pending_.push_back({std::move(event), &entry->second});
+  pending_.push_back({std::move(event), &entry->second, kernel});
   if (pending_.size() > max_pending) fold(max_pending / 2);
 }
 
@@ -21,6 +21,7 @@ const std::map<std::string, double, std::less<>>& Profile::sums() {
 void Profile::reset() {
   pending_.clear();
   sums_.clear();
+  kernels_.clear();
 }
 
 void Profile::fold(size_t count) {
@@ -30,7 +31,9 @@ void Profile::fold(size_t count) {
     const Pending& oldest = pending_.front();
     const cl_ulong start = oldest.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const cl_ulong end = oldest.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-    *oldest.seconds += static_cast<double>(end - start) * 1e-9;
+    const double seconds = static_cast<double>(end - start) * 1e-9;
+    *oldest.seconds += seconds;
+    if (oldest.kernel) oldest.kernel->seconds += seconds;
     pending_.pop_front();
   }
 }

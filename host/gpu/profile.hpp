@@ -1,4 +1,4 @@
-// Seconds a stage, summed from the profiling events of an in-order queue.
+// Seconds per stage and per kernel, summed from the profiling events of an in-order queue.
 // Assumes that events are added in the order of their commands, so that a finished one has only finished ones before
 // it.
 #pragma once
@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include "gpu/opencl.hpp"
+#include "wavetracer/kernel_time.hpp"
 
 namespace wavetracer::gpu {
 
@@ -15,9 +16,14 @@ class Profile {
   // Off, it takes no events and sums stay empty.
   bool on = true;
   // Keeps the event until its time can be read; waits for old ones where more than max_pending are kept.
-  void add(std::string_view stage, cl::Event event);
+  // kernel: what else the event counts for, or nullptr for a copy.
+  void add(std::string_view stage, cl::Event event, KernelTime* kernel = nullptr);
+  // The sum of a kernel, "program/kernel"; it stays where it is until the next reset.
+  KernelTime& kernel(const std::string& name) { return kernels_[name]; }
   // Waits for what is pending. Throws cl::Error where a command failed.
   const std::map<std::string, double, std::less<>>& sums();
+  // Of the kernels that ran. To be read after sums().
+  const KernelTimes& kernels() const { return kernels_; }
   void reset();
   size_t pending() const { return pending_.size(); }
 
@@ -26,11 +32,13 @@ class Profile {
  private:
   struct Pending {
     cl::Event event;
-    double* seconds;  // into sums_, whose nodes stay where they are
+    double* seconds;     // into sums_, whose nodes stay where they are
+    KernelTime* kernel;  // likewise into kernels_
   };
   void fold(size_t count);
 
   std::map<std::string, double, std::less<>> sums_;
+  KernelTimes kernels_;
   std::deque<Pending> pending_;
 };
 

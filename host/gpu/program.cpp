@@ -138,7 +138,8 @@ Kernel Context::kernel(const std::string& program, const std::string& kernel, co
       const cl::Program& built = s.program(program, options);
       cl::Kernel handle(built, kernel.c_str());
       const cl_uint count = handle.getInfo<CL_KERNEL_NUM_ARGS>();
-      known = std::make_shared<Kernel::State>(Kernel::State{&s, handle, kernel, count, arguments_of(handle, count)});
+      known = std::make_shared<Kernel::State>(
+          Kernel::State{&s, handle, kernel, program + "/" + kernel, count, arguments_of(handle, count)});
     } catch (const cl::Error& error) {
       s.fail(error.err(), fmt::format("making kernel \"{}\" of program \"{}\" ({})", kernel, program, error.what()));
     }

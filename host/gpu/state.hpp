@@ -62,7 +62,7 @@ struct Argument {
 struct Kernel::State {
   Context::State* context;
   cl::Kernel kernel;
-  std::string name;
+  std::string name, profile_name;  // of which the latter is "program/kernel"
   size_t argument_count;
   std::vector<Argument> arguments;  // empty where the runtime tells nothing
 

@@ -27,6 +27,7 @@ FrameResult FrameAccount::close() {
   const double frame_seconds = frame_.lap();
   result.counts.paths = result.paths.size();
   result.seconds = context_.profile();
+  result.kernels = context_.kernel_times();
   for (const auto& [stage, seconds] : host_stages_) result.seconds[stage] = seconds;
   result.seconds["frame"] = frame_seconds;
   check_stages(result.seconds);

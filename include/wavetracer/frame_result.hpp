@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wavetracer/cache_entries.hpp"
+#include "wavetracer/kernel_time.hpp"
 #include "wavetracer/missed.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/ray_waypoints.hpp"
@@ -69,6 +70,7 @@ struct FrameResult {
   FrameCounts counts;
   MissedCounts missed;  // frames = 0 with a ray cache or trace.reception = "sphere", and where no rays were launched
   StageSeconds seconds;
+  KernelTimes kernels;  // of the device stages
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
   WaypointRows waypoints;        // of output.waypoints samples per transmitter

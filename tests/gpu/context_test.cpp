@@ -212,8 +212,16 @@ TEST_CASE_FIXTURE(Fixture, "profiles sum by stage, over more launches than event
   CHECK(profile.at("many") > profile.at("one"));
   CHECK(profile.at("transfer") >= 0);
   CHECK(context.profile() == profile);
+  const KernelTimes times = context.kernel_times();
+  REQUIRE(times.size() == 1);
+  const auto& [name, time] = *times.begin();
+  CHECK(name.ends_with("/ids"));
+  CHECK(time.launches == 5001);
+  CHECK(time.items == 5064);
+  CHECK(time.seconds == doctest::Approx(profile.at("many") + profile.at("one")));
   context.reset_profile();
   CHECK(context.profile().empty());
+  CHECK(context.kernel_times().empty());
 }
 
 TEST_CASE_FIXTURE(Fixture, "buffers and kernels may outlive what made them, if only to be released") {

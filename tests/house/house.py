@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """The rules of the house that a program can check.
 
-usage: house.py SOURCE format|names|sizes|types
+usage: house.py SOURCE format|names|sizes|types|kernels
 
 format  every source is what clang-format makes of it with .clang-format
 names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
 types   no two types of one namespace have one name: their functions would be one to the linker, and which is chance
+kernels every kernel has a row in bench/kernel_costs.cpp, which says the least that it has to do; sorts have bench_sort
 """
 import pathlib
 import re
@@ -122,7 +123,20 @@ def types_twice(root):
     return [f"{name}: " + " and ".join(map(str, where)) for name, where in files.items() if len(set(where)) > 1]
 
 
-CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes, "types": types_twice}
+def unmeasured(root):
+    rows = (root / "bench" / "kernel_costs.cpp").read_text()
+    faults = []
+    for path in sorted((root / "kernels").glob("*.cl")):
+        if path.stem.startswith(("radix_sort", "bitonic_sort")):
+            continue
+        for kernel in sorted(set(re.findall(r"\bkernel void (\w+)\(", path.read_text()))):
+            if f'{{"{path.stem}/{kernel}",' not in rows:
+                faults.append(f"kernels/{path.name}: {kernel} has no row in bench/kernel_costs.cpp")
+    return faults
+
+
+CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes, "types": types_twice,
+          "kernels": unmeasured}
 
 
 def main():

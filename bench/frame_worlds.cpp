@@ -1,0 +1,98 @@
+// Antennas stand around a street crossing; in the drive, vehicles pass them.
+#include "frame_worlds.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <glm/vec3.hpp>
+
+#include "places.hpp"
+#include "scene/load.hpp"
+#include "street_traffic.hpp"
+
+namespace wavetracer::bench {
+namespace {
+
+constexpr size_t transmitters = 4, receivers = 24;
+constexpr double step_s = 0.04;
+
+void roughen(Config& config) {
+  for (const Material& known : load_scene(config).materials) {
+    MaterialConfig& material = config.materials.emplace_back();
+    material.name = known.name;
+    material.scattering = 0.3;
+  }
+}
+
+void drive(Config& config, size_t vehicles, uint32_t frames) {
+  config.time = {.start_s = 0, .end_s = (frames - 1) * step_s, .step_s = step_s};
+  StreetTraffic traffic{.vehicles = vehicles, .duration_s = (frames - 1) * step_s};
+  for (const std::vector<RadioEnd>* ends : {&config.transmitters, &config.receivers})
+    for (const RadioEnd& end : *ends)
+      traffic.standing_m.emplace_back(end.position_m[0], end.position_m[1], end.position_m[2]);
+  traffic.centre_m = traffic.standing_m.front();
+  config.tracks = street_traffic(load_scene(config), traffic);
+  config.trace.rays.reset();
+  config.trace.diffraction = true;
+}
+
+void cache(Config& config, bool groups) {
+  config.cache.kind = "concurrent";
+  config.cache.purge = "precision";
+  config.cache.innerframe = groups;
+  if (groups) config.cache.division = 100;
+}
+
+void spheres(Config& config, bool cached) {
+  config.trace.reception = "sphere";
+  config.output.waypoints = 1000;
+  if (!cached) return;
+  cache(config, false);
+  config.cache.scope = "all";
+}
+
+void diffract(Config& config, uint32_t most) {
+  config.trace.diffraction = true;
+  config.trace.max_diffractions = most;
+  config.trace.max_depth = most == 2 ? 2 : 3;
+  config.receivers.resize(most == 2 ? 1 : 8);
+  config.transmitters.resize(1);
+}
+
+}  // namespace
+
+std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, size_t vehicles, uint32_t frames) {
+  const std::optional<Place> munich = munich_place(shared, transmitters, receivers);
+  Config common = config_of(munich ? *munich : city_place(transmitters, receivers), transmitters, receivers);
+  common.trace.rays = rays;
+  std::vector<FrameWorld> worlds;
+  const auto add = [&](const char* name, const std::function<void(Config&)>& change, uint32_t count = 1) {
+    worlds.push_back({name, common, count});
+    change(worlds.back().config);
+  };
+  add("reflections", [](Config&) {});
+  add("ordered", [](Config& c) {
+    c.order.method = "morton";
+    c.order.each_depth = true;
+    c.trace.directions = "random";
+  });
+  add("refined", [](Config& c) { c.trace.rays.reset(); });
+  add("transmission", [](Config& c) { c.trace.transmission = true; });
+  add("scattering", [](Config& c) {
+    roughen(c);
+    c.transmitters.resize(1);
+    c.receivers.resize(2);
+    c.trace.scattering = true;
+  });
+  add("diffraction", [](Config& c) { diffract(c, 1); });
+  add("two diffractions", [](Config& c) { diffract(c, 2); });
+  add(
+      "drive", [&](Config& c) { drive(c, vehicles, frames); }, frames);
+  add("cache", [](Config& c) { cache(c, false); });
+  add("groups of a cache", [](Config& c) { cache(c, true); });
+  add("spheres", [](Config& c) { spheres(c, false); });
+  add("spheres of a cache", [](Config& c) { spheres(c, true); });
+  return worlds;
+}
+
+}  // namespace wavetracer::bench

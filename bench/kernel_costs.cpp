@@ -1,0 +1,178 @@
+// Lower bounds. A search in a tree of n triangles visits a node of eight boxes per level and one triangle; a reflection
+// costs its image and its point. Where a count is not known, the smallest possible one stands for it.
+#include "kernel_costs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wavetracer/device/cache.h"
+#include "wavetracer/device/waypoints.h"
+
+namespace wavetracer::bench {
+namespace {
+
+using namespace device;
+using N = const FrameNumbers&;
+
+constexpr double word = sizeof(uint32_t), ray_m = 6 * word, hit = WT_HIT_PLANES * word, node = sizeof(uint64_t);
+constexpr double box_operations = 12, triangle_operations = 40;  // slabs; edges and a division
+constexpr double image_operations = 11, point_operations = 30;   // of a reflection, in double
+constexpr double wedge_operations = 60;                          // the shortest way over an edge
+constexpr double sphere_operations = 20, reach_operations = 45;  // of a segment and a receiver
+constexpr double labelled = WT_RAY_LABELLED_PLANES * word, queued = WT_RAY_PLANES * word;
+
+double nothing(N) { return 0; }
+template <size_t bytes>
+double always(N) {
+  return static_cast<double>(bytes);
+}
+double segments(N n) { return static_cast<double>(n.frame.counts.segments); }
+double rays(N n) { return static_cast<double>(n.frame.counts.rays); }
+// Of the segments after the first.
+double later_segments(N n) { return segments(n) - rays(n); }
+double nodes(N n) { return static_cast<double>(n.frame.counts.sequences) + n.transmitters(); }
+template <size_t size>
+struct Name {
+  char text[size];
+  constexpr Name(const char (&name)[size]) { std::copy_n(name, size, text); }
+};
+template <Name kernel>
+double items_of(N n) {
+  return n.items(kernel.text);
+}
+
+double tree_operations(N n) {
+  const double levels = std::ceil(std::log2(std::max<double>(static_cast<double>(n.triangles), 8)) / 3);
+  return 8 * box_operations * levels + triangle_operations;
+}
+double trace_bytes(N) { return ray_m + hit; }
+double vehicles_operations(N n) {
+  return 2 * box_operations *
+         std::ceil(std::log2(std::max<double>(static_cast<double>(n.frame.world.instances.size()), 2)));
+}
+double interact_bytes(N n) { return word + n.hit_share() * (word + ray_m + 2 * word + queued + node); }
+double missed_rays(N n) { return n.cache_misses() * static_cast<double>(n.frame.cache.lookups); }
+double lookups(N n) { return static_cast<double>(n.frame.cache.lookups); }
+double traced(N n) { return static_cast<double>(n.frame.cache.traced); }
+double entries(N n) { return static_cast<double>(n.frame.cache.entries); }
+double lookup_bytes(N n) { return labelled + sizeof(wt_cache_entry) * (1 - n.cache_misses()) + hit + word; }
+double pairs(N n) { return n.items("receive/receive") * n.receivers(); }
+double first_pairs(N n) { return n.items("receive/first_receiver") * n.receivers(); }
+double segment_bytes_per_pair(N n) { return (ray_m + 3 * word) / n.receivers(); }
+
+double mirror_operations(N n) { return n.depth() * (image_operations + point_operations); }
+double solved_bytes(N n) { return sizeof(wt_solved) + n.depth() * (3 * sizeof(double) + word); }
+double solve_bytes(N n) {
+  const double kept = n.items("visible/visible") / n.items("solve/solve");
+  return sizeof(wt_candidate) + kept * solved_bytes(n);
+}
+double visible_bytes(N n) {
+  const double kept = static_cast<double>(n.frame.counts.paths) / n.items("visible/visible");
+  return 2 * word + 2 * std::min(kept, 1.0) * solved_bytes(n);
+}
+double legs(N n) { return n.items("visible/visible") * (n.depth() + 1); }
+double leg_bytes(N) { return 2 * 3 * sizeof(double); }
+double candidate_pairs(N n) { return nodes(n) * n.receivers(); }
+double joined(N n) { return n.beside_mirrors(); }
+double join_bytes(N) { return sizeof(wt_wedge_candidate); }
+double wedge_solve_bytes(N) { return sizeof(wt_wedge_candidate) + sizeof(wt_wedge); }
+double wedge_solve_operations(N n) { return wedge_operations + std::max(n.depth() - 1, 0.0) * image_operations; }
+double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + word; }
+
+constexpr KernelCost costs[] = {
+    {"generate_rays/generate_rays", "reflections", "rays", rays, always<32>, always<20>},
+    {"trace_bvh2/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
+    {"trace_bvh8/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
+    {"trace_packet16/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
+    {"scan/scan", "reflections", "blocks", items_of<"scan/scan">, always<8>, always<1>},
+    {"scan/scan_sums", "reflections", "blocks", items_of<"scan/scan_sums">, always<4>, always<1>},
+    {"interact/interact", "reflections", "segments", segments, interact_bytes, always<20>},
+    {"sequences/collect", "reflections", "slots", items_of<"sequences/collect">, always<8>, nothing},
+    {"sequences/commute", "reflections", "sequences", items_of<"sequences/commute">, always<12>, nothing},
+    {"sequences/regrow", "", "slots", items_of<"sequences/regrow">, always<8>, nothing},
+    {"sequences/follow", "", "sequences", items_of<"sequences/follow">, always<8>, nothing},
+    {"candidates/candidates", "reflections", "pairs of a sequence and a receiver", candidate_pairs, nothing,
+     always<static_cast<size_t>(reach_operations)>},
+    {"solve/solve", "reflections", "candidates", items_of<"solve/solve">, solve_bytes, mirror_operations, true},
+    {"occlusion/occlusion", "reflections", "legs", legs, leg_bytes, tree_operations},
+    {"visible/visible", "reflections", "solved paths", items_of<"visible/visible">, visible_bytes, nothing},
+
+    {"order_keys/launch_keys", "ordered", "rays", rays, always<4>, always<30>},
+    {"generate_rays/generate_ordered", "ordered", "rays", rays, always<36>, always<20>},
+    {"order_keys/queue_keys", "ordered", "segments", later_segments, always<16>, always<30>},
+    {"gather_rays/gather_rays", "ordered", "segments", later_segments, always<68>, nothing},
+
+    {"generate_rays/generate_samples", "refined", "rays", rays, always<40>, always<20>},
+    {"refine/count_ends", "refined", "rays", items_of<"refine/count_ends">, always<8>, nothing},
+    {"refine/mark", "refined", "rays", items_of<"refine/mark">, always<12>, nothing},
+    {"refine/split", "refined", "cells", items_of<"refine/split">, always<44>, nothing},
+    {"refine/count_met", "refined", "slots", items_of<"refine/count_met">, always<4>, nothing},
+    {"compact/count_blocks", "refined", "rays", items_of<"refine/mark">, always<4>, nothing},
+    {"compact/compact", "refined", "rays", items_of<"refine/mark">, always<4>, nothing},
+
+    {"transmissions/transmissions", "transmission", "legs", legs, leg_bytes, tree_operations},
+    {"scatter/lit", "scattering", "sequences", items_of<"scatter/lit">, always<12>, always<20>, true},
+    {"scatter/scatter", "scattering", "tiles of links", joined, scatter_bytes, nothing},
+    {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
+     mirror_operations, true},
+    {"wedge_join/wedge_join", "diffraction", "candidates", joined, join_bytes, always<60>},
+    {"wedge_solve/wedge_solve", "diffraction", "candidates", joined, wedge_solve_bytes, wedge_solve_operations, true},
+    {"wedge_join/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, always<120>},
+
+    {"place/place", "drive", "surfaces", items_of<"place/place">, always<2 * sizeof(wt_exact_surface)>, always<66>,
+     true},
+    {"wedges/wedges", "drive", "wedges", items_of<"wedges/wedges">, always<2 * sizeof(wt_wedge)>, always<66>, true},
+    {"top_level/instance_keys", "drive", "vehicles", items_of<"top_level/instance_keys">, always<200>, always<60>},
+    {"top_level/leaves", "drive", "vehicles", items_of<"top_level/leaves">, always<200>, nothing},
+    {"top_level/inner_boxes", "drive", "work-items", items_of<"top_level/inner_boxes">, always<96>, nothing},
+    {"top_level/top_nodes", "drive", "nodes", items_of<"top_level/top_nodes">, always<128>, nothing},
+    {"trace_moving/trace_moving", "drive", "segments", segments, trace_bytes, vehicles_operations},
+    {"sequences/keep", "drive", "solved paths", items_of<"sequences/keep">, always<8>, nothing},
+
+    {"label_rays/label_rays", "cache", "rays", rays, always<16>, nothing},
+    {"cache_lookup/cache_lookup", "cache", "look-ups", lookups, lookup_bytes, nothing},
+    {"cache_store/cache_store", "cache", "traced segments", traced, always<sizeof(wt_cache_entry) + 36>, nothing},
+    {"cache_purge/cache_purge", "cache", "entries", entries, always<8>, nothing},
+    {"cache_groups/cache_keys", "groups of a cache", "look-ups", lookups, always<60>, nothing},
+    {"cache_groups/cache_elect", "groups of a cache", "misses", missed_rays, always<16>, nothing},
+    {"cache_groups/cache_follow", "groups of a cache", "misses", missed_rays, always<12>, nothing},
+    {"cache_groups/cache_share", "groups of a cache", "look-ups", lookups, always<4>, nothing},
+
+    {"receive/receive", "spheres", "pairs of a segment and a receiver", pairs, segment_bytes_per_pair,
+     always<static_cast<size_t>(sphere_operations)>},
+    {"waypoints/waypoints", "spheres", "segments", items_of<"waypoints/waypoints">,
+     always<static_cast<size_t>(ray_m + 3 * word + sizeof(wt_waypoint))>, always<6>},
+    {"waypoints/gather_waypoints", "spheres", "waypoints", items_of<"waypoints/gather_waypoints">,
+     always<2 * sizeof(wt_waypoint)>, nothing},
+    {"receive/first_receiver", "spheres of a cache", "pairs of a segment and a receiver", first_pairs,
+     segment_bytes_per_pair, always<static_cast<size_t>(sphere_operations)>},
+};
+
+}  // namespace
+
+std::span<const KernelCost> kernel_costs() { return costs; }
+
+double FrameNumbers::items(std::string_view kernel) const {
+  const auto found = frame.kernels.find(std::string(kernel));
+  return found == frame.kernels.end() ? 0.0 : static_cast<double>(found->second.items);
+}
+
+double FrameNumbers::depth() const {
+  double sum = 0;
+  for (const uint32_t depth : frame.paths.depth) sum += depth;
+  return frame.paths.size() == 0 ? 0 : sum / static_cast<double>(frame.paths.size());
+}
+
+double FrameNumbers::hit_share() const {
+  return static_cast<double>(frame.counts.hits) / std::max<double>(static_cast<double>(frame.counts.segments), 1);
+}
+
+double FrameNumbers::cache_misses() const {
+  return 1 - static_cast<double>(frame.cache.hits) / std::max<double>(static_cast<double>(frame.cache.lookups), 1);
+}
+
+double FrameNumbers::beside_mirrors() const {
+  return static_cast<double>(frame.counts.candidates) - items("solve/solve");
+}
+
+}  // namespace wavetracer::bench
