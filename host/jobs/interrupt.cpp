@@ -35,10 +35,11 @@ std::vector<fs::path> missing(fs::path path) {
   return out;
 }
 
-void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, const std::vector<fs::path>& folders) {
+// named_before: final_names() before anything was written.
+void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, const std::vector<fs::path>& folders,
+                     uint64_t named_before) {
   const sigset_t set = ending_signals();
   const timespec tenth{0, 100'000'000};
-  const uint64_t named_before = final_names();
   while (!stop.stop_requested()) {
     if (sigtimedwait(&set, nullptr, &tenth) < 0) continue;
     const auto hold = hold_pending();  // to the end of the process
@@ -75,9 +76,9 @@ RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output) {
   temporary += fmt::format(".{}.tmp", getpid());  // as output/pending_file.cpp and base/pending_folder.cpp name it
   const sigset_t set = ending_signals();
   pthread_sigmask(SIG_BLOCK, &set, &before_);
-  waiting_ = std::jthread([temporary, folders = missing(output)](const std::stop_token& stop) {
-    wait_for_signal(stop, temporary, folders);
-  });
+  // Counted here and not by the thread, which may start after the output has got its name.
+  waiting_ = std::jthread([temporary, folders = missing(output), named = final_names().load()](
+                              const std::stop_token& stop) { wait_for_signal(stop, temporary, folders, named); });
 }
 
 RemoveOnInterrupt::~RemoveOnInterrupt() {
