@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 
+#include "continuous.hpp"
 #include "drive.hpp"
 #include "gpu/gpu.hpp"
 #include "json_line.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double step_s = 0.04, antenna_height_m = 1.5, above_roof_m = 0.15, radius_m = 300;
+constexpr double millisecond_s = 0.001, antenna_height_m = 1.5, above_roof_m = 0.15, radius_m = 300;
 const glm::dvec3 crossing_m(45, 90, antenna_height_m);  // of streets in munich, in the open
 
 // Sionna RT 2.2.0 in munich, 5.9 GHz, depth 5, line of sight and specular reflection; measured on 2026-11-21, the GPU
@@ -36,8 +37,9 @@ constexpr size_t sionna_gpu_cars = 100, sionna_cpu_cars = 20;
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
-  std::vector<std::string> cases{"drive", "links", "top-level", "memory"};
+  std::vector<std::string> cases{"drive", "continuous", "links", "top-level", "memory"};
   uint32_t frames = 30, memory_frames = 1000;
+  double step_s = 0.04;
   size_t vehicles = 100, runs = 21;
   std::vector<uint64_t> rays, refresh;
   std::vector<uint32_t> depth{3, 5};
@@ -57,24 +59,43 @@ std::vector<MountConfig> roof_mounts(const std::set<std::string>& types) {
 Config munich(const Options& options) {
   Config config;
   config.scene.file = (fs::path(options.shared) / "scenes" / "munich" / "munich.xml").string();
-  config.time = {.start_s = 0, .end_s = (options.frames - 1) * step_s, .step_s = step_s};
+  config.time = {.start_s = 0, .end_s = (options.frames - 1) * options.step_s, .step_s = options.step_s};
   return config;
 }
 
 StreetTraffic traffic_of(const Options& options, size_t vehicles) {
   return {.vehicles = vehicles,
-          .duration_s = std::max(options.frames - 1, 1u) * step_s,
+          .duration_s = std::max(options.frames - 1, 1u) * options.step_s,
           .centre_m = crossing_m,
           .radius_m = radius_m};
 }
 
-void run_drive(const Options& options, const std::string& command) {
-  Drive drive{.config = munich(options), .frames = options.frames};
-  drive.config.tracks = street_traffic(load_scene(drive.config), traffic_of(options, options.vehicles));
+// Vehicles that all talk to each other.
+Config talking_vehicles(const Options& options) {
+  Config config = munich(options);
+  config.tracks = street_traffic(load_scene(config), traffic_of(options, options.vehicles));
   std::set<std::string> types;
-  for (const TrackConfig& track : drive.config.tracks) types.insert(track.type);
-  drive.config.mounts = roof_mounts(types);
-  drive.config.links.max_distance_m = options.max_distance_m;
+  for (const TrackConfig& track : config.tracks) types.insert(track.type);
+  config.mounts = roof_mounts(types);
+  config.links.max_distance_m = options.max_distance_m;
+  return config;
+}
+
+// Two discoveries after the first.
+void run_continuous(const Options& given, const std::string& command) {
+  Options options = given;
+  options.step_s = millisecond_s;
+  options.frames = 201;
+  Config config = talking_vehicles(options);
+  config.trace.max_depth = options.depth.front();
+  config.trace.rays = *std::max_element(options.rays.begin(), options.rays.end());
+  measure_continuous(
+      fmt::format("munich, {} vehicles, depth {}: steps of 1 ms", options.vehicles, options.depth.front()), config,
+      options.device, command);
+}
+
+void run_drive(const Options& options, const std::string& command) {
+  Drive drive{.config = talking_vehicles(options), .frames = options.frames};
   const uint64_t most_rays = *std::max_element(options.rays.begin(), options.rays.end());
   for (const uint32_t depth : options.depth) {
     drive.name = fmt::format("munich, {} vehicles, depth {}", options.vehicles, depth);
@@ -206,6 +227,7 @@ int run(Options options, const std::string& command) {
   for (const std::string& name : options.cases) {
     try {
       if (name == "drive") run_drive(options, command);
+      if (name == "continuous") run_continuous(options, command);
       if (name == "links") run_links(options, command);
       if (name == "top-level") print_top_level_times(options.device, options.runs, command);
       if (name == "memory") run_memory(options, command);
@@ -226,8 +248,8 @@ int main(int argc, char** argv) {
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/munich/munich.xml");
-  app.add_option("--cases", options.cases, "some of drive, links, top-level, memory")
-      ->check(CLI::IsMember({"drive", "links", "top-level", "memory"}));
+  app.add_option("--cases", options.cases, "some of drive, continuous, links, top-level, memory")
+      ->check(CLI::IsMember({"drive", "continuous", "links", "top-level", "memory"}));
   app.add_option("--frames", options.frames, "frames of a drive, 0.04 s apart")->check(CLI::Range(2, 1000));
   app.add_option("--vehicles", options.vehicles, "vehicles of the case drive")->check(CLI::Range(2, 10000));
   app.add_option("--rays", options.rays, "rays per transmitter of cold frames; the most of them for reuse, too");

@@ -194,6 +194,16 @@ std::string compile_line(const Run& run) {
   return found == run.summary.setup_seconds.end() ? "" : fmt::format("compiled   in {}\n", duration(found->second));
 }
 
+// What frames without rays may lack.
+std::string late_line(const Run& run, const Totals& totals) {
+  const LateCounts& late = totals.late;
+  if (late.discoveries == 0) return "";
+  return fmt::format(
+      "late       {} paths with {:.1g} of the power (at most {:.1g}) were new when rays were launched "
+      "again, every {} s: frames before that may lack them\n",
+      grouped(late.paths), late.power_share(), late.largest_share, run.config.trace.discover_every_s);
+}
+
 }  // namespace
 
 std::string report(const Run& run, const Results& results, bool verbose) {
@@ -209,7 +219,7 @@ std::string report(const Run& run, const Results& results, bool verbose) {
     out += fmt::format("vehicles   {} of {} models\n", grouped(run.instances.size()), run.models.size());
   out += feature_line(run);
   if (verbose) out += tracing_lines(run, totals);
-  out += path_line(totals) + left_out_line(totals) + missed_line(run, totals) +
+  out += path_line(totals) + left_out_line(totals) + missed_line(run, totals) + late_line(run, totals) +
          link_lines(results.links, totals.frames > 1) + grid_lines(results.links) + compile_line(run) +
          frame_line(run, totals);
   for (const std::string& text : advice(run, totals)) out += "advice     " + text + "\n";

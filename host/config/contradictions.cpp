@@ -66,6 +66,27 @@ void check_rays(const Config& config, Found& out) {
   }
 }
 
+// Frames without rays have nothing but the sequences of earlier ones.
+void check_discoveries(const Config& config, Found& out) {
+  const TraceConfig& trace = config.trace;
+  if (!(trace.discover_every_s > 0)) return;
+  const std::string given = fmt::format("trace.discover_every_s = {} spares frames their rays", trace.discover_every_s);
+  const auto refuse = [&](const char* key, const std::string& why) {
+    out.push_back({{"trace.discover_every_s", key},
+                   fmt::format("{}, but {}: remove trace.discover_every_s, or {}", given, why,
+                               std::string_view(key) == "trace.reuse" ? "set trace.reuse = true"
+                                                                      : fmt::format("remove {}", key))});
+  };
+  if (!trace.reuse) refuse("trace.reuse", "with trace.reuse = false a frame knows only what its own rays find");
+  if (trace.reception == "sphere")
+    refuse("trace.reception", "trace.reception = \"sphere\" takes its paths from the rays of the frame");
+  if (config.cache.kind != "none")
+    refuse("cache.kind", fmt::format("cache.kind = \"{}\" answers rays of every frame", config.cache.kind.word()));
+  if (config.output.waypoints > 0)
+    refuse("output.waypoints",
+           fmt::format("output.waypoints = {} writes rays of every frame", config.output.waypoints));
+}
+
 // Reception by spheres counts each ray as one sample of the directions that reach a receiver.
 void check_reception(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
@@ -218,6 +239,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_scene(config.scene, out);
   check_launch(config, out);
   check_rays(config, out);
+  check_discoveries(config, out);
   check_reception(config, out);
   check_features(config, out);
   check_link_budget(config.radio, out);

@@ -43,12 +43,21 @@ Table trace_table() {
            .doc = "The largest number of rays in a frame that reuses sequences of earlier frames; each such frame "
                   "launches other directions. 0: a tenth of trace.rays, because little is new from one frame to the "
                   "next. With rays = \"auto\" the number is chosen automatically."},
+          {.name = "discover_every_s",
+           .slot = t(&TraceConfig::discover_every_s),
+           .unit = "s",
+           .range = {0, 3600},
+           .doc = "Frames that reuse sequences launch rays only this long after the frame that did so before; the "
+                  "frames between compute the paths of the known sequences, exactly, at their own poses. For steps "
+                  "of a millisecond, 0.1 is a good value. A vehicle that appears and a transmitter that begins to "
+                  "send launch at once. 0: every frame launches rays. What the frames between may lack is measured "
+                  "each time that rays are launched again: late in summary.json."},
           {.name = "forget_frames",
            .slot = t(&TraceConfig::forget_frames),
            .unit = "frames",
            .range = {1, 4294967295.0},
            .doc = "A sequence of surfaces is dropped after this many frames in which no ray and no path has followed "
-                  "it. 50 frames are 5 s at 10 Hz."},
+                  "it; only frames that launch rays are counted. 50 frames are 5 s at 10 Hz."},
           {.name = "max_depth",
            .slot = t(&TraceConfig::max_depth),
            .unit = "interactions",

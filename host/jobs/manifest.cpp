@@ -100,6 +100,11 @@ Shard decode(const Json& json, ManifestOf what) {
     t.left_out = {whole<uint64_t>(gone.at("paths")), gone.at("power"), gone.at("all")};
   }
   if (json.contains("missed")) t.missed = decode_missed(json.at("missed"));
+  if (json.contains("late")) {
+    const Json& late = json.at("late");
+    t.late = {whole<uint64_t>(late.at("discoveries")), whole<uint64_t>(late.at("paths")), late.at("power"),
+              late.at("all"), late.at("largest_share")};
+  }
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -140,6 +145,12 @@ std::string encode_manifest_line(const Shard& shard) {
   if (t.left_out.all > 0)
     json["left_out"] = {{"paths", t.left_out.paths}, {"power", t.left_out.power}, {"all", t.left_out.all}};
   if (t.missed.frames > 0) json["missed"] = encode_missed(t.missed);
+  if (t.late.discoveries > 0)
+    json["late"] = {{"discoveries", t.late.discoveries},
+                    {"paths", t.late.paths},
+                    {"power", t.late.power},
+                    {"all", t.late.all},
+                    {"largest_share", t.late.largest_share}};
   if (t.cache.on) json["cache"] = encode_cache(t.cache);
   json["seconds"] = t.seconds;
   json["warnings"] = t.warnings;

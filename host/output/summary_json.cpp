@@ -139,6 +139,11 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
     const Missed missed = estimate_missed(totals.missed);
     json["missed"] = {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
   }
+  if (totals.late.discoveries > 0)
+    json["late"] = {{"discoveries", totals.late.discoveries},
+                    {"paths", totals.late.paths},
+                    {"power_share", three_digits(totals.late.power_share())},
+                    {"largest_power_share", three_digits(totals.late.largest_share)}};
   if (totals.left_out.all > 0)
     json["left_out"] = {{"paths", totals.left_out.paths},
                         {"power_share", totals.left_out.all > 0 ? totals.left_out.power / totals.left_out.all : 0.0}};

@@ -67,6 +67,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.counts = frame.counts;
   totals.kinds = count_path_kinds(frame.paths);
   totals.missed = frame.missed;
+  totals.late = frame.late;
   totals.segments_per_depth = frame.segments_per_depth;
   totals.cache = frame.cache;
   for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
@@ -96,6 +97,7 @@ void add(Totals& sum, const Totals& later) {
   add(sum.counts, later.counts);
   add(sum.kinds, later.kinds);
   add(sum.missed, later.missed);
+  sum.late.add(later.late);
   add(sum.left_out, later.left_out);
   add(sum.segments_per_depth, later.segments_per_depth);
   add(sum.cache, later.cache);

@@ -19,6 +19,7 @@ struct Totals {
   FrameCounts counts;
   PathKindCounts kinds{};  // of counts.paths
   MissedCounts missed;
+  LateCounts late;
   LeftOutPaths left_out;  // of counts.paths, which are those that were found; all 0 where nothing may be left out
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;  // counts are sums; what describes the table is that of the last frame

@@ -44,8 +44,10 @@ void Sequences::clear() {
 
 void Sequences::begin_frame() {
   ++frame_;
-  counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
+  zero_counters();
 }
+
+void Sequences::zero_counters() { counters_.write(std::vector<wt_counters>{{}}, 0, "sequences"); }
 
 gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest) {
   const gpu::Buffer<uint64_t> old_table = table_;

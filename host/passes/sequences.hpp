@@ -30,6 +30,8 @@ class Sequences {
   uint32_t now() const { return 2 * frame_ + 1; }
   // The next frame: what is entered from now on is younger than anything before, and the counters start at zero.
   void begin_frame();
+  // Counters start at zero, and nothing gets older: for paths of the known sequences.
+  void zero_counters();
   // The visible paths' sequences get the age of this frame.
   void keep(const SolvedList& solved);
   // Drops the sequences that no ray and no path has met for `frames` frames.

@@ -1,6 +1,7 @@
 // Rays discover, geometry decides: see docs/architecture.md. A line's comment names the passes that it runs.
 #include "simulation/frame.hpp"
 
+#include "radio/path_power.hpp"
 #include "simulation/distinct_paths.hpp"
 #include "simulation/launch_share.hpp"
 #include "simulation/recall_warning.hpp"
@@ -8,10 +9,27 @@
 #include "simulation/visible_paths.hpp"
 
 namespace wavetracer {
+namespace {
+
+double power_of_all(const Paths& paths) {
+  double sum = 0;
+  for (size_t row = 0; row < paths.size(); ++row) sum += power_of(paths, row);
+  return sum;
+}
+
+// Every known path is one of all, but for those whose sequences were dropped in this frame.
+LateCounts late_counts(const Paths& known, const Paths& all) {
+  LateCounts out{.discoveries = 1, .paths = all.size() - std::min(known.size(), all.size()), .all = power_of_all(all)};
+  if (out.paths > 0) out.power = std::max(out.all - power_of_all(known), 0.0);
+  out.largest_share = out.power_share();
+  return out;
+}
+
+}  // namespace
 
 // PoCL compiles a kernel for the shape of its first launch, which would take most of the first frame. So what a frame
 // launches is launched before, by few rays of one transmitter, and forgotten.
-FrameLoop::FrameLoop(Setup& setup) : s_(setup) {
+FrameLoop::FrameLoop(Setup& setup) : s_(setup), clock_(setup.config.trace.discover_every_s) {
   if (s_.context.info().cpu) {
     solve({.pose = [this] { return s_.world.state(0); }, .compiling = true});
     forget();
@@ -53,12 +71,18 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   const std::vector<Link>& links = block ? block->solved : out.world.links;
   const RadioEnds ends =
       make_radio_ends(s_.context, out.world.transmitters, out.world.receivers, links, s_.origins.listeners);
-  begin_sequences();
+  const bool warm = s_.reuse && warm_frames_ > 0, searches = clock_.due(out.world, !warm);
+  std::optional<Paths> known;  // before rays add to it
+  if (searches && warm && clock_.spares()) known = known_paths(task, out.world, ends, account);
+  if (searches)
+    begin_sequences();
+  else
+    s_.discovery.sequences().zero_counters();
   if (s_.cache) s_.cache->begin_frame(out.world);
   if (s_.trails) s_.trails->begin_frame(task.frame, ends, out.world);
 
-  const DiscoveryCounts found =
-      discover(task, out.world, block ? &*block : nullptr);  // order_keys to refine (discovery.cpp)
+  DiscoveryCounts found;
+  if (searches) found = discover(task, out.world, block ? &*block : nullptr);  // order_keys to refine (discovery.cpp)
   account.discovered(found);
   if (s_.cache) out.cache = s_.cache->summary();
   if (s_.cache && s_.config.output.cache_entries) s_.cache->add_entries(task.frame, out.cache_entries);
@@ -66,7 +90,7 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
 
   const bool spheres = s_.trails && s_.trails->receives();
   PathGeometry paths = spheres ? receive_paths(ends, account)
-                               : solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(),
+                               : solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), searches,
                                              s_.frame_watch, account);  // sequences to distinct_paths
   paths = with_reversed_twins(std::move(paths), s_.world.receiver_of_transmitter(), s_.world.transmitter_of_receiver(),
                               links);  // reciprocity
@@ -80,10 +104,28 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   LeftOut left_out;
   out.paths = s_.fields.compute(task.frame, std::move(paths), out.world, &left_out);  // fields
   if (found.rays > 0) out.missed = missed_counts(out.paths, 0, out.paths.size());
-  if (const auto text = recall_warning(found, s_.trace, warm_frames_++ == 0, out.missed)) account.warn(*text);
+  if (known) out.late = late_counts(*known, out.paths);
+  if (const auto text = recall_warning(found, s_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
+  if (searches) ++warm_frames_;
   if (!task.compiling) account.left_out(left_out, task.transmitter_name, task.receiver_name);
   account.end_stage("fields");
   return account.close();
+}
+
+// The paths of the sequences that are known, with the same rules as those of the frame.
+Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
+                             FrameAccount& account) {
+  const FrameCounts counts = account.result.counts;
+  s_.discovery.sequences().zero_counters();
+  PathGeometry paths =
+      solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), false, s_.frame_watch, account);
+  account.result.counts = counts;
+  paths = with_reversed_twins(std::move(paths), s_.world.receiver_of_transmitter(), s_.world.transmitter_of_receiver(),
+                              world.links);
+  account.end_stage("paths");
+  Paths out = s_.fields.compute(task.frame, std::move(paths), world);
+  account.end_stage("fields");
+  return out;
 }
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
@@ -134,7 +176,7 @@ PathGeometry FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& accou
 }
 
 PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
-                         const FrameWatch& watch, FrameAccount& account) {
+                         bool searched, const FrameWatch& watch, FrameAccount& account) {
   FrameCounts& counts = account.result.counts;
   PathGeometry paths;
   uint64_t kinds_done = 0;
@@ -149,8 +191,10 @@ PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const Radi
   watch.tell("paths", 0, exact.kinds());
 
   uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
-  set.commute(scene.surfaces, nodes, exact.max_depth);
-  nodes = set.collect(ends.transmitter_count);
+  if (searched) {
+    set.commute(scene.surfaces, nodes, exact.max_depth);
+    nodes = set.collect(ends.transmitter_count);
+  }
   counts.sequences = nodes - ends.transmitter_count;
 
   const uint32_t candidates =

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "simulation/discovery_clock.hpp"
 #include "simulation/frame_account.hpp"
 #include "simulation/link_block.hpp"
 #include "simulation/setup.hpp"
@@ -33,13 +34,16 @@ class FrameLoop {
   void begin_sequences();
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   PathGeometry receive_paths(const RadioEnds& ends, FrameAccount& account);
+  Paths known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;
-  uint64_t warm_frames_ = 0;  // since the last cold one, which counts
+  DiscoveryClock clock_;
+  uint64_t warm_frames_ = 0;  // that launched rays since the last cold one, which counts
 };
 
-// The exact paths of the sequences that rays have found, each once.
+// The exact paths of the sequences that rays have found, each once. searched: rays may have added sequences since the
+// call before, whose exchanges are added then.
 PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
-                         const FrameWatch& watch, FrameAccount& account);
+                         bool searched, const FrameWatch& watch, FrameAccount& account);
 
 }  // namespace wavetracer

@@ -51,6 +51,10 @@ std::vector<std::string> Simulation::warnings() const {
                     "so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
                     s.config.cache.kind.text(), s.config.trace.reception == "sphere" ? " or wrong" : "",
                     s.config.cache.kind == "thesis" ? "open" : "chained"));
+  if (frame_count() > 1 && !s.world.live())
+    if (const auto text = unmeasured_warning(s.trace.discover_every_s, time_s(1) - time_s(0), frame_count(),
+                                             s.config.output.shard_frames))
+      out.push_back(*text);
   for (const std::vector<std::string>* more : {&s.world.warnings(), &s.place_warnings})
     out.insert(out.end(), more->begin(), more->end());
   return out;

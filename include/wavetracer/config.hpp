@@ -127,6 +127,7 @@ struct TraceConfig {
   uint64_t max_rays = 10000000;               // with rays = "auto"
   bool reuse = true;                          // sequences of earlier frames of a drive are kept and solved again
   std::optional<uint64_t> refresh_rays = {};  // per transmitter, in a frame that reuses; not given: a tenth of rays
+  double discover_every_s = 0;                // frames that reuse launch rays this long after each other; 0: all do
   uint32_t forget_frames = 50;                // a sequence that no ray has met for this many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;

@@ -8,6 +8,7 @@
 
 #include "wavetracer/cache_entries.hpp"
 #include "wavetracer/kernel_time.hpp"
+#include "wavetracer/late.hpp"
 #include "wavetracer/missed.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/ray_waypoints.hpp"
@@ -69,6 +70,7 @@ struct FrameResult {
   Paths paths;
   FrameCounts counts;
   MissedCounts missed;  // frames = 0 with a ray cache or trace.reception = "sphere", and where no rays were launched
+  LateCounts late;      // of a frame that launches rays after others that did not, with trace.discover_every_s
   StageSeconds seconds;
   KernelTimes kernels;  // of the device stages
   std::vector<uint64_t> segments_per_depth;

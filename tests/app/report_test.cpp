@@ -109,3 +109,15 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   results.totals.missed.paths = {6, 3, 2, 9};
   CHECK(contains(report(), ": a higher trace.recall finds more of them\n"));
 }
+
+TEST_CASE("the report says what frames without rays may lack") {
+  SampleRun sample;
+  sample.config.trace.discover_every_s = 0.1;
+  Results results{totals_of(sample.frames()), {}, {}};
+  const auto report = [&] { return app::report(sample.run(), results, true); };
+  CHECK_FALSE(contains(report(), "\nlate "));
+  results.totals.late = {.discoveries = 9, .paths = 1200, .power = 2e-6, .all = 1e-2, .largest_share = 0.003};
+  CHECK(contains(report(),
+                 "\nlate       1,200 paths with 0.0002 of the power (at most 0.003) were new when rays were launched "
+                 "again, every 0.1 s: frames before that may lack them\n"));
+}

@@ -72,6 +72,7 @@ TEST_CASE("every key of the contract is in the table, once") {
                           "trace.max_rays",
                           "trace.reuse",
                           "trace.refresh_rays",
+                          "trace.discover_every_s",
                           "trace.forget_frames",
                           "output.shard_frames",
                           "trace.rays",

@@ -224,6 +224,23 @@ TEST_CASE("frames that reuse launch no more rays than those that do not, and for
   CHECK(error_of(scene + "trace.forget_frames = 1\n" + ends) == "no error");
 }
 
+TEST_CASE("frames without rays are refused where something needs the rays of every frame") {
+  const std::string spared = scene + "trace.discover_every_s = 0.1\n";
+  CHECK(error_of(spared + ends) == "no error");
+  const auto refused = [&](const std::string& line, const std::string& words) {
+    CAPTURE(line);
+    check_contains(error_of(spared + line + "\n" + ends),
+                   "trace.discover_every_s = 0.1 spares frames their rays, but ");
+    check_contains(error_of(spared + line + "\n" + ends), words);
+    CHECK(error_of(scene + "trace.discover_every_s = 0\n" + line + "\n" + ends) == "no error");
+  };
+  refused("trace.reuse = false", "set trace.reuse = true");
+  refused("trace.reception = \"sphere\"", "remove trace.reception");
+  refused("cache.kind = \"open\"", "remove cache.kind");
+  refused("output.waypoints = 5", "remove output.waypoints");
+  check_contains(error_of(scene + "trace.discover_every_s = -1\n" + ends), "is out of range");
+}
+
 TEST_CASE("mounts take the place of transmitters and receivers by their role") {
   const auto with = [](const std::string& role) {
     return error_of(scene + track + "[[mount]]\nname = \"m\"\nrole = \"" + role + "\"\n");

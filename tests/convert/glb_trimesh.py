@@ -41,7 +41,7 @@ for node in scene.graph.nodes_geometry:
         continue
     world = trimesh.transform_points(geometry.vertices, matrix)[geometry.faces]
     found.setdefault(geometry.visual.material.name, []).append(world[..., [0, 2, 1]] * [1, -1, 1])  # y up to z up
-assert lines == 1 + 1 + 3, lines  # paths, a transmitter, two receivers and the car's
+assert lines == 1 + 1 + 1 + 3, lines  # paths, rays, a transmitter, two receivers and the car's
 assert set(found) == set(material), (set(found), set(material))
 for name, corner in found.items():
     corner = np.concatenate(corner)

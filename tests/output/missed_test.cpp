@@ -29,11 +29,14 @@ std::vector<FrameResult> drive(const SampleRun& sample, uint32_t first, uint32_t
                     .powers = {1e-9 / frame.frame, 2e-9, 1e-8, 1e-7},
                     .amplitude = 3e-3,
                     .power = 3e-6 + 1e-8 * frame.frame};
+  for (FrameResult& frame : frames)
+    if (frame.frame % 2 == 0) frame.late = {1, frame.frame, 1e-9 * frame.frame, 2e-6, 5e-4 * frame.frame};
   return frames;
 }
 
 Json missed_of(const std::vector<std::filesystem::path>& written) {
-  return Json::parse(slurp(written[2])).at("missed");
+  const Json summary = Json::parse(slurp(written[2]));
+  return {{"missed", summary.at("missed")}, {"late", summary.at("late")}};
 }
 
 }  // namespace
@@ -41,7 +44,8 @@ Json missed_of(const std::vector<std::filesystem::path>& written) {
 TEST_CASE("what was missed adds up over frames, at once and in the shards of an interrupted drive") {
   const TemporaryFolder folder;
   const SampleRun sample;
-  const Json whole = missed_of(write_outputs(folder.path() / "whole", sample.run(), drive(sample, 3, 12)));
+  const Json both = missed_of(write_outputs(folder.path() / "whole", sample.run(), drive(sample, 3, 12)));
+  const Json &whole = both["missed"], &late = both["late"];
   // f1 is 0, 1, 2, 0, 1, 2, ... in ten frames, f2 is 4 and f3 is 7 in each.
   const double estimate = 0.9 * 81 / 175 + 4.0 / 15 + 7.0 / 255;
   const double variance = 0.9 * 81 / 175 * 81 / 175 + 4.0 / 15 / 15 + 7.0 / 255 / 255;
@@ -50,6 +54,11 @@ TEST_CASE("what was missed adds up over frames, at once and in the shards of an 
   CHECK(whole["paths"]["low"] == 0);
   CHECK(whole["paths"]["high"] ==
         doctest::Approx(10 * (3 * likeness * (estimate + 1.96 * std::sqrt(variance)) + 3)).epsilon(0.005));
+  // Frames 4, 6, 8, 10 and 12.
+  CHECK(late["discoveries"] == 5);
+  CHECK(late["paths"] == 40);
+  CHECK(late["power_share"] == doctest::Approx(40e-9 / 10e-6));
+  CHECK(late["largest_power_share"] == doctest::Approx(6e-3));
   {
     Shards killed(folder.path(), identity);
     killed.write(sample.run(), drive(sample, 3, 6));
@@ -58,7 +67,7 @@ TEST_CASE("what was missed adds up over frames, at once and in the shards of an 
   Shards again(folder.path(), identity);
   REQUIRE(again.resume() == 2);
   again.write(sample.run(), drive(sample, 10, 12));
-  CHECK(missed_of(again.merge(sample.run(), {})) == whole);
+  CHECK(missed_of(again.merge(sample.run(), {})) == both);
 }
 
 TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is said") {
@@ -75,6 +84,7 @@ TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is s
   const TemporaryFolder folder;
   const auto written = write_outputs(folder.path(), sample.run(), sample.drive(3, 2));
   CHECK_FALSE(Json::parse(slurp(written[2])).contains("missed"));
+  CHECK_FALSE(Json::parse(slurp(written[2])).contains("late"));
 }
 
 TEST_CASE("a manifest that names other quarters of a launch than four is refused, and says which line") {

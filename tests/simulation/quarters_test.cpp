@@ -39,7 +39,7 @@ PathGeometry found(const Config& config, DirectionShare share) {
                                       .followed = false,
                                       .sorted = false});
   FrameAccount account(s.context, 0);
-  return solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), s.frame_watch, account);
+  return solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), true, s.frame_watch, account);
 }
 
 bool same_path(const PathGeometry& a, size_t i, const PathGeometry& b, size_t j) {

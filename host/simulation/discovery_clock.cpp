@@ -1,0 +1,43 @@
+// Times of frames are multiples of a step, so an interval may end a rounding error before a frame.
+// Assumes that vehicles and transmitters keep their numbers from frame to frame.
+#include "simulation/discovery_clock.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace wavetracer {
+
+namespace {
+constexpr double tolerance_s = 1e-9;
+}
+
+std::vector<bool> DiscoveryClock::active(const WorldState& world) {
+  std::vector<bool> out(world.instances.size() + world.transmitters.size());
+  for (size_t i = 0; i < world.instances.size(); ++i) out[i] = world.instances[i].present;
+  for (const Link& link : world.links) out[world.instances.size() + link.tx] = true;
+  return out;
+}
+
+bool DiscoveryClock::due(const WorldState& world, bool cold) {
+  std::vector<bool> now = active(world);
+  bool wanted = cold || !spares() || !last_s_ || std::abs(world.time_s - *last_s_) >= every_s_ - tolerance_s;
+  for (size_t i = 0; i < now.size() && !wanted; ++i) wanted = now[i] && !(i < last_active_.size() && last_active_[i]);
+  if (!wanted) return false;
+  last_s_ = world.time_s;
+  last_active_ = std::move(now);
+  return true;
+}
+
+std::optional<std::string> unmeasured_warning(double discover_every_s, double step_s, uint64_t frames,
+                                              uint64_t shard_frames) {
+  const double shard_s = step_s * static_cast<double>(shard_frames);
+  if (!(discover_every_s > 0) || frames <= shard_frames || discover_every_s < shard_s - tolerance_s) return {};
+  return fmt::format(
+      "the first frame of each output.shard_frames = {} frames ({:.6g} s) launches all rays anew, as often as "
+      "trace.discover_every_s = {} asks for rays, and does not measure what the frames before lack: give "
+      "output.shard_frames = {} or more",
+      shard_frames, shard_s, discover_every_s, static_cast<uint64_t>(std::ceil(10 * discover_every_s / step_s)));
+}
+
+}  // namespace wavetracer

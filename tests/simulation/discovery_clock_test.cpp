@@ -1,0 +1,70 @@
+// When frames launch rays, by times and by who is there.
+#include "simulation/discovery_clock.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace wavetracer;
+
+namespace {
+
+WorldState world_at(double time_s) {
+  WorldState world;
+  world.time_s = time_s;
+  world.instances.resize(2);
+  world.transmitters.resize(3);
+  world.receivers.resize(1);
+  world.links = {{0, 0}, {1, 0}};
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("rays are launched when the interval has passed, to a rounding error, and where a frame is cold") {
+  DiscoveryClock clock(0.1);
+  CHECK(clock.spares());
+  int launches = 0;
+  for (int frame = 0; frame <= 1000; ++frame) {
+    const bool due = clock.due(world_at(7 + frame * 0.001), frame == 0);
+    CHECK(due == (frame % 100 == 0));
+    launches += due;
+  }
+  CHECK(launches == 11);
+  CHECK(clock.due(world_at(8.05), true));
+  CHECK_FALSE(clock.due(world_at(8.1), false));  // counted from the cold one
+  CHECK(clock.due(world_at(8.15), false));
+  CHECK(clock.due(world_at(2), false));  // time may go back
+}
+
+TEST_CASE("without an interval every frame launches rays") {
+  DiscoveryClock clock(0);
+  CHECK_FALSE(clock.spares());
+  for (int frame = 0; frame < 3; ++frame) CHECK(clock.due(world_at(0.001 * frame), false));
+}
+
+TEST_CASE("shards that are as short as the interval are warned of, because nothing is measured in them") {
+  CHECK_FALSE(unmeasured_warning(0, 0.001, 1000, 100));
+  CHECK_FALSE(unmeasured_warning(0.1, 0.001, 100, 100));  // one shard
+  CHECK_FALSE(unmeasured_warning(0.1, 0.001, 1000, 101));
+  const auto text = unmeasured_warning(0.1, 0.001, 1000, 100);
+  REQUIRE(text);
+  CHECK(text->find("output.shard_frames = 100 frames (0.1 s)") != std::string::npos);
+  CHECK(text->find("give output.shard_frames = 1000 or more") != std::string::npos);
+}
+
+TEST_CASE("who was not there when rays were launched makes them due, who leaves does not") {
+  DiscoveryClock clock(1);
+  WorldState world = world_at(0);
+  world.instances[1].present = false;
+  CHECK(clock.due(world, true));
+  world.time_s = 0.1;
+  CHECK_FALSE(clock.due(world, false));
+  world.instances[1].present = true;
+  CHECK(clock.due(world, false));
+  world.time_s = 0.2;
+  world.instances[0].present = false;
+  CHECK_FALSE(clock.due(world, false));
+  world.links.push_back({2, 0});  // begins to send
+  CHECK(clock.due(world, false));
+  world.links = {{2, 0}};
+  CHECK_FALSE(clock.due(world, false));
+}
