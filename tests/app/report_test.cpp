@@ -120,4 +120,6 @@ TEST_CASE("the report says what frames without rays may lack") {
   CHECK(contains(report(),
                  "\nlate       1,200 paths with 0.0002 of the power (at most 0.003) were new when rays were launched "
                  "again, every 0.1 s: frames before that may lack them\n"));
+  results.totals.late = {.discoveries = 9, .all = 1e-2};
+  CHECK(contains(report(), "\nlate       no path was new when rays were launched again, every 0.1 s\n"));
 }
