@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wavetracer/device/cache.h"
+#include "wavetracer/device/field_records.h"
 #include "wavetracer/device/waypoints.h"
 
 namespace wavetracer::bench {
@@ -77,6 +78,10 @@ double joined(N n) { return n.beside_mirrors(); }
 double join_bytes(N) { return sizeof(wt_wedge_candidate); }
 double wedge_solve_bytes(N) { return sizeof(wt_wedge_candidate) + sizeof(wt_wedge); }
 double wedge_solve_operations(N n) { return wedge_operations + std::max(n.depth() - 1, 0.0) * image_operations; }
+double point_of_rows(N n) { return (n.depth() + 1) * 9; }
+double path_rows(N n) { return static_cast<double>(n.frame.counts.paths); }
+double row_bytes(N n) { return solved_bytes(n) + sizeof(wt_path_row) + n.depth() * sizeof(wt_vertex_row); }
+double field_operations(N n) { return 400 + n.depth() * 700; }  // two antennas; a slab and its change of basis
 double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + word; }
 
 constexpr KernelCost costs[] = {
@@ -96,6 +101,10 @@ constexpr KernelCost costs[] = {
     {"solve/solve", "reflections", "candidates", items_of<"solve/solve">, solve_bytes, mirror_operations, true},
     {"occlusion/occlusion", "reflections", "legs", legs, leg_bytes, tree_operations},
     {"visible/visible", "reflections", "solved paths", items_of<"visible/visible">, visible_bytes, nothing},
+    {"distinct/row_keys", "reflections", "rows", items_of<"distinct/row_keys">, solved_bytes, point_of_rows, true},
+    {"distinct/mark_rows", "reflections", "rows", items_of<"distinct/mark_rows">, solved_bytes, nothing},
+    {"distinct/order_rows", "reflections", "rows", items_of<"distinct/order_rows">, always<40>, nothing},
+    {"fields/fields", "reflections", "paths", path_rows, row_bytes, field_operations, true},
 
     {"order_keys/launch_keys", "ordered", "rays", rays, always<4>, always<30>},
     {"generate_rays/generate_ordered", "ordered", "rays", rays, always<36>, always<20>},

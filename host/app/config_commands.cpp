@@ -7,7 +7,7 @@
 #include "app/first_configs.hpp"
 #include "app/named_files.hpp"
 #include "imports/road_network.hpp"
-#include "radio/fields.hpp"
+#include "radio/field_tables.hpp"
 #include "scene/load.hpp"
 #include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
@@ -27,7 +27,7 @@ void check_run(const Config& config, const Scene& scene, const World& world) {
   radio.transmitters = world.transmitters();
   radio.receivers = world.receivers();
   radio.trace = with_features(config.trace, choose_features(radio, scene, world));
-  const FieldModel fields(scene, radio, world.models(), world.instances());
+  make_field_tables(scene, radio, world.models(), world.instances());
   check_cache(radio, world);
 }
 

@@ -124,8 +124,8 @@ std::string tracing_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
   const uint64_t traced = traced_segments(totals);
   std::string rate;
-  if (const double trace_s = sum_seconds(totals, "trace"); trace_s > 0)
-    rate = fmt::format(", {}rays/s while tracing", short_number(static_cast<double>(traced) / trace_s));
+  if (const double per_second = segments_per_second(totals); per_second > 0)
+    rate = fmt::format(", {}rays/s while tracing", short_number(per_second));
   const std::string order = run.summary.order.reason.empty() ? "" : "order      " + run.summary.order.reason + "\n";
   return order +
          fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", grouped(n.rays), grouped(traced),

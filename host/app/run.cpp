@@ -188,6 +188,7 @@ void run(const RunOptions& options, Invocation& invocation) {
     if (const std::string earlier = earlier_results(directory); !earlier.empty()) progress.line("replaces " + earlier);
   if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
   Simulation simulation(config, device_of(options, ranks));
+  simulation.profile_every(profiled_frames);
   const FrameRange range = parse_frames(options.frames, simulation.frame_count());
   const char* const started_as = ranks.started ? std::getenv("WAVETRACER_COMMAND") : nullptr;
   Run run = make_run(simulation, range.count(), started_as ? started_as : invocation.command_line);

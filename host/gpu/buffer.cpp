@@ -81,6 +81,33 @@ Memory Context::allocate(size_t bytes, const char* name) {
   return memory;
 }
 
+HostMemory Context::host_memory(size_t bytes, const char* name) {
+  State& s = *state_;
+  cl_int code = CL_SUCCESS;
+  const size_t size = std::max(bytes, least_bytes);
+  const cl_mem handle = clCreateBuffer(s.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, size, nullptr, &code);
+  if (code != CL_SUCCESS) s.fail(code, fmt::format("allocating {} bytes of the host for \"{}\"", bytes, name));
+  void* data =
+      clEnqueueMapBuffer(s.queue(), handle, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, size, 0, nullptr, nullptr, &code);
+  if (code != CL_SUCCESS) {
+    clReleaseMemObject(handle);
+    s.fail(code, fmt::format("mapping {} bytes of the host for \"{}\"", bytes, name));
+  }
+  HostMemory memory;
+  memory.bytes_ = bytes;
+  memory.data_ = std::shared_ptr<void>(data, [handle, queue = s.queue](void* mapped) {
+    clEnqueueUnmapMemObject(queue(), handle, mapped, 0, nullptr, nullptr);
+    clReleaseMemObject(handle);
+  });
+  return memory;
+}
+
+void Memory::read_to(const HostMemory& to, size_t offset, size_t bytes, const char* stage) const {
+  if (bytes > to.bytes())
+    throw std::out_of_range(fmt::format("reading {} bytes into {} bytes of the host", bytes, to.bytes()));
+  read_bytes(to.data(), offset, bytes, stage);
+}
+
 void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage) const {
   require(static_cast<bool>(handle_), "reading");
   Context::State& s = *context_->state_;
@@ -88,7 +115,7 @@ void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage
   if (bytes == 0) return;
   cl::Event event;
   const cl_int code =
-      clEnqueueReadBuffer(s.queue(), handle_of(handle_), CL_TRUE, offset, bytes, to, 0, nullptr, &event());
+      clEnqueueReadBuffer(s.queue(), handle_of(handle_), CL_TRUE, offset, bytes, to, 0, nullptr, s.event_of(event));
   if (code != CL_SUCCESS) s.fail(code, fmt::format("reading buffer \"{}\"", s.allocations->name(handle_.get())));
   s.profile.add(stage, std::move(event));
 }
@@ -100,7 +127,7 @@ void Memory::write_bytes(const void* from, size_t offset, size_t bytes, const ch
   if (bytes == 0) return;
   cl::Event event;
   const cl_int code =
-      clEnqueueWriteBuffer(s.queue(), handle_of(handle_), CL_TRUE, offset, bytes, from, 0, nullptr, &event());
+      clEnqueueWriteBuffer(s.queue(), handle_of(handle_), CL_TRUE, offset, bytes, from, 0, nullptr, s.event_of(event));
   if (code != CL_SUCCESS) s.fail(code, fmt::format("writing buffer \"{}\"", s.allocations->name(handle_.get())));
   s.profile.add(stage, std::move(event));
 }
@@ -120,7 +147,7 @@ void Context::fill(Memory& memory, const void* pattern, size_t pattern_bytes, si
   if ((offset + bytes) / pattern_bytes <= most_fill_elements) {
     cl::Event event;
     const cl_int code = clEnqueueFillBuffer(s.queue(), handle_of(memory.handle_), pattern, pattern_bytes, offset, bytes,
-                                            0, nullptr, &event());
+                                            0, nullptr, s.event_of(event));
     if (code != CL_SUCCESS) {
       s.fail(code, fmt::format("filling buffer \"{}\"", s.allocations->name(memory.handle_.get())));
     }
@@ -149,7 +176,7 @@ void Context::copy(const Memory& from, Memory& to, size_t bytes, const char* sta
 void Context::State::copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, const char* stage) {
   cl::Event event;
   const cl_int code = clEnqueueCopyBuffer(queue(), static_cast<cl_mem>(from), static_cast<cl_mem>(to), from_offset,
-                                          to_offset, bytes, 0, nullptr, &event());
+                                          to_offset, bytes, 0, nullptr, event_of(event));
   if (code != CL_SUCCESS) {
     fail(code, fmt::format("copying buffer \"{}\" to \"{}\"", allocations->name(from), allocations->name(to)));
   }

@@ -1,11 +1,40 @@
 // Context: a device opened with one in-order profiling queue.
 // Requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept.
 #include <fmt/format.h>
+#include <map>
+#include <mutex>
 #include "gpu/device.hpp"
 #include "gpu/state.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::gpu {
+namespace {
+
+// OpenCL's contexts, one for each device, which all of ours share while the process lives: NVIDIA takes 0.2 s to open
+// one. Never destroyed, because a driver may be gone when a static object is.
+class OpenContexts {
+ public:
+  static OpenContexts& of_process() {
+    static auto* const contexts = new OpenContexts;
+    return *contexts;
+  }
+  cl::Context open(const cl::Device& device) {
+    const std::lock_guard lock(mutex_);
+    const auto found = contexts_.find(device());
+    return found != contexts_.end() ? found->second : contexts_[device()] = cl::Context(device);
+  }
+  // A kernel that faulted has spoilt it: who opens the device again gets another one.
+  void forget(const cl::Device& device) {
+    const std::lock_guard lock(mutex_);
+    contexts_.erase(device());
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<cl_device_id, cl::Context> contexts_;
+};
+
+}  // namespace
 
 Context::Context(std::string_view device_text) : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -18,8 +47,8 @@ Context::Context(std::string_view device_text) : state_(std::make_unique<State>(
   }
   try {
     s.device = all_devices().at(s.info.index);
-    s.context = cl::Context(s.device);
-    s.queue = cl::CommandQueue(s.context, s.device, CL_QUEUE_PROFILING_ENABLE);
+    s.context = OpenContexts::of_process().open(s.device);
+    s.queue = s.timed = cl::CommandQueue(s.context, s.device, CL_QUEUE_PROFILING_ENABLE);
     s.device_options = device_options(s.device, s.info);
   } catch (const cl::Error& error) {
     s.fail(error.err(), fmt::format("opening the device ({})", error.what()));
@@ -61,9 +90,11 @@ std::map<std::string, double> Context::profile() {
 KernelTimes Context::kernel_times() const { return state_->profile.kernels(); }
 
 void Context::set_profiling(bool on) {
-  profile();  // what is pending belongs to the old queue
+  if (on == state_->profile.on) return;
+  profile();  // what is pending belongs to the other queue
   try {
-    state_->queue = cl::CommandQueue(state_->context, state_->device, on ? CL_QUEUE_PROFILING_ENABLE : 0);
+    if (!on && !state_->plain()) state_->plain = cl::CommandQueue(state_->context, state_->device, 0);
+    state_->queue = on ? state_->timed : state_->plain;
     state_->profile.on = on;
   } catch (const cl::Error& error) {
     state_->fail(error.err(), "opening a queue");
@@ -81,8 +112,10 @@ void Context::State::fail(cl_int code, const std::string& action) const {
         info.global_memory >> 20, info.max_buffer >> 20, allocations->summary());
   }
   // What NVIDIA answers to everything after a kernel that faulted.
-  if (code == CL_INVALID_COMMAND_QUEUE)
+  if (code == CL_INVALID_COMMAND_QUEUE) {
+    OpenContexts::of_process().forget(device);
     message += ". An earlier command broke the queue: a kernel out of its buffers' bounds?";
+  }
   throw DeviceError(message);
 }
 

@@ -56,6 +56,19 @@ using Definitions = std::map<std::string, std::string>;
 
 class Context;
 
+// Memory of the host that the device copies to at full speed (pinned), for what is read in every frame.
+class HostMemory {
+ public:
+  HostMemory() = default;
+  size_t bytes() const { return bytes_; }
+  void* data() const { return data_.get(); }
+
+ private:
+  friend class Context;
+  std::shared_ptr<void> data_;  // mapped
+  size_t bytes_ = 0;
+};
+
 // Untyped device memory. Copies are shared handles.
 class Memory {
  public:
@@ -71,6 +84,7 @@ class Memory {
   size_t bytes_ = 0;
   void read_bytes(void* to, size_t offset, size_t bytes, const char* stage) const;
   void write_bytes(const void* from, size_t offset, size_t bytes, const char* stage);
+  void read_to(const HostMemory& to, size_t offset, size_t bytes, const char* stage) const;
 };
 
 // A typed buffer of size() elements. All transfers block and are bounds checked (std::out_of_range).
@@ -90,6 +104,11 @@ class Buffer : public Memory {
     return out;
   }
   std::vector<T> read() const { return read(0, size()); }
+  // The same into pinned memory, which has room for them. The elements stay there until it is used again.
+  std::span<const T> read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
+    read_to(to, first * sizeof(T), count * sizeof(T), stage);
+    return {static_cast<const T*>(to.data()), count};
+  }
   T read_one(size_t i, const char* stage = "transfer") const {
     T out;
     read_bytes(&out, i * sizeof(T), sizeof(T), stage);
@@ -158,6 +177,8 @@ class Context {
     if (!data.empty()) b.write(data);
     return b;
   }
+  // Throws DeviceError as buffer() does.
+  HostMemory host_memory(size_t bytes, const char* name);
   // Fills with a repeated 1, 2, 4 or 8 byte pattern.
   void fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes, const char* stage);
   template <class T>

@@ -33,10 +33,13 @@ struct Context::State {
   DeviceInfo info;
   cl::Device device;
   cl::Context context;
-  cl::CommandQueue queue;
+  cl::CommandQueue queue;         // the one in use: of these two, both in order
+  cl::CommandQueue timed, plain;  // with profiling events and without; plain is opened at its first use
   std::string device_options;
   ProgramCache cache = ProgramCache::from_environment();
   Profile profile;
+  // Where a command is to leave its event: nowhere, without profiling.
+  cl_event* event_of(cl::Event& event) { return profile.on ? &event() : nullptr; }
   std::shared_ptr<Allocations> allocations = std::make_shared<Allocations>();
   std::map<std::string, cl::Program> programs;                    // by name and options
   std::map<std::string, std::shared_ptr<Kernel::State>> kernels;  // by name, program and options

@@ -106,6 +106,7 @@ Shard decode(const Json& json, ManifestOf what) {
               late.at("all"), late.at("largest_share")};
   }
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
+  t.timed_segments = json.value("timed_segments", uint64_t{0});
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
   if (json.contains("missing")) {
@@ -152,6 +153,7 @@ std::string encode_manifest_line(const Shard& shard) {
                     {"all", t.late.all},
                     {"largest_share", t.late.largest_share}};
   if (t.cache.on) json["cache"] = encode_cache(t.cache);
+  json["timed_segments"] = t.timed_segments;
   json["seconds"] = t.seconds;
   json["warnings"] = t.warnings;
   if (!t.missing.empty())

@@ -29,6 +29,7 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
   const Listener listener(endpoint);
   log("loading the scene and compiling the kernels");
   Simulation simulation(config, options.device);
+  simulation.profile_every(profiled_frames);
   for (const std::string& warning : simulation.warnings()) log("warning: " + warning);
   simulation.run_frame(0);  // with nobody there: buffers are made, drivers finish compiling
   simulation.forget();

@@ -150,7 +150,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["links"] = totals.links;
   json["segments_per_depth"] = totals.segments_per_depth;
   json["seconds"] = stage_seconds(run, totals, write_seconds);
-  json["rays_per_second"] = rate(traced_segments(totals), sum_seconds(totals, "trace"));
+  json["rays_per_second"] = rate(totals.timed_segments, sum_seconds(totals, "trace"));
   json["frames_per_second"] = rate(totals.frames, sum_seconds(totals, "frame"));
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["order"] = {{"asked", run.config.order.method.word()},

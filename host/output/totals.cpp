@@ -71,6 +71,8 @@ Totals totals_of(const FrameResult& frame) {
   totals.segments_per_depth = frame.segments_per_depth;
   totals.cache = frame.cache;
   for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
+  if (frame.seconds.contains("trace"))
+    totals.timed_segments = frame.counts.segments - frame.cache.hits - frame.cache.shared;
   add_warnings(totals.warnings, frame.warnings);
   totals.missing = frame.missing;
   return totals;
@@ -93,6 +95,7 @@ void add(Totals& sum, const Totals& later) {
   sum.last = later.last;
   sum.end_s = later.end_s;
   sum.vertices += later.vertices;
+  sum.timed_segments += later.timed_segments;
   sum.links += later.links;
   add(sum.counts, later.counts);
   add(sum.kinds, later.kinds);
@@ -163,6 +166,11 @@ double median_seconds(const Totals& totals, const std::string& stage) {
 double sum_seconds(const Totals& totals, const std::string& stage) {
   const auto found = totals.seconds.find(stage);
   return found == totals.seconds.end() ? 0.0 : std::accumulate(found->second.begin(), found->second.end(), 0.0);
+}
+
+double segments_per_second(const Totals& totals) {
+  const double seconds = sum_seconds(totals, "trace");
+  return seconds > 0 ? static_cast<double>(totals.timed_segments) / seconds : 0;
 }
 
 }  // namespace wavetracer

@@ -23,9 +23,11 @@ struct Totals {
   LeftOutPaths left_out;  // of counts.paths, which are those that were found; all 0 where nothing may be left out
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
-  std::map<std::string, std::vector<double>> seconds;  // stage -> one value per frame
-  std::vector<std::string> warnings;                   // each text once, in order of first appearance
-  MissingLinks missing;                                // of the first frame that was asked about
+  // Stage -> one value per frame that measured it: device stages are not in all (Simulation::profile_every).
+  std::map<std::string, std::vector<double>> seconds;
+  uint64_t timed_segments = 0;        // of counts.segments, those that were traced in frames that measured it
+  std::vector<std::string> warnings;  // each text once, in order of first appearance
+  MissingLinks missing;               // of the first frame that was asked about
 };
 
 Totals totals_of(Frames frames);
@@ -36,6 +38,8 @@ void add_block(Totals& sum, const Totals& more);
 
 // Segments that the device traced: those that no ray cache answered.
 uint64_t traced_segments(const Totals& totals);
+// Of them per second of tracing; 0 where that was not measured.
+double segments_per_second(const Totals& totals);
 
 // Median of a stage over the frames; 0 where no frame has it.
 double median_seconds(const Totals& totals, const std::string& stage);

@@ -94,6 +94,7 @@ Place::Place(gpu::Context& context, const std::vector<Scene>& models, const std:
     wt_exact_instance& record = records_.emplace_back();
     record.first_surface = instance.first_surface;
     record.first_model_surface = models_[instance.model].first_surface;
+    record.first_wedge = instance.first_wedge;
   }
   scene.exact_instances = context.buffer<wt_exact_instance>(records_.size(), "instances");
   scene.definitions["WT_INSTANCES"] = "1";
@@ -225,6 +226,8 @@ void Place::surfaces(DeviceScene& scene, std::span<const Placement> placements) 
       for (int column = 0; column < 3; ++column)
         record.rotation[3 * row + column] = placements[i].rotation[column][row];
       record.position[row] = placements[i].position_m[row];
+      record.velocity[row] = placements[i].velocity_m_s[row];
+      record.angular_velocity[row] = placements[i].angular_velocity_rad_s[row];
     }
     record.present = placements[i].present;
   }

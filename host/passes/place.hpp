@@ -1,5 +1,5 @@
 // place: vehicles in the scene of a frame: their surfaces for the exact solve, and a top-level tree over the instances.
-// The trees of the models are built once; a frame uploads 112 bytes per instance, and where the host builds the tree
+// The trees of the models are built once; a frame uploads 160 bytes per instance, and where the host builds the tree
 // over them, 128 bytes more.
 #pragma once
 #include <cstdint>

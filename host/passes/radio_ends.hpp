@@ -17,6 +17,15 @@ struct RadioEnds {
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
 };
 
+// Links as RadioEnds::links has them.
+inline std::vector<uint16_t> link_masks(const RadioEnds& ends, const std::vector<Link>& links) {
+  const uint32_t groups = ends.receiver_capacity / 16;
+  std::vector<uint16_t> mask(size_t{ends.transmitter_count} * groups, 0);
+  for (const Link& link : links)
+    mask[size_t{link.tx} * groups + link.rx / 16] |= static_cast<uint16_t>(1u << link.rx % 16);
+  return mask;
+}
+
 inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndState>& transmitters,
                                  const std::vector<EndState>& receivers, const std::vector<Link>& links,
                                  const std::vector<uint32_t>& listeners = {}) {
@@ -35,16 +44,12 @@ inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndSta
   for (int axis = 0; axis < 3; ++axis)
     for (uint32_t i = 0; i < ends.receiver_capacity; ++i)
       planes.push_back(static_cast<float>(receivers[std::min(i, ends.receiver_count - 1)].position_m[axis]));
-  const uint32_t groups = ends.receiver_capacity / 16;
-  std::vector<uint16_t> mask(size_t{ends.transmitter_count} * groups, 0);
-  for (const Link& link : links)
-    mask[size_t{link.tx} * groups + link.rx / 16] |= static_cast<uint16_t>(1u << link.rx % 16);
   std::vector<EndState> launching = transmitters;
   for (const uint32_t receiver : listeners) launching.push_back(receivers[receiver]);
   ends.transmitters = context.buffer(quadruples(launching), "transmitters");
   ends.receivers = context.buffer(quadruples(receivers), "receivers");
   ends.receiver_planes = context.buffer(planes, "receiver planes");
-  ends.links = context.buffer(mask, "links");
+  ends.links = context.buffer(link_masks(ends, links), "links");
   return ends;
 }
 

@@ -28,7 +28,7 @@ Scan::Scan(gpu::Context& context, const ScanTuning& form)
   scan_ = context.kernel("scan", "scan", definitions);
 }
 
-uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count) {
+uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage) {
   if (count > counts.size())
     throw std::invalid_argument(fmt::format("scan: {} counts of a buffer of {}", count, counts.size()));
   if (count == 0) return 0;
@@ -38,9 +38,9 @@ uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count) {
   const uint64_t chunk = ((count + wanted - 1) / wanted + tile - 1) / tile * tile;
   const uint64_t groups = (count + chunk - 1) / chunk;
   const auto words = static_cast<uint32_t>(std::min(chunk, uint64_t{~0u}));
-  if (groups > 1) scan_sums_({groups * form_.items, form_.items}, "scan", counts, count, words, sums_);
-  scan_({groups * form_.items, form_.items}, "scan", counts, count, words, sums_, total_);
-  return total_.read_one(0, "scan");
+  if (groups > 1) scan_sums_({groups * form_.items, form_.items}, stage, counts, count, words, sums_);
+  scan_({groups * form_.items, form_.items}, stage, counts, count, words, sums_, total_);
+  return total_.read_one(0, stage);
 }
 
 }  // namespace wavetracer

@@ -11,7 +11,8 @@ class Scan {
   explicit Scan(gpu::Context& context);
   Scan(gpu::Context& context, const ScanTuning& form);
   // Scans counts[0 .. count - 1] and returns their sum, modulo 2^32.
-  uint32_t operator()(gpu::Buffer<uint32_t>& counts, uint32_t count);
+  // stage: the profiling sum that the time goes to.
+  uint32_t operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage = "scan");
 
  private:
   ScanTuning form_;

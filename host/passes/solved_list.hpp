@@ -18,6 +18,14 @@ struct SolvedList {
     vertices = context.buffer<double>(3 * rows * max_depth, "path vertices");
     sequences = context.buffer<uint32_t>(rows * max_depth, "path surfaces");
   }
+  // Copies the rows of a list of the same depth to the beginning of this one, which has room for them.
+  void copy_from(gpu::Context& context, const SolvedList& list) {
+    const size_t rows = list.count;
+    context.copy(list.headers, headers, rows * sizeof(wt_solved), "visible");
+    context.copy(list.vertices, vertices, 3 * rows * max_depth * sizeof(double), "visible");
+    context.copy(list.sequences, sequences, rows * max_depth * sizeof(uint32_t), "visible");
+    count = list.count;
+  }
 };
 
 }  // namespace wavetracer

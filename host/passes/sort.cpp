@@ -21,12 +21,13 @@ void Sort::reserve(uint32_t n) {
   if (temporary_.size() < words(n)) temporary_ = context_.buffer<uint32_t>(words(n), "sort");
 }
 
-void Sort::operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits) {
+void Sort::operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits,
+                      const char* stage) {
   if (temporary_.size() < words(n)) reserve(n + std::min(n / 4, ~n));  // they are often a few more the next time
   if (n <= bitonic_.block())
-    bitonic_(keys, order, n, temporary_);
+    bitonic_(keys, order, n, temporary_, stage);
   else
-    radix_(keys, order, n, temporary_, 0, bits);
+    radix_(keys, order, n, temporary_, 0, bits, stage);
 }
 
 }  // namespace wavetracer

@@ -11,9 +11,11 @@ class Sort {
   explicit Sort(gpu::Context& context);
   // Makes its temporary memory large enough for up to n keys; the sorts do so by themselves where it is not.
   void reserve(uint32_t n);
+  // stage: the profiling sum that the time goes to.
   // Sorts keys[0 .. n - 1] by their lowest `bits` bits, above which they must be zero; order[i] becomes the place that
   // the i-th had. Buffers may be longer than n.
-  void operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits);
+  void operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits,
+                  const char* stage = "sort");
 
  private:
   size_t words(uint32_t n) const;  // of temporary memory for up to n keys

@@ -15,17 +15,30 @@ Visible::Visible(gpu::Context& context, uint32_t max_depth)
   visible_.reserve(context, 1 << 12);
 }
 
-const SolvedList& Visible::operator()(const SolvedList& solved, gpu::Buffer<wt_counters>& counters) {
+void Visible::clear(gpu::Buffer<wt_counters>& counters) {
   zero_counter(context_, counters, offsetof(wt_counters, visible), "visible");
-  visible_.count = fill_list(
-      counters, &wt_counters::visible, "visible", [&] { return visible_.headers.size(); },
+  visible_.count = 0;
+}
+
+void Visible::operator()(const SolvedList& solved, gpu::Buffer<wt_counters>& counters) {
+  if (solved.count == 0) return;
+  wt_counters now{};
+  visible_.count = grow_until_filled(
       [&] {
         kernel_({solved.count, local_}, "visible", solved.headers, solved.vertices, solved.sequences, solved.count,
                 solved.max_depth, visible_.headers, visible_.vertices, visible_.sequences,
                 static_cast<uint32_t>(visible_.headers.size()), counters);
       },
-      [&](size_t rows) { visible_.reserve(context_, rows); });
-  return visible_;
+      [&] { return (now = counters.read_one(0, "visible")).visible; }, [&] { return visible_.headers.size(); },
+      [&](size_t rows) {
+        SolvedList larger;
+        larger.max_depth = visible_.max_depth;
+        larger.reserve(context_, rows);
+        larger.copy_from(context_, visible_);
+        visible_ = std::move(larger);
+        now.visible = visible_.count;
+        counters.write(std::vector{now}, 0, "visible");
+      });
 }
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// visible: the solved paths that occlusion has left, as a list of their own, a fraction of what was solved.
-// The list grows until it holds them.
+// visible: the solved paths that occlusion has left, as a list of their own, a fraction of what was solved: those of
+// all kinds, one after the other. The list grows until it holds them.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/solved_list.hpp"
@@ -9,7 +9,11 @@ namespace wavetracer {
 class Visible {
  public:
   Visible(gpu::Context& context, uint32_t max_depth);
-  const SolvedList& operator()(const SolvedList& solved, gpu::Buffer<wt_counters>& counters);
+  // The list begins with nothing.
+  void clear(gpu::Buffer<wt_counters>& counters);
+  // Appends those of `solved`.
+  void operator()(const SolvedList& solved, gpu::Buffer<wt_counters>& counters);
+  SolvedList& list() { return visible_; }
 
  private:
   gpu::Context& context_;

@@ -7,42 +7,23 @@
 #include <numbers>
 #include <numeric>
 
+#include "radio/world_records.hpp"
+
 namespace wavetracer {
 
 namespace {
 
 constexpr double half_plane_rad = 2 * std::numbers::pi - 1e-6;
 
-// In the coordinates of its scene, with its surfaces numbered through the world.
-wt_wedge record_of(const Wedge& wedge, uint32_t first_surface, uint32_t instance) {
-  wt_wedge record{};
-  for (int axis = 0; axis < 3; ++axis) {
-    record.start[axis] = wedge.start[axis];
-    record.along[axis] = wedge.along[axis];
-    record.face[axis] = wedge.face[axis];
-    record.normal[axis] = wedge.normal[axis];
-  }
-  record.length = wedge.length_m;
-  record.exterior = wedge.exterior_rad;
-  for (int face = 0; face < 2; ++face) record.surfaces[face] = first_surface + wedge.surface[face];
-  record.instance = instance;
-  return record;
-}
-
 }  // namespace
 
 Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
                const std::vector<Instance>& instances, bool free_edges)
     : kernel_(context.kernel("wedges", "wedges")), local_(context.info().simple_local_size()) {
-  std::vector<wt_wedge> records;
-  for (const Wedge& wedge : scene.wedges) records.push_back(record_of(wedge, 0, WT_NONE));
-  static_count_ = static_cast<uint32_t>(records.size());
+  const std::vector<wt_wedge> records = wedge_records(scene, models, instances);
+  static_count_ = static_cast<uint32_t>(scene.wedges.size());
   size_t surfaces = scene.surfaces.size();
-  for (uint32_t i = 0; i < instances.size(); ++i) {
-    const Scene& model = models[instances[i].model];
-    for (const Wedge& wedge : model.wedges) records.push_back(record_of(wedge, instances[i].first_surface, i));
-    surfaces += model.surfaces.size();
-  }
+  for (const Instance& instance : instances) surfaces += models[instance.model].surfaces.size();
   moving_count_ = static_cast<uint32_t>(records.size()) - static_count_;
 
   std::vector<uint32_t> first(surfaces + 1, 0);

@@ -1,13 +1,11 @@
 // The antenna of a radio end: pattern, slant, orientation.
-// Assumes unit directions; the pattern is always evaluated in the antenna's own frame.
+// Cosines and sines of slants and orientations are the host's: they are made once and carried to every device.
 #include "radio/antenna.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <glm/matrix.hpp>
 #include <numbers>
 
 #include "wavetracer/error.hpp"
@@ -17,12 +15,12 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
-Pattern pattern_of(const RadioEnd& end) {
-  constexpr std::array named = {isotropic_pattern, short_dipole_pattern, half_wave_dipole_pattern, tr38901_pattern};
-  static_assert(named.size() == NamedAntenna::words.size());
-  if (const auto antenna = NamedAntenna::parse(end.antenna)) return named[antenna->index()];
+// The number of a named pattern, or WT_PATTERN_GRID and what the file has.
+std::pair<uint32_t, PatternGrid> pattern_of(const RadioEnd& end) {
+  static_assert(NamedAntenna::words.size() == WT_PATTERN_GRID);
+  if (const auto antenna = NamedAntenna::parse(end.antenna)) return {static_cast<uint32_t>(antenna->index()), {}};
   std::error_code unnameable;
-  if (std::filesystem::is_regular_file(end.antenna, unnameable)) return load_pattern(end.antenna);
+  if (std::filesystem::is_regular_file(end.antenna, unnameable)) return {WT_PATTERN_GRID, load_pattern(end.antenna)};
   throw ConfigError(
       fmt::format("\"{}\": antenna = \"{}\" is neither isotropic, short-dipole, dipole or tr38901 nor a "
                   "pattern file that exists",
@@ -48,32 +46,35 @@ glm::dmat3 rotation_of(const std::array<double, 3>& orientation_deg) {
   return about_z * about_y * about_x;
 }
 
-Antenna::Antenna(Pattern pattern, const std::vector<double>& slants_rad, const glm::dmat3& rotation)
-    : pattern_(std::move(pattern)), to_global_(rotation) {
-  const auto* function = pattern_.target<FieldPair (*)(const Angles&)>();
-  isotropic_ = function && *function == isotropic_pattern;
-  for (const double slant : slants_rad) slants_.push_back({std::cos(slant), std::sin(slant)});
+Antenna::Antenna(uint32_t pattern, const PatternGrid& grid, const std::vector<double>& slants_rad,
+                 const glm::dmat3& rotation)
+    : samples_(grid.samples), to_global_(rotation) {
+  record_.pattern = pattern;
+  record_.ports = static_cast<uint32_t>(slants_rad.size());
+  record_.rows = grid.rows;
+  record_.columns = grid.columns;
+  record_.theta_step = grid.theta_step;
+  record_.phi_step = grid.phi_step;
+  record_.first_phi = grid.first_phi;
+  for (size_t port = 0; port < slants_rad.size(); ++port) {
+    record_.slant[port][0] = std::cos(slants_rad[port]);
+    record_.slant[port][1] = std::sin(slants_rad[port]);
+  }
 }
 
-PortFields Antenna::fields(const glm::dvec3& direction, const SphericalBasis& basis, const glm::dmat3& rotation) const {
-  const glm::dvec3 local = glm::transpose(rotation) * direction;
-  const FieldPair own = pattern_(isotropic_ ? Angles{0, 0} : angles_of(local));
-  const SphericalBasis from = basis_of(local);
-  const glm::dvec3 theta = rotation * from.theta, phi = rotation * from.phi;
-  const double theta_theta = glm::dot(theta, basis.theta), phi_theta = glm::dot(phi, basis.theta);
-  const double theta_phi = glm::dot(theta, basis.phi), phi_phi = glm::dot(phi, basis.phi);
-  PortFields out{};
-  for (uint32_t port = 0; port < ports(); ++port) {
-    const auto [cosine, sine] = slants_[port];
-    const std::complex<double> along_theta = cosine * own.theta - sine * own.phi;
-    const std::complex<double> along_phi = sine * own.theta + cosine * own.phi;
-    out[port] = {along_theta * theta_theta + along_phi * phi_theta, along_theta * theta_phi + along_phi * phi_phi};
-  }
-  return out;
+FieldPair Antenna::field(uint32_t port, const glm::dvec3& direction) const {
+  double rotation[9];
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) rotation[3 * row + column] = to_global_[column][row];
+  const auto fields =
+      device::wt_antenna_fields(&record_, samples_.data(), rotation, direction, device::wt_spherical_basis(direction));
+  const device::wt_field_pair& pair = fields.port[port];
+  return {{pair.theta.x, pair.theta.y}, {pair.phi.x, pair.phi.y}};
 }
 
 Antenna make_antenna(const RadioEnd& end) {
-  return Antenna(pattern_of(end), slants_of(end), rotation_of(end.orientation_deg));
+  const auto [pattern, grid] = pattern_of(end);
+  return Antenna(pattern, grid, slants_of(end), rotation_of(end.orientation_deg));
 }
 
 }  // namespace wavetracer

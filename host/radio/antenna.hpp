@@ -1,13 +1,16 @@
 // The antenna of a radio end: an element pattern, one or two ports, turned into the global frame.
-// Everything is per port: ports of one antenna share place and pattern and differ in polarisation.
+// Everything is per port: ports of one antenna share place and pattern and differ in polarisation. Fields are computed
+// by wavetracer/device/antenna.h, here as on devices.
 #pragma once
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <vector>
 
 #include "radio/pattern.hpp"
 #include "wavetracer/config.hpp"
+#include "wavetracer/device/antenna.h"
 
 namespace wavetracer {
 
@@ -15,36 +18,28 @@ namespace wavetracer {
 // new x, in degrees (3GPP TR 38.901, eq. 7.1-2). A positive pitch turns the boresight +x down.
 glm::dmat3 rotation_of(const std::array<double, 3>& orientation_deg);
 
-using PortFields = std::array<FieldPair, 2>;
-
 class Antenna {
  public:
+  // pattern: one of WT_PATTERN_*; grid: its samples where it is WT_PATTERN_GRID.
   // slants_rad: one per port, the angle by which the pattern's field is turned about the direction of travel, from
   // theta-hat (V) towards phi-hat (H): the polarisation model of TR 38.901, eq. 7.3-4 and 7.3-5. The shape of the
   // pattern stays; to lay a dipole down, use the orientation.
-  Antenna(Pattern pattern, const std::vector<double>& slants_rad, const glm::dmat3& rotation);
+  Antenna(uint32_t pattern, const PatternGrid& grid, const std::vector<double>& slants_rad, const glm::dmat3& rotation);
 
-  uint32_t ports() const { return static_cast<uint32_t>(slants_.size()); }
+  uint32_t ports() const { return record_.ports; }
   // That of its own orientation.
   const glm::dmat3& rotation() const { return to_global_; }
+  const device::wt_antenna& record() const { return record_; }
+  const std::vector<double>& samples() const { return samples_; }
 
-  // The field pattern of each port (0 for one that it does not have) in a global direction, of unit length and away
-  // from the antenna, along the vectors of basis, which is basis_of(direction). Squared length: gain over isotropic. By
-  // reciprocity it serves sending and receiving alike. rotation: from the antenna's axes to global ones.
-  PortFields fields(const glm::dvec3& direction, const SphericalBasis& basis, const glm::dmat3& rotation) const;
-  // That of one port, in the antenna's own orientation.
-  FieldPair field(uint32_t port, const glm::dvec3& direction) const {
-    return fields(direction, basis_of(direction), to_global_)[port];
-  }
+  // The field pattern of a port in a global direction, of unit length and away from the antenna, along the spherical
+  // unit vectors there, in the antenna's own orientation. Squared length: gain over isotropic. By reciprocity it serves
+  // sending and receiving alike.
+  FieldPair field(uint32_t port, const glm::dvec3& direction) const;
 
  private:
-  struct Slant {
-    double cosine, sine;
-  };
-
-  Pattern pattern_;
-  bool isotropic_;             // the pattern does not look at its angles
-  std::vector<Slant> slants_;  // one per port
+  device::wt_antenna record_{};
+  std::vector<double> samples_;
   glm::dmat3 to_global_;
 };
 

@@ -1,191 +1,175 @@
-// Delays, angles and coefficients of exact paths: first all lengths, which order the rows, then row by row in place.
-// Rows are independent of each other, and all but the grouping by link runs on all cores.
+// Rows as devices have them, in the order of links; then row by row, on all cores.
 #include "radio/fields.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <stdexcept>
 
 #include "radio/constants.hpp"
-#include "radio/link_groups.hpp"
+#include "radio/world_records.hpp"
+#include "wavetracer/device/path_field.h"
+#include "wavetracer/error.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
 namespace {
 
 glm::dvec3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-// The order of rows of one link, complete: two paths that compare equal are the same path.
-bool precedes(const PathGeometry& geometry, const std::vector<double>& delay_s, uint32_t p, uint32_t q) {
-  if (delay_s[p] != delay_s[q]) return delay_s[p] < delay_s[q];
-  const auto begin = [&](size_t i) { return static_cast<std::ptrdiff_t>(geometry.first[i]); };
-  const auto compare = [&](const auto& values, const auto& less) {
-    const auto at = values.begin();
-    return std::lexicographical_compare(at + begin(p), at + begin(p + 1), at + begin(q), at + begin(q + 1), less) -
-           std::lexicographical_compare(at + begin(q), at + begin(q + 1), at + begin(p), at + begin(p + 1), less);
-  };
-  if (const int order = compare(geometry.surface, std::less<>{})) return order > 0;
-  if (const int order = compare(geometry.interaction, std::less<>{})) return order > 0;
-  return compare(geometry.vertex, [](const glm::dvec3& a, const glm::dvec3& b) {
-           return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-         }) > 0;
+// A geometry as solved paths, whose rows are all as they are.
+struct SolvedRows {
+  std::vector<wt_solved> solved;
+  std::vector<double> vertices, transmitters, receivers;
+  std::vector<uint32_t> steps;
+  uint32_t max_depth = 1;
+
+  device::wt_path_list list() const {
+    return {solved.data(),    vertices.data(), steps.data(), transmitters.data(),
+            receivers.data(), nullptr,         nullptr,      max_depth};
+  }
+};
+
+// Throws std::out_of_range for a number that nothing has.
+void check_numbers(const PathGeometry& paths, size_t surfaces, size_t wedges, size_t tiles) {
+  for (size_t i = 0; i < paths.surface.size(); ++i) {
+    const uint8_t kind = paths.interaction[i];
+    if (kind == scattering && tiles == 0)
+      throw RuntimeError("a path scatters from a tile, but there are none without trace.scattering");
+    const size_t count = kind == diffraction ? wedges : kind == scattering ? tiles : surfaces;
+    if (paths.surface[i] >= count)
+      throw std::out_of_range(
+          fmt::format("a path has number {} of {} surfaces, wedges or tiles", paths.surface[i], count));
+  }
 }
 
-// Paths in the order of rows.
-std::vector<uint32_t> ordered(const PathGeometry& geometry, const std::vector<double>& delay_s) {
-  LinkGroups links = group_by_link(geometry.tx, geometry.rx);
-  tbb::parallel_for(size_t{0}, links.size(), [&](size_t link) {
-    std::ranges::sort(links.rows(link), [&](uint32_t p, uint32_t q) { return precedes(geometry, delay_s, p, q); });
+std::vector<double> positions(std::span<const EndState> ends) {
+  std::vector<double> out;
+  for (const EndState& end : ends) out.insert(out.end(), {end.position_m.x, end.position_m.y, end.position_m.z, -1.0});
+  return out;
+}
+
+SolvedRows solved_rows(const PathGeometry& paths, const WorldState& state) {
+  SolvedRows rows;
+  const auto depth = [&](size_t path) { return static_cast<uint32_t>(paths.first[path + 1] - paths.first[path]); };
+  for (size_t path = 0; path < paths.size(); ++path) rows.max_depth = std::max(rows.max_depth, depth(path));
+  rows.vertices.resize(3 * paths.size() * rows.max_depth);
+  rows.steps.resize(paths.size() * rows.max_depth);
+  for (size_t path = 0; path < paths.size(); ++path) {
+    rows.solved.push_back({.transmitter = paths.tx[path],
+                           .receiver = paths.rx[path],
+                           .depth = depth(path),
+                           .blocked = 0,
+                           .node = WT_NONE,
+                           .quarters = paths.quarters.empty() ? 0u : paths.quarters[path]});
+    for (uint32_t k = 0; k < depth(path); ++k) {
+      const uint64_t from = paths.first[path] + k, to = path * rows.max_depth + k;
+      const InteractionKind* kind = find_interaction(paths.interaction[from]);
+      if (!kind)
+        throw RuntimeError(fmt::format("path {} has an interaction of kind {}, which fields do not know", path,
+                                       paths.interaction[from]));
+      rows.steps[to] = paths.surface[from] | kind->step << WT_STEP_SHIFT;
+      for (int axis = 0; axis < 3; ++axis) rows.vertices[3 * to + axis] = paths.vertex[from][axis];
+    }
+  }
+  rows.transmitters = positions(state.transmitters);
+  rows.receivers = positions(state.receivers);
+  return rows;
+}
+
+// The rows of a frame in their order, and their delays.
+struct OrderedRows {
+  std::vector<uint32_t> rows;
+  std::vector<double> delays;
+};
+
+OrderedRows ordered_rows(const device::wt_path_list& list, const device::wt_field_world& world, size_t count,
+                         LeftOut& left_out) {
+  std::vector<uint32_t> kept;
+  std::vector<double> delay(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    const device::wt_path path = device::wt_path_of(&list, 2 * i);
+    delay[i] = device::wt_path_length(&path) / speed_of_light_m_s;
+    if (device::wt_is_near(&world, &path))
+      ++left_out[{path.transmitter, path.receiver}];
+    else
+      kept.push_back(i);
+  }
+  std::ranges::sort(kept, [&](uint32_t i, uint32_t j) {
+    const device::wt_path a = device::wt_path_of(&list, 2 * i), b = device::wt_path_of(&list, 2 * j);
+    const Link link_a{a.transmitter, a.receiver}, link_b{b.transmitter, b.receiver};
+    return link_a != link_b ? link_a < link_b : device::wt_compare_rows(&a, &b, delay[i], delay[j]) < 0;
   });
-  return std::move(links.row);
-}
-
-// Is there a path of these interactions among the rows of the link, as long as this row's to a picosecond?
-bool has_sibling(const PathGeometry& geometry, const std::vector<double>& delay_s, const std::vector<uint32_t>& order,
-                 size_t row, std::span<const uint32_t> surfaces, std::span<const uint8_t> interactions) {
-  const uint32_t path = order[row];
-  const auto near = [&](size_t other) {
-    const uint32_t p = order[other];
-    return geometry.tx[p] == geometry.tx[path] && geometry.rx[p] == geometry.rx[path] &&
-           std::abs(delay_s[p] - delay_s[path]) < 1e-12;
-  };
-  const auto same = [&](size_t other) {
-    const uint64_t first = geometry.first[order[other]], count = geometry.first[order[other] + 1] - first;
-    return std::ranges::equal(std::span(geometry.surface).subspan(first, count), surfaces) &&
-           std::ranges::equal(std::span(geometry.interaction).subspan(first, count), interactions);
-  };
-  size_t begin = row, end = row + 1;
-  while (begin > 0 && near(begin - 1)) --begin;
-  while (end < order.size() && near(end)) ++end;
-  for (size_t other = begin; other < end; ++other)
-    if (same(other)) return true;
-  return false;
-}
-
-// Columns of this many rows and vertices. Most of the time goes to pages that are touched first, so cores share it.
-void resize(Paths& paths, size_t rows, size_t vertices) {
-  tbb::parallel_invoke(
-      [&] { paths.a.resize(rows); },
-      [&] {
-        for (auto* column : {&paths.frame, &paths.tx, &paths.rx, &paths.depth}) column->resize(rows);
-      },
-      [&] {
-        for (auto* column : {&paths.delay_s, &paths.gain_db, &paths.doppler_hz}) column->resize(rows);
-      },
-      [&] {
-        for (auto* column : {&paths.aod_theta_rad, &paths.aod_phi_rad, &paths.aoa_theta_rad, &paths.aoa_phi_rad})
-          column->resize(rows);
-      },
-      [&] { paths.vertex_position_m.resize(vertices); },
-      [&] {
-        paths.vertex_interaction.resize(vertices);
-        paths.vertex_surface.resize(vertices);
-        paths.vertex_instance.resize(vertices);
-      },
-      [&] { paths.vertex_offset.resize(rows + 1); });
-}
-
-uint32_t most_ports(const std::vector<Antenna>& antennas) {
-  uint32_t ports = 1;
-  for (const Antenna& antenna : antennas) ports = std::max(ports, antenna.ports());
-  return ports;
+  OrderedRows ordered;
+  for (const uint32_t i : kept) {
+    ordered.rows.push_back(2 * i);
+    ordered.delays.push_back(delay[i]);
+  }
+  return ordered;
 }
 
 }  // namespace
 
 FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models,
                        std::span<const Instance> instances)
-    : interactions_(scene, config, models, instances), origin_m_(scene.origin_m) {
-  const auto make_ends = [&](const std::vector<RadioEnd>& ends, std::vector<Antenna>& made,
-                             std::vector<EndState>& still) {
-    for (const RadioEnd& end : ends) {
-      made.push_back(make_antenna(end));
-      still.push_back({.position_m = to_vector(end.position_m) - scene.origin_m,
-                       .rotation = made.back().rotation(),
-                       .velocity_m_s = to_vector(end.velocity_m_s)});
-    }
+    : scene_(scene),
+      models_(models),
+      instances_(instances.begin(), instances.end()),
+      tables_(make_field_tables(scene, config, models, instances)) {
+  const auto still = [&](const std::vector<RadioEnd>& ends, std::vector<EndState>& states) {
+    for (const RadioEnd& end : ends)
+      states.push_back({.position_m = to_vector(end.position_m) - scene.origin_m,
+                        .rotation = rotation_of(end.orientation_deg),
+                        .velocity_m_s = to_vector(end.velocity_m_s)});
   };
-  make_ends(config.transmitters, transmitters_, still_.transmitters);
-  make_ends(config.receivers, receivers_, still_.receivers);
-  tx_ports_ = most_ports(transmitters_);
-  rx_ports_ = most_ports(receivers_);
+  still(config.transmitters, still_.transmitters);
+  still(config.receivers, still_.receivers);
 }
 
-void FieldModel::evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs,
-                          const SiblingQuestion& sibling, Paths& paths, size_t row) const {
-  const Antenna &tx = transmitters_[geometry.tx[path]], &rx = receivers_[geometry.rx[path]];
-  const glm::dvec3 departure = legs.directions().front(), arrival = -legs.directions().back();
-  const uint64_t first = geometry.first[path], first_vertex = paths.vertex_offset[row];
-  const size_t count = geometry.first[path + 1] - first;
-  for (size_t m = 0; m < count; ++m) {
-    const VertexPlace place = interactions_.place(geometry, first + m);
-    paths.vertex_position_m[first_vertex + m] = geometry.vertex[first + m] + origin_m_;
-    paths.vertex_interaction[first_vertex + m] = geometry.interaction[first + m];
-    paths.vertex_surface[first_vertex + m] = place.number;
-    paths.vertex_instance[first_vertex + m] = place.instance;
-  }
-  const SphericalBasis departure_basis = basis_of(departure), arrival_basis = basis_of(arrival);
-  const Matrix2 m = interactions_.carried(geometry, path, state, legs, departure_basis, arrival_basis, sibling);
-
-  const Angles aod = angles_of(departure), aoa = angles_of(arrival);
-  paths.tx[row] = geometry.tx[path];
-  paths.rx[row] = geometry.rx[path];
-  paths.depth[row] = static_cast<uint32_t>(count);
-  paths.delay_s[row] = legs.length_m() / speed_of_light_m_s;
-  paths.aod_theta_rad[row] = aod.theta_rad;
-  paths.aod_phi_rad[row] = aod.phi_rad;
-  paths.aoa_theta_rad[row] = aoa.theta_rad;
-  paths.aoa_phi_rad[row] = aoa.phi_rad;
-  // Plus zero: where all stands still the shift is 0, not -0.
-  const double wavelength_m = interactions_.wavelength_m();
-  const std::span instances(paths.vertex_instance.data() + first_vertex, count);
-  paths.doppler_hz[row] = closing_speed_m_s(legs, state, geometry, path, instances) / wavelength_m + 0.0;
-  const PortFields sent = tx.fields(departure, departure_basis, state.transmitters[geometry.tx[path]].rotation);
-  const PortFields heard = rx.fields(arrival, arrival_basis, state.receivers[geometry.rx[path]].rotation);
-  const double at_1_m = wavelength_m / (4 * std::numbers::pi);
-  double power = 0;
-  for (uint32_t t = 0; t < tx.ports(); ++t) {
-    const FieldPair come{m[0] * sent[t].theta + m[1] * sent[t].phi, m[2] * sent[t].theta + m[3] * sent[t].phi};
-    for (uint32_t r = 0; r < rx.ports(); ++r) {
-      std::complex<double>& a = paths.a[row][r * tx_ports_ + t];
-      a = at_1_m * (heard[r].theta * come.theta + heard[r].phi * come.phi);
-      power += std::norm(a);
-    }
-  }
-  paths.gain_db[row] = 10 * std::log10(power);
-}
-
-Paths FieldModel::compute(uint32_t frame, PathGeometry found, const WorldState& state, LeftOut* left_out) const {
+Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
+                          LeftOut* left_out) const {
+  const SolvedRows solved = solved_rows(geometry, state);
+  const auto surfaces = surface_records(scene_, models_, instances_, state);
+  auto wedges = wedge_records(scene_, models_, instances_);
+  place_wedges(wedges, state);
+  check_numbers(geometry, surfaces.size(), wedges.size(), tables_.surface_of_tile.size());
+  const auto instances = instance_records(instances_, state);
+  const auto transmitters = field_ends(state.transmitters, 0);
+  const auto receivers = field_ends(state.receivers, tables_.transmitters);
+  const device::wt_field_world world{surfaces.data(),
+                                     tables_.materials_of.data(),
+                                     tables_.materials.data(),
+                                     wedges.data(),
+                                     tables_.surface_of_tile.data(),
+                                     tables_.area_of_tile.data(),
+                                     instances.data(),
+                                     transmitters.data(),
+                                     receivers.data(),
+                                     tables_.antennas.data(),
+                                     tables_.samples.data(),
+                                     tables_.wavelength_m,
+                                     tables_.seed,
+                                     tables_.transmissions,
+                                     tables_.scatters};
+  const device::wt_path_list list = solved.list();
   LeftOut near;
-  const PathGeometry geometry = without_near_ends(std::move(found), interactions_.surfaces(), state, near);
+  const OrderedRows ordered = ordered_rows(list, world, geometry.size(), near);
   if (left_out) *left_out = std::move(near);
-  std::vector<double> delay_s(geometry.size());
-  tbb::parallel_for(size_t{0}, geometry.size(),
-                    [&](size_t path) { delay_s[path] = path_length_m(state, geometry, path) / speed_of_light_m_s; });
-  const std::vector<uint32_t> order = ordered(geometry, delay_s);
 
-  Paths paths;
-  paths.rx_ports = rx_ports_;
-  paths.tx_ports = tx_ports_;
-  resize(paths, geometry.size(), geometry.vertex.size());
-  std::ranges::fill(paths.frame, frame);
-  if (!geometry.quarters.empty())
-    for (const uint32_t path : order) paths.quarters.push_back(geometry.quarters[path]);
-  for (size_t row = 0; row < order.size(); ++row)
-    paths.vertex_offset[row + 1] =
-        paths.vertex_offset[row] + geometry.first[order[row] + 1] - geometry.first[order[row]];
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, geometry.size(), 64), [&](const tbb::blocked_range<size_t>& rows) {
-    Legs legs;
-    for (size_t row = rows.begin(); row < rows.end(); ++row) {
-      legs.fill(interactions_.surfaces(), state, geometry, order[row]);
-      const auto sibling = [&](std::span<const uint32_t> surfaces, std::span<const uint8_t> interactions) {
-        return has_sibling(geometry, delay_s, order, row, surfaces, interactions);
-      };
-      evaluate(geometry, order[row], state, legs, sibling, paths, row);
-    }
+  std::vector<uint64_t> first_vertex{0};
+  for (const uint32_t row : ordered.rows) first_vertex.push_back(first_vertex.back() + solved.solved[row / 2].depth);
+  std::vector<device::wt_path_row> path_rows(ordered.rows.size());
+  std::vector<device::wt_vertex_row> vertex_rows(first_vertex.back());
+  const device::wt_ordered_rows rows{&list, ordered.rows.data(), ordered.delays.data(),
+                                     static_cast<uint32_t>(ordered.rows.size())};
+  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, rows.count, 64), [&](const tbb::blocked_range<uint32_t>& range) {
+    for (uint32_t row = range.begin(); row < range.end(); ++row)
+      device::wt_write_row(&world, &rows, row, solved.solved[ordered.rows[row] / 2].quarters, scene_.origin_m,
+                           &path_rows[row], vertex_rows.data() + first_vertex[row]);
   });
+  Paths paths = columns_of(path_rows, vertex_rows, frame, tables_.ports);
+  if (geometry.quarters.empty()) paths.quarters.clear();
   return paths;
 }
 

@@ -1,35 +1,33 @@
 // From exact path geometry to propagation paths: delays, angles and coefficients, in double on the host.
-// Each row depends on its own path alone, so results do not depend on device, thread count or order of discovery.
+// The same code as on devices (wavetracer/device/path_field.h), row by row: the reference that devices are tested
+// against, and what paths that come from elsewhere are evaluated by. Results do not depend on the number of threads.
 #pragma once
-#include <complex>
-#include <span>
+#include <functional>
+#include <map>
 #include <string>
-#include <vector>
 
-#include "radio/antenna.hpp"
-#include "radio/interactions.hpp"
-#include "radio/legs.hpp"
-#include "radio/near_ends.hpp"
-#include "wavetracer/config.hpp"
+#include "radio/field_tables.hpp"
 #include "wavetracer/path_geometry.hpp"
 #include "wavetracer/paths.hpp"
-#include "wavetracer/scene.hpp"
-#include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 
-// What fields need to know about a world and its radio ends; made once, then used for every frame.
+// How many paths of a link were left out, because an antenna touches a surface or another antenna: an end that is at
+// most WT_ON_SURFACE_M from the plane of a surface stands on it, and the surface is no mirror next to that end; ends at
+// most as far from each other have no line of sight. Both ends of a path are treated alike, so that channels are
+// reciprocal.
+using LeftOut = std::map<Link, uint32_t>;
+
 // Keeps references to the scene and the models.
 class FieldModel {
  public:
-  // config: its transmitters and receivers are all of the world's. Throws ConfigError or InputError for an antenna that
-  // cannot be made, and ConfigError for a material that some surface uses and that is not known at radio.frequency_hz.
+  // As make_field_tables.
   FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models = {},
              std::span<const Instance> instances = {});
 
-  // geometry: interactions as class Interactions knows them, in any order of rows, in the recentred frame of the scene,
-  // its surfaces and wedges numbered through the world. Rows of the result are sorted by tx, rx, delay, surfaces (the
-  // world's numbers), interactions and vertices.
+  // geometry: in any order of rows, in the recentred frame of the scene, its surfaces, wedges and tiles numbered
+  // through the world. Rows of the result are sorted by tx, rx, delay, surfaces (the world's numbers), interactions and
+  // vertices.
   //   a[r tx_ports + t]: rx port r, tx port t; lambda / (4 pi) times both antennas' fields, every interaction and the
   //     spreading, which is 1 / L where nothing diffracts or scatters.
   //     Ports that an antenna does not have are 0.
@@ -38,25 +36,25 @@ class FieldModel {
   //     surfaces and edges that turn it.
   //   gain_db: over all pairs of ports, -inf if an antenna is blind in that direction.
   //   vertex_surface: its number in the static scene, or in the model of the instance in vertex_instance.
-  // Paths of near ends are left out (radio/near_ends.hpp) and counted in left_out. Throws RuntimeError for another
-  // interaction.
-  Paths compute(uint32_t frame, PathGeometry geometry, const WorldState& state, LeftOut* left_out = nullptr) const;
+  // Throws RuntimeError for an interaction of no known kind.
+  Paths compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
+                LeftOut* left_out = nullptr) const;
   // The same with every end where the configuration has it, and no instances.
-  Paths compute(uint32_t frame, PathGeometry geometry) const { return compute(frame, std::move(geometry), still_); }
+  Paths compute(uint32_t frame, const PathGeometry& geometry) const { return compute(frame, geometry, still_); }
 
  private:
-  // Writes row `row` of the result.
-  void evaluate(const PathGeometry& geometry, size_t path, const WorldState& state, const Legs& legs,
-                const SiblingQuestion& sibling, Paths& paths, size_t row) const;
-
-  Interactions interactions_;
-  glm::dvec3 origin_m_;
-  std::vector<Antenna> transmitters_, receivers_;
-  uint32_t tx_ports_, rx_ports_;  // the most that any end of that side has
+  const Scene& scene_;
+  std::span<const Scene> models_;
+  std::vector<Instance> instances_;
+  FieldTables tables_;
   WorldState still_;
 };
 
 // The same for a single frame of a world in which no surface moves.
 Paths compute_paths(const Scene& scene, const Config& config, uint32_t frame, const PathGeometry& geometry);
+
+// What to tell the user where anything was left out.
+using EndName = std::function<std::string(uint32_t end)>;
+std::string left_out_warning(const LeftOut& left_out, const EndName& tx_name, const EndName& rx_name);
 
 }  // namespace wavetracer

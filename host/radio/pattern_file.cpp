@@ -109,67 +109,38 @@ double regular_step(const std::string& file, const char* name, const std::set<in
   return step;
 }
 
-class GridPattern {
- public:
-  explicit GridPattern(const std::string& file) {
-    const Samples samples = read_samples(file);
-    std::set<int64_t> thetas, phis;
-    for (const auto& [key, sample] : samples) {
-      thetas.insert(key.first);
-      phis.insert(key.second);
-    }
-    if (*thetas.begin() != 0 || *thetas.rbegin() != half_turn) {
-      throw InputError(fmt::format("{}: theta_deg goes from {:g} to {:g}; it must cover 0 to 180", file,
-                                   degrees(*thetas.begin()), degrees(*thetas.rbegin())));
-    }
-    rows_ = thetas.size();
-    columns_ = phis.size();
-    first_phi_ = static_cast<double>(*phis.begin());
-    theta_step_ = regular_step(file, "theta_deg", thetas, half_turn, rows_ - 1);
-    phi_step_ = regular_step(file, "phi_deg", phis, full_turn, columns_);
-    field_.reserve(rows_ * columns_);
-    for (const int64_t theta : thetas) {
-      for (const int64_t phi : phis) {
-        const auto at = samples.find({theta, phi});
-        if (at == samples.end()) {
-          throw InputError(fmt::format("{}: the direction theta_deg = {:g}, phi_deg = {:g} is missing from the grid",
-                                       file, degrees(theta), degrees(phi)));
-        }
-        field_.push_back(at->second.field);
-      }
-    }
-  }
-
-  FieldPair operator()(const Angles& angles) const {
-    constexpr double micro_degrees = 180e6 / std::numbers::pi;
-    const double row = angles.theta_rad * micro_degrees / theta_step_;
-    const double column = (angles.phi_rad * micro_degrees - first_phi_) / phi_step_;
-    const double below = std::clamp(std::floor(row), 0.0, static_cast<double>(rows_ - 2));
-    const double before = std::floor(column);
-    const double down = std::clamp(row - below, 0.0, 1.0), across = column - before;
-    const size_t i = static_cast<size_t>(below), j = wrapped(before), next = (j + 1) % columns_;
-    return mix(mix(at(i, j), at(i, next), across), mix(at(i + 1, j), at(i + 1, next), across), down);
-  }
-
- private:
-  const FieldPair& at(size_t row, size_t column) const { return field_[row * columns_ + column]; }
-
-  size_t wrapped(double column) const {
-    const double count = static_cast<double>(columns_);
-    return static_cast<size_t>(column - count * std::floor(column / count)) % columns_;
-  }
-
-  static FieldPair mix(const FieldPair& a, const FieldPair& b, double t) {
-    return {(1 - t) * a.theta + t * b.theta, (1 - t) * a.phi + t * b.phi};
-  }
-
-  size_t rows_, columns_;                     // theta, phi
-  double first_phi_, theta_step_, phi_step_;  // micro-degrees
-  std::vector<FieldPair> field_;              // row major
-};
-
 }  // namespace
 
-Pattern load_pattern(const std::string& file) { return GridPattern(file); }
+PatternGrid load_pattern(const std::string& file) {
+  const Samples samples = read_samples(file);
+  std::set<int64_t> thetas, phis;
+  for (const auto& [key, sample] : samples) {
+    thetas.insert(key.first);
+    phis.insert(key.second);
+  }
+  if (*thetas.begin() != 0 || *thetas.rbegin() != half_turn) {
+    throw InputError(fmt::format("{}: theta_deg goes from {:g} to {:g}; it must cover 0 to 180", file,
+                                 degrees(*thetas.begin()), degrees(*thetas.rbegin())));
+  }
+  PatternGrid grid{.rows = static_cast<uint32_t>(thetas.size()),
+                   .columns = static_cast<uint32_t>(phis.size()),
+                   .theta_step = regular_step(file, "theta_deg", thetas, half_turn, thetas.size() - 1),
+                   .phi_step = regular_step(file, "phi_deg", phis, full_turn, phis.size()),
+                   .first_phi = static_cast<double>(*phis.begin()),
+                   .samples = {}};
+  for (const int64_t theta : thetas) {
+    for (const int64_t phi : phis) {
+      const auto at = samples.find({theta, phi});
+      if (at == samples.end()) {
+        throw InputError(fmt::format("{}: the direction theta_deg = {:g}, phi_deg = {:g} is missing from the grid",
+                                     file, degrees(theta), degrees(phi)));
+      }
+      const FieldPair& field = at->second.field;
+      grid.samples.insert(grid.samples.end(),
+                          {field.theta.real(), field.theta.imag(), field.phi.real(), field.phi.imag()});
+    }
+  }
+  return grid;
+}
 
 }  // namespace wavetracer

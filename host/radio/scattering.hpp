@@ -43,7 +43,4 @@ ScatteredWave scatter(const Material& material, std::complex<double> permittivit
                       const glm::dvec3& k_in, const glm::dvec3& k_out, const glm::dvec3& normal, double area_m2,
                       uint64_t seed, uint32_t tile);
 
-// What is left of the amplitude of the mirrored wave, sqrt(1 - S^2).
-double specular_share(const Material& material);
-
 }  // namespace wavetracer

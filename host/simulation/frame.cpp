@@ -2,11 +2,8 @@
 #include "simulation/frame.hpp"
 
 #include "radio/path_power.hpp"
-#include "simulation/distinct_paths.hpp"
 #include "simulation/launch_share.hpp"
 #include "simulation/recall_warning.hpp"
-#include "simulation/reciprocity.hpp"
-#include "simulation/visible_paths.hpp"
 
 namespace wavetracer {
 namespace {
@@ -57,6 +54,7 @@ FrameResult FrameLoop::run(const FrameTask& task) {
 }
 
 FrameResult FrameLoop::solve(const FrameTask& task) {
+  s_.context.set_profiling(task.timed);
   FrameAccount account(s_.context, task.frame);
   FrameResult& out = account.result;
 
@@ -89,26 +87,23 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();
 
   const bool spheres = s_.trails && s_.trails->receives();
-  PathGeometry paths = spheres ? receive_paths(ends, account)
-                               : solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), searches,
-                                             s_.frame_watch, account);  // sequences to distinct_paths
-  paths = with_reversed_twins(std::move(paths), s_.world.receiver_of_transmitter(), s_.world.transmitter_of_receiver(),
-                              links);  // reciprocity
-  if (block) {
-    paths = paths_of(*block, paths);
-    out.world.links = block->own;
-  }
+  if (spheres)
+    receive_paths(ends, account);
+  else
+    solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), searches, s_.frame_watch,
+                account);  // sequences to visible
   account.end_stage("paths");
 
-  if (spheres || s_.cache) paths.quarters.clear();  // what they find, no smaller launch tells of
   LeftOut left_out;
-  out.paths = s_.fields.compute(task.frame, std::move(paths), out.world, &left_out);  // fields
+  out.paths = finished_paths(task.frame, out.world, ends, block ? &block->own : nullptr, left_out, account);
+  if (block) out.world.links = block->own;
+  if (spheres || s_.cache) out.paths.quarters.clear();  // what they find, no smaller launch tells of
   if (found.rays > 0) out.missed = missed_counts(out.paths, 0, out.paths.size());
   if (known) out.late = late_counts(*known, out.paths);
   if (const auto text = recall_warning(found, s_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
   if (searches) ++warm_frames_;
   if (!task.compiling) account.left_out(left_out, task.transmitter_name, task.receiver_name);
-  account.end_stage("fields");
+  account.end_stage("columns");
   return account.close();
 }
 
@@ -117,15 +112,20 @@ Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, con
                              FrameAccount& account) {
   const FrameCounts counts = account.result.counts;
   s_.discovery.sequences().zero_counters();
-  PathGeometry paths =
-      solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), false, s_.frame_watch, account);
+  solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), false, s_.frame_watch, account);
   account.result.counts = counts;
-  paths = with_reversed_twins(std::move(paths), s_.world.receiver_of_transmitter(), s_.world.transmitter_of_receiver(),
-                              world.links);
   account.end_stage("paths");
-  Paths out = s_.fields.compute(task.frame, std::move(paths), world);
-  account.end_stage("fields");
+  LeftOut left_out;
+  Paths out = finished_paths(task.frame, world, ends, nullptr, left_out, account);
+  account.end_stage("columns");
   return out;
+}
+
+// distinct to fields (finished_paths.cpp)
+Paths FrameLoop::finished_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends,
+                                const std::vector<Link>* own, LeftOut& left_out, FrameAccount& account) {
+  DiffractedPaths* edges = s_.exact_paths.diffraction ? &*s_.exact_paths.diffraction : nullptr;
+  return s_.finish(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, left_out, account);
 }
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
@@ -167,25 +167,24 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths.
-PathGeometry FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
+void FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
   FrameCounts& counts = account.result.counts;
   counts.sequences = s_.discovery.sequences().collect(ends.transmitter_count) - ends.transmitter_count;
   counts.receptions = s_.trails->receptions();
   account.device_done();
-  return distinct_paths(s_.trails->paths());
+  upload_visible(s_.context, s_.trails->paths(), s_.exact_paths.visible.list());
 }
 
-PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
-                         bool searched, const FrameWatch& watch, FrameAccount& account) {
+void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+                 const FrameWatch& watch, FrameAccount& account) {
   FrameCounts& counts = account.result.counts;
-  PathGeometry paths;
   uint64_t kinds_done = 0;
+  exact.visible.clear(set.counters());
   const auto see = [&](SolvedList& solved) {
     exact.check_legs(scene, ends, solved);  // occlusion or transmissions
     counts.solved += solved.count;
-    const SolvedList& seen = exact.visible(solved, set.counters());  // visible
+    exact.visible(solved, set.counters());  // visible
     account.device_done();
-    append_visible(seen, paths);  // visible_paths
     watch.tell("paths", ++kinds_done, exact.kinds());
   };
   watch.tell("paths", 0, exact.kinds());
@@ -221,7 +220,6 @@ PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const Radi
     counts.candidates += scattered.count;
     see(scattered);
   }
-  return distinct_paths(paths);  // distinct_paths
 }
 
 }  // namespace wavetracer

@@ -17,6 +17,7 @@ struct FrameTask {
   std::function<WorldState()> pose = {};              // where everything is
   EndName transmitter_name = {}, receiver_name = {};  // for warnings; asked after the poses
   std::optional<TransmitterRange> transmitters = {};  // only the links of these; not given: all
+  bool timed = true;                                  // its stages on the device are profiled
   bool compiling = false;                             // launches are there to be compiled: few rays, and no warnings
 };
 
@@ -33,7 +34,9 @@ class FrameLoop {
   FrameResult solve(const FrameTask& task);
   void begin_sequences();
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
-  PathGeometry receive_paths(const RadioEnds& ends, FrameAccount& account);
+  void receive_paths(const RadioEnds& ends, FrameAccount& account);
+  Paths finished_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
+                       LeftOut& left_out, FrameAccount& account);
   Paths known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;
@@ -41,9 +44,9 @@ class FrameLoop {
   uint64_t warm_frames_ = 0;  // that launched rays since the last cold one, which counts
 };
 
-// The exact paths of the sequences that rays have found, each once. searched: rays may have added sequences since the
-// call before, whose exchanges are added then.
-PathGeometry solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
-                         bool searched, const FrameWatch& watch, FrameAccount& account);
+// Finds the exact paths of the sequences that rays have found, in exact.visible.list(). searched: rays may have added
+// sequences since the call before, whose exchanges are added then.
+void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+                 const FrameWatch& watch, FrameAccount& account);
 
 }  // namespace wavetracer

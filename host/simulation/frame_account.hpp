@@ -2,7 +2,7 @@
 #pragma once
 #include "base/stopwatch.hpp"
 #include "gpu/gpu.hpp"
-#include "radio/near_ends.hpp"
+#include "radio/fields.hpp"
 #include "simulation/launch.hpp"
 #include "wavetracer/simulation.hpp"
 

@@ -37,26 +37,4 @@ std::vector<Launcher> launchers_of(const LinkBlock& block, const std::vector<Lau
   return out;
 }
 
-PathGeometry paths_of(const LinkBlock& block, const PathGeometry& paths) {
-  const auto row_of = [&](uint32_t transmitter) {
-    return static_cast<size_t>(std::ranges::lower_bound(paths.tx, transmitter) - paths.tx.begin());
-  };
-  const size_t from = row_of(block.range.first), to = row_of(block.range.end);
-  const auto cut = [](const auto& column, size_t begin, size_t end) {
-    const auto at = column.begin();
-    return std::vector(at + static_cast<std::ptrdiff_t>(begin), at + static_cast<std::ptrdiff_t>(end));
-  };
-  const uint64_t base = paths.first[from], last = paths.first[to];
-  PathGeometry out;
-  out.tx = cut(paths.tx, from, to);
-  out.rx = cut(paths.rx, from, to);
-  if (!paths.quarters.empty()) out.quarters = cut(paths.quarters, from, to);
-  out.first = cut(paths.first, from, to + 1);
-  for (uint64_t& first : out.first) first -= base;
-  out.surface = cut(paths.surface, base, last);
-  out.interaction = cut(paths.interaction, base, last);
-  out.vertex = cut(paths.vertex, base, last);
-  return out;
-}
-
 }  // namespace wavetracer

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "simulation/listeners.hpp"
-#include "wavetracer/path_geometry.hpp"
 #include "wavetracer/simulation.hpp"
 #include "wavetracer/world_state.hpp"
 
@@ -15,7 +14,7 @@ namespace wavetracer {
 struct LinkBlock {
   TransmitterRange range;
   std::vector<Link> own;       // from the transmitters of the block, sorted
-  std::vector<Link> solved;    // own ones and their twins (reciprocity.hpp), sorted
+  std::vector<Link> solved;    // own ones and their twins (finished_paths.hpp), sorted
   std::vector<char> launches;  // by origin: its rays may find a path of an own link
 };
 
@@ -26,8 +25,5 @@ LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange range
 
 // Those that launch in the block, in their order.
 std::vector<Launcher> launchers_of(const LinkBlock& block, const std::vector<Launcher>& launchers);
-
-// The paths of own links. paths: sorted by transmitter.
-PathGeometry paths_of(const LinkBlock& block, const PathGeometry& paths);
 
 }  // namespace wavetracer

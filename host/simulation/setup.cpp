@@ -130,6 +130,6 @@ Setup::Setup(const Config& asked, const std::string& device_text)
       cache(make_cache(*this)),
       discovery(context, device_scene, trace, discovery_options(*this)),
       exact_paths(context, device_scene, scene, world, trace, origins),
-      fields(scene, with_trace(config, trace), world.models(), world.instances()) {}
+      finish(context, scene, with_trace(config, trace), world) {}
 
 }  // namespace wavetracer

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "base/stopwatch.hpp"
-#include "radio/fields.hpp"
 #include "simulation/discovery.hpp"
 #include "simulation/exact_paths.hpp"
+#include "simulation/finished_paths.hpp"
 #include "simulation/frame_watch.hpp"
 #include "simulation/launch_sides.hpp"
 #include "simulation/launch_slopes.hpp"
@@ -54,7 +54,7 @@ struct Setup {
   FrameWatch frame_watch;
   Discovery discovery;
   ExactPaths exact_paths;
-  FieldModel fields;
+  FinishedPaths finish;
 };
 
 }  // namespace wavetracer

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "simulation/frame.hpp"
 #include "simulation/missing_paths.hpp"
 #include "wavetracer/error.hpp"
@@ -22,8 +24,13 @@ struct Simulation::State {
             .receiver_name = name(setup.config.receivers)};
   }
 
+  // Whether the frame that comes next is profiled.
+  bool timed() { return runs++ % profile_every == 0; }
+
   Setup setup;
   FrameLoop frames;
+  uint32_t profile_every = 1;
+  uint64_t runs = 0;
 };
 
 Simulation::Simulation(const Config& config, const std::string& device)
@@ -34,6 +41,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::observe(FrameObserver observer) { state_->setup.frame_watch.set(std::move(observer)); }
+void Simulation::profile_every(uint32_t frames) { state_->profile_every = std::max(frames, 1u); }
 void Simulation::forget() { state_->frames.forget(); }
 uint64_t Simulation::frame_count() const { return state_->setup.world.frame_count(); }
 double Simulation::time_s(uint32_t frame) const { return state_->setup.world.time_s(frame); }
@@ -75,7 +83,11 @@ const OrderSummary& Simulation::order() const { return state_->setup.order_summa
 const Features& Simulation::features() const { return state_->setup.features; }
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup.seconds; }
 
-FrameResult Simulation::run_frame(uint32_t frame) { return state_->frames.run(state_->task(frame)); }
+FrameResult Simulation::run_frame(uint32_t frame) {
+  FrameTask task = state_->task(frame);
+  task.timed = state_->timed();
+  return state_->frames.run(task);
+}
 
 std::string block_obstacle(const Config& config) {
   if (!config.trace.rays) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
@@ -105,6 +117,7 @@ LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<c
     world.set_names(traffic, out);
     return state;
   };
+  task.timed = state_->timed();
   out.result = state_->frames.run(task);
   return out;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "simulation/distinct_paths.hpp"
 #include "wavetracer/paths.hpp"
 
 namespace wavetracer {
@@ -61,7 +60,7 @@ PathGeometry SphereReception::paths() const {
     out.first.push_back(out.surface.size());
   }
   out.interaction.assign(out.surface.size(), Interaction::reflection);
-  return distinct_paths(out);
+  return out;
 }
 
 }  // namespace wavetracer

@@ -24,7 +24,7 @@ class SphereReception {
   std::vector<wt_reception> end_batch(Waypoints& waypoints);
   // Receptions of all batches.
   uint64_t count() const { return count_; }
-  // In the order of distinct_paths.
+  // In the order of their links and surfaces.
   PathGeometry paths() const;
   Receive& receive() { return receive_; }
 

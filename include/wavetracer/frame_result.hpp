@@ -69,10 +69,10 @@ struct FrameResult {
   WorldState world;
   Paths paths;
   FrameCounts counts;
-  MissedCounts missed;  // frames = 0 with a ray cache or trace.reception = "sphere", and where no rays were launched
-  LateCounts late;      // of a frame that launches rays after others that did not, with trace.discover_every_s
-  StageSeconds seconds;
-  KernelTimes kernels;  // of the device stages
+  MissedCounts missed;   // frames = 0 with a ray cache or trace.reception = "sphere", and where no rays were launched
+  LateCounts late;       // of a frame that launches rays after others that did not, with trace.discover_every_s
+  StageSeconds seconds;  // device stages only in frames that were profiled (Simulation::profile_every)
+  KernelTimes kernels;   // likewise, of the device stages
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
   WaypointRows waypoints;        // of output.waypoints samples per transmitter

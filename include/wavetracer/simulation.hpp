@@ -44,6 +44,9 @@ struct LivePose;
 struct LiveTraffic;
 struct LiveType;
 
+// How runs use Simulation::profile_every.
+inline constexpr uint32_t profiled_frames = 16;
+
 class Simulation {
  public:
   // Loads the scene, builds surfaces and acceleration structures, compiles the kernels.
@@ -66,6 +69,10 @@ class Simulation {
   LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
   const std::vector<LiveType>& live_types() const;
   const LiveBounds& live_bounds() const;
+  // Measures the device's stages in the first of so many frames and leaves them out of the others: profiling makes
+  // launches slower, which short frames notice (on a GPU by a third). 1, as at first: in every frame. Blocks always
+  // are.
+  void profile_every(uint32_t frames);
   // The observer of all frames that follow; an empty function: none.
   void observe(FrameObserver observer);
   // Drops all sequences of earlier frames, and the content of a ray cache: the next frame is cold.

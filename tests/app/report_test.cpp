@@ -12,6 +12,7 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
   const auto report = [&](const CacheSummary& cache) {
     Results results{totals_of(sample.frames()), {}, {}};
     results.totals.cache = cache;
+    results.totals.timed_segments = traced_segments(results.totals);
     return app::report(sample.run(), results, true);
   };
   CacheSummary cache;

@@ -10,6 +10,7 @@
 #include "gpu/temporary.hpp"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/cache.h"
+#include "wavetracer/device/field_records.h"
 #include "wavetracer/device/moving.h"
 #include "wavetracer/device/records.h"
 #include "wavetracer/device/waypoints.h"
@@ -144,9 +145,10 @@ const std::vector<Record> records{
       FIELD(wt_model_surface, triangle_count)}},
     {"wt_exact_instance",
      sizeof(wt_exact_instance),
-     {FIELD(wt_exact_instance, rotation), FIELD(wt_exact_instance, position), FIELD(wt_exact_instance, first_surface),
-      FIELD(wt_exact_instance, first_model_surface), FIELD(wt_exact_instance, present),
-      FIELD(wt_exact_instance, padding)}},
+     {FIELD(wt_exact_instance, rotation), FIELD(wt_exact_instance, position), FIELD(wt_exact_instance, velocity),
+      FIELD(wt_exact_instance, angular_velocity), FIELD(wt_exact_instance, first_surface),
+      FIELD(wt_exact_instance, first_model_surface), FIELD(wt_exact_instance, first_wedge),
+      FIELD(wt_exact_instance, present)}},
     {"wt_candidate", sizeof(wt_candidate), {FIELD(wt_candidate, node), FIELD(wt_candidate, receiver)}},
     {"wt_wedge",
      sizeof(wt_wedge),
@@ -197,11 +199,45 @@ const std::vector<Record> records{
     {"wt_cache_widths",
      sizeof(wt_cache_widths),
      {FIELD(wt_cache_widths, cell_bits), FIELD(wt_cache_widths, surface_bits), FIELD(wt_cache_widths, primitive_bits)}},
+    {"wt_material",
+     sizeof(wt_material),
+     {FIELD(wt_material, permittivity), FIELD(wt_material, thickness_m), FIELD(wt_material, scattering),
+      FIELD(wt_material, cross_polar), FIELD(wt_material, lobe), FIELD(wt_material, padding)}},
+    {"wt_antenna",
+     sizeof(wt_antenna),
+     {FIELD(wt_antenna, pattern), FIELD(wt_antenna, ports), FIELD(wt_antenna, first_sample), FIELD(wt_antenna, rows),
+      FIELD(wt_antenna, columns), FIELD(wt_antenna, padding), FIELD(wt_antenna, theta_step),
+      FIELD(wt_antenna, phi_step), FIELD(wt_antenna, first_phi), FIELD(wt_antenna, slant)}},
+    {"wt_field_end",
+     sizeof(wt_field_end),
+     {FIELD(wt_field_end, position_m), FIELD(wt_field_end, velocity_m_s), FIELD(wt_field_end, rotation),
+      FIELD(wt_field_end, antenna), FIELD(wt_field_end, padding)}},
+    {"wt_path_row",
+     sizeof(wt_path_row),
+     {FIELD(wt_path_row, delay_s), FIELD(wt_path_row, gain_db), FIELD(wt_path_row, doppler_hz),
+      FIELD(wt_path_row, aod_theta), FIELD(wt_path_row, aod_phi), FIELD(wt_path_row, aoa_theta),
+      FIELD(wt_path_row, aoa_phi), FIELD(wt_path_row, a), FIELD(wt_path_row, tx), FIELD(wt_path_row, rx),
+      FIELD(wt_path_row, depth), FIELD(wt_path_row, quarters)}},
+    {"wt_vertex_row",
+     sizeof(wt_vertex_row),
+     {FIELD(wt_vertex_row, position), FIELD(wt_vertex_row, surface), FIELD(wt_vertex_row, instance),
+      FIELD(wt_vertex_row, interaction), FIELD(wt_vertex_row, padding)}},
+    {"wt_distinct_arguments",
+     sizeof(wt_distinct_arguments),
+     {FIELD(wt_distinct_arguments, row_count), FIELD(wt_distinct_arguments, max_depth),
+      FIELD(wt_distinct_arguments, receiver_count), FIELD(wt_distinct_arguments, groups),
+      FIELD(wt_distinct_arguments, twins), FIELD(wt_distinct_arguments, length_bits)}},
+    {"wt_fields_arguments",
+     sizeof(wt_fields_arguments),
+     {FIELD(wt_fields_arguments, origin), FIELD(wt_fields_arguments, wavelength_m), FIELD(wt_fields_arguments, seed),
+      FIELD(wt_fields_arguments, row_count), FIELD(wt_fields_arguments, max_depth),
+      FIELD(wt_fields_arguments, transmissions), FIELD(wt_fields_arguments, scatters)}},
 };
 
 #undef FIELD
 
-const std::vector<std::string> headers{"arguments.h", "bvh.h", "cache.h", "moving.h", "records.h", "waypoints.h"};
+const std::vector<std::string> headers{"arguments.h", "bvh.h",     "cache.h",    "field_records.h",
+                                       "moving.h",    "records.h", "waypoints.h"};
 
 // Record name -> field names, as the headers declare them.
 std::map<std::string, std::vector<std::string>> declared_records() {

@@ -91,7 +91,9 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
   Occlusion occlusion(context(), scene);
   occlusion(scene, ends, list);
   Visible visible(context(), max_depth);
-  run.visible = visible(list, set.counters()).count;
+  visible.clear(set.counters());
+  visible(list, set.counters());
+  run.visible = visible.list().count;
   return run;
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("with occlusion: the sets of brute force, in towns of boxes") {
   }
 }
 
-// Fields leave the line of sight out, and say so (radio/near_ends.hpp).
+// Fields leave the line of sight out, and say so (radio/fields.hpp).
 TEST_CASE("a receiver at a transmitter: a line of sight of no length, and the reflection straight back") {
   const Exact exact(reference::scene_of_quads({{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}}), {{1, 1, 3}}, {{1, 1, 3}},
                     all_sequences(1, 1, 1), 1);
@@ -150,7 +150,7 @@ TEST_CASE("an edge of two walls: both orders reflect there, and nothing reaches 
 namespace {
 
 // The lengths of the chains of all paths of an antenna's echoes of itself, whatever the order of the surfaces. Its line
-// of sight to itself is left out later (host/radio/near_ends.hpp).
+// of sight to itself is left out later (host/radio/fields.hpp).
 std::vector<size_t> echoes(const std::vector<Quad>& quads, const glm::dvec3& at, uint32_t max_depth) {
   const auto count = static_cast<uint32_t>(quads.size());
   const Exact exact(reference::scene_of_quads(quads), {at}, {at}, all_sequences(1, count, max_depth), max_depth);

@@ -65,9 +65,29 @@ TEST_CASE("visible keeps every row that is not obstructed, and no other") {
     for (const double blocked : {0.0, 0.7, 1.0}) {
       const SolvedList solved = made_up(count, 5, blocked);
       counters.write(std::vector<wt_counters>{{}});
-      const SolvedList& kept = visible(solved, counters);
+      visible.clear(counters);
+      visible(solved, counters);
+      const SolvedList& kept = visible.list();
       const std::vector<Row> wanted = rows_of(solved);
       CHECK(kept.count == wanted.size());
       CHECK((rows_of(kept) == wanted));
     }
+}
+
+TEST_CASE("visible appends list after list, and keeps what it has where it must grow") {
+  Visible visible(context(), 5);
+  auto counters = context().buffer<wt_counters>(1, "counters");
+  counters.write(std::vector<wt_counters>{{}});
+  visible.clear(counters);
+  std::vector<Row> wanted;
+  for (const uint32_t count : {30u, 0u, 9001u, 500u}) {
+    const SolvedList solved = made_up(count, 5, 0.3);
+    visible(solved, counters);
+    const std::vector<Row> more = rows_of(solved);
+    wanted.insert(wanted.end(), more.begin(), more.end());
+  }
+  std::sort(wanted.begin(), wanted.end());
+  CHECK((rows_of(visible.list()) == wanted));
+  visible.clear(counters);
+  CHECK(visible.list().count == 0);
 }

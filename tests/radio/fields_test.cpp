@@ -4,8 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include "radio/antenna.hpp"
 #include "radio/material.hpp"
 #include "radio/slab.hpp"
+#include "radio/surface_table.hpp"
 #include "radio/world.hpp"
 #include "wavetracer/error.hpp"
 

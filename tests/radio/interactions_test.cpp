@@ -1,6 +1,6 @@
 // Paths over two edges: against the sums of Kouyoumjian and Pathak's coefficients that they stand for.
 // A strip of two free edges, and a ridge of two wedges with a flat top, both of a perfect conductor.
-#include "radio/interactions.hpp"
+#include "radio/fields.hpp"
 
 #include "radio/world.hpp"
 

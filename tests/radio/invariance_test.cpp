@@ -8,6 +8,7 @@
 #include <random>
 #include <tuple>
 
+#include "radio/antenna.hpp"
 #include "radio/fields.hpp"
 #include "radio/world.hpp"
 

@@ -94,7 +94,9 @@ TEST_CASE("the numbering of faces does not matter") {
       CHECK(glm::length(d.from[j] + e.from[j]) < 1e-14);
       CHECK(glm::length(d.to[j] + e.to[j]) < 1e-14);
     }
-    for (size_t j = 0; j < 4; ++j) CHECK(std::abs(d.coefficient[j] - e.coefficient[j]) < 1e-12 * size(d.coefficient));
+    // Of a direction close to the edge, the azimuth has fewer digits.
+    for (size_t j = 0; j < 4; ++j)
+      CHECK(std::abs(d.coefficient[j] - e.coefficient[j]) < 1e-12 * size(d.coefficient) / std::sin(beta0));
   }
 }
 

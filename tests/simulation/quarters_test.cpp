@@ -25,7 +25,7 @@ Config radios(const SceneFile& file, uint64_t rays, uint32_t max_depth) {
 }
 
 // What a launch of these directions alone finds.
-PathGeometry found(const Config& config, DirectionShare share) {
+Paths found(const Config& config, DirectionShare share) {
   Setup s(config, "");
   const WorldState state = s.world.state(0);
   const RadioEnds ends =
@@ -39,26 +39,30 @@ PathGeometry found(const Config& config, DirectionShare share) {
                                       .followed = false,
                                       .sorted = false});
   FrameAccount account(s.context, 0);
-  return solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), true, s.frame_watch, account);
+  solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), true, s.frame_watch, account);
+  LeftOut left_out;
+  DiffractedPaths* edges = s.exact_paths.diffraction ? &*s.exact_paths.diffraction : nullptr;
+  return s.finish(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, left_out, account);
 }
 
-bool same_path(const PathGeometry& a, size_t i, const PathGeometry& b, size_t j) {
-  const uint64_t depth = a.first[i + 1] - a.first[i];
-  if (a.tx[i] != b.tx[j] || a.rx[i] != b.rx[j] || depth != b.first[j + 1] - b.first[j]) return false;
-  for (uint64_t k = 0; k < depth; ++k)
-    if (a.interaction[a.first[i] + k] != b.interaction[b.first[j] + k] ||
-        glm::distance(a.vertex[a.first[i] + k], b.vertex[b.first[j] + k]) > 2e-4)
+bool same_path(const Paths& a, size_t i, const Paths& b, size_t j) {
+  if (a.tx[i] != b.tx[j] || a.rx[i] != b.rx[j] || a.depth[i] != b.depth[j]) return false;
+  for (uint64_t k = 0; k < a.depth[i]; ++k) {
+    const uint64_t at = a.vertex_offset[i] + k, other = b.vertex_offset[j] + k;
+    if (a.vertex_interaction[at] != b.vertex_interaction[other] ||
+        glm::distance(a.vertex_position_m[at], b.vertex_position_m[other]) > 2e-4)
       return false;
+  }
   return true;
 }
 
 void check_quarters(const Config& config) {
-  const PathGeometry whole = found(config, {});
+  const Paths whole = found(config, {});
   REQUIRE(whole.quarters.size() == whole.size());
   size_t rare = 0, wrong = 0;
   for (const uint8_t quarters : whole.quarters) rare += quarters != WT_ALL_QUARTERS;
   for (uint32_t quarter = 0; quarter < 4; ++quarter) {
-    const PathGeometry part = found(config, {quarter, 4});
+    const Paths part = found(config, {quarter, 4});
     for (size_t i = 0; i < whole.size(); ++i) {
       bool there = false;
       for (size_t j = 0; j < part.size() && !there; ++j) there = same_path(whole, i, part, j);

@@ -116,6 +116,26 @@ typedef struct {
   wt_uint capacity;
 } wt_wedge_join_arguments;
 
+// Of row_keys, mark_rows and order_rows. twins: not 0 where rows of the other way are counted, each after its own.
+typedef struct {
+  wt_uint row_count;
+  wt_uint max_depth;
+  wt_uint receiver_count;
+  wt_uint groups;  // of 16 receivers
+  wt_uint twins;
+  wt_uint length_bits;  // of a key
+} wt_distinct_arguments;
+
+typedef struct {
+  double origin[3];  // of recentred coordinates in those of the file
+  double wavelength_m;
+  wt_ulong seed;
+  wt_uint row_count;
+  wt_uint max_depth;
+  wt_uint transmissions;
+  wt_uint scatters;
+} wt_fields_arguments;
+
 // Of cache_lookup and cache_share. touch: not 0 where the use of an entry is noted.
 typedef struct {
   wt_uint capacity;

@@ -76,15 +76,18 @@ typedef struct {
   wt_uint triangle_count;
 } wt_model_surface;
 
-// An instance in a frame: p in model coordinates is at position + rotation p. Its surfaces are first_surface + k, those
-// of its model first_model_surface + k.
+// An instance in a frame: p in model coordinates is at position + rotation p, and moves with velocity +
+// angular_velocity x (rotation p), m/s and rad/s. Its surfaces are first_surface + k, those of its model
+// first_model_surface + k, its wedges first_wedge + k.
 typedef struct {
   double rotation[9];  // row by row
   double position[3];
+  double velocity[3];
+  double angular_velocity[3];
   wt_uint first_surface;
   wt_uint first_model_surface;
+  wt_uint first_wedge;
   wt_uint present;
-  wt_uint padding;
 } wt_exact_instance;
 
 // What a vertex of a solved path is: one of up to eight kinds (wavetracer/interaction_kinds.hpp), and the number of a

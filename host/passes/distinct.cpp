@@ -1,0 +1,93 @@
+// Host side of kernels/distinct.cl.
+// One row per work-item; two rows per visible path where links have one the other way.
+#include "passes/distinct.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "wavetracer/device/path_rows.h"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr uint32_t most_length_bits = 28;  // see row_key
+
+}  // namespace
+
+Distinct::Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of,
+                   std::span<const uint32_t> transmitter_of)
+    : context_(context),
+      row_keys_(context.kernel("distinct", "row_keys")),
+      mark_rows_(context.kernel("distinct", "mark_rows")),
+      order_rows_(context.kernel("distinct", "order_rows")),
+      local_(context.info().simple_local_size()),
+      twins_(std::ranges::any_of(receiver_of, [](uint32_t receiver) { return receiver != WT_NONE; })),
+      receiver_of_(context.buffer(std::vector(receiver_of.begin(), receiver_of.end()), "receivers of transmitters")),
+      transmitter_of_(
+          context.buffer(std::vector(transmitter_of.begin(), transmitter_of.end()), "transmitters of receivers")),
+      near_(context.buffer<uint32_t>(1, "paths of near ends")) {
+  reserve(1 << 13);
+}
+
+void Distinct::reserve(size_t places) {
+  keys_ = context_.buffer<uint32_t>(places, "keys of paths");
+  order_ = context_.buffer<uint32_t>(places, "order of paths");
+  lengths_ = context_.buffer<double>(places, "lengths of paths");
+  stays_ = context_.buffer<uint8_t>(places, "distinct paths");
+  quarters_ = context_.buffer<uint8_t>(places, "quarters of paths");
+  rows_.rows = context_.buffer<uint32_t>(places, "rows of paths");
+  rows_.counts = context_.buffer<uint32_t>(places, "counts of rows");
+  rows_.vertex_counts = context_.buffer<uint32_t>(places, "counts of vertices");
+  rows_.delays = context_.buffer<double>(places, "delays of paths");
+  rows_.quarters = context_.buffer<uint8_t>(places, "quarters of rows");
+}
+
+uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible) {
+  const uint64_t links = uint64_t{ends.transmitter_count} * ends.receiver_count;
+  const uint64_t places = uint64_t{visible.count} * (twins_ ? 2 : 1);
+  if (links >= 0xFFFFFFFFu || places > 0x7FFFFFFFu)
+    throw RuntimeError(
+        fmt::format("{} links with {} paths are more than a frame can have: ask for fewer links, or solve "
+                    "the frame in blocks of transmitters",
+                    links, places));
+  rows_.places = static_cast<uint32_t>(places);
+  if (places == 0) return 0;
+  if (places > keys_.size()) reserve(places + places / 4);
+  arguments_ = {.row_count = rows_.places,
+                .max_depth = visible.max_depth,
+                .receiver_count = ends.receiver_count,
+                .groups = ends.receiver_capacity / 16,
+                .twins = twins_,
+                .length_bits = std::min(most_length_bits, 32u - static_cast<uint32_t>(std::bit_width(links)))};
+  row_keys_({places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
+            ends.receivers, receiver_of_, transmitter_of_, ends.links, own, keys_, lengths_, arguments_);
+  return rows_.places;
+}
+
+uint32_t Distinct::place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible) {
+  const wt_uint zero = 0;
+  context_.fill(near_, zero, "distinct");
+  mark_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
+             ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, scene.exact_surfaces, keys_, order_,
+             lengths_, stays_, quarters_, near_, arguments_);
+  order_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
+              ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, keys_, order_, lengths_, stays_,
+              quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.vertex_counts, rows_.quarters, arguments_);
+  return near_.read_one(0, "distinct");
+}
+
+std::map<Link, uint32_t> Distinct::left_out() {
+  const std::vector<uint8_t> stays = stays_.read(0, rows_.places, "distinct");
+  const std::vector<uint32_t> keys = keys_.read(0, rows_.places, "distinct");
+  std::map<Link, uint32_t> out;
+  for (size_t place = 0; place < stays.size(); ++place) {
+    const uint32_t link = static_cast<uint32_t>(uint64_t{keys[place]} >> arguments_.length_bits);
+    if (stays[place] == WT_ROW_IS_NEAR) ++out[{link / arguments_.receiver_count, link % arguments_.receiver_count}];
+  }
+  return out;
+}
+
+}  // namespace wavetracer

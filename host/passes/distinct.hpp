@@ -1,0 +1,60 @@
+// distinct: the rows of a frame's paths from the visible ones: with reversed twins, each path once, in the order of
+// links, delays and surfaces. The three kernels have the sort by keys between the first two of them.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "gpu/gpu.hpp"
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+#include "wavetracer/device/arguments.h"
+
+namespace wavetracer {
+
+// Rows at their places; see kernels/distinct.cl. Buffers are longer than `places`, the number of places.
+struct RowList {
+  uint32_t places = 0;
+  gpu::Buffer<uint32_t> rows, counts, vertex_counts;  // counts: after a scan, how many rows stand before a place
+  gpu::Buffer<double> delays;
+  gpu::Buffer<uint8_t> quarters;
+};
+
+class Distinct {
+ public:
+  // receiver_of: of each transmitter the receiver in its place, or WT_NONE; transmitter_of: the other way round.
+  // Where a transmitter and a receiver are one end, what is a path one way is a path the other way.
+  Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of, std::span<const uint32_t> transmitter_of);
+
+  // Keys of all rows, and how many places they take. own: the links whose paths are wanted, as RadioEnds::links has
+  // them. Throws RuntimeError where links are too many for a key.
+  uint32_t keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible);
+  // By sorted keys: which rows stay, and where. Returns how many were left out because an antenna touches what reflects
+  // there.
+  uint32_t place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible);
+  // How many paths of which link were left out so.
+  std::map<Link, uint32_t> left_out();
+
+  gpu::Buffer<uint32_t>& sort_keys() { return keys_; }
+  gpu::Buffer<uint32_t>& order() { return order_; }
+  RowList& rows() { return rows_; }
+  const gpu::Buffer<uint32_t>& receiver_of() const { return receiver_of_; }
+  const gpu::Buffer<uint32_t>& transmitter_of() const { return transmitter_of_; }
+
+ private:
+  void reserve(size_t places);
+
+  gpu::Context& context_;
+  gpu::Kernel row_keys_, mark_rows_, order_rows_;
+  uint32_t local_;
+  bool twins_;
+  gpu::Buffer<uint32_t> receiver_of_, transmitter_of_, keys_, order_, near_;
+  gpu::Buffer<double> lengths_;
+  gpu::Buffer<uint8_t> stays_, quarters_;
+  wt_distinct_arguments arguments_{};
+  RowList rows_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,45 @@
+// fields: delays, angles, coefficients and Doppler shifts of the paths of a frame, on the device, and their columns on
+// the host. docs/method.md has the physics; wavetracer/device/path_field.h the code, which the host has as well
+// (radio/fields.hpp) and computes the same bits by.
+#pragma once
+#include <glm/vec3.hpp>
+
+#include "passes/distinct.hpp"
+#include "passes/tuning.hpp"
+#include "radio/field_tables.hpp"
+#include "radio/path_columns.hpp"
+#include "wavetracer/paths.hpp"
+
+namespace wavetracer {
+
+class Fields {
+ public:
+  // diffracts: whether paths may have edges, which takes a larger kernel. origin_m: of recentred coordinates.
+  Fields(gpu::Context& context, const FieldTables& tables, bool diffracts, const glm::dvec3& origin_m);
+
+  // Computes the rows. counts are scanned; vertex_count: the sum of their interactions. wedges: placed in the frame, or
+  // nullptr where nothing diffracts.
+  void operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
+                  const WorldState& world, const SolvedList& visible, const Distinct& distinct, const RowList& rows,
+                  uint32_t row_count, uint32_t vertex_count);
+  // The rows that were computed last, on the host.
+  Paths read(uint32_t frame, uint32_t row_count, uint32_t vertex_count);
+
+ private:
+  gpu::Context& context_;
+  gpu::Kernel kernel_;
+  Work work_;
+  uint32_t transmitters_;
+  Ports ports_;
+  wt_fields_arguments arguments_{};
+  gpu::Buffer<device::wt_material> materials_;
+  gpu::Buffer<uint32_t> materials_of_, surface_of_tile_;
+  gpu::Buffer<double> area_of_tile_, samples_;
+  gpu::Buffer<device::wt_antenna> antennas_;
+  gpu::Buffer<device::wt_field_end> ends_[2];  // transmitters, receivers
+  gpu::Buffer<device::wt_path_row> rows_;
+  gpu::Buffer<device::wt_vertex_row> vertices_;
+  gpu::HostMemory host_rows_, host_vertices_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,100 @@
+// Materials of all scenes stand in one list, part after part; surfaces of the world point into it.
+#include "radio/field_tables.hpp"
+
+#include <algorithm>
+#include <complex>
+
+#include "radio/antenna.hpp"
+#include "radio/constants.hpp"
+#include "radio/material.hpp"
+#include "scene/tiles.hpp"
+
+namespace wavetracer {
+namespace {
+
+// Of the surfaces of one scene; materials that no surface uses are not asked for.
+std::vector<device::wt_material> materials_at(const Scene& scene, double frequency_hz) {
+  std::vector<device::wt_material> records(scene.materials.size());
+  std::vector<bool> known(scene.materials.size());
+  for (const Surface& surface : scene.surfaces) {
+    if (known[surface.material]) continue;
+    known[surface.material] = true;
+    const Material& material = scene.materials[surface.material];
+    const std::complex<double> permittivity = complex_permittivity(material, frequency_hz);
+    records[surface.material] = {.permittivity = {permittivity.real(), permittivity.imag()},
+                                 .thickness_m = material.thickness_m,
+                                 .scattering = material.scattering,
+                                 .cross_polar = material.scattering_cross_polar,
+                                 .lobe = static_cast<uint32_t>(material.scattering_lobe),
+                                 .padding = 0};
+  }
+  return records;
+}
+
+void add_materials(FieldTables& tables, const Scene& scene, const Config& config, std::span<const Scene> models,
+                   std::span<const Instance> instances) {
+  std::vector<uint32_t> first;  // of each part's materials
+  const auto add_part = [&](const Scene& part) {
+    first.push_back(static_cast<uint32_t>(tables.materials.size()));
+    const auto records = materials_at(part, config.radio.frequency_hz);
+    tables.materials.insert(tables.materials.end(), records.begin(), records.end());
+  };
+  const auto add_surfaces = [&](const Scene& part, uint32_t first_material) {
+    for (const Surface& surface : part.surfaces) tables.materials_of.push_back(first_material + surface.material);
+  };
+  add_part(scene);
+  for (const Scene& model : models) add_part(model);
+  add_surfaces(scene, first[0]);
+  for (const Instance& instance : instances) add_surfaces(models[instance.model], first[1 + instance.model]);
+}
+
+void add_antennas(FieldTables& tables, const Config& config) {
+  tables.transmitters = static_cast<uint32_t>(config.transmitters.size());
+  const auto add = [&](const RadioEnd& end, uint32_t& ports) {
+    const Antenna antenna = make_antenna(end);
+    ports = std::max(ports, antenna.ports());
+    tables.antennas.push_back(antenna.record());
+    tables.antennas.back().first_sample = static_cast<uint32_t>(tables.samples.size() / 4);
+    tables.samples.insert(tables.samples.end(), antenna.samples().begin(), antenna.samples().end());
+  };
+  for (const RadioEnd& end : config.transmitters) add(end, tables.ports.tx);
+  for (const RadioEnd& end : config.receivers) add(end, tables.ports.rx);
+}
+
+}  // namespace
+
+FieldTables make_field_tables(const Scene& scene, const Config& config, std::span<const Scene> models,
+                              std::span<const Instance> instances) {
+  FieldTables tables;
+  tables.wavelength_m = speed_of_light_m_s / config.radio.frequency_hz;
+  tables.seed = config.trace.seed;
+  if (config.trace.transmission)
+    tables.transmissions = std::min(config.trace.max_transmissions, config.trace.max_depth);
+  add_materials(tables, scene, config, models, instances);
+  add_antennas(tables, config);
+  tables.scatters = config.trace.scattering;
+  if (!tables.scatters) return tables;
+  const TileTable tiles(scene, models, instances, config.trace.tile_m);
+  for (uint32_t id = 0; id < tiles.size(); ++id) {
+    const TilePlace place = tiles.at(id);
+    tables.surface_of_tile.push_back(tiles.surface(place));
+    tables.area_of_tile.push_back(tiles.tile(place).area_m2);
+  }
+  return tables;
+}
+
+std::vector<device::wt_field_end> field_ends(std::span<const EndState> ends, uint32_t first_antenna) {
+  std::vector<device::wt_field_end> records(ends.size());
+  for (size_t i = 0; i < ends.size(); ++i) {
+    device::wt_field_end& record = records[i];
+    for (int row = 0; row < 3; ++row) {
+      record.position_m[row] = ends[i].position_m[row];
+      record.velocity_m_s[row] = ends[i].velocity_m_s[row];
+      for (int column = 0; column < 3; ++column) record.rotation[3 * row + column] = ends[i].rotation[column][row];
+    }
+    record.antenna = first_antenna + static_cast<uint32_t>(i);
+  }
+  return records;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,77 @@
+// All cores take part: most of the time goes to pages that are touched first.
+#include "radio/path_columns.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+
+namespace wavetracer {
+namespace {
+
+void resize_numbers(Paths& paths, size_t rows) {
+  for (auto* column : {&paths.frame, &paths.tx, &paths.rx, &paths.depth}) column->resize(rows);
+  paths.quarters.resize(rows);
+  paths.vertex_offset.resize(rows + 1);
+}
+
+void resize_values(Paths& paths, size_t rows) {
+  for (auto* column : {&paths.delay_s, &paths.gain_db, &paths.doppler_hz, &paths.aod_theta_rad, &paths.aod_phi_rad,
+                       &paths.aoa_theta_rad, &paths.aoa_phi_rad})
+    column->resize(rows);
+}
+
+void resize_vertices(Paths& paths, size_t vertices) {
+  paths.vertex_interaction.resize(vertices);
+  paths.vertex_surface.resize(vertices);
+  paths.vertex_instance.resize(vertices);
+}
+
+void take_row(Paths& paths, size_t row, const device::wt_path_row& from) {
+  paths.tx[row] = from.tx;
+  paths.rx[row] = from.rx;
+  paths.depth[row] = from.depth;
+  paths.quarters[row] = static_cast<uint8_t>(from.quarters);
+  paths.delay_s[row] = from.delay_s;
+  paths.gain_db[row] = from.gain_db;
+  paths.doppler_hz[row] = from.doppler_hz;
+  paths.aod_theta_rad[row] = from.aod_theta;
+  paths.aod_phi_rad[row] = from.aod_phi;
+  paths.aoa_theta_rad[row] = from.aoa_theta;
+  paths.aoa_phi_rad[row] = from.aoa_phi;
+  for (uint32_t r = 0; r < paths.rx_ports; ++r)
+    for (uint32_t t = 0; t < paths.tx_ports; ++t)
+      paths.a[row][r * paths.tx_ports + t] = {from.a[2 * (2 * r + t)], from.a[2 * (2 * r + t) + 1]};
+}
+
+void take_vertex(Paths& paths, uint64_t at, const device::wt_vertex_row& from) {
+  paths.vertex_position_m[at] = {from.position[0], from.position[1], from.position[2]};
+  paths.vertex_interaction[at] = static_cast<uint8_t>(from.interaction);
+  paths.vertex_surface[at] = from.surface;
+  paths.vertex_instance[at] = from.instance;
+}
+
+}  // namespace
+
+Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
+                 uint32_t frame, Ports ports) {
+  Paths paths;
+  paths.tx_ports = ports.tx;
+  paths.rx_ports = ports.rx;
+  tbb::parallel_invoke([&] { paths.a.resize(rows.size()); }, [&] { resize_numbers(paths, rows.size()); },
+                       [&] { resize_values(paths, rows.size()); },
+                       [&] { paths.vertex_position_m.resize(vertices.size()); },
+                       [&] { resize_vertices(paths, vertices.size()); });
+  std::ranges::fill(paths.frame, frame);
+  for (size_t row = 0; row < rows.size(); ++row)
+    paths.vertex_offset[row + 1] = paths.vertex_offset[row] + rows[row].depth;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, rows.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t row = range.begin(); row < range.end(); ++row) take_row(paths, row, rows[row]);
+  });
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, vertices.size(), 1024), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t at = range.begin(); at < range.end(); ++at) take_vertex(paths, at, vertices[at]);
+  });
+  return paths;
+}
+
+}  // namespace wavetracer

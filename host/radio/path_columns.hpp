@@ -1,0 +1,19 @@
+// Paths as columns, from the records that fields write.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "wavetracer/device/field_records.h"
+#include "wavetracer/paths.hpp"
+
+namespace wavetracer {
+
+struct Ports {
+  uint32_t tx = 1, rx = 1;  // the most that any end of that side has
+};
+
+// rows: of one frame, in their order; vertices: of all rows, one after the other.
+Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
+                 uint32_t frame, Ports ports);
+
+}  // namespace wavetracer

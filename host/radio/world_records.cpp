@@ -1,0 +1,89 @@
+// The arithmetic is that of kernels/place.cl and wedges.cl, for the same bits.
+#include "radio/world_records.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace wavetracer {
+namespace {
+
+void store(double (&to)[3], const glm::dvec3& from) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
+}
+
+glm::dvec3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+wt_wedge record_of(const Wedge& wedge, uint32_t first_surface, uint32_t instance) {
+  wt_wedge record{};
+  store(record.start, wedge.start);
+  store(record.along, wedge.along);
+  store(record.face, wedge.face);
+  store(record.normal, wedge.normal);
+  record.length = wedge.length_m;
+  record.exterior = wedge.exterior_rad;
+  for (int face = 0; face < 2; ++face) record.surfaces[face] = first_surface + wedge.surface[face];
+  record.instance = instance;
+  return record;
+}
+
+}  // namespace
+
+std::vector<wt_exact_surface> surface_records(const Scene& scene, std::span<const Scene> models,
+                                              std::span<const Instance> instances, const WorldState& state) {
+  std::vector<wt_exact_surface> records;
+  for (const Surface& surface : scene.surfaces) {
+    wt_exact_surface& record = records.emplace_back();
+    store(record.normal, surface.normal);
+    record.offset = surface.offset_m;
+    record.instance = WT_NONE;
+  }
+  for (uint32_t i = 0; i < instances.size(); ++i)
+    for (const Surface& surface : models[instances[i].model].surfaces) {
+      wt_exact_surface& record = records.emplace_back();
+      const glm::dvec3 normal = state.instances[i].rotation * surface.normal;
+      store(record.normal, normal);
+      record.offset = surface.offset_m;
+      for (int axis = 0; axis < 3; ++axis) record.offset += normal[axis] * state.instances[i].position_m[axis];
+      record.instance = i;
+    }
+  return records;
+}
+
+std::vector<wt_wedge> wedge_records(const Scene& scene, std::span<const Scene> models,
+                                    std::span<const Instance> instances) {
+  std::vector<wt_wedge> records;
+  for (const Wedge& wedge : scene.wedges) records.push_back(record_of(wedge, 0, WT_NONE));
+  for (uint32_t i = 0; i < instances.size(); ++i)
+    for (const Wedge& wedge : models[instances[i].model].wedges)
+      records.push_back(record_of(wedge, instances[i].first_surface, i));
+  return records;
+}
+
+void place_wedges(std::vector<wt_wedge>& wedges, const WorldState& state) {
+  for (wt_wedge& wedge : wedges) {
+    if (wedge.instance == WT_NONE) continue;
+    const Placement& body = state.instances[wedge.instance];
+    store(wedge.start, body.rotation * vector_of(wedge.start) + body.position_m);
+    store(wedge.along, body.rotation * vector_of(wedge.along));
+    store(wedge.face, body.rotation * vector_of(wedge.face));
+    store(wedge.normal, body.rotation * vector_of(wedge.normal));
+  }
+}
+
+std::vector<wt_exact_instance> instance_records(std::span<const Instance> instances, const WorldState& state) {
+  std::vector<wt_exact_instance> records(state.instances.size());
+  for (size_t i = 0; i < records.size(); ++i) {
+    wt_exact_instance& record = records[i];
+    const Placement& body = state.instances[i];
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) record.rotation[3 * row + column] = body.rotation[column][row];
+    store(record.position, body.position_m);
+    store(record.velocity, body.velocity_m_s);
+    store(record.angular_velocity, body.angular_velocity_rad_s);
+    record.first_surface = instances[i].first_surface;
+    record.first_wedge = instances[i].first_wedge;
+    record.present = body.present;
+  }
+  return records;
+}
+
+}  // namespace wavetracer

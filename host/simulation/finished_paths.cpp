@@ -1,0 +1,57 @@
+// The passes in their order; nothing is read between them but the numbers of rows.
+#include "simulation/finished_paths.hpp"
+
+#include "wavetracer/interaction_kinds.hpp"
+
+namespace wavetracer {
+
+FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world)
+    : context_(context),
+      distinct_(context, world.receiver_of_transmitter(), world.transmitter_of_receiver()),
+      sort_(context),
+      scan_(context),
+      fields_(context, make_field_tables(scene, config, world.models(), world.instances()), config.trace.diffraction,
+              scene.origin_m) {}
+
+Paths FinishedPaths::operator()(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
+                                const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
+                                LeftOut& left_out, FrameAccount& account) {
+  const uint32_t places = distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links,
+                                         visible);  // distinct
+  uint32_t rows = 0, vertices = 0;
+  if (places > 0) {
+    sort_(distinct_.sort_keys(), distinct_.order(), places, 32, "distinct");         // sort
+    if (distinct_.place(scene, ends, visible) > 0) left_out = distinct_.left_out();  // distinct
+    rows = scan_(distinct_.rows().counts, places, "distinct");                       // scan
+    vertices = scan_(distinct_.rows().vertex_counts, places, "distinct");            // scan
+  }
+  if (rows > 0)
+    fields_(scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_, distinct_.rows(),
+            rows, vertices);  // fields
+  account.device_done();
+  return fields_.read(frame, rows, vertices);
+}
+
+void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible) {
+  visible.count = static_cast<uint32_t>(paths.size());
+  if (visible.count == 0) return;
+  if (visible.headers.size() < visible.count) visible.reserve(context, visible.count);
+  const size_t stride = visible.max_depth;
+  std::vector<wt_solved> headers;
+  std::vector<double> vertices(3 * stride * paths.size());
+  std::vector<uint32_t> steps(stride * paths.size());
+  for (size_t path = 0; path < paths.size(); ++path) {
+    const auto depth = static_cast<uint32_t>(paths.first[path + 1] - paths.first[path]);
+    headers.push_back({paths.tx[path], paths.rx[path], depth, 0, WT_NONE, 0});
+    for (uint32_t k = 0; k < depth; ++k) {
+      const uint64_t from = paths.first[path] + k, to = path * stride + k;
+      steps[to] = paths.surface[from] | find_interaction(paths.interaction[from])->step << WT_STEP_SHIFT;
+      for (int axis = 0; axis < 3; ++axis) vertices[3 * to + axis] = paths.vertex[from][axis];
+    }
+  }
+  visible.headers.write(headers, 0, "distinct");
+  visible.vertices.write(vertices, 0, "distinct");
+  visible.sequences.write(steps, 0, "distinct");
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,40 @@
+// From visible paths to the rows of a frame, on the device until they are finished: reversed twins and distinct rows in
+// their order, then fields, and one read of the columns.
+// The reversed twin of a path is that of the link the other way, where both ends send and receive: what is a path one
+// way is a path the other way. Assumes that a transmitter and a receiver that are one end stand in the same point.
+#pragma once
+#include "passes/distinct.hpp"
+#include "passes/fields.hpp"
+#include "passes/scan.hpp"
+#include "passes/sort.hpp"
+#include "radio/fields.hpp"
+#include "simulation/diffracted_paths.hpp"
+#include "simulation/frame_account.hpp"
+#include "simulation/world.hpp"
+#include "wavetracer/path_geometry.hpp"
+
+namespace wavetracer {
+
+class FinishedPaths {
+ public:
+  // config: with all ends of the world, and the features that are on.
+  FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world);
+
+  // visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose paths are wanted,
+  // where they are not all that ends.links has. left_out: gets paths that radio/fields.hpp does not count.
+  Paths operator()(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
+                   const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, LeftOut& left_out,
+                   FrameAccount& account);
+
+ private:
+  gpu::Context& context_;
+  Distinct distinct_;
+  Sort sort_;
+  Scan scan_;
+  Fields fields_;
+};
+
+// Paths that were found elsewhere as visible ones, instead of those that the list has.
+void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible);
+
+}  // namespace wavetracer

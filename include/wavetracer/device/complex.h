@@ -1,0 +1,75 @@
+// Complex numbers as pairs of doubles (x: real, y: imaginary): the same bits on host and devices.
+// Sums, differences and products with a real number are those of vectors.
+#ifndef WAVETRACER_DEVICE_COMPLEX_H
+#define WAVETRACER_DEVICE_COMPLEX_H
+#include "wavetracer/device/elementary.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+inline wt_double2 wt_real(double x) { return WT_DOUBLE2(x, 0.0); }
+inline wt_double2 wt_times(wt_double2 a, wt_double2 b) {
+  return WT_DOUBLE2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+inline double wt_norm(wt_double2 a) { return a.x * a.x + a.y * a.y; }  // |a|^2
+// a / b. b is scaled first, so that the norm of a metal's permittivity does not overflow, nor that of nothing vanish.
+inline wt_double2 wt_over(wt_double2 a, wt_double2 b) {
+  const double size = fmax(fabs(b.x), fabs(b.y));
+  const double x = b.x / size, y = b.y / size, norm = (x * x + y * y) * size;
+  return WT_DOUBLE2((a.x * x + a.y * y) / norm, (a.y * x - a.x * y) / norm);
+}
+inline double wt_size(wt_double2 a) {
+  const double larger = fmax(fabs(a.x), fabs(a.y)), smaller = fmin(fabs(a.x), fabs(a.y));
+  if (larger == 0.0) return 0.0;
+  const double ratio = smaller / larger;
+  return larger * sqrt(1.0 + ratio * ratio);
+}
+// The root whose real part is not negative.
+inline wt_double2 wt_root(wt_double2 a) {
+  const double size = wt_size(a);
+  if (size == 0.0) return WT_DOUBLE2(0.0, a.y);
+  const double part = sqrt(0.5 * (size + fabs(a.x))), other = fabs(a.y) / (2.0 * part);
+  return a.x >= 0.0 ? WT_DOUBLE2(part, copysign(other, a.y)) : WT_DOUBLE2(other, copysign(part, a.y));
+}
+inline wt_double2 wt_polar(double size, double angle) { return wt_cos_sin(angle) * size; }
+inline wt_double2 wt_complex_exp(wt_double2 a) { return wt_polar(wt_exp(a.x), a.y); }
+// exp(a) - 1 without the cancellation at small a.
+inline wt_double2 wt_complex_expm1(wt_double2 a) {
+  const wt_double2 turn = wt_cos_sin(a.y);
+  const double half_sine = wt_cos_sin(0.5 * a.y).y;
+  return WT_DOUBLE2(wt_expm1(a.x) * turn.x - 2.0 * half_sine * half_sine, wt_exp(a.x) * turn.y);
+}
+
+// 2 x 2 matrices, row by row.
+typedef struct {
+  wt_double2 m[4];
+} wt_matrix;
+
+inline wt_matrix wt_matrix_product(wt_matrix a, wt_matrix b) {
+  wt_matrix out;
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 2; ++column)
+      out.m[2 * row + column] = wt_times(a.m[2 * row], b.m[column]) + wt_times(a.m[2 * row + 1], b.m[2 + column]);
+  return out;
+}
+inline wt_matrix wt_scaled(wt_matrix a, wt_double2 factor) {
+  for (int i = 0; i < 4; ++i) a.m[i] = wt_times(a.m[i], factor);
+  return a;
+}
+inline wt_matrix wt_matrix_sum(wt_matrix a, double factor, wt_matrix b) {  // a + factor b
+  for (int i = 0; i < 4; ++i) a.m[i] = a.m[i] + b.m[i] * factor;
+  return a;
+}
+inline wt_matrix wt_diagonal(wt_double2 first, wt_double2 second) {
+  wt_matrix out;
+  out.m[0] = first;
+  out.m[1] = out.m[2] = wt_real(0.0);
+  out.m[3] = second;
+  return out;
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,65 @@
+// Records of the fields of paths that host and device share: what fields know of a world and its ends, and what they
+// make of each path. No float3, bool, size_t or pointers; padding is explicit.
+#ifndef WAVETRACER_DEVICE_FIELD_RECORDS_H
+#define WAVETRACER_DEVICE_FIELD_RECORDS_H
+#include "wavetracer/device/types.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+// A radio material at the carrier's frequency.
+typedef struct {
+  double permittivity[2];  // relative, real and imaginary part
+  double thickness_m;
+  double scattering, cross_polar;  // S and K
+  wt_uint lobe;                    // alpha, 0: Lambert's law
+  wt_uint padding;
+} wt_material;
+
+// Patterns of antennas; the first four as NamedAntenna (wavetracer/config.hpp) has them.
+#define WT_PATTERN_ISOTROPIC 0u
+#define WT_PATTERN_SHORT_DIPOLE 1u
+#define WT_PATTERN_HALF_WAVE_DIPOLE 2u
+#define WT_PATTERN_TR38901 3u
+#define WT_PATTERN_GRID 4u  // of a file
+
+typedef struct {
+  wt_uint pattern;
+  wt_uint ports;  // 1 or 2
+  // Of a grid: where its samples begin, four doubles each (theta, phi; real, imaginary), row by row; one row for each
+  // theta, one column for each phi.
+  wt_uint first_sample;
+  wt_uint rows, columns;
+  wt_uint padding;
+  double theta_step, phi_step, first_phi;  // micro-degrees
+  double slant[2][2];                      // cosine and sine of each port's
+} wt_antenna;
+
+// An end of links in a frame.
+typedef struct {
+  double position_m[3];  // recentred
+  double velocity_m_s[3];
+  double rotation[9];  // from the antenna's axes to global ones, row by row
+  wt_uint antenna;
+  wt_uint padding;
+} wt_field_end;
+
+// A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp).
+typedef struct {
+  double delay_s, gain_db, doppler_hz;
+  double aod_theta, aod_phi, aoa_theta, aoa_phi;  // radians
+  double a[8];                                    // receiver's port 2 r + transmitter's port t; real, imaginary
+  wt_uint tx, rx, depth, quarters;
+} wt_path_row;
+
+typedef struct {
+  double position[3];  // in the coordinates of the file
+  wt_uint surface, instance, interaction;
+  wt_uint padding;
+} wt_vertex_row;
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,157 @@
+// The edges of a diffracted path: where they are, how the wave spreads from them, and what each does to it.
+// Spreading: edges are lines of sources, so by stationary phase over the points on them: 1 / (product of the legs
+// between ends and edges) / sqrt(det H), H the second derivatives of the length. It is that of K-P for one edge
+// (sqrt(s' / (s (s + s'))) / s'), and symmetric for two. Assumes up to two diffractions that are not at one wedge.
+#ifndef WAVETRACER_DEVICE_PATH_EDGES_H
+#define WAVETRACER_DEVICE_PATH_EDGES_H
+#include "wavetracer/device/path_world.h"
+#include "wavetracer/device/utd.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+// A diffraction of the path.
+typedef struct {
+  wt_uint at;  // its vertex
+  wt_uint number;
+  wt_wedge_frame frame;
+  wt_double3 k_in, k_out;
+  double before_m, after_m;  // to the end or edge before and after it, reflections unfolded
+} wt_edge;
+
+// Directions closer than this to a boundary are worth a question about the other path there, see wt_lit_sides_of.
+#define WT_NEAR_BOUNDARY_RAD 2e-6
+
+// What runs along a face is this far inside of free space: both faces of a half plane lie in one direction.
+#define WT_INSIDE_RAD 1e-12
+
+inline double wt_sine2(const wt_edge* edge) {  // of the angle between edge and path
+  const double cosine = wt_dot3(edge->k_in, edge->frame.along);
+  return (1.0 - cosine) * (1.0 + cosine);
+}
+
+inline int wt_is_half_plane(const wt_edge* edge) { return edge->frame.exterior > 2.0 * WT_PI - 1e-9; }
+
+// Of face 0 or 1, into free space.
+inline wt_double3 wt_face_normal(const wt_wedge_frame* frame, int face) {
+  if (face == 0) return frame->normal;
+  const wt_double2 turn = wt_cos_sin(frame->exterior);
+  return frame->face * turn.y - frame->normal * turn.x;
+}
+
+// The edges of the path, two at most. Returns their number.
+inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_edge* edges) {
+  wt_uint count = 0;
+  wt_walk_leg leg = wt_first_leg(path);
+  double since_m = leg.length_m;
+  for (wt_uint k = 0; k < path->depth; ++k) {
+    const wt_walk_leg next = wt_next_leg(world, path, k, &leg);
+    if (wt_kind(path, k) == WT_STEP_DIFFRACTION && count < 2) {
+      if (count > 0) edges[count - 1].after_m = since_m;
+      const WT_GLOBAL wt_wedge* wedge = world->wedges + wt_number(path, k);
+      wt_edge* edge = edges + count++;
+      edge->at = k;
+      edge->number = wt_number(path, k);
+      edge->frame.along = wt_vector(wedge->along);
+      edge->frame.face = wt_vector(wedge->face);
+      edge->frame.normal = wt_vector(wedge->normal);
+      edge->frame.exterior = wedge->exterior;
+      edge->k_in = leg.direction;
+      edge->k_out = next.direction;
+      edge->before_m = since_m;
+      edge->after_m = 0.0;
+      since_m = 0.0;
+    }
+    since_m += next.length_m;
+    leg = next;
+  }
+  if (count > 0) edges[count - 1].after_m = since_m;
+  return count;
+}
+
+inline double wt_edge_spreading(const wt_edge* edges, wt_uint count) {
+  const wt_edge *a = edges, *b = edges + count - 1;
+  const double xx = wt_sine2(a) * (1.0 / a->before_m + 1.0 / a->after_m);
+  if (count == 1) return 1.0 / (a->before_m * a->after_m * sqrt(xx));
+  const double yy = wt_sine2(b) * (1.0 / b->before_m + 1.0 / b->after_m);
+  const wt_double3 v = a->frame.along, w = b->frame.along, k = a->k_out;
+  const double xy = (wt_dot3(v, k) * wt_dot3(w, k) - wt_dot3(v, w)) / a->after_m;
+  return 1.0 / (a->before_m * a->after_m * b->after_m * sqrt(xx * yy - xy * xy));
+}
+
+// The leg between two edges of one face runs along it, whatever rounding says: with the reflected wave it is one wave,
+// and is counted as such at both of its ends, which is once too often. Along a sheet of two free edges one wave runs on
+// each side; their signs differ at either end, so both arrive as the same. Returns the factor that makes up for it.
+inline double wt_snap_to_shared_face(const wt_field_world* world, wt_edge* edges) {
+  for (int i = 0; i < 4; ++i) {
+    if (world->wedges[edges[0].number].surfaces[i / 2] != world->wedges[edges[1].number].surfaces[i % 2]) continue;
+    const wt_double3 normals[2] = {wt_face_normal(&edges[0].frame, i / 2), wt_face_normal(&edges[1].frame, i % 2)};
+    if (wt_dot3(normals[0], normals[1]) < 0.0) continue;
+    const wt_double3 away = edges[0].k_out, come = edges[1].k_in;
+    edges[0].k_out = wt_normalized(away - normals[0] * (wt_dot3(away, normals[0]) - WT_INSIDE_RAD));
+    edges[1].k_in = wt_normalized(come - normals[1] * (wt_dot3(come, normals[1]) + WT_INSIDE_RAD));
+    return wt_is_half_plane(&edges[0]) && wt_is_half_plane(&edges[1]) ? 4.0 : 2.0;
+  }
+  return 1.0;
+}
+
+// Has the path these steps, but for its step `at`, which is another one, or none where `other` is WT_NONE?
+inline int wt_differs_at(const wt_path* path, const wt_path* sibling, wt_uint at, wt_uint other) {
+  const wt_uint skipped = other == WT_NONE ? 1u : 0u;
+  if (sibling->depth + skipped != path->depth) return 0;
+  for (wt_uint k = 0; k < sibling->depth; ++k) {
+    const wt_uint from = skipped && k >= at ? k + 1 : k;
+    if (wt_step(sibling, k) != (!skipped && k == at ? other : wt_step(path, from))) return 0;
+  }
+  return 1;
+}
+
+// Is there such a path of the same link, as long as this row's to a picosecond?
+inline int wt_has_sibling(const wt_ordered_rows* ordered, wt_uint row, const wt_path* path, wt_uint at, wt_uint other) {
+  for (int way = -1; way <= 1; way += 2)
+    for (wt_uint i = row + (wt_uint)way; i < ordered->count; i += (wt_uint)way) {  // before 0 is beyond count
+      if (!(fabs(ordered->delays[i] - ordered->delays[row]) < 1e-12)) break;
+      if (ordered->rows[i] == WT_NO_ROW) continue;
+      const wt_path sibling = wt_path_of(ordered->list, ordered->rows[i]);
+      if (sibling.transmitter != path->transmitter || sibling.receiver != path->receiver) break;
+      if (wt_differs_at(path, &sibling, at, other)) return 1;
+    }
+  return 0;
+}
+
+// Only where the direction after the edge is that of the direct or of a reflected ray: other paths are not asked for.
+inline wt_lit_sides wt_lit_sides_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                                    const wt_path* path, const wt_edge* edge) {
+  wt_lit_sides lit;
+  lit.direct = -1;
+  if (wt_length3(edge->k_in - edge->k_out) < WT_NEAR_BOUNDARY_RAD)
+    lit.direct = wt_has_sibling(ordered, row, path, edge->at, WT_NONE);
+  for (int face = 0; face < 2; ++face) {
+    lit.reflected[face] = -1;
+    const wt_double3 mirrored = wt_mirrored(edge->k_in, wt_face_normal(&edge->frame, face));
+    if (wt_length3(mirrored - edge->k_out) >= WT_NEAR_BOUNDARY_RAD) continue;
+    const wt_uint surface = world->wedges[edge->number].surfaces[face];
+    lit.reflected[face] = wt_has_sibling(ordered, row, path, edge->at, surface | WT_STEP_REFLECTION);
+  }
+  return lit;
+}
+
+inline void wt_diffract_at(const wt_field_world* world, const wt_edge* edge, wt_lit_sides lit, wt_transfer* transfer) {
+  wt_wedge_face faces[2];
+  for (int face = 0; face < 2; ++face) {
+    const wt_uint surface = world->wedges[edge->number].surfaces[face];
+    const WT_GLOBAL wt_material* material = world->materials + world->materials_of[surface];
+    faces[face].permittivity = WT_DOUBLE2(material->permittivity[0], material->permittivity[1]);
+    faces[face].thickness_m = material->thickness_m;
+  }
+  const double distance_m = edge->before_m * edge->after_m / (edge->before_m + edge->after_m) * wt_sine2(edge);
+  const wt_wave_map wave = wt_diffract(edge->frame, faces, edge->k_in, edge->k_out, distance_m, world->wavelength_m,
+                                       world->transmissions >= (wt_is_half_plane(edge) ? 1u : 2u), lit);
+  wt_map(transfer, wave.from, wave.to, wave.matrix);
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,187 @@
+// The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
+// Spreading: 1 / L of a path of length L without edges, else that of path_edges.h. Assumes geometry of the exact solve:
+// specular reflections, straight transmissions, one diffuse scattering or up to two diffractions.
+#ifndef WAVETRACER_DEVICE_PATH_FIELD_H
+#define WAVETRACER_DEVICE_PATH_FIELD_H
+#include "wavetracer/device/antenna.h"
+#include "wavetracer/device/path_edges.h"
+#include "wavetracer/device/scattering.h"
+
+// What a scene has not need not be compiled for a device.
+#ifndef WT_DIFFRACTS
+#define WT_DIFFRACTS 1
+#endif
+#ifndef WT_SCATTERS
+#define WT_SCATTERS 1
+#endif
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+typedef struct {
+  double delay_s, gain_db, doppler_hz;
+  wt_angles departure, arrival;
+  wt_double2 a[4];  // receiver's port 2 r + transmitter's port t
+} wt_path_field;
+
+inline void wt_meet_surface(const wt_field_world* world, wt_uint step, wt_double3 k_in, wt_double3 k_out,
+                            wt_transfer* transfer) {
+  const wt_uint surface = step & ~WT_STEP_KIND;
+  const wt_double3 normal = wt_vector(world->surfaces[surface].normal);
+  const wt_material material = world->materials[world->materials_of[surface]];
+  const wt_slab slab =
+      wt_slab_coefficients(WT_DOUBLE2(material.permittivity[0], material.permittivity[1]),
+                           fmin(fabs(wt_dot3(k_in, normal)), 1.0), material.thickness_m, world->wavelength_m);
+  if ((step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) {
+    wt_meet(transfer, k_in, k_out, normal, slab.transmission_te, slab.transmission_tm);
+  } else {
+    const double share = world->scatters ? wt_specular_share(&material) : 1.0;
+    wt_meet(transfer, k_in, k_out, normal, slab.reflection_te * share, slab.reflection_tm * share);
+  }
+}
+
+#if WT_SCATTERS
+inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_double3 k_in, wt_double3 k_out,
+                          wt_transfer* transfer) {
+  const wt_uint surface = world->surface_of_tile[tile];
+  const wt_material material = world->materials[world->materials_of[surface]];
+  const wt_wave_map wave =
+      wt_scatter(&material, world->wavelength_m, k_in, k_out, wt_vector(world->surfaces[surface].normal),
+                 world->area_of_tile[tile], world->seed, tile);
+  wt_map(transfer, wave.from, wave.to, wave.matrix);
+}
+#endif
+
+// dL/dt = sum over legs of k . (x'(i+1) - x'(i)): what vertex p, on a body that moves, adds to the speed at which the
+// path gets shorter. A vertex moves with the material point v there and slides along its surface or edge besides. Where
+// a path is reflected, k_in - k_out is along the normal, and where it is diffracted, normal to the edge: L is
+// stationary under sliding (Fermat's principle), and x' = v serves exactly, v of a turning body included. What is
+// scattered is a point of the body. What is transmitted goes straight on, k_in = k_out, and adds nothing.
+inline double wt_closing_speed_at(const wt_field_world* world, wt_uint step, wt_double3 p, wt_double3 k_in,
+                                  wt_double3 k_out) {
+  const wt_uint instance = wt_step_instance(world, step);
+  if (instance == WT_NONE || (step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) return 0.0;
+  const WT_GLOBAL wt_exact_instance* body = world->instances + instance;
+  const wt_double3 arm = p - wt_vector(body->position);
+  const wt_double3 velocity = wt_vector(body->velocity) + wt_cross3(wt_vector(body->angular_velocity), arm);
+  return wt_dot3(velocity, k_out - k_in);
+}
+
+// What both ends' antennas make of the matrix of the path, without the amplitude at 1 m.
+inline void wt_port_coefficients(const wt_matrix* m, const wt_port_fields* sent, const wt_port_fields* heard,
+                                 double at_1_m, wt_path_field* out) {
+  double power = 0.0;
+  for (int t = 0; t < 2; ++t) {
+    const wt_field_pair s = sent->port[t];
+    const wt_double2 theta = wt_times(m->m[0], s.theta) + wt_times(m->m[1], s.phi);
+    const wt_double2 phi = wt_times(m->m[2], s.theta) + wt_times(m->m[3], s.phi);
+    for (int r = 0; r < 2; ++r) {
+      const wt_double2 a = wt_times(heard->port[r].theta, theta) + wt_times(heard->port[r].phi, phi);
+      out->a[2 * r + t] = a * at_1_m;
+      power += wt_norm(out->a[2 * r + t]);
+    }
+  }
+  out->gain_db = 10.0 * wt_log10(power);
+}
+
+// Row `row` of the ordered rows.
+inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row) {
+  const wt_path path = wt_path_of(ordered->list, ordered->rows[row]);
+  const WT_GLOBAL wt_field_end* tx = world->transmitters + path.transmitter;
+  const WT_GLOBAL wt_field_end* rx = world->receivers + path.receiver;
+  wt_path_field out;
+  out.delay_s = ordered->delays[row];
+
+  wt_walk_leg leg = wt_first_leg(&path);
+  const wt_double3 departure = leg.direction;
+  const wt_basis departure_basis = wt_spherical_basis(departure);
+  wt_transfer transfer = wt_transfer_from(departure_basis);
+  const double length_m = wt_path_length(&path);
+  double spread = 1.0 / length_m, since_m = 0.0, speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
+#if WT_DIFFRACTS
+  wt_edge edges[2];
+  const wt_uint edge_count = wt_edges_of(world, &path, edges);
+  wt_uint next_edge = 0;
+  if (edge_count > 0) spread = wt_edge_spreading(edges, edge_count);
+  if (edge_count > 1) spread *= wt_snap_to_shared_face(world, edges);
+#endif
+  for (wt_uint k = 0; k < path.depth; ++k) {
+    const wt_walk_leg next = wt_next_leg(world, &path, k, &leg);
+    const wt_uint step = wt_step(&path, k), kind = step & WT_STEP_KIND;
+    since_m += leg.length_m;
+    if (kind == WT_STEP_REFLECTION || kind == WT_STEP_TRANSMISSION)
+      wt_meet_surface(world, step, leg.direction, next.direction, &transfer);
+#if WT_DIFFRACTS
+    if (kind == WT_STEP_DIFFRACTION) {
+      const wt_edge* edge = edges + next_edge++;
+      wt_lit_sides lit;
+      lit.direct = lit.reflected[0] = lit.reflected[1] = -1;
+      if (edge_count == 1) lit = wt_lit_sides_of(world, ordered, row, &path, edge);
+      wt_diffract_at(world, edge, lit, &transfer);
+    }
+#endif
+#if WT_SCATTERS
+    if (kind == WT_STEP_SCATTERING) {
+      wt_scatter_at(world, step & ~WT_STEP_KIND, leg.direction, next.direction, &transfer);
+      spread = 1.0 / (since_m * (length_m - since_m));
+    }
+#endif
+    speed += wt_closing_speed_at(world, step, next.from, leg.direction, next.direction);
+    leg = next;
+  }
+  const wt_double3 arrival = -leg.direction;
+  const wt_basis arrival_basis = wt_spherical_basis(arrival);
+  speed += wt_dot3(wt_vector(rx->velocity_m_s), arrival);
+  wt_matrix m = wt_seen_in(&transfer, arrival_basis);
+  for (int i = 0; i < 4; ++i) m.m[i] = m.m[i] * spread;
+
+  out.departure = wt_angles_of(departure);
+  out.arrival = wt_angles_of(arrival);
+  out.doppler_hz = speed / world->wavelength_m + 0.0;  // plus zero: where all stands still the shift is 0, not -0
+  const wt_port_fields sent =
+      wt_antenna_fields(world->antennas + tx->antenna, world->samples, tx->rotation, departure, departure_basis);
+  const wt_port_fields heard =
+      wt_antenna_fields(world->antennas + rx->antenna, world->samples, rx->rotation, arrival, arrival_basis);
+  wt_port_coefficients(&m, &sent, &heard, world->wavelength_m / (4.0 * WT_PI), &out);
+  return out;
+}
+
+// The row at `place` of the ordered rows, and its vertices. origin: of recentred coordinates in those of the file.
+inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint place, wt_uint quarters,
+                         wt_double3 origin, WT_GLOBAL wt_path_row* row, WT_GLOBAL wt_vertex_row* vertices) {
+  const wt_path path = wt_path_of(ordered->list, ordered->rows[place]);
+  const wt_path_field field = wt_field_of(world, ordered, place);
+  row->tx = path.transmitter;
+  row->rx = path.receiver;
+  row->depth = path.depth;
+  row->quarters = quarters;
+  row->delay_s = field.delay_s;
+  row->gain_db = field.gain_db;
+  row->doppler_hz = field.doppler_hz;
+  row->aod_theta = field.departure.theta;
+  row->aod_phi = field.departure.phi;
+  row->aoa_theta = field.arrival.theta;
+  row->aoa_phi = field.arrival.phi;
+  for (int i = 0; i < 4; ++i) {
+    row->a[2 * i] = field.a[i].x;
+    row->a[2 * i + 1] = field.a[i].y;
+  }
+  for (wt_uint k = 0; k < path.depth; ++k) {
+    const wt_uint step = wt_step(&path, k);
+    const wt_double3 p = wt_vertex(&path, k) + origin;
+    WT_GLOBAL wt_vertex_row* vertex = vertices + k;
+    vertex->position[0] = p.x;
+    vertex->position[1] = p.y;
+    vertex->position[2] = p.z;
+    vertex->surface = wt_local_number(world, step);
+    vertex->instance = wt_step_instance(world, step);
+    vertex->interaction = wt_interaction(step);
+    vertex->padding = 0;
+  }
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

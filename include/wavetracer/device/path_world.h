@@ -1,0 +1,109 @@
+// A path in the world of a frame: the tables that say what it meets, its legs, and the rows beside it.
+// Assumes that vertices lie in their surfaces to rounding error and that surface normals have unit length.
+#ifndef WAVETRACER_DEVICE_PATH_WORLD_H
+#define WAVETRACER_DEVICE_PATH_WORLD_H
+#include "wavetracer/device/field_records.h"
+#include "wavetracer/device/path_rows.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+// The world as fields see it; surfaces, wedges, tiles and instances by their numbers in the world, as they are placed
+// in the frame.
+typedef struct {
+  const WT_GLOBAL wt_exact_surface* surfaces;
+  const WT_GLOBAL wt_uint* materials_of;  // of surfaces
+  const WT_GLOBAL wt_material* materials;
+  const WT_GLOBAL wt_wedge* wedges;
+  const WT_GLOBAL wt_uint* surface_of_tile;
+  const WT_GLOBAL double* area_of_tile;
+  const WT_GLOBAL wt_exact_instance* instances;
+  const WT_GLOBAL wt_field_end* transmitters;
+  const WT_GLOBAL wt_field_end* receivers;
+  const WT_GLOBAL wt_antenna* antennas;
+  const WT_GLOBAL double* samples;  // of antennas' grids
+  double wavelength_m;
+  wt_ulong seed;
+  wt_uint transmissions;  // the most of a path
+  wt_uint scatters;       // not 0: mirrored waves lose what is scattered
+} wt_field_world;
+
+// The rows of a frame in their order, for questions about the neighbours of one; places may have none (WT_NO_ROW).
+typedef struct {
+  const wt_path_list* list;
+  const WT_GLOBAL wt_uint* rows;
+  const WT_GLOBAL double* delays;
+  wt_uint count;
+} wt_ordered_rows;
+
+// Below this the direction of a leg is rounding error of its ends, and the law of reflection says it better.
+#define WT_SHORTEST_LEG_M 1e-6
+
+inline wt_uint wt_number(const wt_path* path, wt_uint k) { return wt_step(path, k) & ~WT_STEP_KIND; }
+inline wt_uint wt_kind(const wt_path* path, wt_uint k) { return wt_step(path, k) & WT_STEP_KIND; }
+
+// Walks along a path: leg k goes from vertex k - 1 (or the transmitter) to vertex k (or the receiver).
+typedef struct {
+  wt_double3 from, direction;
+  double length_m;
+} wt_walk_leg;
+
+inline wt_walk_leg wt_first_leg(const wt_path* path) {
+  wt_walk_leg leg;
+  leg.from = path->from;
+  const wt_double3 along = (path->depth > 0 ? wt_vertex(path, 0) : path->to) - path->from;
+  leg.length_m = wt_length3(along);
+  leg.direction = leg.length_m > WT_SHORTEST_LEG_M ? along / leg.length_m : WT_DOUBLE3(0.0, 0.0, 0.0);
+  return leg;
+}
+
+// The leg after vertex k. A leg of no length goes on as the law of reflection says.
+inline wt_walk_leg wt_next_leg(const wt_field_world* world, const wt_path* path, wt_uint k, const wt_walk_leg* before) {
+  wt_walk_leg leg;
+  leg.from = wt_vertex(path, k);
+  const wt_double3 along = (k + 1 < path->depth ? wt_vertex(path, k + 1) : path->to) - leg.from;
+  leg.length_m = wt_length3(along);
+  if (leg.length_m > WT_SHORTEST_LEG_M) {
+    leg.direction = along / leg.length_m;
+  } else {
+    leg.direction = before->direction;
+    if (wt_kind(path, k) == WT_STEP_REFLECTION)
+      leg.direction = wt_mirrored(leg.direction, wt_vector(world->surfaces[wt_number(path, k)].normal));
+  }
+  return leg;
+}
+
+// Antennas that touch a surface or each other have no such path: see host/radio/fields.hpp.
+inline int wt_degenerates(const wt_field_world* world, const wt_path* path, wt_double3 end, wt_uint k) {
+  if (wt_length3(end - wt_vertex(path, k)) <= WT_ON_SURFACE_M) return 1;
+  if (wt_kind(path, k) != WT_STEP_REFLECTION) return 0;
+  const WT_GLOBAL wt_exact_surface* surface = world->surfaces + wt_number(path, k);
+  return fabs(wt_dot3(wt_vector(surface->normal), end) - surface->offset) <= WT_ON_SURFACE_M;
+}
+inline int wt_is_near(const wt_field_world* world, const wt_path* path) {
+  if (path->depth == 0) return wt_length3(path->to - path->from) <= WT_ON_SURFACE_M;
+  return wt_degenerates(world, path, path->from, 0) || wt_degenerates(world, path, path->to, path->depth - 1);
+}
+
+// The instance on which a step happens, or WT_NONE.
+inline wt_uint wt_step_instance(const wt_field_world* world, wt_uint step) {
+  const wt_uint number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
+  if (kind == WT_STEP_DIFFRACTION) return world->wedges[number].instance;
+  return world->surfaces[kind == WT_STEP_SCATTERING ? world->surface_of_tile[number] : number].instance;
+}
+
+// The number of a step's surface or wedge in its scene or model; of a tile, that of its surface.
+inline wt_uint wt_local_number(const wt_field_world* world, wt_uint step) {
+  const wt_uint number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
+  const wt_uint instance = wt_step_instance(world, step);
+  const wt_uint own = kind == WT_STEP_SCATTERING ? world->surface_of_tile[number] : number;
+  if (instance == WT_NONE) return own;
+  const WT_GLOBAL wt_exact_instance* body = world->instances + instance;
+  return own - (kind == WT_STEP_DIFFRACTION ? body->first_wedge : body->first_surface);
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,78 @@
+// Reflection and transmission of a plane wave at a single-layer slab in free space (ITU-R P.2040-3, section 2.2.2),
+// arranged so that no quotient loses its digits. host/radio/slab.hpp says what signs mean.
+// Time convention exp(+j 2 pi f t): a wave that decays goes as exp(-j q) with Im q <= 0.
+#ifndef WAVETRACER_DEVICE_SLAB_H
+#define WAVETRACER_DEVICE_SLAB_H
+#include "wavetracer/device/complex.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+typedef struct {
+  wt_double2 reflection_te, reflection_tm, transmission_te, transmission_tm;
+} wt_slab;
+
+// The wave inside: s = sqrt(eta - sin^2 theta) is its normal wave number over that of free space.
+typedef struct {
+  wt_double2 s;
+  int half_space;
+  wt_double2 one_pass;    // exp(-j q), q = 2 pi (d / lambda) s
+  wt_double2 round_trip;  // E = exp(-2 j q)
+  wt_double2 missing;     // (1 - E) / s, which stays finite where s vanishes
+} wt_inside;
+
+inline wt_inside wt_inside_of(wt_double2 permittivity, double cos_theta, double thickness_m, double wavelength_m) {
+  wt_inside in;
+  in.s = wt_root(permittivity - wt_real(1.0 - cos_theta * cos_theta));
+  if (in.s.y > 0.0) in.s = -in.s;  // the branch that decays, also for a real eta below sin^2 theta
+  in.half_space = thickness_m == WT_INFINITY;
+  in.one_pass = in.round_trip = in.missing = wt_real(0.0);
+  if (in.half_space) return in;
+  const double kd = 2.0 * WT_PI * thickness_m / wavelength_m;
+  const wt_double2 exponent = WT_DOUBLE2(2.0 * kd * in.s.y, -2.0 * kd * in.s.x);
+  in.one_pass = wt_complex_exp(exponent * 0.5);
+  in.round_trip = wt_complex_exp(exponent);
+  in.missing = in.s.x == 0.0 && in.s.y == 0.0 ? WT_DOUBLE2(0.0, 2.0 * kd) : -wt_over(wt_complex_expm1(exponent), in.s);
+  return in;
+}
+
+// With r = (u - s) / (u + s), where u = cos theta (TE) or eta cos theta (TM), P.2040's
+//   R = r (1 - E) / (1 - r^2 E),  T = (1 - r^2) exp(-j q) / (1 - r^2 E)
+// multiplied out by (u + s)^2 / s. difference is u^2 - s^2, given in a form free of cancellation. u is not zero.
+inline void wt_slab_of(const wt_inside* in, wt_double2 u, wt_double2 difference, wt_double2* reflection,
+                       wt_double2* transmission) {
+  if (in->half_space) {
+    *reflection = wt_over(difference, wt_times(u + in->s, u + in->s));
+    *transmission = wt_real(0.0);
+    return;
+  }
+  const wt_double2 squares = wt_times(u, u) + wt_times(in->s, in->s);
+  const wt_double2 denominator = wt_times(squares, in->missing) + wt_times(u, wt_real(1.0) + in->round_trip) * 2.0;
+  *reflection = wt_over(wt_times(difference, in->missing), denominator);
+  *transmission = wt_over(wt_times(u, in->one_pass) * 4.0, denominator);
+}
+
+// permittivity: relative; cos_theta: 0 (grazing) to 1; thickness_m: 0 or more, infinity is the half space.
+inline wt_slab wt_slab_coefficients(wt_double2 permittivity, double cos_theta, double thickness_m,
+                                    double wavelength_m) {
+  wt_slab out;
+  const double c = cos_theta;
+  const wt_double2 contrast = permittivity - wt_real(1.0);
+  if (c == 0.0) {  // the limit of grazing incidence, whatever the slab; an empty slab lets the wave pass
+    const int empty = (contrast.x == 0.0 && contrast.y == 0.0) || thickness_m == 0.0;
+    out.reflection_te = out.reflection_tm = wt_real(empty ? 0.0 : -1.0);
+    out.transmission_te = out.transmission_tm = wt_real(empty ? 1.0 : 0.0);
+    return out;
+  }
+  const wt_inside in = wt_inside_of(permittivity, c, thickness_m, wavelength_m);
+  wt_slab_of(&in, wt_real(c), -contrast, &out.reflection_te, &out.transmission_te);
+  const wt_double2 difference = wt_times(contrast, (permittivity + wt_real(1.0)) * (c * c) - wt_real(1.0));
+  wt_slab_of(&in, permittivity * c, difference, &out.reflection_tm, &out.transmission_tm);
+  return out;
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,63 @@
+// The transition function of the uniform theory of diffraction, with a relative error below 1e-11.
+// g(s) = sqrt(pi) exp(j pi / 4) erfcx(u) at u = exp(j pi / 4) s, erfcx(u) = exp(u^2) erfc(u) the scaled complement.
+// Three expansions of it meet at s = 3 and s = 8, where their neighbours have all digits; most edges are far from their
+// shadow boundaries, beyond 8, and there a few multiplications suffice. Numbers are those of M. Abramowitz and I.
+// Stegun.
+#ifndef WAVETRACER_DEVICE_TRANSITION_H
+#define WAVETRACER_DEVICE_TRANSITION_H
+#include "wavetracer/device/complex.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+#define WT_INV_SQRT_PI 0.56418958354775628695
+#define WT_EIGHTH_TURN WT_DOUBLE2(0.70710678118654752440, 0.70710678118654752440)
+
+// The quotient of a real number.
+inline wt_double2 wt_real_over(double a, wt_double2 b) { return WT_DOUBLE2(b.x, -b.y) * (a / wt_norm(b)); }
+
+// 7.1.6: exp(u^2) erf(u) = 2 / sqrt(pi) times the sum of 2^k u^(2k+1) / (2k+1)!!.
+inline wt_double2 wt_erfcx_by_series(wt_double2 u) {
+  const wt_double2 square = wt_times(u, u);
+  wt_double2 term = u, sum = u;
+  for (int k = 1; wt_norm(term) > 1e-34 * wt_norm(sum); ++k) {
+    term = wt_times(term, square * (2.0 / (2.0 * k + 1.0)));
+    sum = sum + term;
+  }
+  return wt_complex_exp(square) - sum * (2.0 * WT_INV_SQRT_PI);
+}
+
+// 7.1.14, from its tail: sqrt(pi) erfcx(u) = 1 / (u + (1/2) / (u + 1 / (u + (3/2) / (u + ...)))).
+inline wt_double2 wt_erfcx_by_fraction(wt_double2 u) {
+  wt_double2 value = u;
+  for (int k = 60; k > 0; --k) value = u + wt_real_over(0.5 * k, value);
+  return wt_real_over(WT_INV_SQRT_PI, value);
+}
+
+// 7.1.23: sqrt(pi) u erfcx(u) ~ 1 - 1 / (2 u^2) + 1 * 3 / (2 u^2)^2 - ...; u^2 = j s^2, so the terms shrink until the
+// s^2-th, exp(-s^2) small.
+inline wt_double2 wt_erfcx_far(wt_double2 u, double s) {
+  const double step = 1.0 / (2.0 * s * s);
+  double real = 1.0, imag = 0.0, term = 1.0;  // each term is j / (2 s^2) times its odd number times the one before
+  for (int k = 1; term > 1e-17; k += 8) {
+    imag += term *= k * step;
+    real -= term *= (k + 2) * step;
+    imag -= term *= (k + 4) * step;
+    real += term *= (k + 6) * step;
+  }
+  return wt_times(WT_DOUBLE2(real, imag), wt_real_over(WT_INV_SQRT_PI, u));
+}
+
+// g(s) = 2j exp(j s^2) times the integral of exp(-j t^2) from s to infinity, s >= 0. Finite at 0; 1 / s far out.
+inline wt_double2 wt_transition_over_root(double s) {
+  const wt_double2 front = WT_EIGHTH_TURN * (1.0 / WT_INV_SQRT_PI), u = WT_EIGHTH_TURN * s;
+  if (s == 0.0) return front;
+  if (s < 3.0) return wt_times(front, wt_erfcx_by_series(u));
+  return wt_times(front, s < 8.0 ? wt_erfcx_by_fraction(u) : wt_erfcx_far(u, s));
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,114 @@
+// distinct: the rows of a frame's paths, each path once, in the order of links and delays. Consumes visible paths and,
+// where links have one the other way, adds each path's reversed twin: a row is a number
+// (wavetracer/device/path_rows.h), nothing is copied. Keys bring the rows of a link together, by a coarse length;
+// neighbours then settle the rest.
+#include "wavetracer/device/arguments.h"
+#include "wavetracer/device/path_world.h"
+#pragma OPENCL FP_CONTRACT OFF
+
+// The key of a link and a length, monotonic in both. Lengths are told apart by the exponents from 2^-4 to 2^27 m and as
+// much of the mantissa as the key has room for.
+inline uint row_key(wt_distinct_arguments args, uint link, double length_m) {
+  const uint bits = as_uint((float)fmin(fmax(length_m, 0.0625), 1.3e8)) - (123u << 23);
+  return link << args.length_bits | bits >> (28u - args.length_bits);
+}
+
+// Row 2 i is visible path i, row 2 i + 1 its twin. links: those that are wanted; own: those that are kept, a bit each.
+// What is no row gets the largest key.
+kernel void row_keys(const global wt_solved* solved, const global double* vertices, const global uint* steps,
+                     const global double* transmitters, const global double* receivers, const global uint* receiver_of,
+                     const global uint* transmitter_of, const global ushort* links, const global ushort* own,
+                     global uint* keys, global double* lengths, wt_distinct_arguments args) {
+  const uint item = get_global_id(0);
+  if (item >= args.row_count) return;
+  const uint row = args.twins ? item : 2 * item;
+  keys[item] = WT_NONE;
+  const wt_path_list list = {solved,    vertices,    steps,          transmitters,
+                             receivers, receiver_of, transmitter_of, args.max_depth};
+  if (row & 1u) {
+    const uint tx = transmitter_of[solved[row / 2].receiver], rx = receiver_of[solved[row / 2].transmitter];
+    if (tx == WT_NONE || rx == WT_NONE || !(links[tx * args.groups + rx / 16] >> rx % 16 & 1u)) return;
+  }
+  const wt_path path = wt_path_of(&list, row);
+  if (!(own[path.transmitter * args.groups + path.receiver / 16] >> path.receiver % 16 & 1u)) return;
+  const double length_m = wt_path_length(&path);
+  lengths[item] = length_m;
+  keys[item] = row_key(args, path.transmitter * args.receiver_count + path.receiver, length_m);
+}
+
+// Whether the row at a sorted place stays: WT_ROW_STAYS, WT_ROW_IS_NEAR (an antenna touches what reflects there), or 0
+// where another row is the same path. What the others were found by, the one that stays was found by, too.
+kernel void mark_rows(const global wt_solved* solved, const global double* vertices, const global uint* steps,
+                      const global double* transmitters, const global double* receivers, const global uint* receiver_of,
+                      const global uint* transmitter_of, const global wt_exact_surface* surfaces,
+                      const global uint* keys, const global uint* order, const global double* lengths,
+                      global uchar* stays, global uchar* quarters, global uint* near, wt_distinct_arguments args) {
+  const uint place = get_global_id(0);
+  if (place >= args.row_count) return;
+  stays[place] = 0;
+  if (keys[place] == WT_NONE) return;
+  const wt_path_list list = {solved,    vertices,    steps,          transmitters,
+                             receivers, receiver_of, transmitter_of, args.max_depth};
+  const uint scale = args.twins ? 1u : 2u, row = scale * order[place];
+  const wt_path path = wt_path_of(&list, row);
+  const double length_m = lengths[order[place]];
+  // Vertices that are WT_MERGE_M apart along each axis move a length by twice that times sqrt 3, each.
+  const double apart_m = 4.0 * WT_MERGE_M * path.depth + 1e-6;
+  const uint link = path.transmitter * args.receiver_count + path.receiver;
+  const uint lowest = row_key(args, link, length_m - apart_m), highest = row_key(args, link, length_m + apart_m);
+  uint found = solved[row / 2].quarters;
+  for (int way = -1; way <= 1; way += 2)
+    for (uint i = place + way; i < args.row_count && keys[i] >= lowest && keys[i] <= highest; i += way) {
+      const uint other_row = scale * order[i];
+      if (solved[other_row / 2].depth != path.depth || !(fabs(lengths[order[i]] - length_m) <= apart_m)) continue;
+      const wt_path other = wt_path_of(&list, other_row);
+      int first;
+      if (!wt_one_path(&other, &path, other_row, row, &first)) continue;
+      if (first) return;
+      found |= solved[other_row / 2].quarters;
+    }
+  quarters[place] = (uchar)found;
+  wt_field_world world;
+  world.surfaces = surfaces;
+  const int is_near = wt_is_near(&world, &path);
+  stays[place] = is_near ? WT_ROW_IS_NEAR : WT_ROW_STAYS;
+  if (is_near) atomic_inc(near);
+}
+
+// Rows to their places: those of one key by what wt_compare_rows says. rows: WT_NO_ROW where none stays, or one that is
+// near; counts: 1 where one stays, and vertex_counts its interactions.
+kernel void order_rows(const global wt_solved* solved, const global double* vertices, const global uint* steps,
+                       const global double* transmitters, const global double* receivers,
+                       const global uint* receiver_of, const global uint* transmitter_of, const global uint* keys,
+                       const global uint* order, const global double* lengths, const global uchar* stays,
+                       const global uchar* quarters, global uint* rows, global double* delays, global uint* counts,
+                       global uint* vertex_counts, global uchar* row_quarters, wt_distinct_arguments args) {
+  const uint place = get_global_id(0);
+  if (place >= args.row_count) return;
+  const uint scale = args.twins ? 1u : 2u, row = scale * order[place], key = keys[place];
+  if (key == WT_NONE) {
+    rows[place] = WT_NO_ROW;
+    counts[place] = vertex_counts[place] = 0;
+    return;
+  }
+  const wt_path_list list = {solved,    vertices,    steps,          transmitters,
+                             receivers, receiver_of, transmitter_of, args.max_depth};
+  const wt_path path = wt_path_of(&list, row);
+  const double delay_s = lengths[order[place]] / WT_SPEED_OF_LIGHT;
+  uint to = place;
+  for (int way = -1; way <= 1; way += 2)
+    for (uint i = place + way; i < args.row_count && keys[i] == key; i += way) {
+      const uint other_row = scale * order[i];
+      const wt_path other = wt_path_of(&list, other_row);
+      int compared = wt_compare_rows(&other, &path, lengths[order[i]] / WT_SPEED_OF_LIGHT, delay_s);
+      if (compared == 0) compared = wt_three_way_of_numbers(other_row, row);
+      if (way < 0 && compared > 0) --to;
+      if (way > 0 && compared < 0) ++to;
+    }
+  const int is_row = stays[place] == WT_ROW_STAYS;
+  rows[to] = is_row ? row : WT_NO_ROW;
+  delays[to] = delay_s;
+  counts[to] = is_row ? 1u : 0u;
+  vertex_counts[to] = is_row ? path.depth : 0u;
+  row_quarters[to] = quarters[place];
+}

@@ -1,0 +1,30 @@
+// fields: the columns of the paths of a frame, from rows in their order (distinct.cl): delay, angles, coefficients and
+// Doppler shift of each (wavetracer/device/path_field.h), and its vertices.
+#include "wavetracer/device/arguments.h"
+#include "wavetracer/device/path_field.h"
+#pragma OPENCL FP_CONTRACT OFF
+
+// One place of the rows per work-item. first_row and first_vertex: how many rows and vertices stand before each place.
+kernel void fields(const global wt_solved* solved, const global double* vertices, const global uint* steps,
+                   const global double* transmitter_places, const global double* receiver_places,
+                   const global uint* receiver_of, const global uint* transmitter_of, const global uint* rows,
+                   const global double* delays, const global uchar* quarters, const global uint* first_row,
+                   const global uint* first_vertex, const global wt_exact_surface* surfaces,
+                   const global uint* materials_of, const global wt_material* materials, const global wt_wedge* wedges,
+                   const global uint* surface_of_tile, const global double* area_of_tile,
+                   const global wt_exact_instance* instances, const global wt_field_end* transmitters,
+                   const global wt_field_end* receivers, const global wt_antenna* antennas,
+                   const global double* samples, global wt_path_row* out, global wt_vertex_row* out_vertices,
+                   wt_fields_arguments args) {
+  const uint place = get_global_id(0);
+  if (place >= args.row_count || rows[place] == WT_NO_ROW) return;
+  const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
+                             receiver_places, receiver_of, transmitter_of, args.max_depth};
+  const wt_field_world world = {surfaces,        materials_of,       materials,    wedges,
+                                surface_of_tile, area_of_tile,       instances,    transmitters,
+                                receivers,       antennas,           samples,      args.wavelength_m,
+                                args.seed,       args.transmissions, args.scatters};
+  const wt_ordered_rows ordered = {&list, rows, delays, args.row_count};
+  wt_write_row(&world, &ordered, place, quarters[place], (double3)(args.origin[0], args.origin[1], args.origin[2]),
+               out + first_row[place], out_vertices + first_vertex[place]);
+}

@@ -1,0 +1,152 @@
+// Fields of a frame on the device against the same code on the host: every column, to the last bit, with all that a
+// path can meet: walls, edges, rough surfaces, vehicles, and antennas of every kind.
+#include <map>
+#include <tuple>
+
+#include "radio/fields.hpp"
+#include "simulation/frame.hpp"
+#include "simulation/run.hpp"
+#include "wavetracer/interaction_kinds.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// All that was visible in the last frame, equal paths included.
+PathGeometry visible_of(const Setup& s) {
+  const SolvedList& list = const_cast<Setup&>(s).exact_paths.visible.list();
+  const auto headers = list.headers.read(0, list.count);
+  const auto steps = list.sequences.read(0, size_t{list.count} * list.max_depth);
+  const auto vertices = list.vertices.read(0, 3 * steps.size());
+  PathGeometry out;
+  for (size_t i = 0; i < headers.size(); ++i) {
+    out.tx.push_back(headers[i].transmitter);
+    out.rx.push_back(headers[i].receiver);
+    out.quarters.push_back(static_cast<uint8_t>(headers[i].quarters));
+    for (size_t k = i * list.max_depth; k < i * list.max_depth + headers[i].depth; ++k) {
+      const auto kind = std::ranges::find(interaction_kinds, steps[k] >> WT_STEP_SHIFT, &InteractionKind::step);
+      out.surface.push_back(steps[k] & ~WT_STEP_KIND);
+      out.interaction.push_back(kind->code);
+      out.vertex.emplace_back(vertices[3 * k], vertices[3 * k + 1], vertices[3 * k + 2]);
+    }
+    out.first.push_back(out.surface.size());
+  }
+  return out;
+}
+
+using Number = std::tuple<double, double, double, double, double, double, double>;
+
+struct Columns {
+  Number numbers;
+  std::array<std::complex<double>, 4> a;
+  std::vector<uint32_t> surfaces, instances;
+  std::vector<uint8_t> interactions;
+  std::vector<glm::dvec3> points;
+  bool operator==(const Columns&) const = default;
+};
+
+Columns row_of(const Paths& p, size_t i) {
+  Columns out{{p.delay_s[i], p.gain_db[i], p.doppler_hz[i], p.aod_theta_rad[i], p.aod_phi_rad[i], p.aoa_theta_rad[i],
+               p.aoa_phi_rad[i]},
+              p.a[i],
+              {},
+              {},
+              {},
+              {}};
+  for (size_t k = p.vertex_offset[i]; k < p.vertex_offset[i + 1]; ++k) {
+    out.surfaces.push_back(p.vertex_surface[k]);
+    out.instances.push_back(p.vertex_instance[k]);
+    out.interactions.push_back(p.vertex_interaction[k]);
+    out.points.push_back(p.vertex_position_m[k]);
+  }
+  return out;
+}
+
+// Frames 0 and 1; returns how many interactions of which kind they have.
+std::map<uint8_t, size_t> check_same(const Config& config, uint32_t frames) {
+  Setup s(config, "");
+  FrameLoop loop(s);
+  Config all = s.config;
+  all.trace = s.trace;
+  const FieldModel host(s.scene, all, s.world.models(), s.world.instances());
+  std::map<uint8_t, size_t> kinds;
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    const FrameResult found = loop.run({.frame = frame,
+                                        .pose = [&] { return s.world.state(frame); },
+                                        .transmitter_name = [](uint32_t) { return ""; },
+                                        .receiver_name = [](uint32_t) { return ""; }});
+    const Paths expected = host.compute(frame, visible_of(s), found.world);
+    CHECK(found.paths.size() > 50);
+    CHECK(found.paths.size() <= expected.size());
+    std::multimap<std::tuple<uint32_t, uint32_t, double>, size_t> by_delay;
+    for (size_t i = 0; i < expected.size(); ++i)
+      by_delay.emplace(std::tuple(expected.tx[i], expected.rx[i], expected.delay_s[i]), i);
+    size_t same = 0;
+    for (size_t i = 0; i < found.paths.size(); ++i) {
+      const Columns row = row_of(found.paths, i);
+      const auto [first, last] = by_delay.equal_range({found.paths.tx[i], found.paths.rx[i], found.paths.delay_s[i]});
+      same += std::any_of(first, last, [&](const auto& entry) { return row_of(expected, entry.second) == row; });
+      for (const uint8_t kind : row.interactions) ++kinds[kind];
+    }
+    CHECK(same == found.paths.size());
+  }
+  return kinds;
+}
+
+Config town(uint64_t rays, uint32_t max_depth) {
+  Config config = config_of("", {{0, 0, 12}, {100, 3, 2}},
+                            {{60, -2, 1.5}, {-97, 4, 1.5}, {40, 7, 1.5}, {-3, -50, 5}, {103, 50, 2}}, rays, max_depth);
+  config.scene.generate = "--blocks 4x4";
+  const std::array antennas{"short-dipole", "dipole", "tr38901", "isotropic", "dipole"};
+  const auto polarizations = std::to_array<Polarization>({"V", "cross", "VH", "H", "VH"});
+  for (size_t i = 0; i < config.receivers.size(); ++i) {
+    config.receivers[i].antenna = antennas[i];
+    config.receivers[i].polarization = polarizations[i];
+    config.receivers[i].orientation_deg = {30.0 * static_cast<double>(i), 10, -20};
+    config.receivers[i].velocity_m_s = {3, -14, 0.5};
+  }
+  return config;
+}
+
+}  // namespace
+
+TEST_CASE("fields on the device are the host's to the last bit: reflections, walls that are passed, edges") {
+  Config config = town(20000, 3);
+  config.trace.diffraction = true;
+  config.trace.transmission = true;
+  auto kinds = check_same(config, 1);
+  CHECK(kinds[reflection] > 100);
+  CHECK(kinds[transmission] > 10);
+  CHECK(kinds[diffraction] > 100);
+}
+
+TEST_CASE("fields on the device are the host's to the last bit: two edges") {
+  Config config = town(2000, 2);
+  config.trace.diffraction = true;
+  config.trace.max_diffractions = 2;
+  CHECK(check_same(config, 1)[diffraction] > 200);
+}
+
+TEST_CASE("fields on the device are the host's to the last bit: rough surfaces") {
+  Config config = town(2000, 2);
+  config.trace.scattering = true;
+  config.trace.tile_m = 8;
+  config.materials.emplace_back();
+  config.materials[0].name = "concrete";
+  config.materials[0].scattering = 0.3;
+  config.materials[0].scattering_lobe = 4;
+  config.materials[0].scattering_cross_polar = 0.2;
+  CHECK(check_same(config, 1)[scattering] > 200);
+}
+
+TEST_CASE("fields on the device are the host's to the last bit: vehicles that drive, with Doppler shifts") {
+  Config config = town(50000, 3);
+  config.receivers.clear();
+  config.trajectories.generate = "--seed 1 --vehicles 20 --seconds 1 --step 0.1";
+  for (const char* type : {"passenger", "delivery", "truck"})
+    config.mounts.push_back({.name = "roof", .on = type, .role = "receiver", .offset_m = {0, 0, 2}});
+  config.time.step_s = 0.1;
+  config.trace.diffraction = true;
+  CHECK(check_same(config, 2)[diffraction] > 100);
+}
