@@ -20,7 +20,9 @@ Simulation make_simulation(const Drive& drive, const Setting& setting, const std
   config.trace.reuse = setting.reuse;
   config.trace.rays = setting.rays;
   config.trace.refresh_rays = setting.refresh_rays;
-  return Simulation(config, device);
+  Simulation simulation(config, device);
+  simulation.profile_every(3);
+  return simulation;
 }
 
 double percentile_95(std::vector<double> values) {
@@ -48,34 +50,38 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// What warm frames took, stage by stage.
+// What warm frames took, and of those that were profiled, stage by stage.
 class FrameTimes {
  public:
-  void add(const StageSeconds& stages) {
+  void add(const FrameResult& result) {
+    frame_.push_back(result.seconds.at("frame"));
+    if (result.kernels.empty()) return;
     double accounted = 0;
-    for (const auto& [stage, seconds] : stages) {
+    for (const auto& [stage, seconds] : result.seconds) {
+      if (stage == "frame") continue;
       seconds_[stage].push_back(seconds);
-      if (stage != "frame") accounted += seconds;
+      accounted += seconds;
     }
-    seconds_["other"].push_back(std::max(stages.at("frame") - accounted, 0.0));
-    count_++;
+    seconds_["other"].push_back(std::max(frame_.back() - accounted, 0.0));
+    profiled_++;
   }
-  const std::vector<double>& frame() const { return seconds_.at("frame"); }
+  const std::vector<double>& frame() const { return frame_; }
 
-  // Medians, the longest first. A stage that was not in every frame counts as nothing where it was not.
+  // Medians, the longest first. A stage that was not in every profiled frame counts as nothing where it was not.
   std::vector<std::pair<std::string, double>> stages() const {
     std::vector<std::pair<std::string, double>> medians;
     for (auto [stage, seconds] : seconds_) {
-      seconds.resize(count_, 0);
-      if (stage != "frame") medians.emplace_back(stage, median(seconds));
+      seconds.resize(profiled_, 0);
+      medians.emplace_back(stage, median(seconds));
     }
     std::sort(medians.begin(), medians.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
     return medians;
   }
 
  private:
+  std::vector<double> frame_;
   std::map<std::string, std::vector<double>> seconds_;
-  size_t count_ = 0;
+  size_t profiled_ = 0;
 };
 
 }  // namespace
@@ -121,7 +127,7 @@ double measure(const Drive& drive, const Setting& setting, const References& ref
   PathRecall last;
   for (const uint32_t frame : frames) {
     result = simulation.run_frame(frame);
-    times.add(result.seconds);
+    times.add(result);
     if (const auto reference = references.find(frame); reference != references.end()) {
       last = path_recall(reference->second, result.paths);
       path_recalls.push_back(last.paths);

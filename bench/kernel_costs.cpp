@@ -86,6 +86,7 @@ double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + wo
 
 constexpr KernelCost costs[] = {
     {"generate_rays/generate_rays", "reflections", "rays", rays, always<32>, always<20>},
+    {"generate_rays/generate_launchers", "drive", "rays", rays, always<32>, always<20>},
     {"trace_bvh2/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
     {"trace_bvh8/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
     {"trace_packet16/trace", "reflections", "segments", segments, trace_bytes, tree_operations},

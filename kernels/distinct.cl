@@ -42,7 +42,8 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
                       const global double* transmitters, const global double* receivers, const global uint* receiver_of,
                       const global uint* transmitter_of, const global wt_exact_surface* surfaces,
                       const global uint* keys, const global uint* order, const global double* lengths,
-                      global uchar* stays, global uchar* quarters, global uint* near, wt_distinct_arguments args) {
+                      global uchar* stays, global uchar* quarters, global wt_row_totals* totals,
+                      wt_distinct_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count) return;
   stays[place] = 0;
@@ -72,7 +73,12 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
   world.surfaces = surfaces;
   const int is_near = wt_is_near(&world, &path);
   stays[place] = is_near ? WT_ROW_IS_NEAR : WT_ROW_STAYS;
-  if (is_near) atomic_inc(near);
+  if (is_near) {
+    atomic_inc(&totals->near);
+  } else {
+    atomic_inc(&totals->rows);
+    atomic_add(&totals->vertices, path.depth);
+  }
 }
 
 // Rows to their places: those of one key by what wt_compare_rows says. rows: WT_NO_ROW where none stays, or one that is

@@ -54,6 +54,18 @@ kernel void generate_rays(global float* rays, const global float* heights, wt_ma
              numbered(args.number + k), map, heights, from);
 }
 
+// The same of several launchers, `count` rays each, one launcher after the other. On CPUs count is a multiple of 16.
+kernel void generate_launchers(global float* rays, const global float* heights, wt_map_arguments map,
+                               const global wt_launcher_arguments* launchers, uint launcher_count,
+                               wt_launch_arguments args) {
+  const uint items = args.count / WT_RAYS_PER_ITEM, launcher = get_global_id(0) / items;
+  if (launcher >= launcher_count) return;
+  const uint k = get_global_id(0) % items * WT_RAYS_PER_ITEM;
+  store_rays(rays, args.capacity, args.first_slot + launcher * args.count + k,
+             after(args.first_index + args.stride * k, args.stride), numbered(args.number + k), map, heights,
+             launchers[launcher]);
+}
+
 // Launch indices first_index + order[k], which are numbers in the launch, too: a launch in an order of its own costs no
 // move of rays.
 kernel void generate_ordered(global float* rays, const global uint* order, const global float* heights,

@@ -6,13 +6,27 @@
 // quarters: see lib/trie.clh. What is entered for another sequence is found by who found that one.
 #include "lib/trie.clh"
 
-// Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number.
+// Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number. A work-item
+// takes WT_SLOTS_PER_ITEM slots.
 kernel void collect(const global ulong* table, uint slots, global uint* nodes, uint capacity,
                     global wt_counters* counters) {
+#if WT_SLOTS_PER_ITEM == 1
   const uint slot = get_global_id(0);
   if (slot >= slots || table[slot] == WT_EMPTY) return;
   const uint i = atomic_inc(&counters->nodes);
   if (i < capacity) nodes[i] = slot;
+#else
+  const uint first = get_global_id(0) * WT_SLOTS_PER_ITEM, end = min(first + WT_SLOTS_PER_ITEM, slots);
+  uint used = 0;
+  for (uint slot = first; slot < end; ++slot) used += table[slot] != WT_EMPTY ? 1u : 0u;
+  if (used == 0) return;
+  uint i = atomic_add(&counters->nodes, used);
+  for (uint slot = first; slot < end; ++slot) {
+    if (table[slot] == WT_EMPTY) continue;
+    if (i < capacity) nodes[i] = slot;
+    ++i;
+  }
+#endif
 }
 
 inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* quarters, uint found,

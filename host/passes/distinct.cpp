@@ -28,7 +28,7 @@ Distinct::Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of,
       receiver_of_(context.buffer(std::vector(receiver_of.begin(), receiver_of.end()), "receivers of transmitters")),
       transmitter_of_(
           context.buffer(std::vector(transmitter_of.begin(), transmitter_of.end()), "transmitters of receivers")),
-      near_(context.buffer<uint32_t>(1, "paths of near ends")) {
+      totals_(context.buffer<device::wt_row_totals>(1, "totals of rows")) {
   reserve(1 << 13);
 }
 
@@ -67,16 +67,15 @@ uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own,
   return rows_.places;
 }
 
-uint32_t Distinct::place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible) {
-  const wt_uint zero = 0;
-  context_.fill(near_, zero, "distinct");
+device::wt_row_totals Distinct::place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible) {
+  totals_.write(std::vector<device::wt_row_totals>{{}}, 0, "distinct");
   mark_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
              ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, scene.exact_surfaces, keys_, order_,
-             lengths_, stays_, quarters_, near_, arguments_);
+             lengths_, stays_, quarters_, totals_, arguments_);
   order_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
               ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, keys_, order_, lengths_, stays_,
               quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.vertex_counts, rows_.quarters, arguments_);
-  return near_.read_one(0, "distinct");
+  return totals_.read_one(0, "distinct");
 }
 
 std::map<Link, uint32_t> Distinct::left_out() {

@@ -11,6 +11,7 @@
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
 #include "wavetracer/device/arguments.h"
+#include "wavetracer/device/field_records.h"
 
 namespace wavetracer {
 
@@ -31,9 +32,8 @@ class Distinct {
   // Keys of all rows, and how many places they take. own: the links whose paths are wanted, as RadioEnds::links has
   // them. Throws RuntimeError where links are too many for a key.
   uint32_t keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible);
-  // By sorted keys: which rows stay, and where. Returns how many were left out because an antenna touches what reflects
-  // there.
-  uint32_t place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible);
+  // By sorted keys: which rows stay, and where. Returns how many of what kind.
+  device::wt_row_totals place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible);
   // How many paths of which link were left out so.
   std::map<Link, uint32_t> left_out();
 
@@ -50,7 +50,8 @@ class Distinct {
   gpu::Kernel row_keys_, mark_rows_, order_rows_;
   uint32_t local_;
   bool twins_;
-  gpu::Buffer<uint32_t> receiver_of_, transmitter_of_, keys_, order_, near_;
+  gpu::Buffer<uint32_t> receiver_of_, transmitter_of_, keys_, order_;
+  gpu::Buffer<device::wt_row_totals> totals_;
   gpu::Buffer<double> lengths_;
   gpu::Buffer<uint8_t> stays_, quarters_;
   wt_distinct_arguments arguments_{};

@@ -42,7 +42,7 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts,
 
 void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                         const WorldState& world, const SolvedList& visible, const Distinct& distinct,
-                        const RowList& rows, uint32_t row_count, uint32_t vertex_count) {
+                        const RowList& rows, const device::wt_row_totals& totals) {
   const std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
                                                         field_ends(world.receivers, transmitters_)};
   for (int side = 0; side < 2; ++side) {
@@ -50,8 +50,8 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
       ends_[side] = context_.buffer<device::wt_field_end>(records[side].size(), "ends of paths");
     ends_[side].write(records[side], 0, "fields");
   }
-  make_room(context_, rows_, host_rows_, row_count, "path rows");
-  make_room(context_, vertices_, host_vertices_, vertex_count, "path vertex rows");
+  make_room(context_, rows_, host_rows_, totals.rows, "path rows");
+  make_room(context_, vertices_, host_vertices_, totals.vertices, "path vertex rows");
   arguments_.row_count = rows.places;
   arguments_.max_depth = visible.max_depth;
   kernel_(work_.range(rows.places), "fields", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
@@ -60,9 +60,9 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
           area_of_tile_, scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, rows_, vertices_, arguments_);
 }
 
-Paths Fields::read(uint32_t frame, uint32_t row_count, uint32_t vertex_count) {
-  const auto rows = rows_.read(0, row_count, host_rows_, "fields");
-  const auto vertices = vertices_.read(0, vertex_count, host_vertices_, "fields");
+Paths Fields::read(uint32_t frame, const device::wt_row_totals& totals) {
+  const auto rows = rows_.read(0, totals.rows, host_rows_, "fields");
+  const auto vertices = vertices_.read(0, totals.vertices, host_vertices_, "fields");
   return columns_of(rows, vertices, frame, ports_);
 }
 

@@ -17,13 +17,13 @@ class Fields {
   // diffracts: whether paths may have edges, which takes a larger kernel. origin_m: of recentred coordinates.
   Fields(gpu::Context& context, const FieldTables& tables, bool diffracts, const glm::dvec3& origin_m);
 
-  // Computes the rows. counts are scanned; vertex_count: the sum of their interactions. wedges: placed in the frame, or
+  // Computes the rows. Their counts are scanned. wedges: placed in the frame, or
   // nullptr where nothing diffracts.
   void operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                   const WorldState& world, const SolvedList& visible, const Distinct& distinct, const RowList& rows,
-                  uint32_t row_count, uint32_t vertex_count);
+                  const device::wt_row_totals& totals);
   // The rows that were computed last, on the host.
-  Paths read(uint32_t frame, uint32_t row_count, uint32_t vertex_count);
+  Paths read(uint32_t frame, const device::wt_row_totals& totals);
 
  private:
   gpu::Context& context_;

@@ -1,7 +1,6 @@
 // Host side of kernels/generate_rays.cl.
 // Assumes the queue has room: the frame loop sizes its batches.
 #include "passes/generate_rays.hpp"
-#include "wavetracer/device/arguments.h"
 
 #include <stdexcept>
 #include <utility>
@@ -28,7 +27,9 @@ wt_launcher_arguments arguments_of(const Launcher& from, const LaunchHeights& he
 
 GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& directions,
                            std::shared_ptr<const LaunchHeights> heights)
-    : generate_(context.kernel("generate_rays", "generate_rays", {{"WT_DIRECTIONS", directions.map}})),
+    : context_(context),
+      generate_(context.kernel("generate_rays", "generate_rays", {{"WT_DIRECTIONS", directions.map}})),
+      generate_launchers_(context.kernel("generate_rays", "generate_launchers", {{"WT_DIRECTIONS", directions.map}})),
       generate_ordered_(context.kernel("generate_rays", "generate_ordered", {{"WT_DIRECTIONS", directions.map}})),
       generate_samples_(context.kernel("generate_rays", "generate_samples",
                                        {{"WT_DIRECTIONS", directions.map}, {"WT_SAMPLES", "1"}})),
@@ -47,6 +48,26 @@ void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t fi
                                 .first_slot = queue.count,
                                 .count = count});
   queue.count += count;
+}
+
+void GenerateRays::operator()(RayQueue& queue, std::span<const Launcher> from, uint64_t first, uint32_t count,
+                              uint64_t stride) {
+  const auto rays = static_cast<uint32_t>(from.size()) * count;
+  check_room(queue, rays);
+  std::vector<wt_launcher_arguments> launchers;
+  for (const Launcher& launcher : from) launchers.push_back(arguments_of(launcher, *heights_));
+  if (launchers_.size() < launchers.size())
+    launchers_ = context_.buffer<wt_launcher_arguments>(launchers.size(), "launchers");
+  launchers_.write(launchers, 0, "generate_rays");
+  generate_launchers_(work_.range(rays), "generate_rays", queue.planes, heights_->tables(), arguments_of(directions_),
+                      launchers_, static_cast<uint32_t>(from.size()),
+                      wt_launch_arguments{.first_index = first,
+                                          .stride = stride,
+                                          .number = static_cast<uint32_t>(first / stride & 3),
+                                          .capacity = queue.capacity,
+                                          .first_slot = queue.count,
+                                          .count = count});
+  queue.count += rays;
 }
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,

@@ -3,11 +3,13 @@
 #pragma once
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 
 #include "passes/launch_directions.hpp"
 #include "passes/launch_heights.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/sample_list.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
@@ -32,6 +34,9 @@ class GenerateRays {
   // Appends the launch indices first, first + stride, ..., `count` of them, of this end. Rays of a launch of every
   // stride-th index are numbered by index / stride.
   void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride = 1);
+  // Appends the same launch indices of each of these ends, in one launch. count: rays_together() divides it.
+  void operator()(RayQueue& queue, std::span<const Launcher> from, uint64_t first, uint32_t count, uint64_t stride);
+  uint32_t rays_together() const { return work_.per_item; }
   // Appends the launch indices first + order[0 .. count - 1]. order has 16 elements more, of any value.
   void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
                   const gpu::Buffer<uint32_t>& order);
@@ -42,10 +47,12 @@ class GenerateRays {
                const LaunchDirections& directions, DirectionTurn turn = {});
 
  private:
-  gpu::Kernel generate_, generate_ordered_, generate_samples_;
+  gpu::Context& context_;
+  gpu::Kernel generate_, generate_launchers_, generate_ordered_, generate_samples_;
   LaunchDirections directions_;
   std::shared_ptr<const LaunchHeights> heights_;
   Work work_;
+  gpu::Buffer<wt_launcher_arguments> launchers_;
 };
 
 }  // namespace wavetracer

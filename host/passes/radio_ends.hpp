@@ -14,6 +14,7 @@ struct RadioEnds {
   gpu::Buffer<double> transmitters, receivers;  // four doubles each; listeners follow the transmitters
   gpu::Buffer<float> receiver_planes;           // three planes of receiver_capacity
   gpu::Buffer<uint16_t> links;                  // bit b of word tx * (receiver_capacity / 16) + g: receiver 16 g + b
+  std::vector<uint16_t> link_words;             // what `links` has
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
 };
 
@@ -26,17 +27,25 @@ inline std::vector<uint16_t> link_masks(const RadioEnds& ends, const std::vector
   return mask;
 }
 
-inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndState>& transmitters,
-                                 const std::vector<EndState>& receivers, const std::vector<Link>& links,
-                                 const std::vector<uint32_t>& listeners = {}) {
-  const auto quadruples = [](const std::vector<EndState>& ends) {
-    std::vector<double> out;
-    for (const EndState& end : ends)
-      out.insert(out.end(), {end.position_m.x, end.position_m.y, end.position_m.z,
-                             end.instance == no_instance ? -1.0 : static_cast<double>(end.instance)});
-    return out;
+// Positions and the instances that carry them, as wt_end_instance reads them.
+inline std::vector<double> end_quadruples(const std::vector<EndState>& ends) {
+  std::vector<double> out;
+  for (const EndState& end : ends)
+    out.insert(out.end(), {end.position_m.x, end.position_m.y, end.position_m.z,
+                           end.instance == no_instance ? -1.0 : static_cast<double>(end.instance)});
+  return out;
+}
+
+// The ends of a frame in the buffers of the one before, where they are large enough.
+inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::vector<EndState>& transmitters,
+                           const std::vector<EndState>& receivers, const std::vector<Link>& links,
+                           const std::vector<uint32_t>& listeners = {}) {
+  const auto upload = [&](auto& buffer, const auto& values, const char* name) {
+    if (buffer && values.size() <= buffer.size())
+      buffer.write(values);
+    else
+      buffer = context.buffer(values, name);
   };
-  RadioEnds ends;
   ends.transmitter_count = static_cast<uint32_t>(transmitters.size());
   ends.receiver_count = static_cast<uint32_t>(receivers.size());
   ends.receiver_capacity = (ends.receiver_count + 15) / 16 * 16;
@@ -46,10 +55,20 @@ inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndSta
       planes.push_back(static_cast<float>(receivers[std::min(i, ends.receiver_count - 1)].position_m[axis]));
   std::vector<EndState> launching = transmitters;
   for (const uint32_t receiver : listeners) launching.push_back(receivers[receiver]);
-  ends.transmitters = context.buffer(quadruples(launching), "transmitters");
-  ends.receivers = context.buffer(quadruples(receivers), "receivers");
-  ends.receiver_planes = context.buffer(planes, "receiver planes");
-  ends.links = context.buffer(link_masks(ends, links), "links");
+  upload(ends.transmitters, end_quadruples(launching), "transmitters");
+  upload(ends.receivers, end_quadruples(receivers), "receivers");
+  upload(ends.receiver_planes, planes, "receiver planes");
+  std::vector<uint16_t> masks = link_masks(ends, links);
+  if (ends.links && masks == ends.link_words) return;
+  upload(ends.links, masks, "links");
+  ends.link_words = std::move(masks);
+}
+
+inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndState>& transmitters,
+                                 const std::vector<EndState>& receivers, const std::vector<Link>& links,
+                                 const std::vector<uint32_t>& listeners = {}) {
+  RadioEnds ends;
+  set_radio_ends(context, ends, transmitters, receivers, links, listeners);
   return ends;
 }
 

@@ -28,10 +28,10 @@ Scan::Scan(gpu::Context& context, const ScanTuning& form)
   scan_ = context.kernel("scan", "scan", definitions);
 }
 
-uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage) {
+void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage) {
   if (count > counts.size())
     throw std::invalid_argument(fmt::format("scan: {} counts of a buffer of {}", count, counts.size()));
-  if (count == 0) return 0;
+  if (count == 0) return;
   const uint64_t tile = 4 * uint64_t{form_.items};
   const uint64_t wanted = count <= form_.alone ? 1 : std::clamp(form_.chunks, 1u, most_chunks);
   // A chunk of 2^32 counts and more, which one chunk alone can reach, ends with the counts.
@@ -40,7 +40,11 @@ uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const c
   const auto words = static_cast<uint32_t>(std::min(chunk, uint64_t{~0u}));
   if (groups > 1) scan_sums_({groups * form_.items, form_.items}, stage, counts, count, words, sums_);
   scan_({groups * form_.items, form_.items}, stage, counts, count, words, sums_, total_);
-  return total_.read_one(0, stage);
+}
+
+uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage) {
+  prefix(counts, count, stage);
+  return count == 0 ? 0 : total_.read_one(0, stage);
 }
 
 }  // namespace wavetracer

@@ -10,7 +10,9 @@ class Scan {
  public:
   explicit Scan(gpu::Context& context);
   Scan(gpu::Context& context, const ScanTuning& form);
-  // Scans counts[0 .. count - 1] and returns their sum, modulo 2^32.
+  // Scans counts[0 .. count - 1], and waits for nothing.
+  void prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage = "scan");
+  // The same, and returns their sum, modulo 2^32.
   // stage: the profiling sum that the time goes to.
   uint32_t operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage = "scan");
 

@@ -13,10 +13,11 @@ namespace wavetracer {
 Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
     : context_(context),
       keep_ages_(keep_ages),
+      slots_work_(tuning_of(context.info()).slots),
       work_(tuning_of(context.info()).sequences),
       nodes_(context.buffer<uint32_t>(4096, "sequence list")),
       counters_(context.buffer<wt_counters>(1, "counters")) {
-  gpu::Definitions definitions;
+  gpu::Definitions definitions = {{"WT_SLOTS_PER_ITEM", slots_work_.option()}};
   if (keep_ages) definitions["WT_AGES"] = "1";
   collect_ = context.kernel("sequences", "collect", definitions);
   commute_ = context.kernel("sequences", "commute", definitions);
@@ -107,7 +108,7 @@ uint32_t Sequences::collect(uint32_t transmitter_count) {
         write_roots(transmitter_count);
         context_.fill(counters_, &transmitter_count, sizeof transmitter_count, offsetof(wt_counters, nodes),
                       sizeof transmitter_count, "sequences");
-        collect_(work_.range(table_.size()), "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
+        collect_(slots_work_.range(table_.size()), "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
                  static_cast<uint32_t>(nodes_.size()), counters_);
       },
       [&] { return counters_.read_one(0, "sequences").nodes; }, [&] { return nodes_.size(); },

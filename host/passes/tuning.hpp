@@ -61,6 +61,7 @@ struct Tuning {
   Work cache_rays, cache_entries;  // cache_lookup and cache_store; cache_purge
   Work receive;
 
+  Work slots;  // collect: of the table of sequences
   Work sequences;
   bool receivers_together;  // candidates: a work-item takes a sequence with all receivers, or with 16 of them
   Work candidates, exact, prefixes;
@@ -97,6 +98,7 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       .cache_rays = cpu ? Work{256, 1} : Work{1, small},
       .cache_entries = {16, small},
       .receive = {1, cpu ? 64u : 128u},
+      .slots = cpu ? Work{256, 1} : Work{1, small},
       .sequences = {1, 64},
       .receivers_together = cpu,
       .candidates = {1, 64},

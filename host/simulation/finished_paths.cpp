@@ -18,18 +18,20 @@ Paths FinishedPaths::operator()(uint32_t frame, const DeviceScene& scene, Diffra
                                 LeftOut& left_out, FrameAccount& account) {
   const uint32_t places = distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links,
                                          visible);  // distinct
-  uint32_t rows = 0, vertices = 0;
+  device::wt_row_totals totals{};
   if (places > 0) {
-    sort_(distinct_.sort_keys(), distinct_.order(), places, 32, "distinct");         // sort
-    if (distinct_.place(scene, ends, visible) > 0) left_out = distinct_.left_out();  // distinct
-    rows = scan_(distinct_.rows().counts, places, "distinct");                       // scan
-    vertices = scan_(distinct_.rows().vertex_counts, places, "distinct");            // scan
+    sort_(distinct_.sort_keys(), distinct_.order(), places, 32, "distinct");  // sort
+    totals = distinct_.place(scene, ends, visible);                           // distinct
+    if (totals.near > 0) left_out = distinct_.left_out();
   }
-  if (rows > 0)
+  if (totals.rows > 0) {
+    scan_.prefix(distinct_.rows().counts, places, "distinct");         // scan
+    scan_.prefix(distinct_.rows().vertex_counts, places, "distinct");  // scan
     fields_(scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_, distinct_.rows(),
-            rows, vertices);  // fields
+            totals);  // fields
+  }
   account.device_done();
-  return fields_.read(frame, rows, vertices);
+  return fields_.read(frame, totals);
 }
 
 void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible) {

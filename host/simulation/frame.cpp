@@ -67,8 +67,8 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
 
   if (s_.placement) s_.placement->place(s_.device_scene, out.world.instances);  // place, sort, top_level
   const std::vector<Link>& links = block ? block->solved : out.world.links;
-  const RadioEnds ends =
-      make_radio_ends(s_.context, out.world.transmitters, out.world.receivers, links, s_.origins.listeners);
+  set_radio_ends(s_.context, ends_, out.world.transmitters, out.world.receivers, links, s_.origins.listeners);
+  const RadioEnds& ends = ends_;
   const bool warm = s_.reuse && warm_frames_ > 0, searches = clock_.due(out.world, !warm);
   std::optional<Paths> known;  // before rays add to it
   if (searches && warm && clock_.spares()) known = known_paths(task, out.world, ends, account);

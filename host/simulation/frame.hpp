@@ -41,6 +41,7 @@ class FrameLoop {
 
   Setup& s_;
   DiscoveryClock clock_;
+  RadioEnds ends_;            // of the frame
   uint64_t warm_frames_ = 0;  // that launched rays since the last cold one, which counts
 };
 

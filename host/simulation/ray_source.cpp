@@ -45,6 +45,18 @@ std::vector<LaunchPart> RaySource::launch(RayQueue& rays, const Launch& launch, 
     const Launcher& from = launch.who[(first + done) / each];
     const auto sample = static_cast<uint32_t>(done);
     const auto part = static_cast<uint32_t>(std::min(count - done, each - number));
+    // Launchers of which this batch has all rays share a launch on the device.
+    const uint64_t whole =
+        sorted || label_ || number != 0 || each % generate.rays_together() ? 0 : (count - done) / each;
+    if (whole > 1) {
+      const auto who = std::span(launch.who).subspan((first + done) / each, whole);
+      generate(rays, who, phase, part, stride);  // generate_rays
+      for (const Launcher& launcher : who) {
+        parts.push_back({launcher.transmitter, static_cast<uint32_t>(done), part, 0, each, phase, stride});
+        done += part;
+      }
+      continue;
+    }
     if (sorted) {
       const gpu::Buffer<uint32_t>& order = order_->sort_launch(number, part, from.heights);  // order_keys, sort
       generate(rays, from, number, part, order);                                             // generate_rays

@@ -150,7 +150,12 @@ std::string thesis_markdown(const ThesisPage& page) {
   std::string text = "# Ray orders and ray caches: the thesis' figures, measured\n\n" + heading_markdown(page.heading) +
                      "\n## Verdicts\n\n" + outcome_counts(page.figures) + "\n\n" + markdown(verdicts_of(page.figures)) +
                      "\n\n## Speed against error\n\n";
-  text += page.svg.empty() ? "No cache was measured.\n" : "![Speed against error of all caches](thesis.svg)\n";
+  if (std::none_of(page.rows.begin(), page.rows.end(), shown))
+    text += "No cache was measured.\n";
+  else if (page.svg.empty())
+    text += "There is no plot, because gnuplot is absent or failed; the numbers are in thesis.csv.\n";
+  else
+    text += "![Speed against error of all caches](thesis.svg)\n";
   for (const Section& figure : page.figures) {
     text += fmt::format("\n## {}: {}\n\n", figure.name, figure.title);
     if (!figure.words.paragraph.empty()) text += figure.words.paragraph + "\n\n";

@@ -164,8 +164,8 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
   const uint32_t places = distinct.keys(on_device, on_device.links, visible);
   if (places == 0) return {};
   sort(distinct.sort_keys(), distinct.order(), places, 32);
-  const uint32_t near = distinct.place(scene, on_device, visible);
-  if (left_out && near > 0) *left_out = distinct.left_out();
+  const device::wt_row_totals totals = distinct.place(scene, on_device, visible);
+  if (left_out && totals.near > 0) *left_out = distinct.left_out();
   const std::vector<uint32_t> counts = distinct.rows().counts.read(0, places);
   const uint32_t rows = scan(distinct.rows().counts, places), vertices = scan(distinct.rows().vertex_counts, places);
   const std::vector<uint32_t> at = distinct.rows().counts.read(0, places), of = distinct.rows().rows.read(0, places);
@@ -186,6 +186,8 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
   }
   CHECK(rows == out.size());
   CHECK(vertices == seen);
+  CHECK(totals.rows == rows);
+  CHECK(totals.vertices == vertices);
   return out;
 }
 

@@ -215,6 +215,26 @@ TEST_CASE("a share of the directions: every stride-th launch index, with the sur
     }
 }
 
+TEST_CASE("launchers that share a launch get the rays that each gets alone") {
+  constexpr uint64_t n = 10'000;
+  constexpr uint32_t count = 160;  // of every one
+  for (const Directions map : maps)
+    for (const uint64_t stride : {uint64_t{1}, uint64_t{13}}) {
+      CAPTURE(map);
+      CAPTURE(stride);
+      GenerateRays generate = generator(map, n);
+      REQUIRE(count % generate.rays_together() == 0);
+      const std::vector<Launcher> who{launcher(0, {1, 2, 3}), launcher(5, {-4, 5, 6}, WT_OWN | 5),
+                                      launcher(2, {7, -8, 9})};
+      RayQueue one = make_ray_queue(context(), 600, "one"), together = make_ray_queue(context(), 600, "together");
+      for (RayQueue* queue : {&one, &together}) generate(*queue, launcher(9, {0, 0, 1}), 0, 33);
+      for (const Launcher& from : who) generate(one, from, 7, count, stride);
+      generate(together, who, 7, count, stride);
+      CHECK(together.count == one.count);
+      CHECK(download(together) == download(one));
+    }
+}
+
 TEST_CASE("stride launches from every phase are together the whole launch") {
   constexpr uint64_t n = 203, stride = 10;
   GenerateRays generate = generator("hilbert", n);

@@ -45,6 +45,12 @@ typedef struct {
   wt_uint padding;
 } wt_field_end;
 
+// The rows that stay, their interactions, and the rows that are left out because an antenna touches what reflects there.
+typedef struct {
+  wt_uint rows, vertices, near;
+  wt_uint padding;
+} wt_row_totals;
+
 // A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp).
 typedef struct {
   double delay_s, gain_db, doppler_hz;
