@@ -45,7 +45,8 @@ typedef struct {
   wt_uint padding;
 } wt_field_end;
 
-// The rows that stay, their interactions, and the rows that are left out because an antenna touches what reflects there.
+// The rows that stay, their interactions, and the rows that are left out because an antenna touches what reflects
+// there.
 typedef struct {
   wt_uint rows, vertices, near;
   wt_uint padding;
