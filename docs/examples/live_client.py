@@ -20,6 +20,38 @@ class LiveError(Exception):
         self.code = message["code"]
 
 
+def read_columns(data):
+    """What follows an answer with encoding="cbor": a dict, whose columns are memoryviews of `data`, which numpy takes
+    without a copy (numpy.asarray). Reads what the server writes of CBOR, and no more: maps, arrays, texts, and typed
+    arrays of uint8, uint32 and float64."""
+    view, place = memoryview(data), 0
+
+    def head():
+        nonlocal place
+        first = view[place]
+        size = 0 if first & 31 < 24 else 1 << (first & 31) - 24
+        value = int.from_bytes(view[place + 1:place + 1 + size], "big") if size else first & 31
+        place += 1 + size
+        return first >> 5, value
+
+    def item():
+        nonlocal place
+        kind, value = head()
+        if kind == 4:
+            return [item() for _ in range(value)]
+        if kind == 5:
+            return {item(): item() for _ in range(value)}
+        letter = "B"
+        if kind == 6:
+            letter = {64: "B", 70: "I", 86: "d"}[value]
+            kind, value = head()
+        part = view[place:place + value]
+        place += value
+        return str(part, "utf-8") if kind == 3 else part.cast(letter)
+
+    return item()
+
+
 class Server:
     """A connection to a server at tcp:ADDRESS:PORT or unix:PATH; .world is its answer to hello."""
 
@@ -46,6 +78,8 @@ class Server:
         answer = json.loads(line)
         if answer["message"] == "error":
             raise LiveError(answer)
+        if "bytes" in answer:
+            answer.update(read_columns(self.lines.read(answer["bytes"])))
         return answer
 
     def channels(self, time_s, vehicles, **more):

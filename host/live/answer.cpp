@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/stopwatch.hpp"
+#include "live/channel_columns.hpp"
 #include "radio/links.hpp"
 #include "wavetracer/version.hpp"
 
@@ -97,6 +98,39 @@ void write_vertices(Line& line, const LiveFrame& frame, size_t first, size_t end
   });
 }
 
+void write_links(Line& line, const LiveFrame& frame, const std::vector<LinkFigures>& figures, Detail detail) {
+  const Paths& paths = frame.result.paths;
+  size_t row = 0;  // of the link's first path
+  line.list(0, figures.size(), [&](size_t i) {
+    const LinkFigures& link = figures[i];
+    line.raw("{\"tx\":");
+    line.text(frame.transmitters[link.tx]);
+    line.key("rx");
+    line.text(frame.receivers[link.rx]);
+    line.key("paths");
+    line.integer(link.paths);
+    line.key("los");
+    line.raw(link.los ? "true" : "false");
+    line.key("path_gain_db");
+    line.number(link.path_gain_db);
+    line.key("narrowband_gain_db");
+    line.number(link.narrowband_gain_db);
+    line.key("mean_delay_s");
+    line.number(link.mean_delay_s);
+    line.key("rms_delay_spread_s");
+    line.number(link.rms_delay_spread_s);
+    line.key("doppler_spread_hz");
+    line.number(link.doppler_spread_hz);
+    line.key("missed_power_share");
+    line.number(link.missed_power_share);
+    const size_t end = row + link.paths;
+    if (detail != Detail::links) write_paths(line, paths, row, end);
+    if (detail == Detail::vertices) write_vertices(line, frame, row, end);
+    row = end;
+    line.raw("}");
+  });
+}
+
 // What rays may have missed in the frame.
 void write_missed(Line& line, const Missed& missed) {
   const auto range = [&](const char* name, const MissedRange& of) {
@@ -169,7 +203,7 @@ std::string world_line(const Simulation& simulation) {
   return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Detail detail, uint64_t skipped,
+std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, const AnswerForm& form, uint64_t skipped,
                           const FrameTimes& times, double frequency_hz) {
   Stopwatch watch;
   const FrameResult& result = frame.result;
@@ -186,37 +220,16 @@ std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Det
   line.integer(paths.rx_ports);
   line.key("tx_ports");
   line.integer(paths.tx_ports);
-  line.key("links");
   const std::vector<LinkFigures> figures = link_figures(paths, result.frame, result.world.links, frequency_hz);
-  size_t row = 0;  // of the link's first path
-  line.list(0, figures.size(), [&](size_t i) {
-    const LinkFigures& link = figures[i];
-    line.raw("{\"tx\":");
-    line.text(frame.transmitters[link.tx]);
-    line.key("rx");
-    line.text(frame.receivers[link.rx]);
-    line.key("paths");
-    line.integer(link.paths);
-    line.key("los");
-    line.raw(link.los ? "true" : "false");
-    line.key("path_gain_db");
-    line.number(link.path_gain_db);
-    line.key("narrowband_gain_db");
-    line.number(link.narrowband_gain_db);
-    line.key("mean_delay_s");
-    line.number(link.mean_delay_s);
-    line.key("rms_delay_spread_s");
-    line.number(link.rms_delay_spread_s);
-    line.key("doppler_spread_hz");
-    line.number(link.doppler_spread_hz);
-    line.key("missed_power_share");
-    line.number(link.missed_power_share);
-    const size_t end = row + link.paths;
-    if (detail != Detail::links) write_paths(line, paths, row, end);
-    if (detail == Detail::vertices) write_vertices(line, frame, row, end);
-    row = end;
-    line.raw("}");
-  });
+  std::string columns;
+  if (form.encoding == Encoding::cbor) {
+    columns = channel_columns(frame, figures, form.detail);
+    line.key("bytes");
+    line.integer(columns.size());
+  } else {
+    line.key("links");
+    write_links(line, frame, figures, form.detail);
+  }
   if (result.missed.frames > 0) write_missed(line, estimate_missed(result.missed));
   if (!result.warnings.empty()) {
     line.key("warnings");
@@ -230,7 +243,7 @@ std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Det
   line.key("serialise");
   line.number(watch.lap());
   line.raw("}}");
-  return std::move(line).take();
+  return std::move(line).take() + columns;
 }
 
 std::string error_line(std::string_view code, std::string_view text, std::optional<uint64_t> frame, bool fatal) {

@@ -17,9 +17,14 @@ std::string world_line(const Simulation& simulation);
 struct FrameTimes {
   double wait_s = 0, solve_s = 0;  // from the end of the message to the solver; there
 };
+struct AnswerForm {
+  Detail detail = Detail::links;
+  Encoding encoding = Encoding::json;
+};
+// With Encoding::cbor the line has "bytes" instead of "links", and so many bytes of channel_columns() follow it.
 // skipped: frames of a free-running client since its last answer that newer ones replaced. frequency_hz: of the
 // carrier.
-std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, Detail detail, uint64_t skipped,
+std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, const AnswerForm& form, uint64_t skipped,
                           const FrameTimes& times, double frequency_hz);
 
 // fatal: the connection ends with it.

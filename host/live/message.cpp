@@ -196,12 +196,13 @@ Detail detail_of(const Object& object) {
 }
 
 Hello hello_of(const json& value) {
-  const Object object(value, "hello", {"message", "protocol", "token", "mode", "detail"});
+  const Object object(value, "hello", {"message", "protocol", "token", "mode", "detail", "encoding"});
   Hello out;
   out.protocol = object.count("protocol", max_frame);
   if (object.has("token")) out.token = object.text("token", max_token_bytes);
   if (object.has("mode")) out.free_running = object.choice("mode", {"step", "free"}) == 1;
   if (object.has("detail")) out.detail = detail_of(object);
+  if (object.has("encoding")) out.encoding = static_cast<Encoding>(object.choice("encoding", {"json", "cbor"}));
   return out;
 }
 

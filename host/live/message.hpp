@@ -17,12 +17,15 @@ namespace wavetracer::live {
 inline constexpr uint64_t protocol_version = 1;
 
 enum class Detail { links, paths, vertices };
+// Of the channels in an answer: in its line, or as columns in bytes that follow it (live/channel_columns.hpp).
+enum class Encoding { json, cbor };
 
 struct Hello {
   uint64_t protocol = 0;
   std::string token;
   bool free_running = false;  // "mode": "free"
   Detail detail = Detail::links;
+  Encoding encoding = Encoding::json;
 };
 
 struct FrameMessage {

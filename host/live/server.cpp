@@ -260,8 +260,8 @@ void Server::give_next() {
   client.solving = true;
   last_served_ = client.number();
   const Detail detail = frame.message.detail.value_or(client.hello->detail);
-  solver_.give({client.number(), std::move(frame.message), detail, std::exchange(client.skipped, 0), frame.received,
-                client.traffic});
+  solver_.give({client.number(), std::move(frame.message), detail, client.hello->encoding,
+                std::exchange(client.skipped, 0), frame.received, client.traffic});
 }
 
 }  // namespace wavetracer::live

@@ -17,7 +17,8 @@ Solve solve_with(Simulation& simulation, FrameSolved solved) {
     const LiveFrame frame = simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
     if (solved) solved(simulation, frame);
     const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
-    return channels_line(message, frame, job.detail, job.skipped, times, simulation.config().radio.frequency_hz);
+    const double frequency_hz = simulation.config().radio.frequency_hz;
+    return channels_line(message, frame, {job.detail, job.encoding}, job.skipped, times, frequency_hz);
   };
 }
 

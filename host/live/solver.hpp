@@ -22,6 +22,7 @@ struct Job {
   uint64_t client = 0;
   FrameMessage message;
   Detail detail = Detail::links;
+  Encoding encoding = Encoding::json;
   uint64_t skipped = 0;
   Clock::time_point received;
   std::shared_ptr<LiveTraffic> traffic;  // of the client
@@ -29,7 +30,7 @@ struct Job {
 
 struct Answer {
   uint64_t client = 0;
-  std::string line;
+  std::string line;     // and the bytes that follow it
   std::string failure;  // what the log is told, empty where the frame was solved or the client's poses were wrong
   bool fatal = false;   // of the server: the device failed
 };

@@ -43,11 +43,14 @@ std::string vehicle(const std::string& more) { return R"({"id":"a","type":"passe
 
 TEST_CASE("hello, frame and bye") {
   const auto hello = std::get<Hello>(
-      parse_message(R"({"message":"hello","protocol":1,"token":"abc","mode":"free","detail":"vertices"})", 4));
+      parse_message(R"({"message":"hello","protocol":1,"token":"abc","mode":"free","detail":"vertices",)"
+                    R"("encoding":"cbor"})",
+                    4));
   CHECK(hello.protocol == 1);
   CHECK(hello.token == "abc");
   CHECK(hello.free_running);
   CHECK(hello.detail == Detail::vertices);
+  CHECK(hello.encoding == Encoding::cbor);
   const auto asked = std::get<FrameMessage>(
       parse_message(frame(vehicle(R"("position_m":[1,2.5,-3],"yaw_deg":90,"velocity_m_s":[4,5,6])")), 4));
   CHECK(asked.frame == 3);

@@ -75,6 +75,56 @@ def same_as_run():
     print(f"{count} paths of {len(expected)} links as `run` has them, bit for bit in a and delay")
 
 
+def columns_are_the_lines():
+    """With encoding = "cbor" every number is the same double as in the line of JSON."""
+    sys.path.insert(0, os.path.join(SOURCE, "docs", "examples"))
+    from live_client import Server as Connection
+
+    def same(column, values, what):
+        values = [math.nan if value is None else value for value in values]
+        equal = len(column) == len(values) and all(
+            a == b or not math.isfinite(a) and math.isnan(b) for a, b in zip(column, values))
+        expect(equal, f"{what}: {list(column)[:5]} and {values[:5]}")
+
+    with Server() as server:
+        for detail in ("links", "paths", "vertices"):
+            with Connection(server.name, detail=detail) as client:
+                lines = client.channels(0.0, POSES, cold=True)["links"]
+            with Connection(server.name, detail=detail, encoding="cbor") as client:
+                first = client.channels(0.0, POSES, cold=True)
+                expect(client.channels(0.1, POSES)["frame"] == 2, "the next line comes after the columns")
+            expect("links" in first and first["bytes"] > 0, first.keys())
+            links = first["links"]
+            ends = [(first["transmitters"][t], first["receivers"][r]) for t, r in zip(links["tx"], links["rx"])]
+            expect(ends == [(link["tx"], link["rx"]) for link in lines], ends)
+            same(links["paths"], [link["paths"] for link in lines], "paths")
+            same(links["los"], [int(link["los"]) for link in lines], "los")
+            for key in ("path_gain_db", "narrowband_gain_db", "mean_delay_s", "rms_delay_spread_s",
+                        "doppler_spread_hz", "missed_power_share"):
+                same(links[key], [link[key] for link in lines], key)
+            expect(("paths" in first) == (detail != "links"), detail)
+            expect(("vertices" in first) == (detail == "vertices"), detail)
+            if detail != "links":
+                for key in ("delay_s", "gain_db", "doppler_hz", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad",
+                            "aoa_phi_rad"):
+                    same(first["paths"][key], [v for link in lines for v in link.get(key, [])], key)
+                pairs = [v for link in lines for re, im in zip(link["a_re"], link["a_im"])
+                         for pair in zip(re, im) for v in pair]
+                same(first["paths"]["a"], pairs, "a")
+            if detail == "vertices":
+                vertices = first["vertices"]
+                each = {key: [v for link in lines for path in link[key] for v in path]
+                        for key in ("vertices_m", "interactions", "surfaces", "vehicles")}
+                same(vertices["depth"], [len(path) for link in lines for path in link["interactions"]], "depth")
+                same(vertices["position_m"], [x for point in each["vertices_m"] for x in point], "position_m")
+                same(vertices["interaction"], each["interactions"], "interaction")
+                same(vertices["surface"], each["surfaces"], "surface")
+                vehicles = [None if v == 4294967295 else first["ids"][v] for v in vertices["vehicle"]]
+                expect(vehicles == each["vehicles"], vehicles)
+                expect(len(vehicles) > 10, vehicles)
+    print("columns in CBOR have the numbers of the lines")
+
+
 def steps_and_detail(listen):
     with Server(listen) as server:
         with server.connect() as client:
@@ -185,6 +235,7 @@ def starts_again():
 
 def main():
     same_as_run()
+    columns_are_the_lines()
     steps_and_detail("tcp:127.0.0.1:0")
     with tempfile.TemporaryDirectory() as folder:
         steps_and_detail(f"unix:{folder}/live.sock")
