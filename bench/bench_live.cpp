@@ -34,7 +34,7 @@ using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  std::string program, device, detail = "paths";
+  std::string program, device, detail = "paths", encoding = "json";
   std::vector<uint32_t> vehicles{10, 50, 100};
   uint32_t frames = 100, compared = 3;
   uint64_t rays = 100'000, refresh = 3'000, reference_factor = 10;
@@ -75,7 +75,9 @@ class Server {
     posix_spawn_file_actions_destroy(&actions);
     if (failed) throw RuntimeError(fmt::format("cannot start {}; --program names it", words[0]));
     connect_to(path);
-    device = ask(fmt::format(R"({{"message":"hello","protocol":1,"detail":"{}"}})", options.detail)).at("device");
+    device = ask(fmt::format(R"({{"message":"hello","protocol":1,"detail":"{}","encoding":"{}"}})", options.detail,
+                             options.encoding))
+                 .at("device");
   }
   ~Server() {
     close(socket_);
@@ -85,7 +87,7 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // The line that answers, without being read as JSON.
+  // The line that answers, without being read as JSON, and the columns that follow it.
   std::string exchange(const std::string& line) {
     const std::string out = line + "\n";
     for (size_t sent = 0; sent < out.size();) {
@@ -100,10 +102,13 @@ class Server {
       const ssize_t count = recv(socket_, in.data() + before, in.size() - before, 0);
       if (count <= 0) throw RuntimeError("the server went away; " + log());
       in.resize(before + static_cast<size_t>(count));
-    } while (in.back() != '\n');
+    } while (!is_whole(in));
     return in;
   }
-  json ask(const std::string& line) { return checked(json::parse(exchange(line))); }
+  // The line alone, and what follows it.
+  static std::string_view line_of(std::string_view answer) { return answer.substr(0, answer.find('\n')); }
+  static std::string_view columns_of(std::string_view answer) { return answer.substr(answer.find('\n') + 1); }
+  json ask(const std::string& line) { return checked(json::parse(line_of(exchange(line)))); }
   static json checked(json answer) {
     if (answer.at("message") == "error") throw RuntimeError(answer.at("text").get<std::string>());
     return answer;
@@ -112,6 +117,12 @@ class Server {
   std::string device;
 
  private:
+  // The number of bytes that follow the line stands in its first 200.
+  static bool is_whole(const std::string& in) {
+    const size_t end = in.find('\n'), key = in.substr(0, 200).find("\"bytes\":");
+    if (end == in.npos) return false;
+    return key == in.npos || in.size() == end + 1 + std::stoull(in.substr(key + 8));
+  }
   void connect_to(const std::string& path) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -212,7 +223,12 @@ void run(const Options& options, uint32_t vehicles, const std::string& command) 
       const std::string answer = server.exchange(line);
       total_s = std::chrono::duration<double>(Clock::now() - start).count();
       bytes = answer.size();
-      return Server::checked(json::parse(answer));
+      json read = Server::checked(json::parse(Server::line_of(answer)));
+      if (options.encoding == "json") return read;
+      const json columns = json::from_cbor(Server::columns_of(answer), true, true, json::cbor_tag_handler_t::ignore);
+      read["links"] = json(columns.at("links").at("tx").get_binary().size() / sizeof(uint32_t), json::object());
+      if (columns.contains("paths")) paths = columns.at("paths").at("delay_s").get_binary().size() / sizeof(double);
+      return read;
     };
     double total_s = 0;
     for (size_t k = 0; k < std::min<size_t>(frames.size(), 5); ++k) {
@@ -230,21 +246,22 @@ void run(const Options& options, uint32_t vehicles, const std::string& command) 
       seconds["parse and socket"].push_back(total_s - known_s);
       seconds["all"].push_back(total_s);
       links = answer.at("links").size();
-      paths = 0;
-      for (const json& link : answer.at("links")) paths += link.at("paths").get<size_t>();
+      if (options.encoding == "json") paths = 0;
+      for (const json& link : answer.at("links")) paths += link.value("paths", size_t{0});
       const uint32_t spacing = std::max<uint32_t>(options.frames / std::max(options.compared, 1u), 1);
       if (k % spacing == spacing - 1 || k + 1 == frames.size()) compared[k] = std::move(answer);
     }
   }
   Recall recall;
-  if (!options.no_reference && options.detail != "links") {
+  if (!options.no_reference && options.detail != "links" && options.encoding == "json") {
     Server server(options, vehicles, options.rays * options.reference_factor);
     for (const auto& [k, mine] : compared) compare(server.ask(cold(frames[k])), mine, recall);
   }
 
   Result line;
   line.bench = "live";
-  line.name = fmt::format("city, {} vehicles, {} rays, {} anew", vehicles, options.rays, options.refresh);
+  line.name = fmt::format("city, {} vehicles, {} rays, {} anew{}", vehicles, options.rays, options.refresh,
+                          options.encoding == "json" ? "" : ", columns in CBOR");
   line.device = device;
   line.value = percentile(seconds["all"], 0.5);
   line.unit = "s from pose to channel";
@@ -294,6 +311,8 @@ int main(int argc, char** argv) {
   app.add_option("--refresh", options.refresh, "rays per transmitter of frames that reuse");
   app.add_option("--detail", options.detail, "links, paths or vertices")
       ->check(CLI::IsMember({"links", "paths", "vertices"}));
+  app.add_option("--encoding", options.encoding, "json or cbor, of which only json has errors measured")
+      ->check(CLI::IsMember({"json", "cbor"}));
   app.add_option("--compared", options.compared, "frames that errors are taken from")->check(CLI::Range(1, 1000));
   app.add_option("--reference-factor", options.reference_factor, "times the rays, of frames that errors refer to");
   app.add_flag("--no-reference", options.no_reference, "do not measure errors");
