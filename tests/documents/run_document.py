@@ -60,6 +60,9 @@ def prepare(options):
     shutil.rmtree(work, ignore_errors=True)
     (work / "bin").mkdir(parents=True)
     (work / "bin/wavetracer").symlink_to(options.program)
+    # `python3` is the one that has the packages, whichever comes first elsewhere.
+    (work / "bin/python3").write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
+    (work / "bin/python3").chmod(0o755)
     shutil.copytree(options.configs, work / "configs", symlinks=True)
     for stale in (work / "configs").rglob("*.fcd.xml"):  # of someone who tried it
         stale.unlink()

@@ -152,21 +152,16 @@ Comparison compare(const std::filesystem::path& case_file, const std::filesystem
   const std::string name = reference["scene"];
   test::World world(reference["frequency_hz"]);
   world.scene = load_scene_file(scenes / name / (name + ".xml"), {}, {}, world.config.radio.frequency_hz);
-  for (const Json& p : reference["tx_m"]) {
-    world.config.transmitters.push_back(test::World::end(to_vector(p), "isotropic", "VH"));
-  }
-  for (const Json& p : reference["rx_m"]) {
-    world.config.receivers.push_back(test::World::end(to_vector(p), "isotropic", "VH"));
-  }
-
   Comparison result;
-  const FieldModel model(world.scene, world.config);
+  std::vector<ReferencePath> references;
+  std::vector<bool> long_legs;
   for (const Json& json : reference["paths"]) {
     if (!specular(json)) continue;
     ++result.paths;
     const ReferencePath path = read_path(json, world.scene.origin_m);
-    const glm::dvec3 tx = world.place(world.config.transmitters[path.tx]);
-    const glm::dvec3 rx = world.place(world.config.receivers[path.rx]);
+    const RadioEnd transmitter = test::World::end(to_vector(reference["tx_m"][path.tx]), "isotropic", "VH");
+    const RadioEnd receiver = test::World::end(to_vector(reference["rx_m"][path.rx]), "isotropic", "VH");
+    const glm::dvec3 tx = world.place(transmitter), rx = world.place(receiver);
     std::vector<std::vector<uint32_t>> choices;
     for (const glm::dvec3& v : path.vertices) choices.push_back(surfaces_at(world.scene, v, 0.3));
     Solved solved;
@@ -175,21 +170,28 @@ Comparison compare(const std::filesystem::path& case_file, const std::filesystem
       ++result.unsolved;
       continue;
     }
-    const auto computed = [&](const std::vector<glm::dvec3>& vertices) {
-      world.geometry = PathGeometry{};
-      world.add_path(path.tx, path.rx, solved.surfaces, path.interactions, vertices);
-      return model.compute(0, world.geometry);
-    };
-    result.at_its_points.add(computed(path.vertices).a[0], path.a);
-    const Paths mine = computed(solved.vertices);
-    result.at_ours.add(mine.a[0], path.a);
-    if (std::ranges::min(leg_lengths_m(tx, solved.vertices, rx)) >= long_leg_m) {
-      result.at_ours_long_legs.add(mine.a[0], path.a);
+    // Each row is a link of its own, so that rows stay in this order and are computed at once.
+    for (const std::vector<glm::dvec3>& vertices : {path.vertices, solved.vertices}) {
+      const auto row = static_cast<uint32_t>(world.config.transmitters.size());
+      world.config.transmitters.push_back(transmitter);
+      world.config.receivers.push_back(receiver);
+      world.add_path(row, row, solved.surfaces, path.interactions, vertices);
     }
-    result.angle_rad.push_back(std::max({turn_between(mine.aod_theta_rad[0], path.angles_rad[0]),
-                                         turn_between(mine.aod_phi_rad[0], path.angles_rad[1]),
-                                         turn_between(mine.aoa_theta_rad[0], path.angles_rad[2]),
-                                         turn_between(mine.aoa_phi_rad[0], path.angles_rad[3])}));
+    long_legs.push_back(std::ranges::min(leg_lengths_m(tx, solved.vertices, rx)) >= long_leg_m);
+    references.push_back(path);
+  }
+  const Paths paths = world.paths();
+  REQUIRE(paths.a.size() == 2 * references.size());
+  for (size_t k = 0; k < references.size(); ++k) {
+    const ReferencePath& path = references[k];
+    const size_t mine = 2 * k + 1;  // the row at our points, behind the one at its points
+    result.at_its_points.add(paths.a[mine - 1], path.a);
+    result.at_ours.add(paths.a[mine], path.a);
+    if (long_legs[k]) result.at_ours_long_legs.add(paths.a[mine], path.a);
+    result.angle_rad.push_back(std::max({turn_between(paths.aod_theta_rad[mine], path.angles_rad[0]),
+                                         turn_between(paths.aod_phi_rad[mine], path.angles_rad[1]),
+                                         turn_between(paths.aoa_theta_rad[mine], path.angles_rad[2]),
+                                         turn_between(paths.aoa_phi_rad[mine], path.angles_rad[3])}));
   }
   return result;
 }
