@@ -289,6 +289,9 @@ void run(Options options, const std::string& command) {
     twice.variants.insert(twice.variants.end(), {diffraction(true), diffraction(true, 2)});
     print_costs(twice, options, command);
   }
+  Group around = group_of(city_place(1, 24), 3, 24);
+  around.variants.insert(around.variants.end(), {diffraction(true), diffraction(true, 2)});
+  print_costs(around, options, command);
   Group twice = group_of(main, 2, 1);
   twice.variants.insert(twice.variants.end(), {diffraction(false), diffraction(false, 2)});
   print_costs(twice, options, command);

@@ -127,7 +127,9 @@ constexpr KernelCost costs[] = {
      mirror_operations, true},
     {"wedge_join/wedge_join", "diffraction", "candidates", joined, join_bytes, always<60>},
     {"wedge_solve/wedge_solve", "diffraction", "candidates", joined, wedge_solve_bytes, wedge_solve_operations, true},
-    {"wedge_join/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, always<120>},
+    {"wedge_sight/wedge_sight", "two diffractions", "prefixes", items_of<"wedge_sight/wedge_sight">,
+     always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, tree_operations},
+    {"wedge_pairs/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, tree_operations},
 
     {"place/place", "drive", "surfaces", items_of<"place/place">, always<2 * sizeof(wt_exact_surface)>, always<66>,
      true},

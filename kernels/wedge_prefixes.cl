@@ -42,6 +42,7 @@ kernel void wedge_prefixes(const global ulong* table, const global uint* quarter
     keys[slot] = wt_wedge_key(number, depth);
     prefixes[slot].quarters =
         found == WT_ALL_QUARTERS ? found : found | by_other_face(table, args.trie_mask, quarters, node, seen, w);
+    prefixes[slot].pieces = (1u << WT_WEDGE_PIECES) - 1u;
     prefixes[slot].node = node;
     prefixes[slot].origin = origin;
     prefixes[slot].depth = depth;

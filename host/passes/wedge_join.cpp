@@ -8,21 +8,17 @@
 
 namespace wavetracer {
 
-WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
-                     bool pairs)
+WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth)
     : context_(context),
-      join_(context.kernel("wedge_join", "wedge_join")),
-      with_pairs_(pairs && max_depth >= 2),
+      kernel_(context.kernel("wedge_join", "wedge_join")),
       max_depth_(max_depth),
       lanes_(tuning_of(context.info()).join_lanes),
       group_(tuning_of(context.info()).join_group),
       receiver_of_origin_(context.buffer(receiver_of_origin, "receivers of origins")),
-      list_(context.buffer<wt_wedge_candidate>(1 << 14, "wedge candidates")) {
-  if (with_pairs_) pairs_ = context.kernel("wedge_join", "wedge_pairs");
-}
+      list_(context.buffer<wt_wedge_candidate>(1 << 14, "wedge candidates")) {}
 
 uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                               const RadioEnds& ends, gpu::Buffer<wt_counters>& counters) {
+                               const RadioEnds& ends, gpu::Buffer<wt_counters>& counters, WedgePairs* pairs) {
   const size_t items = size_t{prefixes.count} * lanes_;
   const auto run = [&] {
     const wt_wedge_join_arguments arguments{.count = prefixes.count,
@@ -31,11 +27,10 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .groups = ends.receiver_capacity / 16,
                                             .max_depth = max_depth_,
                                             .capacity = static_cast<uint32_t>(list_.size())};
-    join_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, receiver_of_origin_,
-          ends.links, wedges.wedges, scene.surfaces, list_, counters, arguments);
-    if (with_pairs_)
-      pairs_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, receiver_of_origin_,
-             ends.links, wedges.wedges, list_, counters, arguments);
+    kernel_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, receiver_of_origin_,
+            ends.links, wedges.wedges, scene.surfaces, list_, counters, arguments);
+    if (pairs && max_depth_ >= 2)
+      (*pairs)(scene, prefixes, wedges, ends, receiver_of_origin_, arguments, list_, counters);
   };
   return fill_list(
       counters, &wt_counters::wedge_candidates, "wedge_join", [&] { return list_.size(); }, run,

@@ -1,6 +1,7 @@
 // The arithmetic is that of kernels/place.cl and wedges.cl, for the same bits.
 #include "radio/world_records.hpp"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace wavetracer {
@@ -20,6 +21,8 @@ wt_wedge record_of(const Wedge& wedge, uint32_t first_surface, uint32_t instance
   store(record.normal, wedge.normal);
   record.length = wedge.length_m;
   record.exterior = wedge.exterior_rad;
+  record.cosine = std::cos(wedge.exterior_rad);
+  record.sine = std::sin(wedge.exterior_rad);
   for (int face = 0; face < 2; ++face) record.surfaces[face] = first_surface + wedge.surface[face];
   record.instance = instance;
   return record;

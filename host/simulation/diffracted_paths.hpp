@@ -3,26 +3,30 @@
 // ends of every link have launched, and that place has run.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "passes/sort.hpp"
 #include "passes/wedge_join.hpp"
+#include "passes/wedge_pairs.hpp"
 #include "passes/wedge_prefixes.hpp"
 #include "passes/wedge_solve.hpp"
 #include "passes/wedges.hpp"
-#include "wavetracer/config.hpp"
 
 namespace wavetracer {
 
 struct DiffractedPaths {
-  // world: its wedges; receiver_of_origin: see WedgeJoin.
+  // receiver_of_origin: see WedgeJoin. two: for paths over two wedges.
   DiffractedPaths(gpu::Context& context, Wedges world, const std::vector<uint32_t>& receiver_of_origin,
-                  const TraceConfig& trace)
+                  uint32_t max_depth, std::optional<WedgePairs> two)
       : wedges(std::move(world)),
         prefixes(context),
-        join(context, receiver_of_origin, trace.max_depth, trace.max_diffractions > 1),
-        solve(context, trace.max_depth),
+        join(context, receiver_of_origin, max_depth),
+        pairs(std::move(two)),
+        solve(context, max_depth),
         sort_(context) {}
+
+  WedgePairs* for_two() { return pairs ? &*pairs : nullptr; }
 
   // Sorts prefixes by the wedges that they see.
   void sort(WedgePrefixList& list) {
@@ -32,6 +36,7 @@ struct DiffractedPaths {
   Wedges wedges;
   WedgePrefixes prefixes;
   WedgeJoin join;
+  std::optional<WedgePairs> pairs;
   WedgeSolve solve;
 
  private:

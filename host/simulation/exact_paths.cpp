@@ -23,9 +23,12 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
       candidates(context, tracing_depth(trace).reflections),
       solve(context, trace.max_depth),
       visible(context, trace.max_depth) {
-  if (trace.diffraction)
+  if (trace.diffraction) {
+    std::optional<WedgePairs> two;
+    if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
     diffraction.emplace(context, Wedges(context, scene, world.models(), world.instances(), trace.free_edges),
-                        origins.receiver_of_origin, trace);
+                        origins.receiver_of_origin, trace.max_depth, std::move(two));
+  }
   if (trace.scattering)
     scatter.emplace(context, TileTable(scene, world.models(), world.instances(), trace.tile_m),
                     surface_count(scene, world), trace.max_depth);

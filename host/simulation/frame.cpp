@@ -208,9 +208,11 @@ void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& e
     DiffractedPaths& edges = *exact.diffraction;
     edges.wedges(scene);  // wedges
     WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
-                                               set.nodes(), nodes, set.counters());                  // wedge_prefixes
-    edges.sort(prefixes);                                                                            // sort
-    const uint32_t joined = edges.join(scene, prefixes, edges.wedges.list(), ends, set.counters());  // wedge_join
+                                               set.nodes(), nodes, set.counters());  // wedge_prefixes
+    if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);       // wedge_sight
+    edges.sort(prefixes);                                                            // sort
+    const uint32_t joined = edges.join(scene, prefixes, edges.wedges.list(), ends, set.counters(),
+                                       edges.for_two());  // wedge_join, wedge_pairs
     counts.candidates += joined;
     see(edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.join.list(), joined,
                     set.counters()));  // wedge_solve

@@ -106,7 +106,7 @@ typedef struct {
   wt_uint capacity;
 } wt_wedge_prefixes_arguments;
 
-// Of wedge_join and wedge_pairs: `lanes` work-items take one prefix.
+// Of wedge_join: `lanes` work-items take one prefix.
 typedef struct {
   wt_uint count;
   wt_uint lanes;
@@ -115,6 +115,16 @@ typedef struct {
   wt_uint max_depth;
   wt_uint capacity;
 } wt_wedge_join_arguments;
+
+// Of wedge_sight and wedge_pairs: what stands in the way (lib/sight.clh).
+typedef struct {
+  wt_uint count;  // of prefixes
+  wt_uint triangle_slots;
+  float extent_m;
+  wt_uint static_surfaces;
+  wt_uint only_opaque;  // not 0: waves pass the other surfaces
+  wt_uint kept_wedges;  // what is found of pairs of the first so many wedges is kept
+} wt_sight_arguments;
 
 // Of row_keys, mark_rows and order_rows. twins: not 0 where rows of the other way are counted, each after its own.
 typedef struct {

@@ -107,6 +107,7 @@ typedef struct {
   double normal[3];
   double length;
   double exterior;      // radians
+  double cosine, sine;  // of exterior
   wt_uint surfaces[2];  // numbered through the world
   wt_uint instance;     // WT_NONE: static
   wt_uint padding;
@@ -117,6 +118,9 @@ typedef struct {
   wt_uint node;
   wt_uint receiver;
 } wt_candidate;
+
+// An edge is cut into so many pieces of one length, and what may see them is a mask of bits.
+#define WT_WEDGE_PIECES 4u
 
 // A prefix of an end that sees a wedge. Ends are transmitters, then the receivers that launch for themselves.
 typedef struct {
@@ -129,6 +133,7 @@ typedef struct {
   float away;        // and how far from that line
   float length;      // of the edge
   wt_uint quarters;  // that found it
+  wt_uint pieces;    // of the edge that it may see
 } wt_wedge_prefix;
 
 // What such prefixes are sorted by: the wedge, then the depth, so that those that are short enough stand together.

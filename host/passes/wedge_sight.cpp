@@ -1,0 +1,43 @@
+// Host side of kernels/wedge_sight.cl.
+// One prefix per work-item.
+#include "passes/wedge_sight.hpp"
+
+#include "scene/convex_faces.hpp"
+
+namespace wavetracer {
+namespace {
+
+std::vector<double> numbers(const std::vector<glm::dvec4>& sides) {
+  std::vector<double> out;
+  for (const glm::dvec4& side : sides) out.insert(out.end(), {side.x, side.y, side.z, side.w});
+  if (out.empty()) out.resize(4);  // buffers are never empty
+  return out;
+}
+
+}  // namespace
+
+WedgeSight::WedgeSight(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission)
+    : kernel_(context.kernel("wedge_sight", "wedge_sight", device_scene.definitions)),
+      work_(tuning_of(context.info()).exact),
+      transmission_(transmission) {
+  const ConvexFaces faces = convex_faces(scene);
+  first_sides_ = context.buffer(faces.first, "first sides of surfaces");
+  sides_ = context.buffer(numbers(faces.sides), "sides of surfaces");
+}
+
+wt_sight_arguments WedgeSight::arguments(const DeviceScene& scene, uint32_t count, uint32_t kept_wedges) const {
+  return {.count = count,
+          .triangle_slots = scene.triangle_slots,
+          .extent_m = scene.extent_m,
+          .static_surfaces = static_cast<uint32_t>(first_sides_.size() - 1),
+          .only_opaque = transmission_,
+          .kept_wedges = kept_wedges};
+}
+
+void WedgeSight::operator()(const DeviceScene& scene, const WedgeList& wedges, WedgePrefixList& prefixes) {
+  if (prefixes.count == 0) return;
+  kernel_(work_.range(prefixes.count), "wedge_sight", scene.leg_nodes(), scene.leg_leaves(), scene.exact_surfaces,
+          first_sides_, sides_, wedges.wedges, prefixes.keys, prefixes.prefixes, arguments(scene, prefixes.count, 0));
+}
+
+}  // namespace wavetracer

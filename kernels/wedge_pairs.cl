@@ -1,0 +1,94 @@
+// wedge_pairs: candidates of paths over two wedges, straight from one to the other: every prefix of a transmitter with
+// every one of the other end that sees another wedge, if pieces that they see may see each other. What was found out of
+// two static wedges is kept as long as the scene is.
+#include "lib/join.clh"
+#include "lib/memory_order.clh"
+#include "lib/sight.clh"
+#include "wavetracer/device/arguments.h"
+
+// Does some part of the other wedge lie in the free sector of this one?
+inline int may_see(const global wt_wedge* w, const global wt_wedge* other) {
+  return wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, 0.0))) ||
+         wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, other->length)));
+}
+
+// Does the way from one to the other run in the free space of both, or along a face of both?
+inline int in_sight(const global wt_wedge* v, const global wt_wedge* w) {
+  return wt_share_face(v, w) || (may_see(v, w) && may_see(w, v));
+}
+
+// What is known of two wedges: bits 0 to 15 which pairs of pieces were looked at, bits 16 to 31 which of them may see
+// each other; bit WT_WEDGE_PIECES i + j is for piece i of the wedge with the lower number and j of the other.
+#define ALL_PAIRS 0xFFFFu
+
+inline uint pairs_of(uint pieces_low, uint pieces_high) {
+  uint out = 0;
+  for (uint i = 0; i < WT_WEDGE_PIECES; ++i)
+    if (pieces_low >> i & 1u) out |= pieces_high << WT_WEDGE_PIECES * i;
+  return out;
+}
+
+// Looks at wanted pairs of pieces until one is found that may see each other. Returns what is known now.
+inline uint look(const wt_sight* sight, const global wt_wedge* low, const global wt_wedge* high, uint wanted,
+                 uint known, wt_hiders* hiders) {
+  const double a = low->length / WT_WEDGE_PIECES, b = high->length / WT_WEDGE_PIECES;
+  for (uint left = wanted & ~known; left && !(known >> 16 & wanted); left &= left - 1) {
+    const uint bit = 31u - clz(left & -left), i = bit / WT_WEDGE_PIECES, j = bit % WT_WEDGE_PIECES;
+    const wt_lines l = {wt_on_edge(low, i * a),
+                        wt_on_edge(low, (i + 1) * a),
+                        wt_on_edge(high, j * b),
+                        wt_on_edge(high, (j + 1) * b),
+                        0,
+                        1e-3};
+    known |= (wt_hidden(sight, &l, hiders) ? 1u : 0x10001u) << bit;
+  }
+  return known;
+}
+
+// `lanes` work-items a prefix; keys are sorted, so what sees one wedge stands together and is passed over together.
+kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
+                        const global wt_exact_surface* surfaces, const global uint* first_sides,
+                        const global double* sides, global uint* kept, const global uint* keys,
+                        const global uint* order, const global wt_wedge_prefix* prefixes,
+                        const global uint* receiver_of_origin, const global ushort* links,
+                        const global wt_wedge* wedges, global wt_wedge_candidate* out, global wt_counters* counters,
+                        wt_wedge_join_arguments args, wt_sight_arguments sight_args) {
+  const uint i = get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
+  if (i >= args.count || keys[i] == WT_NONE) return;
+  const global wt_wedge_prefix* a = prefixes + order[i];
+  if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) return;
+  const wt_sight sight = {nodes,       triangles, sight_args.triangle_slots,  sight_args.extent_m,   surfaces,
+                          first_sides, sides,     sight_args.static_surfaces, sight_args.only_opaque};
+  const uint wedge_a = wt_wedge_of(keys[i]), most = args.max_depth - 2 - a->depth;
+  uint wedge_b = WT_NONE, known = 0, was_known = 0;
+  global uint* keep = 0;
+  wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
+  for (uint j = lane; j < args.count && keys[j] != WT_NONE;) {
+    if (wt_wedge_of(keys[j]) != wedge_b) {
+      wedge_b = wt_wedge_of(keys[j]);
+      const size_t low = min(wedge_a, wedge_b), high = max(wedge_a, wedge_b);
+      keep = high < sight_args.kept_wedges && low != high ? kept + high * (high - 1) / 2 + low : 0;
+      known = was_known = low == high ? ALL_PAIRS : keep ? wt_load_relaxed_u32(keep) : 0;
+      if (!known && !in_sight(wedges + low, wedges + high)) known = ALL_PAIRS;
+    }
+    const int none = known == ALL_PAIRS;
+    if (!none && keys[j] <= wt_wedge_key(wedge_b, most)) {
+      const global wt_wedge_prefix* b = prefixes + order[j];
+      j += args.lanes;
+      const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_origin, links, args.groups);
+      if (receiver == WT_NONE) continue;
+      const int a_is_low = wedge_a < wedge_b;
+      const uint wanted = pairs_of(a_is_low ? a->pieces : b->pieces, a_is_low ? b->pieces : a->pieces);
+      known = look(&sight, wedges + (a_is_low ? wedge_a : wedge_b), wedges + (a_is_low ? wedge_b : wedge_a), wanted,
+                   known, &hiders);
+      if (known >> 16 & wanted) wt_emit_candidate(a, b, wedge_a, wedge_b, receiver, out, args.capacity, counters);
+    } else {
+      const uint next = wt_lower_bound(keys, args.count, wt_wedge_key(wedge_b + 1, 0));
+      j = next + (lane + args.lanes - next % args.lanes) % args.lanes;
+    }
+    if (keep && known != was_known) {
+      atomic_or(keep, known);
+      was_known = known;
+    }
+  }
+}

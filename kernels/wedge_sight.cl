@@ -1,0 +1,57 @@
+// wedge_sight: which pieces of its edge a prefix may see. Rays only say that a prefix sees a face; whether the edge can
+// be seen past the last mirror and past what stands between is decided here, without losing any path.
+#include "lib/sight.clh"
+#include "wavetracer/device/arguments.h"
+
+inline double3 image_of(const global wt_wedge_prefix* p) {
+  return (double3)((double)p->image[0], (double)p->image[1], (double)p->image[2]);
+}
+
+// Do all lines from the image to the segment miss the mirror, because of one of its sides?
+inline int misses(const wt_sight* sight, uint mirror, const wt_lines* l) {
+  if (mirror >= sight->static_surfaces) return 0;
+  for (uint k = sight->first_sides[mirror]; k < sight->first_sides[mirror + 1]; ++k)
+    if (wt_above_side(sight->sides, k, l->a0) < -l->margin_m && wt_above_side(sight->sides, k, l->a1) < -l->margin_m)
+      return 1;
+  return 0;
+}
+
+// May a point between b0 and b1 be seen from the image in the last mirror, if there is one?
+inline int may_see(const wt_sight* sight, const global wt_wedge_prefix* prefix, double3 image, double3 b0, double3 b1,
+                   wt_hiders* hiders) {
+  const double size = fabs(image.x) + fabs(image.y) + fabs(image.z);
+  wt_lines l = {image, image, b0, b1, 1, 1e-3 + 4e-7 * size};
+  if (prefix->depth > 0) {
+    const global wt_exact_surface* mirror = sight->surfaces + prefix->last;
+    const double above = wt_above(mirror, image), sign = above < 0.0 ? -1.0 : 1.0;
+    const double above_0 = wt_above(mirror, b0), above_1 = wt_above(mirror, b1);
+    if (sign * above_0 > l.margin_m && sign * above_1 > l.margin_m) return 0;
+    // Lines that hardly cross the mirror's plane say nothing.
+    if (!(sign * above > l.margin_m && sign * above_0 < -l.margin_m && sign * above_1 < -l.margin_m)) return 1;
+    l.a0 = image + (b0 - image) * (above / (above - above_0));
+    l.a1 = image + (b1 - image) * (above / (above - above_1));
+    if (misses(sight, prefix->last, &l)) return 0;
+  }
+  return !wt_hidden(sight, &l, hiders);
+}
+
+// One prefix per work-item. A prefix that sees nothing of its edge gets the last key.
+kernel void wedge_sight(const global WT_NODE* nodes, const global WT_LEAF* triangles,
+                        const global wt_exact_surface* surfaces, const global uint* first_sides,
+                        const global double* sides, const global wt_wedge* wedges, global uint* keys,
+                        global wt_wedge_prefix* prefixes, wt_sight_arguments args) {
+  const uint i = get_global_id(0);
+  if (i >= args.count) return;
+  const wt_sight sight = {nodes,       triangles, args.triangle_slots,  args.extent_m,   surfaces,
+                          first_sides, sides,     args.static_surfaces, args.only_opaque};
+  const global wt_wedge* w = wedges + wt_wedge_of(keys[i]);
+  const double3 image = image_of(prefixes + i);
+  const double piece = w->length / WT_WEDGE_PIECES;
+  wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
+  uint seen = 0;
+  for (uint k = 0; k < WT_WEDGE_PIECES; ++k)
+    if (may_see(&sight, prefixes + i, image, wt_on_edge(w, k * piece), wt_on_edge(w, (k + 1) * piece), &hiders))
+      seen |= 1u << k;
+  prefixes[i].pieces = seen;
+  if (seen == 0) keys[i] = WT_NONE;
+}

@@ -1,0 +1,121 @@
+// wedge_sight: no point of a piece that is called hidden can be seen, neither past the last mirror nor past what stands
+// between, by legs against every triangle in double; and most of what is hidden is called so.
+#include "passes/wedge_sight.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "passes/image_method.hpp"
+#include "passes/wedge_cases.hpp"
+#include "passes/wedge_prefixes.hpp"
+#include "reference/planes.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// Quads of random places and shapes, all of whose edges diffract, and ends among them.
+struct World {
+  std::vector<Quad> quads;
+  Scene scene;
+  std::vector<EndState> transmitters;
+};
+
+World random_world(uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  const auto point = [&](double size) {
+    return glm::dvec3{between(-size, size), between(-size, size), between(-size, size)};
+  };
+  World world;
+  for (int i = 0; i < 9; ++i) {
+    const glm::dvec3 a = point(1), b = point(1);
+    const glm::dvec3 along = between(3, 9) * glm::normalize(a), up = between(2, 8) * glm::normalize(glm::cross(a, b));
+    world.quads.push_back({point(8) - 0.5 * (along + up), along, up});
+  }
+  world.scene = reference::scene_of_quads(world.quads);
+  for (uint32_t q = 0; q < world.quads.size(); ++q)
+    for (const Wedge& w : reference::free_wedges(world.quads[q], q)) world.scene.wedges.push_back(w);
+  for (int i = 0; i < 3; ++i) world.transmitters.push_back({.position_m = point(9)});
+  return world;
+}
+
+// Does a path over these mirrors reach the point, with nothing that blocks in the way of its last leg?
+bool sees(const World& world, const std::vector<bool>& blocks, const Sequence& s, const glm::dvec3& p) {
+  const glm::dvec3 end = world.transmitters[s.transmitter].position_m;
+  const auto points = image_method(world.quads, end, s.surfaces, p);
+  if (!points) return false;
+  const uint32_t mirror = s.surfaces.empty() ? reference::no_surface : s.surfaces.back();
+  const auto passed =
+      reference::passages(world.scene, points->empty() ? end : points->back(), mirror, p, reference::no_surface);
+  return std::ranges::none_of(passed, [&](const reference::Passage& one) { return blocks[one.surface]; });
+}
+
+struct Count {
+  size_t pieces = 0, unseen = 0, hidden = 0;  // unseen: at all points that were tried; hidden: so called
+};
+
+Count check(const World& world, bool transmission) {
+  DeviceScene scene = make_device_scene(context(), world.scene, false, 40);
+  std::vector<bool> blocks(world.scene.surfaces.size(), true);
+  for (size_t s = 0; transmission && s < blocks.size(); ++s) blocks[s] = s % 3 == 0;
+  mark_opaque(scene, blocks);
+  const RadioEnds ends = make_radio_ends(context(), world.transmitters, world.transmitters, {{0, 1}}, {});
+  const Wedges wedges(context(), world.scene, {}, {}, true);
+  Sequences set(context(), 1 << 12);
+  enter(set, scene, all_sequences(3, 9, 3), 3);
+  const uint32_t node_count = set.collect(ends.transmitter_count);
+  WedgePrefixes prefixes(context());
+  WedgePrefixList& list =
+      prefixes(scene, wedges.list(), ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
+  const std::vector<uint32_t> keys = list.keys.read(0, list.count);
+  WedgeSight sight(context(), scene, world.scene, transmission);
+  sight(scene, wedges.list(), list);
+  const std::vector<uint32_t> after = list.keys.read(0, list.count);
+  const std::vector<uint64_t> table = set.table().read();
+  const auto seen = list.prefixes.read(0, list.count);
+  Count count;
+  for (uint32_t i = 0; i < list.count; ++i) {
+    CHECK(after[i] == (seen[i].pieces ? keys[i] : WT_NONE));
+    const Sequence sequence = sequence_of(table, seen[i].node);
+    const Wedge& wedge = world.scene.wedges[keys[i] >> WT_WEDGE_DEPTH_BITS];
+    for (uint32_t piece = 0; piece < WT_WEDGE_PIECES; ++piece, ++count.pieces) {
+      bool any = false;
+      for (int k = 0; k <= 8 && !any; ++k) {
+        const double x = wedge.length_m * (piece + k / 8.0) / WT_WEDGE_PIECES;
+        any = sees(world, blocks, sequence, wedge.start + x * wedge.along);
+      }
+      const bool hidden = !(seen[i].pieces >> piece & 1);
+      CHECK_FALSE((hidden && any));
+      count.unseen += !any;
+      count.hidden += hidden;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("random worlds, no mirror to two: no piece that is seen is called hidden, and most of the others are") {
+  Count all;
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    CAPTURE(seed);
+    const Count one = check(random_world(seed), false);
+    all.pieces += one.pieces;
+    all.unseen += one.unseen;
+    all.hidden += one.hidden;
+  }
+  MESSAGE(all.hidden, " of ", all.pieces, " pieces are called hidden, ", all.unseen, " are not seen");
+  CHECK(all.pieces > 10'000);
+  CHECK(all.hidden <= all.unseen);
+  CHECK(static_cast<double>(all.hidden) > 0.5 * static_cast<double>(all.unseen));
+}
+
+TEST_CASE("where waves pass walls, only those that nothing passes hide") {
+  const World world = random_world(11);
+  const Count all = check(world, false), some = check(world, true);
+  CHECK(some.hidden < all.hidden);
+  CHECK(some.hidden > 0);
+}
