@@ -3,8 +3,6 @@
 #include <signal.h>
 
 #include <chrono>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "accuracy/advice.hpp"
@@ -64,12 +62,6 @@ std::vector<std::pair<int, double>> lattice(int orders) {
         out[order].second += 1 / (d * d);
       }
   return out;
-}
-
-std::string contents(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
 }
 
 }  // namespace

@@ -16,12 +16,6 @@ extern char** environ;
 
 namespace {
 
-std::string contents(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> out;
   for (std::string& word : words) out.push_back(word.data());
@@ -47,6 +41,12 @@ std::vector<std::string> changed_environment(const std::vector<std::string>& cha
 size_t Folder::entries() const {
   const std::filesystem::directory_iterator all(folder_.path());
   return static_cast<size_t>(std::distance(begin(all), end(all)));
+}
+
+std::string contents(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
 }
 
 size_t lines_of(const std::string& file) {

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 #include <string>
 #include <vector>
+#include "contains.hpp"
 #include "temporary_folder.hpp"
 
 struct Outcome {
@@ -23,6 +24,9 @@ class Folder {
  private:
   wavetracer::test::TemporaryFolder folder_;
 };
+
+// Empty where the file cannot be read.
+std::string contents(const std::string& file);
 
 // 0 where the file cannot be read.
 size_t lines_of(const std::string& file);
@@ -46,5 +50,3 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::vector
 
 // Whether the program finds an OpenCL device; says in the test's output that what needs one is skipped.
 bool device_present();
-
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -10,6 +10,7 @@
 #include "wavetracer/config_file.hpp"
 
 using namespace wavetracer;
+using test::ends;
 
 namespace {
 
@@ -81,8 +82,6 @@ TEST_CASE("0 and auto leave an optional unset, are written again, and are no num
 }
 
 TEST_CASE("a configuration is echoed as it was given: mnemonics, 0 and auto") {
-  const std::string ends =
-      "[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 0]\n[[receiver]]\nname = \"b\"\nposition_m = [1, 0, 0]\n";
   const Config c = parse_config(
       "scene.file = \"/s.xml\"\norder.method = \"H3DH\"\ntrace.refresh_rays = 0\ntime.step_s = 0\n" + ends, "a.toml");
   CHECK(c.order.method == OrderMethod("H3DH"));

@@ -7,10 +7,12 @@
 #include "base/spelling.hpp"
 #include "config/field_table.hpp"
 #include "config/reference.hpp"
+#include "config/texts.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
+using test::ends;
 
 TEST_CASE("every key of the contract is in the table, once") {
   std::set<std::string> keys;
@@ -208,8 +210,6 @@ TEST_CASE("a hint needs a near word") {
 }
 
 TEST_CASE("a transmitter launches at most 2^31 rays") {
-  const std::string ends =
-      "[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 0]\n[[receiver]]\nname = \"b\"\nposition_m = [1, 0, 0]\n";
   CHECK(parse_config("scene.file = \"/s.xml\"\ntrace.rays = 2147483648\n" + ends, "a.toml").trace.rays == 2147483648);
   CHECK_THROWS_AS(parse_config("scene.file = \"/s.xml\"\ntrace.rays = 2147483649\n" + ends, "a.toml"), ConfigError);
 }

@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr const char* kernel_text = R"(
+constexpr const char* value_kernels = R"(
 kernel void value(global uint* out) { out[0] = VALUE; }
 kernel void environment(global uint* out) {
 #if defined(WT_CPU) && !defined(WT_GPU) || defined(WT_GPU) && !defined(WT_CPU)
@@ -51,7 +51,7 @@ std::vector<std::filesystem::path> cached_files(const TemporaryKernels& kernels)
 
 TEST_CASE("definitions make different programs, each built once a context") {
   const TemporaryKernels kernels;
-  kernels.add("test.cl", kernel_text);
+  kernels.add("test.cl", value_kernels);
   gpu::Context context;
   CHECK(run_value(context, "5") == 5);
   CHECK(run_value(context, "6") == 6);
@@ -63,7 +63,7 @@ TEST_CASE("definitions make different programs, each built once a context") {
 
 TEST_CASE("a program knows its kind of device and exactly one back-end of memory order") {
   const TemporaryKernels kernels;
-  kernels.add("test.cl", kernel_text);
+  kernels.add("test.cl", value_kernels);
   gpu::Context context;
   auto out = context.buffer(std::vector<uint32_t>{0, 0}, "out");
   context.kernel("test", "environment", {{"VALUE", "0"}})({1, 1}, "test", out);
@@ -72,7 +72,7 @@ TEST_CASE("a program knows its kind of device and exactly one back-end of memory
 
 TEST_CASE("warnings of kernels are not shown to users") {
   const TemporaryKernels kernels;
-  kernels.add("test.cl", "#warning some words\n" + std::string(kernel_text));
+  kernels.add("test.cl", "#warning some words\n" + std::string(value_kernels));
   const std::filesystem::path shown = kernels.kernels() / "stderr";
   gpu::Context context;
   if (context.info().platform == "Oclgrind") {
@@ -137,7 +137,7 @@ TEST_CASE("a program that does not build is an error with its name, options and 
 
 TEST_CASE("a second context takes the program from disk, and it computes the same") {
   const TemporaryKernels kernels;
-  kernels.add("test.cl", kernel_text);
+  kernels.add("test.cl", value_kernels);
   gpu::Context first;
   CHECK(run_value(first, "11") == 11);
   CHECK(first.builds_from_source() == 1);
@@ -148,7 +148,7 @@ TEST_CASE("a second context takes the program from disk, and it computes the sam
   CHECK_THROWS_AS(second.kernel("test", "value", {{"VALUE", "11"}})({1, 1}, "test"), std::logic_error);
 
   // Another source under the same program name is another program.
-  kernels.add("test.cl", std::string(kernel_text) + "// changed\n");
+  kernels.add("test.cl", std::string(value_kernels) + "// changed\n");
   gpu::Context third;
   CHECK(run_value(third, "11") == 11);
   CHECK(third.builds_from_source() == 1);
@@ -156,7 +156,7 @@ TEST_CASE("a second context takes the program from disk, and it computes the sam
 
 TEST_CASE("a cached program that is damaged, or that the driver refuses, is rebuilt and replaced") {
   const TemporaryKernels kernels;
-  kernels.add("test.cl", kernel_text);
+  kernels.add("test.cl", value_kernels);
   {
     gpu::Context context;
     CHECK(run_value(context, "12") == 12);
@@ -178,7 +178,7 @@ TEST_CASE("a cached program that is damaged, or that the driver refuses, is rebu
 
 TEST_CASE("without a cache, or with one that cannot be written, programs are built from source") {
   const TemporaryKernels kernels;
-  kernels.add("test.cl", kernel_text);
+  kernels.add("test.cl", value_kernels);
   {
     const Environment off("WAVETRACER_NO_CACHE", "1");
     for (int i = 0; i < 2; ++i) {

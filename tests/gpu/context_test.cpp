@@ -12,7 +12,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr const char* kernel_text = R"(
+constexpr const char* launched_kernels = R"(
 typedef struct { uint a, b, c; } three;
 kernel void add(global uint* out, uint count, float4 unused, double factor) {
   const uint i = (uint)get_global_id(0);
@@ -26,7 +26,7 @@ kernel void with_local(global uint* out, local uint* scratch) { out[0] = scratch
 struct Fixture {
   TemporaryKernels kernels;
   gpu::Context context;
-  Fixture() { kernels.add("test.cl", kernel_text); }
+  Fixture() { kernels.add("test.cl", launched_kernels); }
   gpu::Kernel kernel(const char* name) { return context.kernel("test", name); }
 };
 

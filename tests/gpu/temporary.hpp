@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include "contains.hpp"
 #include "temporary_folder.hpp"
 
 namespace wavetracer::test {
@@ -82,7 +83,5 @@ std::string message_of(F&& action) {
   }
   return {};
 }
-
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace wavetracer::test

@@ -5,28 +5,22 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include "jobs/run_record.hpp"
+#include "jobs/sample_parts.hpp"
 #include "jobs/shards.hpp"
 #include "output/reader.hpp"
-#include "output/sample_run.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;
+using test::cuts;
 using test::datasets;
+using test::identity;
 using test::slurp;
 using test::TemporaryFolder;
+using test::with_waypoints;
 
 namespace {
-
-const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 24, 1};
-const std::vector<std::pair<uint32_t, uint32_t>> cuts{{3, 7}, {10, 10}, {20, 5}};  // first, count
-
-SampleRun with_waypoints() {
-  SampleRun sample;
-  sample.config.output.waypoints = 2;
-  return sample;
-}
 
 void write_part(const fs::path& folder, const std::string& name, const std::vector<size_t>& units,
                 const RunIdentity& run = identity) {

@@ -27,7 +27,7 @@ std::string on_terminal(const Action& action) {
   fcntl(master, F_SETFL, O_NONBLOCK);
   std::string text;
   char part[4096];
-  for (ssize_t count; (count = read(master, part, sizeof part)) > 0;) text.append(part, static_cast<size_t>(count));
+  for (ssize_t count; (count = ::read(master, part, sizeof part)) > 0;) text.append(part, static_cast<size_t>(count));
   for (const int file : {master, slave, before}) close(file);
   return text;
 }

@@ -1,24 +1,23 @@
 // Shards go once the outputs were proved to hold them, and not before; a later run knows that all is there.
 #include <doctest/doctest.h>
-#include <algorithm>
 #include <fstream>
 #include "jobs/earlier_run.hpp"
 #include "jobs/merge_folders.hpp"
 #include "jobs/merged_record.hpp"
+#include "jobs/sample_parts.hpp"
 #include "jobs/shards.hpp"
 #include "output/reader.hpp"
-#include "output/sample_run.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;
+using test::identity;
+using test::names;
 using test::slurp;
 using test::TemporaryFolder;
 
 namespace {
-
-const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 24, 1};
 
 Run asked(const SampleRun& sample) {
   Run run = sample.run();
@@ -27,20 +26,13 @@ Run asked(const SampleRun& sample) {
 }
 
 // The drive of frames 3 to 24 in two shards, merged.
-std::vector<fs::path> write_drive(const fs::path& folder, const SampleRun& sample) {
+std::vector<fs::path> write_without_shards(const fs::path& folder, const SampleRun& sample) {
   Shards shards(folder, identity);
   shards.write(asked(sample), sample.drive(3, 10));
   shards.write(asked(sample), sample.drive(13, 12));
   const auto files = shards.merge(asked(sample), {});
   shards.remove_merged();
   return files;
-}
-
-std::vector<std::string> names(const fs::path& folder) {
-  std::vector<std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder)) out.push_back(entry.path().filename());
-  std::ranges::sort(out);
-  return out;
 }
 
 const std::vector<std::string> what_stays{"merged.json", "run.json"};
@@ -63,7 +55,7 @@ TEST_CASE("shards go once all frames are merged, stay while one is missing, and 
   CHECK(names(folder.path() / "shards") == what_stays);
   CHECK(test::Reader(files[0]).shape("/frames/frame")[0] == 22);
   sample.config.output.keep_shards = true;
-  const auto kept = write_drive(keeping.path(), sample);
+  const auto kept = write_without_shards(keeping.path(), sample);
   CHECK(names(keeping.path() / "shards").size() == 6);
   CHECK(slurp(kept[0]) == slurp(files[0]));
 }
@@ -71,7 +63,7 @@ TEST_CASE("shards go once all frames are merged, stay while one is missing, and 
 TEST_CASE("a run that is resumed after its shards went is complete, and tells what it has") {
   const TemporaryFolder folder;
   const SampleRun sample;
-  const auto files = write_drive(folder.path(), sample);
+  const auto files = write_without_shards(folder.path(), sample);
   Shards again(folder.path(), identity);
   CHECK(again.resume() == 0);
   CHECK(again.complete());
@@ -105,7 +97,7 @@ TEST_CASE("a record whose outputs are gone, cut short or replaced makes no run c
   const SampleRun sample;
   const auto complete_after = [&](auto change) {
     const TemporaryFolder folder;
-    change(write_drive(folder.path(), sample), folder.path());
+    change(write_without_shards(folder.path(), sample), folder.path());
     Shards again(folder.path(), identity);
     again.resume();
     return again.complete();

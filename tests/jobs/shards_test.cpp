@@ -8,31 +8,26 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include "jobs/sample_parts.hpp"
 #include "output/reader.hpp"
-#include "output/sample_run.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
 namespace fs = std::filesystem;
 using namespace wavetracer;
+using test::cuts;
 using test::datasets;
+using test::identity;
+using test::names;
 using test::Reader;
 using test::slurp;
 using test::TemporaryFolder;
+using test::with_waypoints;
 
 namespace {
 
-const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 24, 1};
-const std::vector<std::pair<uint32_t, uint32_t>> cuts{{3, 7}, {10, 10}, {20, 5}};  // first, count
-
 void write(Shards& shards, const SampleRun& sample, std::pair<uint32_t, uint32_t> cut) {
   shards.write(sample.run(), sample.drive(cut.first, cut.second));
-}
-
-SampleRun with_waypoints() {
-  SampleRun sample;
-  sample.config.output.waypoints = 2;
-  return sample;
 }
 
 // Everything of the drive in a folder, written in one go.
@@ -45,13 +40,6 @@ std::vector<fs::path> write_drive(const fs::path& folder, const SampleRun& sampl
 size_t lines(const fs::path& file) {
   const std::string text = slurp(file);
   return static_cast<size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-std::vector<std::string> names(const fs::path& folder) {
-  std::vector<std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder)) out.push_back(entry.path().filename());
-  std::sort(out.begin(), out.end());
-  return out;
 }
 
 }  // namespace

@@ -24,11 +24,11 @@ ProcessInfo dead_process(const std::string& job) {
   const pid_t child = fork();
   if (child == 0) {
     const std::string text = encode_process(this_process(job, 1));
-    const bool sent = write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    const bool sent = ::write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
     _exit(sent ? 0 : 1);
   }
   char text[4096];
-  const ssize_t bytes = read(ends[0], text, sizeof text);
+  const ssize_t bytes = ::read(ends[0], text, sizeof text);
   waitpid(child, nullptr, 0);
   close(ends[0]);
   close(ends[1]);

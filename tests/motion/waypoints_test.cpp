@@ -13,10 +13,10 @@ using doctest::Contains;
 
 namespace {
 
-const VehicleType car{"car", 4, 2, 1.5}, bus{"bus", 12, 2.5, 3.4};
+const VehicleType car_type{"car", 4, 2, 1.5}, bus_type{"bus", 12, 2.5, 3.4};
 
 Trajectories connect(std::vector<Waypoint> waypoints) {
-  const std::array tracks = {WaypointTrack{"a", car, std::move(waypoints)}};
+  const std::array tracks = {WaypointTrack{"a", car_type, std::move(waypoints)}};
   return connect_waypoints(tracks);
 }
 
@@ -57,9 +57,9 @@ TEST_CASE("at a stop the vehicle stands, and keeps its heading") {
 }
 
 TEST_CASE("types are shared, tracks ordered, a single waypoint is a single instant") {
-  const std::array tracks = {WaypointTrack{"late", car, {{3, {0, 0, 0}}, {4, {1, 0, 0}}}},
-                             WaypointTrack{"b", bus, {{0, {0, 0, 0}}, {2, {1, 0, 0}}}},
-                             WaypointTrack{"a", car, {{0, {7, 8, 9}}}}};
+  const std::array tracks = {WaypointTrack{"late", car_type, {{3, {0, 0, 0}}, {4, {1, 0, 0}}}},
+                             WaypointTrack{"b", bus_type, {{0, {0, 0, 0}}, {2, {1, 0, 0}}}},
+                             WaypointTrack{"a", car_type, {{0, {7, 8, 9}}}}};
   const Trajectories t = connect_waypoints(tracks);
   REQUIRE(t.tracks.size() == 3);
   CHECK(t.tracks[0].id == "a");
@@ -85,6 +85,7 @@ TEST_CASE("errors name the waypoint") {
   fails({{nan, {0, 0, 0}}}, "waypoint 0 of 'a': nan is not a finite number");
   fails({{0, {0, 0, 0}}, {0, {1, 0, 0}}}, "waypoint 1 of 'a': time must increase, but 0 s follows 0 s");
   fails({{0, {0, 0, 0}}, {-1, {1, 0, 0}}}, "but -1 s follows 0 s");
-  const std::array twice = {WaypointTrack{"a", car, {{0, {0, 0, 0}}}}, WaypointTrack{"a", car, {{0, {0, 0, 0}}}}};
+  const std::array twice = {WaypointTrack{"a", car_type, {{0, {0, 0, 0}}}},
+                            WaypointTrack{"a", car_type, {{0, {0, 0, 0}}}}};
   CHECK_THROWS_WITH_AS(connect_waypoints(twice), Contains("'a' is defined twice"), InputError);
 }

@@ -14,8 +14,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 12, 1};
-
 // Frames first to last of a drive with a cache. Even frames reach depth 2 only.
 std::vector<FrameResult> cached_drive(const SampleRun& sample, uint32_t first, uint32_t last) {
   std::vector<FrameResult> frames = sample.drive(first, last - first + 1);
@@ -107,11 +105,11 @@ TEST_CASE("shards of an interrupted drive bring the counts of their caches along
   const TemporaryFolder folder;
   const SampleRun sample = cached_run();
   {
-    Shards killed(folder.path(), identity);
+    Shards killed(folder.path(), sample_identity(12));
     killed.write(sample.run(), cached_drive(sample, 3, 6));
     killed.write(sample.run(), cached_drive(sample, 7, 9));
   }
-  Shards again(folder.path(), identity);
+  Shards again(folder.path(), sample_identity(12));
   REQUIRE(again.resume() == 2);
   const Json summary = summary_of(merge_interrupted(again, sample.run(), cached_drive(sample, 10, 12)));
   check_summary(summary["cache"]);
@@ -129,8 +127,8 @@ TEST_CASE("a cache that was never asked has no hit rate, and no cache has nothin
   sample.config.cache.kind = "none";
   const Json none = summary_of(write_outputs(folder.path() / "none", sample.run(), sample.frames()))["cache"];
   CHECK(none == Json{{"kind", "none"}});
-  Shards shards(folder.path() / "drive", identity);
+  Shards shards(folder.path() / "drive", sample_identity(12));
   shards.write(sample.run(), sample.drive(3, 10));
   CHECK(slurp(folder.path() / "drive" / "shards" / "manifest.jsonl").find("cache") == std::string::npos);
-  CHECK(Shards(folder.path() / "drive", identity).resume() == 1);
+  CHECK(Shards(folder.path() / "drive", sample_identity(12)).resume() == 1);
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <span>
 #include "base/pending_file.hpp"
+#include "contains.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/output.hpp"
@@ -57,8 +58,6 @@ std::string error_of(const fs::path& directory, const Run& run, const std::vecto
   }
   return "";
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

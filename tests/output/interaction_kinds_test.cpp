@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "contains.hpp"
 #include "output/reader.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -23,8 +24,6 @@ const std::filesystem::path source = WAVETRACER_SOURCE;
 std::string flowing(const std::string& file) {
   return std::regex_replace(slurp(source / file), std::regex("\\s+"), " ");
 }
-
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

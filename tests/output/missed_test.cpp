@@ -19,8 +19,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 12, 1};
-
 std::vector<FrameResult> drive(const SampleRun& sample, uint32_t first, uint32_t last) {
   std::vector<FrameResult> frames = sample.drive(first, last - first + 1);
   for (FrameResult& frame : frames)
@@ -60,11 +58,11 @@ TEST_CASE("what was missed adds up over frames, at once and in the shards of an 
   CHECK(late["power_share"] == doctest::Approx(40e-9 / 10e-6));
   CHECK(late["largest_power_share"] == doctest::Approx(6e-3));
   {
-    Shards killed(folder.path(), identity);
+    Shards killed(folder.path(), sample_identity(12));
     killed.write(sample.run(), drive(sample, 3, 6));
     killed.write(sample.run(), drive(sample, 7, 9));
   }
-  Shards again(folder.path(), identity);
+  Shards again(folder.path(), sample_identity(12));
   REQUIRE(again.resume() == 2);
   again.write(sample.run(), drive(sample, 10, 12));
   CHECK(missed_of(again.merge(sample.run(), {})) == both);
@@ -90,7 +88,7 @@ TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is s
 TEST_CASE("a manifest that names other quarters of a launch than four is refused, and says which line") {
   const TemporaryFolder folder;
   const SampleRun sample;
-  Shards shards(folder.path(), identity);
+  Shards shards(folder.path(), sample_identity(12));
   shards.write(sample.run(), drive(sample, 3, 6));
   shards.write(sample.run(), drive(sample, 7, 12));
   const std::string text = slurp(folder.path() / "shards" / "manifest.jsonl");

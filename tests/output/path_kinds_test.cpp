@@ -61,7 +61,7 @@ TEST_CASE("paths by kind add up over frames, whether written at once, in shards 
   REQUIRE((expected[0] > 0 && expected[3] > 0 && expected[4] > 0));
 
   const TemporaryFolder folder;
-  const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 12, 1};
+  const RunIdentity identity = sample_identity(12);
   Shards(folder.path() / "drive", identity).write(sample.run(), mixed_drive(sample, 3, 4));
   Shards again(folder.path() / "drive", identity);
   REQUIRE(again.resume() == 1);

@@ -3,7 +3,6 @@
 #include "output/path_limits.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -13,14 +12,10 @@
 
 using namespace wavetracer;
 using test::Reader;
+using test::slurp;
 using test::TemporaryFolder;
 
 namespace {
-
-std::string slurp(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // Two links with gains -60, -90, -70, -70 dB and -80, -100 dB; row i has i % 3 vertices.
 Paths made_paths() {
@@ -128,7 +123,7 @@ TEST_CASE("shards count what they leave out, and merge to the file of one run") 
   SampleRun sample;
   sample.config.output.dynamic_range_db = 0;
   const auto expected = write_outputs(one.path(), sample.run(), sample.drive(3, 22));
-  const RunIdentity identity{"1.2.3", "0123", "cpu", 3, 24, 1};
+  const RunIdentity identity = sample_identity(24);
   {
     Shards shards(drive.path(), identity);
     shards.write(sample.run(), sample.drive(3, 10));

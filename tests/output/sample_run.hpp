@@ -26,6 +26,9 @@ struct SampleRun {
   std::vector<FrameResult> drive(uint32_t first, uint32_t count) const;
 };
 
+// Of a drive of frames 3 to `last`.
+inline RunIdentity sample_identity(uint32_t last) { return {"1.2.3", "0123", "cpu", 3, last, 1}; }
+
 // Merges what the shards have with these frames, the first of a unit that was interrupted in the frame after them.
 inline std::vector<std::filesystem::path> merge_interrupted(Shards& shards, const Run& run, Frames unfinished) {
   auto unit = shards.open(run, {unfinished.front().frame, unfinished.back().frame + 1});

@@ -21,7 +21,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr uint64_t seed = 42;
+constexpr uint64_t launch_seed = 42;
 constexpr Directions maps[] = {"horizon", "hilbert", "fibonacci", "random"};
 
 // Two tables of heights; launches here take the second.
@@ -51,7 +51,7 @@ uint32_t numbered(uint32_t root, uint64_t number) {
 }
 
 GenerateRays generator(Directions map, uint64_t n) {
-  return GenerateRays(context(), LaunchDirections(map, n, seed), launch_heights());
+  return GenerateRays(context(), LaunchDirections(map, n, launch_seed), launch_heights());
 }
 
 // What the maps take: the step or the seed, and the cells of hilbert: the fewest faces and levels that hold n rays.
@@ -59,7 +59,7 @@ struct Launch {
   uint64_t parameter;
   unsigned level = 0, faces = 3;
 
-  Launch(Directions map, uint64_t n) : parameter(map == "random" ? seed : ~uint64_t{0} / n) {
+  Launch(Directions map, uint64_t n) : parameter(map == "random" ? launch_seed : ~uint64_t{0} / n) {
     while ((uint64_t{12} << (2 * level)) < n) ++level;
     while ((uint64_t{faces} << (2 * level)) < n) ++faces;
   }

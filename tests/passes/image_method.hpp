@@ -48,6 +48,9 @@ inline std::optional<std::vector<glm::dvec3>> image_method(const std::vector<Qua
   return points;
 }
 
+// A wall x = at of 4 m x 4 m around y = z = 0.
+inline Quad wall(double at) { return {{at, -2, -2}, {0, 4, 0}, {0, 0, 4}}; }
+
 inline std::vector<Quad> random_quads(size_t count, double extent, double size, Random& random) {
   std::vector<Quad> quads;
   while (quads.size() < count) {

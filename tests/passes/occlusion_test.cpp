@@ -12,8 +12,6 @@ using namespace wavetracer::test;
 
 namespace {
 
-// A wall x = at of 4 m x 4 m around y = z = 0.
-Quad wall(double at) { return {{at, -2, -2}, {0, 4, 0}, {0, 0, 4}}; }
 Quad ground(double half) { return {{-half, -half, 0}, {2 * half, 0, 0}, {0, 2 * half, 0}}; }
 
 bool sees(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3& b) {

@@ -20,8 +20,8 @@ using reference::Quad;
 
 namespace {
 
-using Row = std::tuple<uint32_t, uint32_t, uint32_t>;  // transmitter, receiver, tile
-using Rows = std::map<Row, glm::dvec3>;
+using ScatterRow = std::tuple<uint32_t, uint32_t, uint32_t>;  // transmitter, receiver, tile
+using ScatterRows = std::map<ScatterRow, glm::dvec3>;
 
 // Quads of the listed numbers are rough.
 Scene scene_of(const std::vector<Quad>& quads, const std::vector<uint32_t>& rough) {
@@ -53,7 +53,7 @@ struct World {
 };
 
 struct Run {
-  Rows rows;
+  ScatterRows rows;
   size_t listed = 0, visible = 0;
 };
 
@@ -98,10 +98,10 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
 }
 
 // The same, tile by tile.
-Rows expected(const World& world, const TileTable& tiles, const std::vector<Sequence>& sequences) {
+ScatterRows expected(const World& world, const TileTable& tiles, const std::vector<Sequence>& sequences) {
   SequenceSet seen;
   for (const Sequence& s : sequences) seen.insert({s.transmitter, {s.surfaces.at(0)}});
-  Rows rows;
+  ScatterRows rows;
   for (uint32_t id = 0; id < tiles.size(); ++id) {
     const TilePlace place = tiles.at(id);
     const Scene& scene = place.part == 0 ? world.scene : world.models[place.part - 1];
@@ -123,7 +123,7 @@ Rows expected(const World& world, const TileTable& tiles, const std::vector<Sequ
   return rows;
 }
 
-void check_equal(const Run& run, const Rows& wanted) {
+void check_equal(const Run& run, const ScatterRows& wanted) {
   CHECK(run.listed == wanted.size());
   REQUIRE(run.rows.size() == wanted.size());
   double worst = 0;
@@ -159,7 +159,7 @@ TEST_CASE("every tile of every surface seen directly, for wanted receivers on th
   const std::vector<Sequence> sequences{{0, {0}}, {0, {1, 2}}, {0, {2, 0, 2}}, {1, {0, 1}},
                                         {1, {2}}, {2, {3}},    {2, {1, 3}}};
   const TileTable tiles(world.scene, world.models, world.instances, 8);
-  const Rows wanted = expected(world, tiles, sequences);
+  const ScatterRows wanted = expected(world, tiles, sequences);
   CHECK(wanted.size() > 1000);
   for (const uint32_t max_depth : {1u, 3u}) check_equal(scattered(world, tiles, sequences, max_depth), wanted);
 }
@@ -189,7 +189,7 @@ TEST_CASE("instances: placed tiles, absent ones, and the vehicles that carry the
   for (uint32_t t = 0; t < 2; ++t)
     for (uint32_t s = 0; s < world.surface_count(); ++s) sequences.push_back({t, {s}});
   const TileTable tiles(world.scene, world.models, world.instances, 6);
-  const Rows wanted = expected(world, tiles, sequences);
+  const ScatterRows wanted = expected(world, tiles, sequences);
   size_t moving = 0;
   for (const auto& [row, centre] : wanted) moving += std::get<2>(row) >= tiles.tiles(0).size();
   CHECK(moving > 200);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-#include "passes/exact.hpp"
+#include "passes/made_sequences.hpp"
 #include "passes/sequences.hpp"
 #include "passes/triangles.hpp"
 
@@ -14,27 +14,13 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr uint32_t transmitter_count = 3, max_depth = 5;
-
-// Surfaces with these normals, all that interact and commute want to know.
-DeviceScene scene_of_normals(const std::vector<Float3>& normals) {
-  DeviceScene scene;
-  scene.cpu = context().info().cpu;
-  std::vector<wt_surface> surfaces(normals.size());
-  for (size_t i = 0; i < normals.size(); ++i) std::copy(normals[i].begin(), normals[i].end(), surfaces[i].normal);
-  scene.surfaces = context().buffer(surfaces, "surfaces");
-  return scene;
-}
-
-DeviceScene any_scene() { return scene_of_normals(std::vector<Float3>(8, {0, 0, 1})); }
-
 // Rays that live through these sequences in this frame, as enter() has them, in a set that keeps ages.
 void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>& sequences) {
   Scan scan(context());
   Interact interact(context(), {.ages = true});
   std::vector<Ray> rays;
   for (const Sequence& s : sequences) rays.push_back({{}, {1, 0, 0}, WT_NONE, WT_ROOT | s.transmitter});
-  for (;; set.regrow(max_depth)) {
+  for (;; set.regrow(made_depth)) {
     RayQueue queue = upload(rays), next = upload(rays);
     std::vector<Sequence> alive = sequences;
     for (size_t depth = 0; queue.count > 0; ++depth) {
@@ -67,11 +53,11 @@ size_t erase_older(Aged& known, uint32_t frame) {
 }
 
 Aged aged_contents(Sequences& set) {
-  const uint32_t count = set.collect(transmitter_count);
+  const uint32_t count = set.collect(made_transmitters);
   const std::vector<uint32_t> nodes = set.nodes().read(0, count), ages = set.ages()->read();
   const std::vector<uint64_t> table = set.table().read();
   Aged out;
-  for (uint32_t i = transmitter_count; i < count; ++i) {
+  for (uint32_t i = made_transmitters; i < count; ++i) {
     Sequence s;
     uint32_t node = nodes[i];
     for (; !(node & WT_ROOT); node = static_cast<uint32_t>(table[node] >> 32))
@@ -100,8 +86,8 @@ std::vector<Sequence> exchanges(const Sequence& s, const std::function<bool(uint
 std::vector<Sequence> likely_sequences(size_t count, uint32_t below, Random& random) {
   std::vector<Sequence> out(count);
   for (Sequence& s : out) {
-    s.transmitter = random.below(transmitter_count);
-    for (uint32_t length = 1 + random.below(max_depth); s.surfaces.size() < length;) {
+    s.transmitter = random.below(made_transmitters);
+    for (uint32_t length = 1 + random.below(made_depth); s.surfaces.size() < length;) {
       const uint32_t surface = random.below(below);
       if (s.surfaces.empty() || s.surfaces.back() != surface) s.surfaces.push_back(surface);
     }
@@ -112,7 +98,7 @@ std::vector<Sequence> likely_sequences(size_t count, uint32_t below, Random& ran
 }  // namespace
 
 TEST_CASE("ages: the last frame that met a sequence, its prefixes included, whatever the table's size") {
-  const DeviceScene scene = any_scene();
+  const DeviceScene scene = scene_of_floors(8);
   for (const uint64_t slots : {uint64_t{8192}, uint64_t{64}}) {  // the second grows on the way
     CAPTURE(slots);
     Sequences set(context(), slots, true);
@@ -125,13 +111,13 @@ TEST_CASE("ages: the last frame that met a sequence, its prefixes included, what
       renew_by_rays(known, sequences, set.frame());
       CHECK(aged_contents(set) == known);
     }
-    set.regrow(max_depth);
+    set.regrow(made_depth);
     CHECK(aged_contents(set) == known);
   }
 }
 
 TEST_CASE("forget drops what is older than so many frames, and keeps every prefix of the rest") {
-  const DeviceScene scene = any_scene();
+  const DeviceScene scene = scene_of_floors(8);
   Sequences set(context(), 1024, true);
   Aged known;
   Random random(10);
@@ -142,18 +128,18 @@ TEST_CASE("forget drops what is older than so many frames, and keeps every prefi
     const std::vector<Sequence> sequences = likely_sequences(30, 8, random);
     meet(set, scene, sequences);
     renew_by_rays(known, sequences, set.frame());
-    if (frame == 6) set.regrow(max_depth);
-    set.forget(3, max_depth);
+    if (frame == 6) set.regrow(made_depth);
+    set.forget(3, made_depth);
     if (set.frame() > 3) dropped += erase_older(known, set.frame() - 3);
     CHECK(aged_contents(set) == known);
   }
   CHECK(dropped > 200);
   set.begin_frame();
-  set.forget(1, max_depth);
+  set.forget(1, made_depth);
   erase_older(known, set.frame() - 1);
   CHECK(aged_contents(set) == known);
   for (int frame = 0; frame < 3; ++frame) set.begin_frame();
-  set.forget(1, max_depth);
+  set.forget(1, made_depth);
   CHECK(aged_contents(set).empty());
 }
 
@@ -179,7 +165,7 @@ TEST_CASE("commute with ages: the exchanges of what this frame's rays have met, 
         const std::vector<Sequence> more = exchanges(s, perpendicular);
         entered.insert(entered.end(), more.begin(), more.end());
       }
-      set.commute(scene.surfaces, set.collect(transmitter_count), max_depth);
+      set.commute(scene.surfaces, set.collect(made_transmitters), made_depth);
       renew(known, entered, 2 * set.frame());
       const Aged got = aged_contents(set);
       CHECK(got.size() == known.size());
@@ -189,7 +175,7 @@ TEST_CASE("commute with ages: the exchanges of what this frame's rays have met, 
 }
 
 TEST_CASE("keep renews the sequences of visible solved paths with their prefixes, and of no others") {
-  const DeviceScene scene = any_scene();
+  const DeviceScene scene = scene_of_floors(8);
   Sequences set(context(), 4096, true);
   Random random(14);
   const std::vector<Sequence> sequences = likely_sequences(100, 8, random);
@@ -200,16 +186,16 @@ TEST_CASE("keep renews the sequences of visible solved paths with their prefixes
   set.begin_frame();
 
   // Every fourth sequence is solved, every other of those blocked.
-  const uint32_t count = set.collect(transmitter_count);
+  const uint32_t count = set.collect(made_transmitters);
   const std::vector<uint32_t> nodes = set.nodes().read(0, count);
   const std::vector<uint64_t> table = set.table().read();
   SolvedList solved;
-  solved.max_depth = max_depth;
+  solved.max_depth = made_depth;
   std::vector<wt_solved> headers{
       {.transmitter = 1, .receiver = 0, .depth = 0, .blocked = 0, .node = WT_ROOT | 1, .quarters = WT_ALL_QUARTERS}};
-  std::vector<uint32_t> surfaces(max_depth, WT_NONE);
+  std::vector<uint32_t> surfaces(made_depth, WT_NONE);
   std::vector<Sequence> visible;
-  for (uint32_t i = transmitter_count; i < count; i += 4) {
+  for (uint32_t i = made_transmitters; i < count; i += 4) {
     Sequence s;
     uint32_t node = nodes[i];
     for (; !(node & WT_ROOT); node = static_cast<uint32_t>(table[node] >> 32))
@@ -218,7 +204,7 @@ TEST_CASE("keep renews the sequences of visible solved paths with their prefixes
     const bool blocked = i % 8 == 0;
     headers.push_back({s.transmitter, 0, static_cast<uint32_t>(s.surfaces.size()), blocked, nodes[i], WT_ALL_QUARTERS});
     if (!blocked) visible.push_back(s);
-    s.surfaces.resize(max_depth, WT_NONE);
+    s.surfaces.resize(made_depth, WT_NONE);
     surfaces.insert(surfaces.end(), s.surfaces.begin(), s.surfaces.end());
   }
   REQUIRE(visible.size() > 20);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "passes/exact.hpp"
+#include "passes/made_sequences.hpp"
 #include "passes/triangles.hpp"
 #include "wavetracer/error.hpp"
 
@@ -16,26 +16,14 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr uint32_t surface_count = 30, transmitter_count = 3, max_depth = 5;
-
-// Surfaces with these normals, all that interact and commute want to know.
-DeviceScene scene_of_normals(const std::vector<Float3>& normals) {
-  DeviceScene scene;
-  scene.cpu = context().info().cpu;
-  std::vector<wt_surface> surfaces(normals.size());
-  for (size_t i = 0; i < normals.size(); ++i) std::copy(normals[i].begin(), normals[i].end(), surfaces[i].normal);
-  scene.surfaces = context().buffer(surfaces, "surfaces");
-  return scene;
-}
-
-DeviceScene any_scene() { return scene_of_normals(std::vector<Float3>(surface_count, {0, 0, 1})); }
+constexpr uint32_t surface_count = 30;
 
 std::vector<Sequence> random_sequences(size_t count, uint32_t seed) {
   Random random(seed);
   std::vector<Sequence> out(count);
   for (Sequence& s : out) {
-    s.transmitter = random.below(transmitter_count);
-    s.surfaces.resize(random.below(max_depth + 1));
+    s.transmitter = random.below(made_transmitters);
+    s.surfaces.resize(random.below(made_depth + 1));
     // Squared: some surfaces are met far more often than others, as in a scene.
     for (uint32_t& surface : s.surfaces) surface = static_cast<uint32_t>(std::pow(random(), 2) * surface_count);
   }
@@ -46,54 +34,54 @@ std::vector<Sequence> random_sequences(size_t count, uint32_t seed) {
 
 TEST_CASE("a new set is empty: the roots alone are listed") {
   Sequences set(context(), 1024);
-  CHECK(set.collect(transmitter_count) == transmitter_count);
-  CHECK(contents(set, transmitter_count) == SequenceSet{});
+  CHECK(set.collect(made_transmitters) == made_transmitters);
+  CHECK(contents(set, made_transmitters) == SequenceSet{});
   CHECK_FALSE(set.overflowed());
 }
 
 TEST_CASE("the set holds every prefix once, as std::set does, and clear empties it") {
-  const DeviceScene scene = any_scene();
+  const DeviceScene scene = scene_of_floors(surface_count);
   Sequences set(context(), 16384);
   for (const uint32_t seed : {1u, 2u}) {
     const std::vector<Sequence> sequences = random_sequences(900, seed);
     enter_once(set, scene, sequences);
     CHECK_FALSE(set.overflowed());
-    CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+    CHECK(contents(set, made_transmitters) == with_prefixes(sequences));
     enter_once(set, scene, sequences);  // again: nothing new
-    CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+    CHECK(contents(set, made_transmitters) == with_prefixes(sequences));
     set.clear();
-    CHECK(contents(set, transmitter_count) == SequenceSet{});
+    CHECK(contents(set, made_transmitters) == SequenceSet{});
   }
 }
 
 TEST_CASE("growth keeps every chain") {
-  const DeviceScene scene = any_scene();
+  const DeviceScene scene = scene_of_floors(surface_count);
   const std::vector<Sequence> sequences = random_sequences(150, 3);
   Sequences set(context(), 1024);
   enter_once(set, scene, sequences);
   REQUIRE_FALSE(set.overflowed());
-  set.regrow(max_depth);
+  set.regrow(made_depth);
   CHECK(set.table().size() == 4096);
   CHECK_FALSE(set.overflowed());
-  CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+  CHECK(contents(set, made_transmitters) == with_prefixes(sequences));
 }
 
 TEST_CASE("a table that is far too small overflows, says so, and grows to the same set") {
-  const DeviceScene scene = any_scene();
+  const DeviceScene scene = scene_of_floors(surface_count);
   const std::vector<Sequence> sequences = random_sequences(900, 4);
   Sequences set(context(), 64);
   enter_once(set, scene, sequences);
   CHECK(set.overflowed());
-  enter(set, scene, sequences, max_depth);
+  enter(set, scene, sequences, made_depth);
   CHECK_FALSE(set.overflowed());
   CHECK(set.table().size() >= with_prefixes(sequences).size());
-  CHECK(contents(set, transmitter_count) == with_prefixes(sequences));
+  CHECK(contents(set, made_transmitters) == with_prefixes(sequences));
 }
 
 TEST_CASE("what follows a prefix that found no slot is not entered") {
   // 970 first surfaces crowd the table: some find no slot near theirs, while others are free elsewhere. Only the last
   // go on, and what comes after one that found no slot would hang in the air.
-  const DeviceScene scene = scene_of_normals(std::vector<Float3>(1000, {0, 0, 1}));
+  const DeviceScene scene = scene_of_floors(1000);
   std::vector<Sequence> sequences;
   for (uint32_t a = 0; a < 970; ++a) sequences.push_back({a % 3, {a}});
   for (uint32_t a = 930; a < 970; ++a) sequences[a].surfaces = {a, a + 1, a + 2};
@@ -103,21 +91,21 @@ TEST_CASE("what follows a prefix that found no slot is not entered") {
   size_t orphans = 0;
   for (const uint64_t key : set.table().read()) orphans += key != WT_EMPTY && (key >> 32) == WT_NONE;
   CHECK(orphans == 0);
-  set.regrow(max_depth);
-  const auto held = contents(set, transmitter_count);
+  set.regrow(made_depth);
+  const auto held = contents(set, made_transmitters);
   REQUIRE(held.has_value());
   const SequenceSet all = with_prefixes(sequences);
   CHECK(std::includes(all.begin(), all.end(), held->begin(), held->end()));
 }
 
 TEST_CASE("the list of nodes grows with the set") {
-  const DeviceScene scene = any_scene();
+  const DeviceScene scene = scene_of_floors(surface_count);
   const std::vector<Sequence> sequences = random_sequences(3000, 5);
   Sequences set(context(), 32768);
-  enter(set, scene, sequences, max_depth);
-  const size_t expected = with_prefixes(sequences).size() + transmitter_count;
+  enter(set, scene, sequences, made_depth);
+  const size_t expected = with_prefixes(sequences).size() + made_transmitters;
   REQUIRE(expected > 4096);  // more than the list begins with
-  CHECK(set.collect(transmitter_count) == expected);
+  CHECK(set.collect(made_transmitters) == expected);
 }
 
 TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, and nothing else") {

@@ -14,9 +14,6 @@ using namespace wavetracer::test;
 
 namespace {
 
-// A wall x = at of 4 m x 4 m around y = z = 0.
-Quad wall(double at) { return {{at, -2, -2}, {0, 4, 0}, {0, 0, 4}}; }
-
 std::vector<PathRow> pass(const DeviceScene& scene, const std::vector<PathRow>& rows, uint32_t most,
                           uint32_t max_depth) {
   SolvedList list = upload_rows(rows, max_depth);

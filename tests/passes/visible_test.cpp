@@ -13,11 +13,12 @@ using namespace wavetracer::test;
 
 namespace {
 
-using Row = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, std::vector<uint32_t>, std::vector<double>>;
+using ListedRow =
+    std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, std::vector<uint32_t>, std::vector<double>>;
 
 // Rows of a list but the obstructed, sorted.
-std::vector<Row> rows_of(const SolvedList& list) {
-  std::vector<Row> rows;
+std::vector<ListedRow> rows_of(const SolvedList& list) {
+  std::vector<ListedRow> rows;
   if (list.count == 0) return rows;
   const auto headers = list.headers.read(0, list.count);
   const auto surfaces = list.sequences.read(0, size_t{list.count} * list.max_depth);
@@ -68,7 +69,7 @@ TEST_CASE("visible keeps every row that is not obstructed, and no other") {
       visible.clear(counters);
       visible(solved, counters);
       const SolvedList& kept = visible.list();
-      const std::vector<Row> wanted = rows_of(solved);
+      const std::vector<ListedRow> wanted = rows_of(solved);
       CHECK(kept.count == wanted.size());
       CHECK((rows_of(kept) == wanted));
     }
@@ -79,11 +80,11 @@ TEST_CASE("visible appends list after list, and keeps what it has where it must 
   auto counters = context().buffer<wt_counters>(1, "counters");
   counters.write(std::vector<wt_counters>{{}});
   visible.clear(counters);
-  std::vector<Row> wanted;
+  std::vector<ListedRow> wanted;
   for (const uint32_t count : {30u, 0u, 9001u, 500u}) {
     const SolvedList solved = made_up(count, 5, 0.3);
     visible(solved, counters);
-    const std::vector<Row> more = rows_of(solved);
+    const std::vector<ListedRow> more = rows_of(solved);
     wanted.insert(wanted.end(), more.begin(), more.end());
   }
   std::sort(wanted.begin(), wanted.end());

@@ -23,7 +23,7 @@ struct Joined {
   auto operator<=>(const Joined&) const = default;
 };
 
-struct World {
+struct JoinWorld {
   std::vector<Quad> quads = box_and_panel_quads();
   Scene scene = box_and_panels();
   std::vector<glm::dvec3> transmitters{{-7.1, 1.3, 2.2}, {6.3, 5.9, 1.1}};
@@ -42,7 +42,7 @@ struct Run {
   std::vector<std::pair<Sequence, uint32_t>> prefixes;  // and the wedge that they see
 };
 
-Run join(const World& world, uint32_t prefix_depth, uint32_t max_depth, bool pairs) {
+Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_depth, bool pairs) {
   const DeviceScene scene = make_device_scene(context(), world.scene, false, 40);
   std::vector<EndState> tx, rx;
   for (const glm::dvec3& p : world.transmitters) tx.push_back({.position_m = p});
@@ -81,7 +81,7 @@ Run join(const World& world, uint32_t prefix_depth, uint32_t max_depth, bool pai
 }
 
 // Is there a path from an end over the reflections to a point of the edge, in its free sector?
-bool reaches(const World& world, const Sequence& s, const Wedge& wedge, const glm::dvec3& p) {
+bool reaches(const JoinWorld& world, const Sequence& s, const Wedge& wedge, const glm::dvec3& p) {
   if (!s.surfaces.empty()) {
     const Surface& last = world.scene.surfaces[s.surfaces.back()];
     if (std::abs(glm::dot(last.normal, p) - last.offset_m) < 1e-6) return false;
@@ -92,21 +92,21 @@ bool reaches(const World& world, const Sequence& s, const Wedge& wedge, const gl
 }
 
 // Does nothing stand between the last reflection, or the end, and the point of the edge?
-bool sees(const World& world, const Sequence& s, const glm::dvec3& p) {
+bool sees(const JoinWorld& world, const Sequence& s, const glm::dvec3& p) {
   const auto points = image_method(world.quads, world.end(s.transmitter), s.surfaces, p);
   const glm::dvec3 from = points->empty() ? world.end(s.transmitter) : points->back();
   const uint32_t mirror = s.surfaces.empty() ? reference::no_surface : s.surfaces.back();
   return reference::passages(world.scene, from, mirror, p, reference::no_surface).empty();
 }
 
-struct Count {
+struct JoinCount {
   size_t solved = 0, allowed = 0, hidden = 0;
 };
 
 // Every pair of prefixes. Those that may be joined at all are `allowed`; those that solve must be candidates, or, where
 // paths go over two wedges, be hidden.
-Count check(const World& world, const Run& run, uint32_t max_depth, bool pairs) {
-  Count out;
+JoinCount check(const JoinWorld& world, const Run& run, uint32_t max_depth, bool pairs) {
+  JoinCount out;
   std::set<Joined> allowed;
   for (const auto& [from, v] : run.prefixes)
     for (const auto& [to, w] : run.prefixes) {
@@ -148,12 +148,12 @@ Count check(const World& world, const Run& run, uint32_t max_depth, bool pairs) 
 }  // namespace
 
 TEST_CASE("one wedge: all that solves is a candidate, most of the rest is not, for every depth and link") {
-  const World world;
+  const JoinWorld world;
   size_t before = 0;
   for (const uint32_t max_depth : {1u, 2u, 3u}) {
     CAPTURE(max_depth);
     const Run run = join(world, 2, max_depth, false);
-    const Count count = check(world, run, max_depth, false);
+    const JoinCount count = check(world, run, max_depth, false);
     CHECK(count.solved > before);
     CHECK(run.candidates.size() < count.allowed / (max_depth == 3 ? 4 : 1));
     before = count.solved;
@@ -161,13 +161,13 @@ TEST_CASE("one wedge: all that solves is a candidate, most of the rest is not, f
 }
 
 TEST_CASE("two wedges too: all that solves is a candidate, and pairs that do not see each other are not") {
-  const World world;
+  const JoinWorld world;
   const Run run = join(world, 0, 2, true);
-  const Count count = check(world, run, 2, true);
+  const JoinCount count = check(world, run, 2, true);
   CHECK(count.solved > 100);
   CHECK(count.hidden > 10);
   CHECK(run.candidates.size() < count.allowed);
-  World more;
+  JoinWorld more;
   more.receivers.push_back({0.4, -7.2, 4.9});
   more.links.push_back({0, 3});
   more.links.push_back({1, 3});
@@ -181,7 +181,7 @@ TEST_CASE("two wedges too: all that solves is a candidate, and pairs that do not
 }
 
 TEST_CASE("no links, no candidates; an end that does not launch is met by none") {
-  World world;
+  JoinWorld world;
   world.links.clear();
   CHECK(join(world, 1, 3, true).candidates.empty());
   world = {};
@@ -192,7 +192,7 @@ TEST_CASE("no links, no candidates; an end that does not launch is met by none")
 }
 
 TEST_CASE("ends on the line of an edge, and far away, are not rejected by rounding") {
-  World world;
+  JoinWorld world;
   const Wedge& w = world.scene.wedges[3];
   world.transmitters = {w.start - 700.0 * w.along + glm::dvec3{1e-3, 2e-3, 0}, w.start + 0.4 * w.along};
   world.receivers = {

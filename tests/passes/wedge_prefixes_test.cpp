@@ -16,7 +16,7 @@ namespace {
 
 using Seen = std::pair<Sequence, uint32_t>;  // prefix, wedge
 
-struct World {
+struct PrefixWorld {
   Scene scene;  // static; its surfaces come first
   std::vector<Scene> models;
   std::vector<Instance> instances;
@@ -31,7 +31,8 @@ struct Listed {
   std::vector<wt_exact_surface> surfaces;
 };
 
-Listed list(const World& world, const std::vector<Sequence>& sequences, uint32_t max_depth, bool free_edges = true) {
+Listed list(const PrefixWorld& world, const std::vector<Sequence>& sequences, uint32_t max_depth,
+            bool free_edges = true) {
   DeviceScene scene = make_device_scene(context(), world.scene, false, 100);
   if (!world.instances.empty()) {
     Place place(context(), world.models, world.instances, scene);
@@ -62,7 +63,8 @@ Listed list(const World& world, const std::vector<Sequence>& sequences, uint32_t
 }
 
 // The same on the host, from the wedges and planes that the device has.
-void check(const World& world, const std::vector<Sequence>& sequences, const Listed& found, bool free_edges = true) {
+void check(const PrefixWorld& world, const std::vector<Sequence>& sequences, const Listed& found,
+           bool free_edges = true) {
   std::map<Seen, glm::dvec3> expected;  // images
   size_t undecided = 0;                 // within 1e-7 rad of a face
   for (const Sequence& s : with_prefixes(sequences)) {
@@ -111,8 +113,8 @@ std::vector<Sequence> some(std::vector<Sequence> all, double share, uint32_t see
   return all;
 }
 
-World standing() {
-  World world{box_and_panels(), {}, {}, {}, {}, {}, {}};
+PrefixWorld standing() {
+  PrefixWorld world{box_and_panels(), {}, {}, {}, {}, {}, {}};
   for (const glm::dvec3& p : {glm::dvec3{-7.1, 1.3, 2.2}, {6.3, 5.9, 1.1}}) world.transmitters.push_back({p});
   for (const glm::dvec3& p : {glm::dvec3{5.2, -4.4, 3.3}, {-1.1, 7.3, 6.2}, {0.3, -6.6, 0.7}})
     world.receivers.push_back({p});
@@ -123,7 +125,7 @@ World standing() {
 }  // namespace
 
 TEST_CASE("every prefix of every end, listeners included, with every wedge that it sees: each once") {
-  const World world = standing();
+  const PrefixWorld world = standing();
   for (const double share : {1.0, 0.1}) {
     CAPTURE(share);
     const std::vector<Sequence> sequences = some(all_sequences(4, 9, 3), share, 7);
@@ -132,7 +134,7 @@ TEST_CASE("every prefix of every end, listeners included, with every wedge that 
 }
 
 TEST_CASE("without free edges their surfaces show nothing") {
-  const World world = standing();
+  const PrefixWorld world = standing();
   const std::vector<Sequence> sequences = all_sequences(4, 9, 2);
   const Listed found = list(world, sequences, 2, false);
   check(world, sequences, found, false);
@@ -140,7 +142,7 @@ TEST_CASE("without free edges their surfaces show nothing") {
 }
 
 TEST_CASE("the list grows until it holds all") {
-  const World world = standing();
+  const PrefixWorld world = standing();
   const std::vector<Sequence> sequences = some(all_sequences(4, 9, 4), 0.45, 8);
   const Listed found = list(world, sequences, 4);
   CHECK(found.prefixes.size() > (1 << 14));
@@ -148,7 +150,7 @@ TEST_CASE("the list grows until it holds all") {
 }
 
 TEST_CASE("an antenna does not see the edges of its own vehicle; its reflections do, and others see them too") {
-  World world = standing();
+  PrefixWorld world = standing();
   const uint32_t surfaces = 9, wedges = 20;
   world.models.push_back(reference::scene_of_quads(reference::box_walls({-2, -0.9, 0.2}, {2.3, 0.9, 1.4})));
   world.models[0].wedges = reference::box_wedges({-2, -0.9, 0.2}, {2.3, 0.9, 1.4});

@@ -17,19 +17,19 @@ using namespace wavetracer::test;
 namespace {
 
 // Quads of random places and shapes, all of whose edges diffract, and ends among them.
-struct World {
+struct SightWorld {
   std::vector<Quad> quads;
   Scene scene;
   std::vector<EndState> transmitters;
 };
 
-World random_world(uint64_t seed) {
+SightWorld random_world(uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   const auto point = [&](double size) {
     return glm::dvec3{between(-size, size), between(-size, size), between(-size, size)};
   };
-  World world;
+  SightWorld world;
   for (int i = 0; i < 9; ++i) {
     const glm::dvec3 a = point(1), b = point(1);
     const glm::dvec3 along = between(3, 9) * glm::normalize(a), up = between(2, 8) * glm::normalize(glm::cross(a, b));
@@ -43,7 +43,7 @@ World random_world(uint64_t seed) {
 }
 
 // Does a path over these mirrors reach the point, with nothing that blocks in the way of its last leg?
-bool sees(const World& world, const std::vector<bool>& blocks, const Sequence& s, const glm::dvec3& p) {
+bool sees(const SightWorld& world, const std::vector<bool>& blocks, const Sequence& s, const glm::dvec3& p) {
   const glm::dvec3 end = world.transmitters[s.transmitter].position_m;
   const auto points = image_method(world.quads, end, s.surfaces, p);
   if (!points) return false;
@@ -53,11 +53,11 @@ bool sees(const World& world, const std::vector<bool>& blocks, const Sequence& s
   return std::ranges::none_of(passed, [&](const reference::Passage& one) { return blocks[one.surface]; });
 }
 
-struct Count {
+struct SightCount {
   size_t pieces = 0, unseen = 0, hidden = 0;  // unseen: at all points that were tried; hidden: so called
 };
 
-Count check(const World& world, bool transmission) {
+SightCount check(const SightWorld& world, bool transmission) {
   DeviceScene scene = make_device_scene(context(), world.scene, false, 40);
   std::vector<bool> blocks(world.scene.surfaces.size(), true);
   for (size_t s = 0; transmission && s < blocks.size(); ++s) blocks[s] = s % 3 == 0;
@@ -76,7 +76,7 @@ Count check(const World& world, bool transmission) {
   const std::vector<uint32_t> after = list.keys.read(0, list.count);
   const std::vector<uint64_t> table = set.table().read();
   const auto seen = list.prefixes.read(0, list.count);
-  Count count;
+  SightCount count;
   for (uint32_t i = 0; i < list.count; ++i) {
     CHECK(after[i] == (seen[i].pieces ? keys[i] : WT_NONE));
     const Sequence sequence = sequence_of(table, seen[i].node);
@@ -99,10 +99,10 @@ Count check(const World& world, bool transmission) {
 }  // namespace
 
 TEST_CASE("random worlds, no mirror to two: no piece that is seen is called hidden, and most of the others are") {
-  Count all;
+  SightCount all;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     CAPTURE(seed);
-    const Count one = check(random_world(seed), false);
+    const SightCount one = check(random_world(seed), false);
     all.pieces += one.pieces;
     all.unseen += one.unseen;
     all.hidden += one.hidden;
@@ -114,8 +114,8 @@ TEST_CASE("random worlds, no mirror to two: no piece that is seen is called hidd
 }
 
 TEST_CASE("where waves pass walls, only those that nothing passes hide") {
-  const World world = random_world(11);
-  const Count all = check(world, false), some = check(world, true);
+  const SightWorld world = random_world(11);
+  const SightCount all = check(world, false), some = check(world, true);
   CHECK(some.hidden < all.hidden);
   CHECK(some.hidden > 0);
 }

@@ -18,7 +18,7 @@ using test::World;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Antenna made(const std::string& antenna, Polarization polarization = "V",
              const std::array<double, 3>& orientation_deg = {0, 0, 0}) {

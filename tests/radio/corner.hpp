@@ -9,8 +9,10 @@
 #include <numbers>
 #include <vector>
 
+#include "radio/material.hpp"
 #include "radio/slab.hpp"
 #include "radio/utd.hpp"
+#include "radio/world.hpp"
 
 namespace wavetracer::test {
 
@@ -23,6 +25,16 @@ inline Complex dot(const CVector& a, const glm::dvec3& b) { return a.x * b.x + a
 
 inline glm::dvec3 at_azimuth(double rho, double azimuth, double z) {
   return {rho * std::cos(azimuth), rho * std::sin(azimuth), z};
+}
+
+// At 5.9 GHz.
+inline WedgeFace concrete_face() { return {complex_permittivity(concrete(0.1), 5.9e9), 0.1}; }
+inline WedgeFace glass_face() {
+  return {complex_permittivity(Material{"glass", 6.31, 0, 0.0036, 1.3394, 0.1, 100, 0.01}, 5.9e9), 0.01};
+}
+
+inline double size(const Matrix2& m) {
+  return std::sqrt(std::norm(m[0]) + std::norm(m[1]) + std::norm(m[2]) + std::norm(m[3]));
 }
 
 struct Corner {

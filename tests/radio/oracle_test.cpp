@@ -8,15 +8,16 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "radio/fields.hpp"
+#include "radio/oracle_lists.hpp"
 #include "radio/world.hpp"
 #include "scene/load.hpp"
 
 using namespace wavetracer;
+using test::to_vector;
 using Json = nlohmann::json;
 
 namespace {
@@ -29,8 +30,6 @@ struct ReferencePath {
   std::array<std::complex<double>, 4> a;
   std::array<double, 4> angles_rad;  // AoD theta, phi, AoA theta, phi
 };
-
-glm::dvec3 to_vector(const Json& v) { return {v[0], v[1], v[2]}; }
 
 // Diffraction (8) is not specular.
 bool specular(const Json& path) {

@@ -13,10 +13,10 @@
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
+using test::radians;
 
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
 const std::string header = "theta_deg,phi_deg,v_re,v_im,h_re,h_im\n";
 
 // A file that is removed when its test ends.

@@ -15,6 +15,8 @@
 #include "wavetracer/device/scattering.h"
 
 using namespace wavetracer;
+using test::radians;
+using test::wavelength_m;
 using Complex = std::complex<double>;
 
 namespace {
@@ -26,8 +28,7 @@ double share_of(const Material& material) {
   return device::wt_specular_share(&record);
 }
 
-constexpr double wavelength_m = speed_of_light_m_s / 5.9e9;
-constexpr double pi = std::numbers::pi, radians = pi / 180;
+using std::numbers::pi;
 const glm::dvec3 up{0, 0, 1};
 
 glm::dvec3 direction(double cos_theta, double phi) {

@@ -9,12 +9,11 @@
 
 using namespace wavetracer;
 using test::infinity;
+using test::radians;
+using test::wavelength_m;
 using Complex = std::complex<double>;
 
 namespace {
-
-constexpr double wavelength_m = speed_of_light_m_s / 5.9e9;
-constexpr double radians = std::numbers::pi / 180;
 
 bool finite(const SlabCoefficients& s) {
   for (const Complex c : {s.reflection_te, s.reflection_tm, s.transmission_te, s.transmission_tm}) {

@@ -6,21 +6,20 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
+#include "radio/oracle_lists.hpp"
 #include "radio/utd.hpp"
 #include "scene/load.hpp"
 
 using namespace wavetracer;
+using test::to_vector;
 using Json = nlohmann::json;
 
 namespace {
-
-glm::dvec3 to_vector(const Json& v) { return {v[0], v[1], v[2]}; }
 
 struct FoundWedge {
   WedgeFrame frame;

@@ -12,32 +12,28 @@
 using namespace wavetracer;
 using test::at_azimuth;
 using test::Complex;
+using test::concrete_face;
 using test::Corner;
 using test::CVector;
+using test::glass_face;
+using test::size;
+using test::wavelength_m;
 
 namespace {
 
 using std::numbers::pi;
-constexpr double wavelength_m = speed_of_light_m_s / 5.9e9;
 
-WedgeFace concrete() { return {complex_permittivity(test::concrete(0.1), 5.9e9), 0.1}; }
-WedgeFace glass() {
-  return {complex_permittivity(Material{"glass", 6.31, 0, 0.0036, 1.3394, 0.1, 100, 0.01}, 5.9e9), 0.01};
+glm::dvec3 edge_direction(double azimuth, double beta0) {
+  return at_azimuth(std::sin(beta0), azimuth, std::cos(beta0));
 }
-
-glm::dvec3 direction(double azimuth, double beta0) { return at_azimuth(std::sin(beta0), azimuth, std::cos(beta0)); }
 
 // Of a source and a receiver at these azimuths, the directions at beta0 to the edge.
 Diffraction between(const Corner& corner, double in, double out, double beta0, double length_m,
                     const LitSides& lit = {}) {
-  glm::dvec3 k_in = -direction(in, beta0);
+  glm::dvec3 k_in = -edge_direction(in, beta0);
   k_in.z = -k_in.z;
-  return diffract(corner.frame(), corner.faces, k_in, direction(out, beta0), length_m, wavelength_m, corner.transmits,
-                  lit);
-}
-
-double size(const Matrix2& m) {
-  return std::sqrt(std::norm(m[0]) + std::norm(m[1]) + std::norm(m[2]) + std::norm(m[3]));
+  return diffract(corner.frame(), corner.faces, k_in, edge_direction(out, beta0), length_m, wavelength_m,
+                  corner.transmits, lit);
 }
 
 }  // namespace
@@ -48,7 +44,8 @@ TEST_CASE("reciprocity: the coefficient the other way is the transpose, beta tur
   for (int i = 0; i < 3000; ++i) {
     const double exterior = pi * (0.05 + 1.95 * part(random)), beta0 = pi * part(random), length_m = 10 * part(random);
     const double in = exterior * part(random), out = exterior * part(random);
-    const Corner corner{exterior, {concrete(), i % 3 ? glass() : perfect_conductor}, wavelength_m, i % 2 == 0};
+    const Corner corner{
+        exterior, {concrete_face(), i % 3 ? glass_face() : perfect_conductor}, wavelength_m, i % 2 == 0};
     const Matrix2 there = between(corner, in, out, beta0, length_m).coefficient;
     const Matrix2 back = between(corner, out, in, pi - beta0, length_m).coefficient;
     // Of sqrt(L), which is the coefficient of a whole wave: in corners the four terms may cancel.
@@ -63,7 +60,7 @@ TEST_CASE("reciprocity: the field that b receives from a is the one that a recei
   std::normal_distribution<double> normal;
   for (int i = 0; i < 1000; ++i) {
     const double exterior = pi * (1 + part(random));
-    const Corner corner{exterior, {concrete(), glass()}, wavelength_m, i % 2 == 0};
+    const Corner corner{exterior, {concrete_face(), glass_face()}, wavelength_m, i % 2 == 0};
     const glm::dvec3 a = at_azimuth(3 * part(random), exterior * part(random), 2 * normal(random));
     const glm::dvec3 b = at_azimuth(3 * part(random), exterior * part(random), 2 * normal(random));
     const glm::dvec3 of_a{normal(random), normal(random), normal(random)};
@@ -81,14 +78,14 @@ TEST_CASE("the numbering of faces does not matter") {
   for (int i = 0; i < 500; ++i) {
     const double exterior = pi * (0.05 + 1.95 * part(random));
     const double in = exterior * part(random), out = exterior * part(random);
-    const Corner corner{exterior, {concrete(), glass()}, wavelength_m, i % 2 == 0};
+    const Corner corner{exterior, {concrete_face(), glass_face()}, wavelength_m, i % 2 == 0};
     const double beta0 = pi * part(random);
-    glm::dvec3 k_in = -direction(in, beta0);
+    glm::dvec3 k_in = -edge_direction(in, beta0);
     k_in.z = -k_in.z;
     const Diffraction d = between(corner, in, out, beta0, 3);
     const WedgeFrame other{{0, 0, -1}, corner.inward(1), corner.normal(1), exterior};
-    const Diffraction e =
-        diffract(other, {glass(), concrete()}, k_in, direction(out, beta0), 3, wavelength_m, corner.transmits);
+    const Diffraction e = diffract(other, {glass_face(), concrete_face()}, k_in, edge_direction(out, beta0), 3,
+                                   wavelength_m, corner.transmits);
     // The edge turned round turns all four vectors of the bases round, and the matrix stays.
     for (size_t j = 0; j < 2; ++j) {
       CHECK(glm::length(d.from[j] + e.from[j]) < 1e-14);
@@ -104,8 +101,8 @@ TEST_CASE("two faces in one plane diffract nothing; nor does a conducting corner
   for (const double in : {0.1, 0.4, 0.9}) {
     for (const double out : {0.05, 0.3, 0.77}) {
       for (const double beta0 : {pi / 2, 0.7}) {
-        CHECK(size(between({pi, {concrete(), concrete()}, wavelength_m}, in * pi, out * pi, beta0, 5).coefficient) <
-              1e-12);
+        CHECK(size(between({pi, {concrete_face(), concrete_face()}, wavelength_m}, in * pi, out * pi, beta0, 5)
+                       .coefficient) < 1e-12);
         for (const double whole : {1, 2, 3, 6, 18}) {
           const Corner corner{pi / whole, {perfect_conductor, perfect_conductor}, wavelength_m};
           CHECK(size(between(corner, in * pi / whole, out * pi / whole, beta0, 5).coefficient) < 1e-12);
@@ -113,7 +110,7 @@ TEST_CASE("two faces in one plane diffract nothing; nor does a conducting corner
         // As the angle between the faces closes, what they diffract falls with it.
         const auto off_by = [&](double angle) {
           const double exterior = pi + angle;
-          const Corner corner{exterior, {concrete(), concrete()}, wavelength_m};
+          const Corner corner{exterior, {concrete_face(), concrete_face()}, wavelength_m};
           return size(between(corner, in * exterior, out * exterior, beta0, 5).coefficient);
         };
         CHECK(off_by(1e-5) < 1.2e-2 * off_by(1e-3));
@@ -126,8 +123,8 @@ TEST_CASE("finite for every geometry: on boundaries, on faces, along the edge") 
   for (const double exterior_part : {0.05, 0.3, 0.5, 1.0, 1.25, 1.5, 1.999, 2.0}) {
     const double exterior = exterior_part * pi;
     for (const bool transmits : {false, true}) {
-      for (const WedgeFace& face : {concrete(), perfect_conductor}) {
-        const Corner corner{exterior, {face, glass()}, wavelength_m, transmits};
+      for (const WedgeFace& face : {concrete_face(), perfect_conductor}) {
+        const Corner corner{exterior, {face, glass_face()}, wavelength_m, transmits};
         for (const double beta0 : {pi / 2, 0.3, 1e-6, pi - 1e-6, 0.0, pi}) {
           for (const double length_m : {0.0, 1e-9, 1.0, 1e6}) {
             for (int i = 0; i <= 18; ++i) {
@@ -143,12 +140,12 @@ TEST_CASE("finite for every geometry: on boundaries, on faces, along the edge") 
       }
     }
   }
-  const Corner corner{1.5 * pi, {concrete(), concrete()}, wavelength_m};
+  const Corner corner{1.5 * pi, {concrete_face(), concrete_face()}, wavelength_m};
   CHECK(size(between(corner, 1, 2, 0, 1).coefficient) == 0);
 }
 
 TEST_CASE("hints decide the side where rounding cannot, and only there") {
-  const Corner corner{1.5 * pi, {concrete(), concrete()}, wavelength_m};
+  const Corner corner{1.5 * pi, {concrete_face(), concrete_face()}, wavelength_m};
   const double in = 0.3, length_m = 4;
   const auto coefficient = [&](double out, const LitSides& lit) {
     return between(corner, in, out, pi / 2, length_m, lit).coefficient;
@@ -204,7 +201,7 @@ TEST_CASE("an empty screen that transmits diffracts nothing at all") {
 TEST_CASE("transfer: an edge's matrix between its bases") {
   // A conducting half plane far from its boundaries, straight through: minus identity in edge-fixed bases is no change.
   const Corner corner{2 * pi, {perfect_conductor, perfect_conductor}, wavelength_m};
-  const glm::dvec3 k = direction(4.0, 0.9);
+  const glm::dvec3 k = edge_direction(4.0, 0.9);
   Diffraction d = diffract(corner.frame(), corner.faces, k, k, 1, wavelength_m);
   Transfer same(basis_of(k)), mixed(basis_of(k));
   same.map(d.from, d.to, {-1.0, 0.0, 0.0, -1.0});

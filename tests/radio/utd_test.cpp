@@ -16,20 +16,20 @@
 using namespace wavetracer;
 using test::at_azimuth;
 using test::Complex;
+using test::concrete_face;
 using test::Corner;
 using test::CVector;
+using test::glass_face;
+using test::radians;
+using test::size;
+using test::wavelength_m;
 
 namespace {
 
 using std::numbers::pi;
-constexpr double radians = pi / 180, frequency_hz = 5.9e9;
-constexpr double wavelength_m = speed_of_light_m_s / frequency_hz, k_per_m = 2 * pi / wavelength_m;
+constexpr double k_per_m = 2 * pi / wavelength_m;
 
-WedgeFace concrete() { return {complex_permittivity(test::concrete(0.1), frequency_hz), 0.1}; }
-WedgeFace glass() {
-  return {complex_permittivity(Material{"glass", 6.31, 0, 0.0036, 1.3394, 0.1, 100, 0.01}, frequency_hz), 0.01};
-}
-WedgeFace metal() { return {complex_permittivity(Material{"metal", 1, 0, 1e7, 0, 1, 100, 0.1}, frequency_hz), 0.1}; }
+WedgeFace metal() { return {complex_permittivity(Material{"metal", 1, 0, 1e7, 0, 1, 100, 0.1}, 5.9e9), 0.1}; }
 
 // The coefficients of a plane wave across the edge, of a conducting wedge: soft, hard, in sqrt(m). Both directions of
 // the reference axes (E along z, H along z) turn round between (beta', phi') and (beta, phi): minus the coefficient.
@@ -61,10 +61,6 @@ std::array<Complex, 2> sommerfeld(double in, double out, double rho) {
     return std::polar(1 / std::sqrt(pi), pi / 4 + k_per_m * rho * std::cos(angle)) * test::fresnel_tail(-root);
   };
   return {part(out - in) - part(out + in), part(out - in) + part(out + in)};
-}
-
-double size(const Matrix2& m) {
-  return std::sqrt(std::norm(m[0]) + std::norm(m[1]) + std::norm(m[2]) + std::norm(m[3]));
 }
 
 }  // namespace
@@ -168,8 +164,10 @@ TEST_CASE("the total field is continuous at every shadow boundary, spherical wav
     const double exterior = (360 - interior) * radians;
     const int order = exterior < pi ? static_cast<int>(std::ceil(pi / exterior)) + 1 : 1;
     const WedgeFace conductor = perfect_conductor;
-    const std::pair<WedgeFace, WedgeFace> pairs[] = {
-        {conductor, conductor}, {concrete(), concrete()}, {glass(), glass()}, {concrete(), metal()}};
+    const std::pair<WedgeFace, WedgeFace> pairs[] = {{conductor, conductor},
+                                                     {concrete_face(), concrete_face()},
+                                                     {glass_face(), glass_face()},
+                                                     {concrete_face(), metal()}};
     for (const auto& [face0, face1] : pairs) {
       for (const bool transmits : {false, true}) {
         if (transmits && exterior < pi) continue;

@@ -17,6 +17,8 @@
 namespace wavetracer::test {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double radians = std::numbers::pi / 180;
+inline constexpr double wavelength_m = speed_of_light_m_s / 5.9e9;  // at 5.9 GHz
 
 // doctest's Approx adds 1 to the magnitude by default, which would make nonsense of nanoseconds. This one is relative.
 inline doctest::Approx near(double value, double relative) { return doctest::Approx(value).epsilon(relative).scale(0); }

@@ -34,7 +34,7 @@ size_t order_of(const PathGeometry& paths, size_t i) { return paths.first[i + 1]
 Quad ground(double half_size) { return {{-half_size, -half_size, 0}, {2 * half_size, 0, 0}, {0, 2 * half_size, 0}}; }
 
 // A screen in the plane x = 0, y from -1 to 1, z from 0 to 2.
-const Quad screen{{0, -1, 0}, {0, 2, 0}, {0, 0, 2}};
+const Quad small_screen{{0, -1, 0}, {0, 2, 0}, {0, 0, 2}};
 
 size_t count(const std::vector<Quad>& quads, const dvec3& tx, const dvec3& rx, uint32_t max_order) {
   return brute_force_paths(scene_of_quads(quads), {tx}, {rx}, max_order).size();
@@ -104,25 +104,26 @@ TEST_CASE("specular law: equal angles in one plane with the normal, at every ver
 }
 
 TEST_CASE("a screen blocks what crosses it and nothing beside it") {
-  CHECK(count({screen}, {-3, 0, 1}, {3, 0.1, 1.2}, 0) == 0);
-  CHECK(count({screen}, {-3, 1.5, 1}, {3, 1.5, 1.2}, 0) == 1);
-  CHECK(count({screen}, {-3, 0.2, 1}, {-1, 0.1, 1}, 0) == 1);  // wholly in front of it
-  CHECK(count({screen}, {-3, 0.999, 1}, {3, 0.999, 1}, 0) == 0);
-  CHECK(count({screen}, {-3, 1.001, 1}, {3, 1.001, 1}, 0) == 1);
-  CHECK(count({screen}, {-3, 0.5, 0.5}, {3, 0.5, 0.5}, 0) == 0);  // through the diagonal of its triangles
+  CHECK(count({small_screen}, {-3, 0, 1}, {3, 0.1, 1.2}, 0) == 0);
+  CHECK(count({small_screen}, {-3, 1.5, 1}, {3, 1.5, 1.2}, 0) == 1);
+  CHECK(count({small_screen}, {-3, 0.2, 1}, {-1, 0.1, 1}, 0) == 1);  // wholly in front of it
+  CHECK(count({small_screen}, {-3, 0.999, 1}, {3, 0.999, 1}, 0) == 0);
+  CHECK(count({small_screen}, {-3, 1.001, 1}, {3, 1.001, 1}, 0) == 1);
+  CHECK(count({small_screen}, {-3, 0.5, 0.5}, {3, 0.5, 0.5}, 0) == 0);  // through the diagonal of its triangles
 }
 
 TEST_CASE("a reflected leg is blocked as well") {
   CHECK(count({ground(100)}, {-3, 0, 1}, {3, 0, 0.5}, 1) == 2);
-  CHECK(count({ground(100), screen}, {-3, 0, 1}, {3, 0, 0.5}, 1) == 0);  // the ground point is 1 m behind the screen
+  CHECK(count({ground(100), small_screen}, {-3, 0, 1}, {3, 0, 0.5}, 1) ==
+        0);  // the ground point is 1 m behind the screen
   // Ends above the screen see each other; the ground in the middle lies under it.
   const Quad low_screen{{-1, -1, 0.2}, {0, 2, 0}, {0, 0, 1}};
   CHECK(count({ground(100), low_screen}, {-3, 0, 2}, {3, 0, 2}, 1) == 1);
 }
 
 TEST_CASE("an end within 1e-4 m of a plane is not behind it") {
-  CHECK(count({screen}, {-3, 0, 1}, {5e-5, 0, 1}, 0) == 1);
-  CHECK(count({screen}, {-3, 0, 1}, {2e-4, 0, 1}, 0) == 0);
+  CHECK(count({small_screen}, {-3, 0, 1}, {5e-5, 0, 1}, 0) == 1);
+  CHECK(count({small_screen}, {-3, 0, 1}, {2e-4, 0, 1}, 0) == 0);
 }
 
 TEST_CASE("surfaces reflect on both faces, and never through themselves") {
@@ -145,8 +146,8 @@ TEST_CASE("a point on the border of two coplanar surfaces is one path, of the fi
 }
 
 TEST_CASE("reciprocity: swapped ends give the reversed paths") {
-  const Scene scene =
-      scene_of_quads({ground(20), screen, {{-5, 4, 0}, {10, 0, 0}, {0, 0, 6}}, {{-5, -3, 0}, {9, 1, 0}, {0, 0, 5}}});
+  const Scene scene = scene_of_quads(
+      {ground(20), small_screen, {{-5, 4, 0}, {10, 0, 0}, {0, 0, 6}}, {{-5, -3, 0}, {9, 1, 0}, {0, 0, 5}}});
   const dvec3 a{-3, 0.3, 1}, b{4, 0.8, 1.4};
   const PathGeometry there = brute_force_paths(scene, {a}, {b}, 3), back = brute_force_paths(scene, {b}, {a}, 3);
   CHECK(there.size() > 3);

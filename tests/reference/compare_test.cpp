@@ -12,7 +12,7 @@ using namespace wavetracer::reference;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests" / "reference" / "oracle";
+const std::filesystem::path lists_folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests" / "reference" / "oracle";
 
 // Copies path i of the list to its end.
 void repeat_path(Paths& paths, size_t i) {
@@ -41,7 +41,7 @@ TEST_CASE("every list agrees with itself") {
                                                   {"street_canyon_cars_all", 307}};
   for (const auto& [name, paths] : cases) {
     CAPTURE(name);
-    const Case reference = load_case(folder / (std::string(name) + ".json"));
+    const Case reference = load_case(lists_folder / (std::string(name) + ".json"));
     CHECK(reference.name == name);
     CHECK(reference.frequency_hz == 5.9e9);
     const Comparison result = compare_paths(reference, reference.paths);
@@ -57,14 +57,14 @@ TEST_CASE("every list agrees with itself") {
 }
 
 TEST_CASE("the list of free space obeys Friis") {
-  const Case reference = load_case(folder / "simple_reflector.json");
+  const Case reference = load_case(lists_folder / "simple_reflector.json");
   const double wavelength_m = 299792458.0 / 5.9e9, distance_m = 299792458.0 * reference.paths.delay_s[0];
   CHECK(reference.paths.depth[0] == 0);
   CHECK(std::abs(reference.paths.a[0][0]) == doctest::Approx(wavelength_m / (4 * M_PI * distance_m)).epsilon(1e-5));
 }
 
 TEST_CASE("missing paths lower recall, and power recall by their power") {
-  const Case reference = load_case(folder / "simple_reflector.json");
+  const Case reference = load_case(lists_folder / "simple_reflector.json");
   Paths mine = reference.paths;
   mine.delay_s[0] *= 1 + 3e-5;  // line of sight, beyond both tolerances: 71 fs on 2.4 ns is not, 71 fs < 30 ps
   CHECK(compare_paths(reference, mine).found == 2);
@@ -80,7 +80,7 @@ TEST_CASE("missing paths lower recall, and power recall by their power") {
 }
 
 TEST_CASE("a vertex may be off by 30 cm, not more") {
-  const Case reference = load_case(folder / "simple_reflector.json");
+  const Case reference = load_case(lists_folder / "simple_reflector.json");
   Paths mine = reference.paths;
   mine.vertex_position_m[0].y += 0.29;
   CHECK(compare_paths(reference, mine).found == 2);
@@ -89,7 +89,7 @@ TEST_CASE("a vertex may be off by 30 cm, not more") {
 }
 
 TEST_CASE("interactions and ends must agree") {
-  const Case reference = load_case(folder / "simple_reflector.json");
+  const Case reference = load_case(lists_folder / "simple_reflector.json");
   Paths mine = reference.paths;
   mine.vertex_interaction[0] = transmission;
   CHECK(compare_paths(reference, mine).found == 1);
@@ -98,7 +98,7 @@ TEST_CASE("interactions and ends must agree") {
 }
 
 TEST_CASE("a repeated path is extra and a duplicate") {
-  const Case reference = load_case(folder / "triple_reflector.json");
+  const Case reference = load_case(lists_folder / "triple_reflector.json");
   Paths mine = reference.paths;
   repeat_path(mine, 3);
   const Comparison result = compare_paths(reference, mine);
@@ -108,7 +108,7 @@ TEST_CASE("a repeated path is extra and a duplicate") {
 }
 
 TEST_CASE("errors of gain and matrix: 0.1 dB on one path of seven") {
-  const Case reference = load_case(folder / "triple_reflector.json");
+  const Case reference = load_case(lists_folder / "triple_reflector.json");
   Paths mine = reference.paths;
   const double factor = std::pow(10, 0.1 / 20);
   for (auto& a : mine.a[2]) a *= factor;
@@ -120,7 +120,7 @@ TEST_CASE("errors of gain and matrix: 0.1 dB on one path of seven") {
 }
 
 TEST_CASE("single-port paths are matched, their gains are not compared") {
-  const Case reference = load_case(folder / "triple_reflector.json");
+  const Case reference = load_case(lists_folder / "triple_reflector.json");
   Paths mine = reference.paths;
   mine.rx_ports = mine.tx_ports = 1;
   const Comparison result = compare_paths(reference, mine);
@@ -129,7 +129,7 @@ TEST_CASE("single-port paths are matched, their gains are not compared") {
 }
 
 TEST_CASE("kinds of path: counts, and faults that are told apart") {
-  const Case reference = load_case(folder / "street_canyon_cars_all.json");
+  const Case reference = load_case(lists_folder / "street_canyon_cars_all.json");
   Paths mine = reference.paths;
   const Comparison same = compare_paths(reference, mine);
   REQUIRE(same.kinds.size() == 4);
@@ -163,7 +163,7 @@ TEST_CASE("kinds of path: counts, and faults that are told apart") {
 }
 
 TEST_CASE("no paths: recall 0, not a crash") {
-  const Comparison result = compare_paths(folder / "simple_wedge.json", Paths{});
+  const Comparison result = compare_paths(lists_folder / "simple_wedge.json", Paths{});
   CHECK(result.recall == 0);
   CHECK(result.extra == 0);
   CHECK(std::isnan(result.delay_rel_err_max));
@@ -171,7 +171,7 @@ TEST_CASE("no paths: recall 0, not a crash") {
 }
 
 TEST_CASE("a missing or broken list is an error that names it") {
-  CHECK_THROWS_WITH_AS(load_case(folder / "none.json"), doctest::Contains("none.json"), InputError);
+  CHECK_THROWS_WITH_AS(load_case(lists_folder / "none.json"), doctest::Contains("none.json"), InputError);
   const std::filesystem::path broken =
       std::filesystem::temp_directory_path() / ("wavetracer-broken-" + std::to_string(getpid()) + ".json");
   std::ofstream(broken) << "{\"case\": 1}";

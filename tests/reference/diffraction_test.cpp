@@ -15,9 +15,9 @@ using glm::dvec3;
 namespace {
 
 // A screen in the plane x = 0, y from -50 to 50, z from 0 to 4, and its four edges: bottom, y = 50, top, y = -50.
-const Quad screen{{0, -50, 0}, {0, 100, 0}, {0, 0, 4}};
+const Quad long_screen{{0, -50, 0}, {0, 100, 0}, {0, 0, 4}};
 const uint32_t top = 2;
-const Quad ground{{-200, -200, 0}, {400, 0, 0}, {0, 400, 0}};
+const Quad wide_ground{{-200, -200, 0}, {400, 0, 0}, {0, 400, 0}};
 
 Scene with_wedges(const std::vector<Quad>& quads, std::vector<Wedge> wedges) {
   Scene scene = scene_of_quads(quads);
@@ -26,8 +26,8 @@ Scene with_wedges(const std::vector<Quad>& quads, std::vector<Wedge> wedges) {
 }
 
 Scene top_edge_only(std::vector<Quad> others) {
-  others.insert(others.begin(), screen);
-  return with_wedges(others, {free_wedges(screen, 0)[top]});
+  others.insert(others.begin(), long_screen);
+  return with_wedges(others, {free_wedges(long_screen, 0)[top]});
 }
 
 // Where the straight line between both ends meets the edge x = 0, z = height once the edge's planes are unfolded.
@@ -107,7 +107,7 @@ TEST_CASE("a right-angled corner between ends placed alike: the middle of the ed
 
 TEST_CASE("over a screen and off the ground: the mirrored end, before, after, and both") {
   const dvec3 tx{-12, -3, 1.5}, rx{7, 11, 1}, tx_image{-12, -3, -1.5}, rx_image{7, 11, -1};
-  const Scene scene = top_edge_only({ground});
+  const Scene scene = top_edge_only({wide_ground});
   const PathGeometry paths = brute_force_all(scene, {tx}, {rx}, {.max_depth = 3, .diffraction = true});
   struct {
     dvec3 from, to;

@@ -11,10 +11,10 @@ using namespace wavetracer::reference;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests" / "reference";
+const std::filesystem::path reference_folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests" / "reference";
 
 Scene load(const Case& reference) {
-  return load_scene_file(folder / "scenes" / reference.scene / (reference.scene + ".xml"), {}, {});
+  return load_scene_file(reference_folder / "scenes" / reference.scene / (reference.scene + ".xml"), {}, {});
 }
 
 std::vector<glm::dvec3> recentred(std::vector<glm::dvec3> points, const Scene& scene) {
@@ -69,7 +69,7 @@ struct Outcome {
 };
 
 Outcome compare(const char* name, uint32_t max_order) {
-  const Case reference = load_case(folder / "oracle" / (std::string(name) + ".json"));
+  const Case reference = load_case(reference_folder / "oracle" / (std::string(name) + ".json"));
   const Scene scene = load(reference);
   const PathGeometry geometry = brute_force_paths(scene, recentred(reference.transmitters_m, scene),
                                                   recentred(reference.receivers_m, scene), max_order);
@@ -124,7 +124,7 @@ TEST_CASE("a wedge, a floor with a wall, a box with a screen: diffracted and tra
       {"simple_wedge", "diffraction", 3}, {"floor_wall", "transmission", 1}, {"box_one_screen", "transmission", 19}};
   for (const auto& [name, kind, paths] : cases) {
     CAPTURE(name);
-    const Case reference = load_case(folder / "oracle" / (std::string(name) + ".json"));
+    const Case reference = load_case(reference_folder / "oracle" / (std::string(name) + ".json"));
     const Comparison result = compare_all(reference, load(reference), reference.max_depth);
     CAPTURE(to_string(result));
     CHECK(result.found == result.reference);
@@ -136,7 +136,7 @@ TEST_CASE("a wedge, a floor with a wall, a box with a screen: diffracted and tra
 }
 
 TEST_CASE("street canyon with cars, two interactions: every path of the list") {
-  const Case reference = load_case(folder / "oracle" / "street_canyon_cars_all.json");
+  const Case reference = load_case(reference_folder / "oracle" / "street_canyon_cars_all.json");
   const Comparison result = compare_all(reference, load(reference), 2);
   CAPTURE(to_string(result));
   size_t deeper = 0;

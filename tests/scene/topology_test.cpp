@@ -6,38 +6,21 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/build_scene.hpp"
 #include "scene/info.hpp"
 #include "scene/topology.hpp"
 #include "scene/weld.hpp"
 #include "scene_files.hpp"
 #include "wavetracer/error.hpp"
+#include "wedge_check.hpp"
 
 using namespace wavetracer;
 using doctest::Contains;
 using glm::dvec3;
+using test::build;
+using test::mesh;
+using test::quad;
 
 namespace {
-
-// Meshes of materials given by index, one a mesh.
-Scene build(std::vector<RawMesh> meshes, std::vector<uint32_t> material = {}) {
-  RawScene raw;
-  raw.file = "test";
-  raw.meshes = std::move(meshes);
-  ResolvedMaterials resolved;
-  resolved.materials = {itu_materials()[1], itu_materials()[2]};
-  material.resize(raw.meshes.size(), 0);
-  resolved.mesh_material = std::move(material);
-  return build_scene(raw, std::move(resolved));
-}
-
-RawMesh mesh(std::vector<dvec3> vertices, std::vector<Triangle> triangles) {
-  return {"mesh", "test", std::move(vertices), std::move(triangles), 0};
-}
-
-RawMesh rectangle(dvec3 corner, dvec3 u, dvec3 v) {
-  return mesh({corner, corner + u, corner + u + v, corner + v}, {{0, 1, 2}, {0, 2, 3}});
-}
 
 Scene load_boxes(const std::vector<std::pair<dvec3, dvec3>>& boxes) {
   const test::TemporaryFolder folder;
@@ -180,13 +163,13 @@ TEST_CASE("brute force agrees with the weld of random clusters") {
 }
 
 TEST_CASE("degenerate and duplicate triangles are dropped and counted") {
-  RawMesh a = rectangle({0, 0, 0}, {10, 0, 0}, {0, 10, 0});
+  RawMesh a = quad({0, 0, 0}, {10, 0, 0}, {0, 10, 0});
   a.vertices.push_back({5, 1e-7, 0});     // 4: on the edge 0-1, so (0, 1, 4) has no height
   a.vertices.push_back({10.0005, 0, 0});  // 5: welds with 1
   a.triangles.push_back({0, 1, 4});
   a.triangles.push_back({1, 5, 2});  // a side of zero after welding
   a.triangles.push_back({2, 1, 0});  // repeats the first, turned
-  const Scene s = build({a, rectangle({0, 0, 0}, {10, 0, 0}, {0, 10, 0})}, {0, 1});
+  const Scene s = build({a, quad({0, 0, 0}, {10, 0, 0}, {0, 10, 0})}, {0, 1});
   CHECK(s.report.degenerate_triangles == 2);
   CHECK(s.report.duplicate_triangles == 3);
   CHECK(s.report.welded_vertices == 5);
@@ -200,8 +183,8 @@ TEST_CASE("degenerate and duplicate triangles are dropped and counted") {
 }
 
 TEST_CASE("surfaces end at materials, bends and gaps") {
-  const RawMesh floor = rectangle({0, 0, 0}, {10, 0, 0}, {0, 10, 0});
-  const RawMesh beside = rectangle({10, 0, 0}, {5, 0, 0}, {0, 10, 0});
+  const RawMesh floor = quad({0, 0, 0}, {10, 0, 0}, {0, 10, 0});
+  const RawMesh beside = quad({10, 0, 0}, {5, 0, 0}, {0, 10, 0});
   CHECK(build({floor, beside}).surfaces.size() == 1);
   const Scene two = build({floor, beside}, {0, 1});
   CHECK(two.surfaces.size() == 2);
@@ -212,8 +195,8 @@ TEST_CASE("surfaces end at materials, bends and gaps") {
     });
   };
   CHECK(shared(two).flat);  // coplanar, though of two materials
-  CHECK(build({floor, rectangle({10.01, 0, 0}, {5, 0, 0}, {0, 10, 0})}).surfaces.size() == 2);
-  const Scene bent = build({floor, rectangle({10, 0, 0}, {5, 0, 0.01}, {0, 10, 0})});  // 2 mrad
+  CHECK(build({floor, quad({10.01, 0, 0}, {5, 0, 0}, {0, 10, 0})}).surfaces.size() == 2);
+  const Scene bent = build({floor, quad({10, 0, 0}, {5, 0, 0.01}, {0, 10, 0})});  // 2 mrad
   CHECK(bent.surfaces.size() == 2);
   CHECK_FALSE(shared(bent).flat);
   CHECK(bent.surfaces[1].object == 1);
@@ -238,7 +221,7 @@ TEST_CASE("a fine cylinder does not drift into one surface; a sliver joins its w
   }
   CHECK(build({tube}).surfaces.size() == sides);
   // A wall of two triangles, and a strip 4 mm high along its top whose far corner is 0.1 mm off the plane: 25 mrad.
-  RawMesh wall = rectangle({0, 0, 0}, {10, 0, 0}, {0, 0, 3});
+  RawMesh wall = quad({0, 0, 0}, {10, 0, 0}, {0, 0, 3});
   wall.vertices.push_back({5, 1e-4, 3.004});
   wall.triangles.push_back({3, 2, 4});
   const Scene s = build({wall});
@@ -247,7 +230,7 @@ TEST_CASE("a fine cylinder does not drift into one surface; a sliver joins its w
 }
 
 TEST_CASE("normals do not depend on the winding, ids not on anything but the lowest triangle") {
-  RawMesh wall = rectangle({0, 0, 0}, {0, 4, 0}, {3, 0, 4});
+  RawMesh wall = quad({0, 0, 0}, {0, 4, 0}, {3, 0, 4});
   const Scene s = build({wall});
   for (Triangle& t : wall.triangles) std::swap(t[1], t[2]);
   const Scene turned = build({wall});
@@ -259,12 +242,10 @@ TEST_CASE("impossible scenes") {
   CHECK_THROWS_WITH_AS(build({}), Contains("has no triangles"), InputError);
   CHECK_THROWS_WITH_AS(build({mesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}})}),
                        Contains("all triangles of the scene are degenerate"), InputError);
-  CHECK_THROWS_WITH_AS(build({rectangle({0, 0, 0}, {1e9, 0, 0}, {0, 1, 0})}), Contains("is scene.scale right"),
-                       InputError);
-  CHECK_THROWS_WITH_AS(build({rectangle({5, 5, 5}, {0.099, 0, 0}, {0, 0.05, 0})}), Contains("less than 0.1 m"),
-                       InputError);
-  CHECK(build({rectangle({5, 5, 5}, {1, 0, 0}, {0, 0.001, 0})}).report.warnings.empty());
-  const Scene small = build({rectangle({0, 0, 0}, {0.101, 0, 0}, {0, 0.1, 0})});
+  CHECK_THROWS_WITH_AS(build({quad({0, 0, 0}, {1e9, 0, 0}, {0, 1, 0})}), Contains("is scene.scale right"), InputError);
+  CHECK_THROWS_WITH_AS(build({quad({5, 5, 5}, {0.099, 0, 0}, {0, 0.05, 0})}), Contains("less than 0.1 m"), InputError);
+  CHECK(build({quad({5, 5, 5}, {1, 0, 0}, {0, 0.001, 0})}).report.warnings.empty());
+  const Scene small = build({quad({0, 0, 0}, {0.101, 0, 0}, {0, 0.1, 0})});
   REQUIRE(small.report.warnings.size() == 1);
   CHECK(small.report.warnings[0].find("0.101 m only, and details of less than 1 cm") != std::string::npos);
   RawMesh dust;  // a model in kilometres: vertices a millimetre apart

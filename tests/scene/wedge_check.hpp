@@ -1,4 +1,4 @@
-// Meshes for the tests of wedges, and a check of wedges by distances to all triangles.
+// Meshes for the tests of surfaces and wedges, and a check of wedges by distances to all triangles.
 // The check knows nothing of edges: around a wedge there must be its two faces and nothing else.
 #pragma once
 #include <doctest/doctest.h>
@@ -63,6 +63,7 @@ inline RawMesh l_building() {
   return out;
 }
 
+// Meshes of materials given by index, one a mesh.
 inline Scene build(std::vector<RawMesh> meshes, std::vector<uint32_t> material = {}) {
   RawScene raw;
   raw.file = "test";

@@ -8,13 +8,11 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr double frequency_hz = 5.9e9;
-
 // Cars that talk to each other and to a mast in the streets of a small city; one appears after a quarter of a second.
 Config city(double end_s, double step_s) {
   Config config = config_of("", {{3, 5, 6}}, {{52, -7, 1.5}, {-46, 4, 1.5}}, 100000, 3);
   config.scene.generate = "--blocks 4x4";
-  config.radio.frequency_hz = frequency_hz;
+  config.radio.frequency_hz = carrier_hz;
   add_vehicles(config,
                {{"a", "passenger", {-60, -3.1, 0}, {11.3, 0.02, 0}, 0, 1},
                 {"b", "passenger", {2.9, 70, 0}, {0.01, -9.1, 0}, 0.255, 1},
@@ -102,7 +100,7 @@ TEST_CASE("phases go on between launches: Doppler shifts are those of central di
   for (const auto& [key, i] : rows(result.paths)) {
     if (!row_before.contains(key) || !row_after.contains(key)) continue;
     const double change_s = after.paths.delay_s[row_after.at(key)] - before.paths.delay_s[row_before.at(key)];
-    const double expected_hz = -frequency_hz * change_s / (simulation.time_s(42) - simulation.time_s(40));
+    const double expected_hz = -carrier_hz * change_s / (simulation.time_s(42) - simulation.time_s(40));
     CAPTURE(result.paths.doppler_hz[i]);
     CHECK(std::abs(result.paths.doppler_hz[i] - expected_hz) < std::max(1e-3, 1e-6 * std::abs(expected_hz)));
     ++compared;

@@ -16,6 +16,7 @@
 namespace wavetracer::test {
 
 constexpr uint32_t no_row = 0xFFFFFFFFu;
+constexpr double carrier_hz = 5.9e9;
 
 // Where row i of `paths` is in `among`: one transmitter, receiver and depth, delays to 1e-12 of themselves, and points
 // to a micrometre; no_row where it is not.

@@ -9,7 +9,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr double frequency_hz = 5.9e9, step_s = 1e-4;
+constexpr double frame_step_s = 1e-4;
 
 // What tells a path from others of one world: ends, then surfaces with the vehicles that they belong to.
 std::map<std::vector<uint32_t>, size_t> rows_by_surfaces(const Paths& paths) {
@@ -32,8 +32,8 @@ struct Checked {
 
 // Three frames around time_s.
 Checked check_shifts(Config config, double time_s) {
-  config.radio.frequency_hz = frequency_hz;
-  config.time = {time_s - step_s, time_s + step_s, step_s};
+  config.radio.frequency_hz = carrier_hz;
+  config.time = {time_s - frame_step_s, time_s + frame_step_s, frame_step_s};
   config.trace.reuse = false;
   Simulation simulation(config);
   REQUIRE(simulation.frame_count() == 3);
@@ -45,7 +45,7 @@ Checked check_shifts(Config config, double time_s) {
   for (const auto& [key, i] : rows_by_surfaces(paths)) {
     if (!row_before.contains(key) || !row_after.contains(key)) continue;
     const double change_s = after.delay_s[row_after.at(key)] - before.delay_s[row_before.at(key)];
-    const double expected_hz = -frequency_hz * change_s / (simulation.time_s(2) - simulation.time_s(0));
+    const double expected_hz = -carrier_hz * change_s / (simulation.time_s(2) - simulation.time_s(0));
     CAPTURE(key);
     CAPTURE(expected_hz);
     CAPTURE(paths.doppler_hz[i]);

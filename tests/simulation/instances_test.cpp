@@ -9,10 +9,10 @@ using namespace wavetracer::test;
 
 namespace {
 
-const Points transmitters{{-31.3, 2.17, 4.1}, {12.4, -7.3, 0.9}};
+const Points street_transmitters{{-31.3, 2.17, 4.1}, {12.4, -7.3, 0.9}};
 
 // Scattered over the street, low enough to be seen in the sides of vehicles.
-const Points receivers = [] {
+const Points street_receivers = [] {
   Points out;
   for (int i = 0; i < 24; ++i)
     out.push_back({-40.3 + 3.71 * i, -8.2 + std::fmod(5.37 * i, 16.0), 0.4 + std::fmod(0.83 * i, 2.5)});
@@ -25,7 +25,7 @@ const std::vector<Straight> vehicles{{"ego", "passenger", {-20.3, -3.1, 0}, {9.7
                                      {"truck", "truck", {19.6, 7.1, 0.01}, {-7.9, -1.3, 0}, 1, 4}};
 
 Config drive(const std::filesystem::path& scene, uint32_t max_depth, uint64_t rays = 1000000) {
-  Config config = config_of(scene, transmitters, receivers, rays, max_depth);
+  Config config = config_of(scene, street_transmitters, street_receivers, rays, max_depth);
   config.trace.reuse = false;
   add_vehicles(config, vehicles, 1);
   return config;
@@ -80,7 +80,7 @@ TEST_CASE("a drive gives, frame by frame, the paths of the same vehicles baked i
     CAPTURE(frame);
     const FrameResult result = moving.run_frame(frame);
     const MeshFile still = baked(frame);
-    check_same(result.paths, run(config_of(still.path(), transmitters, receivers, 1000000, 3)).paths);
+    check_same(result.paths, run(config_of(still.path(), street_transmitters, street_receivers, 1000000, 3)).paths);
     by_vehicles += paths_by_vehicles(result.paths);
   }
   CHECK(by_vehicles > 200);
@@ -93,8 +93,8 @@ TEST_CASE("every depth: the paths of a drive are all that there are") {
   load.scene.file = still.path().string();
   const Scene scene = load_scene(load);
   Points tx, rx;
-  for (const glm::dvec3& p : transmitters) tx.push_back(p - scene.origin_m);
-  for (const glm::dvec3& p : receivers) rx.push_back(p - scene.origin_m);
+  for (const glm::dvec3& p : street_transmitters) tx.push_back(p - scene.origin_m);
+  for (const glm::dvec3& p : street_receivers) rx.push_back(p - scene.origin_m);
   const PathGeometry all = reference::brute_force_paths(scene, tx, rx, 3);
   for (const uint32_t max_depth : {0u, 1u, 2u, 3u}) {
     CAPTURE(max_depth);

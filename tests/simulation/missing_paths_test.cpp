@@ -3,6 +3,7 @@
 
 #include "scene/load.hpp"
 #include "simulation/feature_choice.hpp"
+#include "simulation/place_cases.hpp"
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -10,17 +11,6 @@ using namespace wavetracer::test;
 
 namespace {
 
-// As a list that doctest can print.
-struct Texts : std::vector<std::string> {
-  using std::vector<std::string>::vector;
-  explicit Texts(std::vector<std::string> texts) : std::vector<std::string>(std::move(texts)) {}
-  friend std::ostream& operator<<(std::ostream& out, const Texts& texts) {
-    for (const std::string& text : texts) out << "\n    " << text;
-    return out;
-  }
-};
-
-const Quad ground{{-100, -100, 0}, {200, 0, 0}, {0, 200, 0}};
 Quad wall(double x) { return {{x, -20, 0}, {0, 40, 0}, {0, 0, 20}}; }
 const Points left{{-10, 0, 2}}, right{{10, 0, 2}};
 

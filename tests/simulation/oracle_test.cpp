@@ -55,17 +55,16 @@ reference::Comparison solve(const reference::Case& list, const std::filesystem::
   return result;
 }
 
-const std::filesystem::path source = WAVETRACER_SOURCE;
-
 }  // namespace
 
 TEST_CASE("the small lists: every path, gains to 0.02 dB, matrices to 0.2 %") {
+  const std::filesystem::path folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests/reference";
   for (const std::string name : {"simple_reflector", "double_reflector", "triple_reflector", "box_depth5",
                                  "box_one_screen", "floor_wall", "simple_wedge", "street_canyon_cars_specular"}) {
     CAPTURE(name);
-    const reference::Case list = specular_case(source / "tests/reference/oracle" / (name + ".json"));
-    solve(list, source / "tests/reference/scenes", 100000);
-    const reference::Comparison c = solve(list, source / "tests/reference/scenes", 1000000);
+    const reference::Case list = specular_case(folder / "oracle" / (name + ".json"));
+    solve(list, folder / "scenes", 100000);
+    const reference::Comparison c = solve(list, folder / "scenes", 1000000);
     CHECK(c.gain_err_db_p99 <= 0.02);
     CHECK(c.matrix_rel_err_p99 <= 0.002);
   }

@@ -3,6 +3,7 @@
 #include "simulation/place_warnings.hpp"
 
 #include "scene/load.hpp"
+#include "simulation/place_cases.hpp"
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -11,18 +12,7 @@ using glm::dvec3;
 
 namespace {
 
-// As a list that doctest can print.
-struct Texts : std::vector<std::string> {
-  using std::vector<std::string>::vector;
-  explicit Texts(std::vector<std::string> texts) : std::vector<std::string>(std::move(texts)) {}
-  friend std::ostream& operator<<(std::ostream& out, const Texts& texts) {
-    for (const std::string& text : texts) out << "\n    " << text;
-    return out;
-  }
-};
-
 std::vector<Quad> house() { return reference::box_walls({10, 20, 0}, {30, 28, 9}); }
-const Quad ground{{-100, -100, 0}, {200, 0, 0}, {0, 200, 0}};
 const std::vector<Part> town{{{ground}}, {house()}};
 
 Texts warnings_of(const std::vector<Part>& parts, const Config& config) {

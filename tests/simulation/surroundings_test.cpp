@@ -5,6 +5,7 @@
 #include <random>
 
 #include "scene/load.hpp"
+#include "simulation/place_cases.hpp"
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -19,8 +20,6 @@ Scene load(const std::vector<Part>& parts) {
 }
 
 std::vector<Quad> box(const dvec3& lower, const dvec3& upper) { return reference::box_walls(lower, upper); }
-
-const Quad ground{{-100, -100, 0}, {200, 0, 0}, {0, 200, 0}};
 
 // A box without the face of this number among those of box_walls().
 std::vector<Quad> open_box(const dvec3& lower, const dvec3& upper, const dvec3& towards) {

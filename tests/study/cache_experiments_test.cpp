@@ -7,8 +7,10 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include "contains.hpp"
 #include "study/cache_claims.hpp"
 #include "study/cache_rows.hpp"
+#include "study/city.hpp"
 #include "study/experiment.hpp"
 #include "study/made_cache_rows.hpp"
 #include "study/run.hpp"
@@ -21,10 +23,6 @@ using namespace wavetracer;
 using namespace wavetracer::study;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-Config city() { return experiment_config(find_experiment("figure-6.5"), "", {}); }
 
 // The config of a setting of a figure, by name.
 Config config_of(const std::string& figure, const std::string& setting, uint64_t rays = 50000) {

@@ -3,6 +3,7 @@
 #include "study/cache_regions.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>
+#include "contains.hpp"
 #include "study/cache_verdicts.hpp"
 #include "study/squeezed.hpp"
 #include "study/text.hpp"
@@ -11,8 +12,6 @@ using namespace wavetracer::study;
 using namespace cache_verdicts;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Rows of figure 6.6 with regions, whose look-ups and nanoseconds a read are given, in one setting.
 CacheMeasurement with_regions(const std::string& setting, const std::vector<double>& lookups,

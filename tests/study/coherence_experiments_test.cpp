@@ -2,6 +2,7 @@
 // Numbers of the paragraphs are chosen so that they can be said by hand.
 #include <doctest/doctest.h>
 #include <algorithm>
+#include "contains.hpp"
 #include "study/coherence_frames.hpp"
 #include "study/coherence_rays.hpp"
 #include "study/run.hpp"
@@ -13,8 +14,6 @@ using namespace wavetracer;
 using namespace wavetracer::study;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 FramePair frame_pair(const std::string& against, uint32_t frame, uint32_t depth, double total, double by_place,
                      double shares) {

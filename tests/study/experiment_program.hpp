@@ -16,12 +16,6 @@ inline const std::string street =
     "[[transmitter]]\nname = \"mast\"\nposition_m = [0, 0, 6]\n"
     "[[receiver]]\nname = \"car\"\nposition_m = [50, 0, 2]\n";
 
-inline std::string contents(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 // The lines of a table as cells by column.
 inline std::vector<std::map<std::string, std::string>> table(const std::string& file) {
   std::ifstream in(file);

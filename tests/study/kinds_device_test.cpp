@@ -2,7 +2,6 @@
 // the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is asked about what it refuses alone.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <fstream>
 #include <sstream>
 #include "app/program.hpp"
 #include "study/experiment.hpp"
@@ -66,12 +65,6 @@ const std::string& answer(const Kind& kind, const Experiment& experiment) {
   if (experiment.study()) return kind.of_caches;
   if (experiment.as<OrderFigure>()) return experiment.moves() ? kind.of_drives : kind.of_series;
   return experiment.moves() && kind.of_drives == one_frame ? kind.of_drives : kind.of_experiments;
-}
-
-std::string contents(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
 }
 
 Outcome bench(const Experiment& experiment, const Folder& folder, const std::string& config) {

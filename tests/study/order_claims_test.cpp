@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <cmath>
 #include <functional>
+#include "contains.hpp"
 #include "study/made_order_rows.hpp"
 #include "study/run.hpp"
 #include "study/squeezed.hpp"
@@ -11,8 +12,6 @@
 using namespace wavetracer::study;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string text_of(const Words& words) { return squeezed(words_text(words)); }
 

@@ -4,14 +4,13 @@
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <regex>
+#include "contains.hpp"
 #include "study/made_cache_rows.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::study;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // The first tag that does not fit, or an empty text.
 std::string unbalanced(const std::string& html) {

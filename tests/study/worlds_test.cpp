@@ -3,8 +3,10 @@
 #include "study/worlds.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>
+#include "contains.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
+#include "study/city.hpp"
 #include "study/coherence_frames.hpp"
 #include "study/experiment.hpp"
 #include "wavetracer/config_file.hpp"
@@ -14,10 +16,6 @@ using namespace wavetracer;
 using namespace wavetracer::study;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-Config city() { return experiment_config(find_experiment("figure-6.5"), "", {}); }
 
 const std::string blocks = "scene.generate = \"--blocks 1\"\n";
 const std::string car = "[[receiver]]\nname = \"car\"\nposition_m = [30, -50, 2]\n";

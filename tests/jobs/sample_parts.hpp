@@ -1,0 +1,29 @@
+// What the tests of shards share: the run that they are of, its cuts, and the names of what is in a folder.
+#pragma once
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+#include "output/sample_run.hpp"
+
+namespace wavetracer::test {
+
+inline const RunIdentity identity = sample_identity(24);
+inline const std::vector<std::pair<uint32_t, uint32_t>> cuts{{3, 7}, {10, 10}, {20, 5}};  // first, count
+
+inline SampleRun with_waypoints() {
+  SampleRun sample;
+  sample.config.output.waypoints = 2;
+  return sample;
+}
+
+// In order.
+inline std::vector<std::string> names(const std::filesystem::path& folder) {
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back(entry.path().filename());
+  std::ranges::sort(out);
+  return out;
+}
+
+}  // namespace wavetracer::test
