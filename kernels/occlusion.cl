@@ -14,7 +14,7 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
   if (wt_load_relaxed_u32(&solved[i].blocked)) return;
   const size_t row = (size_t)i * args.max_depth;
   const wt_leg l = wt_leg_of(solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers);
-  wt_walk walk = {0.0f, WT_NONE};
-  if (wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &walk) != WT_NONE)
+  uint place;
+  if (wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &place))
     atomic_or(&solved[i].blocked, 1u);
 }

@@ -14,7 +14,7 @@ inline bool trace_ray(const global wt_centred_node* nodes, const global wt_bvh2_
   const uint source = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
   wt_hit hit = wt_nearest_bvh2(nodes, triangles, triangle_slots, o, d, 0.0f, WT_NONE, INFINITY, source);
 #ifdef WT_INSTANCES
-  wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, &hit);
+  wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, 0, &hit);
 #endif
   wt_store_hit(hits, capacity, i, hit);
   return hit.surface != WT_NONE;

@@ -20,7 +20,7 @@ kernel void trace(const global wt_bvh8_node* nodes, const global wt_triangle_blo
     const uint source = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
     wt_hit hit = wt_nearest_bvh8(nodes, blocks, extent_m, o, d, 0.0f, WT_NONE, INFINITY, source);
 #ifdef WT_INSTANCES
-    wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, &hit);
+    wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, 0, &hit);
 #endif
     wt_store_hit(hits, capacity, i, hit);
     count += hit.surface != WT_NONE;

@@ -14,7 +14,7 @@ kernel void trace_moving(const global float4* moving, float extent_m, const glob
     const uint source = wt_load_word(rays, capacity, WT_RAY_SURFACE, i);
     const uint found = wt_load_word(hits, capacity, WT_HIT_PRIMITIVE, i);
     wt_hit hit = {found == WT_NONE ? INFINITY : hits[i], found, wt_load_word(hits, capacity, WT_HIT_SURFACE, i)};
-    wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, &hit);
+    wt_visit_moving(moving, extent_m, o, d, 0.0f, WT_NONE, source, wt_own_instance(source), WT_NONE, 0, &hit);
     if (hit.primitive == found) continue;
     wt_store_hit(hits, capacity, i, hit);
   }

@@ -82,7 +82,7 @@ kernel void trace(const global wt_bvh2_node* nodes, const global wt_bvh2_triangl
         wt_hit hit = wt_nearest_bvh8(nodes8, blocks, extent_m, ray_o, ray_d, 0.0f, WT_NONE, INFINITY, ray_source);
 #ifdef WT_INSTANCES
         wt_visit_moving(moving, extent_m, ray_o, ray_d, 0.0f, WT_NONE, ray_source, wt_own_instance(ray_source), WT_NONE,
-                        &hit);
+                        0, &hit);
 #endif
         const int16 here = lane == i - first;
         t = select(t, (float16)hit.t, here);
