@@ -1,5 +1,6 @@
-// Device memory: allocation, transfers, fills and copies, all bounds checked and blocking where the host's memory is
-// used. A request of zero bytes gives a handle of zero bytes(), backed by a few bytes, that may be a kernel's argument.
+// Device memory: allocation, transfers, fills and copies, all bounds checked. Reads and large writes wait for the
+// device; the host's memory is free again when a call returns. A request of zero bytes gives a handle of zero bytes(),
+// backed by a few bytes, that may be a kernel's argument.
 #include <fmt/format.h>
 #include <algorithm>
 #include <bit>
@@ -117,6 +118,7 @@ void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage
   const cl_int code =
       clEnqueueReadBuffer(s.queue(), handle_of(handle_), CL_TRUE, offset, bytes, to, 0, nullptr, s.event_of(event));
   if (code != CL_SUCCESS) s.fail(code, fmt::format("reading buffer \"{}\"", s.allocations->name(handle_.get())));
+  s.staged.done();
   s.profile.add(stage, std::move(event));
 }
 
@@ -125,10 +127,12 @@ void Memory::write_bytes(const void* from, size_t offset, size_t bytes, const ch
   Context::State& s = *context_->state_;
   check_bounds(*s.allocations, handle_.get(), bytes_, "writing", offset, bytes);
   if (bytes == 0) return;
+  const void* const copy = bytes <= StagedWrites::largest ? s.staged.stage(from, bytes) : nullptr;
   cl::Event event;
-  const cl_int code =
-      clEnqueueWriteBuffer(s.queue(), handle_of(handle_), CL_TRUE, offset, bytes, from, 0, nullptr, s.event_of(event));
+  const cl_int code = clEnqueueWriteBuffer(s.queue(), handle_of(handle_), copy ? CL_FALSE : CL_TRUE, offset, bytes,
+                                           copy ? copy : from, 0, nullptr, s.event_of(event));
   if (code != CL_SUCCESS) s.fail(code, fmt::format("writing buffer \"{}\"", s.allocations->name(handle_.get())));
+  if (!copy) s.staged.done();
   s.profile.add(stage, std::move(event));
 }
 

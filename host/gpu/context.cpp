@@ -72,6 +72,7 @@ size_t Context::builds_from_source() const { return state_->builds_from_source; 
 void Context::finish() {
   try {
     state_->queue.finish();
+    state_->staged.done();
   } catch (const cl::Error& error) {
     state_->fail(error.err(), "finishing the queue");
   }

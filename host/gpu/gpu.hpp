@@ -87,7 +87,8 @@ class Memory {
   void read_to(const HostMemory& to, size_t offset, size_t bytes, const char* stage) const;
 };
 
-// A typed buffer of size() elements. All transfers block and are bounds checked (std::out_of_range).
+// A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and done with the host's memory
+// when they return.
 template <class T>
 class Buffer : public Memory {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,6 +1,7 @@
 // The private halves of Context and Kernel, shared by this folder's .cpp files.
 // A Context::State stays where it is for its whole life; kernels and buffers keep plain pointers to it.
 #pragma once
+#include <cstring>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,6 +30,26 @@ class Allocations {
   std::map<void*, Entry> live_;
 };
 
+// The host's copies of small writes, which therefore need not wait for the device. A copy must stay until the queue has
+// come to it: wherever the host waits for the queue, all of them are done.
+class StagedWrites {
+ public:
+  static constexpr size_t largest = 16 << 10;  // bytes of a write
+  // Null where there is no room left before the next done().
+  const void* stage(const void* from, size_t bytes) {
+    if (bytes > ring_.size() - used_) return nullptr;
+    void* const to = ring_.data() + used_;
+    std::memcpy(to, from, bytes);
+    used_ += (bytes + 15) / 16 * 16;
+    return to;
+  }
+  void done() { used_ = 0; }
+
+ private:
+  std::vector<unsigned char> ring_ = std::vector<unsigned char>(size_t{1} << 20);  // a multiple of 16
+  size_t used_ = 0;
+};
+
 struct Context::State {
   DeviceInfo info;
   cl::Device device;
@@ -40,6 +61,7 @@ struct Context::State {
   Profile profile;
   // Where a command is to leave its event: nowhere, without profiling.
   cl_event* event_of(cl::Event& event) { return profile.on ? &event() : nullptr; }
+  StagedWrites staged;
   std::shared_ptr<Allocations> allocations = std::make_shared<Allocations>();
   std::map<std::string, cl::Program> programs;                    // by name and options
   std::map<std::string, std::shared_ptr<Kernel::State>> kernels;  // by name, program and options

@@ -1,34 +1,51 @@
 // Host side of kernels/candidates.cl.
-// A work-item takes one sequence with all receivers, or with 16.
+// A work-item takes one sequence (CPUs), or a work-group several together.
 #include "passes/candidates.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "passes/growing_list.hpp"
-#include "passes/tuning.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
+namespace {
+
+// Local memory for the sequences of a work-group, and that of one sequence: its images, its surfaces and 32 bytes more.
+constexpr uint32_t group_bytes = 16 << 10;
+uint32_t sequence_bytes(uint32_t reflections) { return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 32; }
+
+}  // namespace
+
 Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
     : context_(context),
-      kernel_(context.kernel("candidates", "candidates")),
       max_reflections_(max_reflections),
-      list_(context.buffer<wt_candidate>(1 << 16, "candidates")) {}
+      work_(tuning_of(context.info()).candidates),
+      list_(context.buffer<wt_candidate>(1 << 16, "candidates")) {
+  const uint32_t reflections = std::max(std::min(max_reflections, WT_MAX_DEPTH), 1u);
+  // No more sequences than work-items: each of them follows one back.
+  if (!tuning_of(context.info()).alone)
+    work_.per_item = std::min(group_bytes / sequence_bytes(reflections), work_.group);
+  kernel_ = context.kernel("candidates", "candidates",
+                           {{"WT_REFLECTIONS", std::to_string(reflections)},
+                            {"WT_GROUP", std::to_string(work_.group) + "u"},
+                            {"WT_NODES", work_.option()}});
+}
 
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                                 const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                                 gpu::Buffer<wt_counters>& counters) {
   if (ends.receiver_capacity == 0) return 0;
-  const Tuning tuning = tuning_of(context_.info());
-  const uint32_t groups = ends.receiver_capacity / 16, groups_per_item = tuning.receivers_together ? groups : 1;
+  const bool alone = tuning_of(context_.info()).alone;
+  const gpu::Range range = alone ? work_.range(node_count) : work_.groups(node_count);
   return fill_list(
       counters, &wt_counters::candidates, "candidates", [&] { return list_.size(); },
       [&] {
-        kernel_(tuning.candidates.range(size_t{node_count} * (groups / groups_per_item)), "candidates", trie, nodes,
-                ends.transmitters, ends.receivers, scene.exact_surfaces, scene.surfaces, ends.receiver_planes,
-                ends.links, list_, counters,
+        kernel_(range, "candidates", trie, nodes, ends.transmitters, ends.receivers, scene.exact_surfaces,
+                scene.surfaces, ends.receiver_planes, ends.links, list_, counters,
                 wt_candidates_arguments{.node_count = node_count,
                                         .receiver_capacity = ends.receiver_capacity,
-                                        .groups_per_item = groups_per_item,
                                         .transmitter_count = ends.transmitter_count,
                                         .max_reflections = max_reflections_,
                                         .capacity = static_cast<uint32_t>(list_.size())});

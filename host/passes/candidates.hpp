@@ -1,8 +1,9 @@
-// candidates: sequences and receivers that a path may join, after a conservative rejection in float32.
+// candidates: sequences and receivers that a path may join, after two conservative rejections.
 // The list grows until it holds all of them.
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
+#include "passes/tuning.hpp"
 
 namespace wavetracer {
 
@@ -19,6 +20,7 @@ class Candidates {
   gpu::Context& context_;
   gpu::Kernel kernel_;
   uint32_t max_reflections_;
+  Work work_;
   gpu::Buffer<wt_candidate> list_;
 };
 

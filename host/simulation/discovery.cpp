@@ -2,6 +2,7 @@
 #include "simulation/discovery.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace wavetracer {
 
@@ -37,6 +38,14 @@ InteractOptions interact_options(const TraceConfig& trace, const TracingDepth& d
           .transmission = depth.transmissions > 0};
 }
 
+// Does nothing happen to rays between two depths but their reflection? Then they need no queues. On CPUs packets of
+// rays through queues are faster.
+bool at_once(const gpu::DeviceInfo& device, const TracingDepth& depth, const DiscoveryOptions& options) {
+  const char* env = std::getenv("WT_BOUNCES");  // TEMPORARY
+  return (env ? env[0] == 0x31 : !device.cpu) && !needs_labels(options) && depth.transmissions == 0 && !options.order.each_depth &&
+         options.order.launch.plain();
+}
+
 }  // namespace
 
 Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& trace,
@@ -50,7 +59,8 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
                              : traced_.emplace(context, scene, choose_shape(context.info(), trace, options.order),
                                                options.order.launch)),
       sequences_(context, initial_slots, options.keep_ages),
-      wavefront_(context, depth_, interact_options(trace, depth_, options), source_, finder_, sequences_) {
+      wavefront_(context, scene, depth_, interact_options(trace, depth_, options),
+                 at_once(context.info(), depth_, options), source_, finder_, sequences_) {
   if (!trace.rays) refinement_.emplace(context, trace, source_.heights());
 }
 
@@ -65,10 +75,11 @@ DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) 
   reserve(size);
   while (counts.rays < total) {
     const uint64_t count = std::min(size, total - counts.rays);
-    do {
+    for (bool fits = false; !fits;) {
       follower.begin_batch(source_.launch(wavefront_.rays(), launch, counts.rays, count));  // order_keys to label_rays
-      wavefront_.trace(scene, follower, counts);  // order_keys (of later depths) to interact
-    } while (grew());
+      fits = wavefront_.trace(scene, follower, counts);  // order_keys (of later depths) to interact, or bounces
+      if (!fits) sequences_.regrow(depth_.sequences);
+    }
     follower.end_batch();
     counts.rays += count;
     tell(counts.rays, total);
@@ -82,8 +93,8 @@ DiscoveryCounts Discovery::find_refined(const DeviceScene& scene, const std::vec
   if (counts.segments_per_depth.empty() || who.empty()) return counts;
   refinement_->start(who, sequences_.table().size(), frame);
   for (bool more = true; more;) {
-    trace_level(scene, counts);
-    if (grew()) {  // sequences have new numbers: the launch begins again
+    if (!trace_level(scene, counts)) {  // sequences get new numbers: the launch begins again
+      sequences_.regrow(depth_.sequences);
       counts.rays = 0;
       refinement_->start(who, sequences_.table().size(), frame);
     } else {
@@ -95,22 +106,17 @@ DiscoveryCounts Discovery::find_refined(const DeviceScene& scene, const std::vec
   return counts;
 }
 
-void Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
+bool Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
   const SampleList& level = refinement_->level();
-  for (uint64_t done = 0; done < level.count && !sequences_.overflowed(); done += batch_rays_) {
+  for (uint64_t done = 0; done < level.count; done += batch_rays_) {
     const auto count = static_cast<uint32_t>(std::min<uint64_t>(batch_rays_, level.count - done));
     reserve(count);
     refinement_->generate(wavefront_.rays(), static_cast<uint32_t>(done), count);  // generate_rays
     source_.label(wavefront_.rays());                                              // label_rays
-    wavefront_.trace(scene, nobody_, counts, &level.ends);
+    if (!wavefront_.trace(scene, nobody_, counts, &level.ends)) return false;
     counts.rays += count;
     tell(done + count, level.count);
   }
-}
-
-bool Discovery::grew() {
-  if (!sequences_.overflowed()) return false;
-  sequences_.regrow(depth_.sequences);
   return true;
 }
 

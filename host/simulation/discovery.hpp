@@ -34,9 +34,8 @@ class Discovery {
   Sequences& sequences() { return sequences_; }
 
  private:
-  void trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
-  // True if the set of sequences had to grow; the batch must then be traced again.
-  bool grew();
+  // False if the set of sequences must grow, and the launch begin again.
+  bool trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   // Makes room for batches of this many rays, in all buffers with an entry per ray.
   void reserve(uint64_t rays);
   void tell(uint64_t done, uint64_t total) const {

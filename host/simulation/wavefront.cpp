@@ -15,8 +15,8 @@ InteractOptions without_samples(InteractOptions options) {
 
 }  // namespace
 
-Wavefront::Wavefront(gpu::Context& context, const TracingDepth& depth, InteractOptions options, RaySource& source,
-                     HitFinder& finder, Sequences& sequences)
+Wavefront::Wavefront(gpu::Context& context, const DeviceScene& scene, const TracingDepth& depth,
+                     InteractOptions options, bool at_once, RaySource& source, HitFinder& finder, Sequences& sequences)
     : context_(context),
       depth_(depth),
       planes_(options.labels ? WT_RAY_LABELLED_PLANES : WT_RAY_PLANES + uint32_t{options.samples}),
@@ -26,6 +26,9 @@ Wavefront::Wavefront(gpu::Context& context, const TracingDepth& depth, InteractO
       scan_(context),
       interact_(context, without_samples(options)) {
   if (options.samples) interact_samples_.emplace(context, options);
+  if (!at_once) return;
+  bounces_.emplace(context, scene, options.ages, false);
+  if (options.samples) bounces_samples_.emplace(context, scene, options.ages, true);
 }
 
 void Wavefront::reserve(uint64_t rays) {
@@ -37,8 +40,9 @@ void Wavefront::reserve(uint64_t rays) {
     transmitted_.push_back(make_ray_queue(context_, rays, "transmitted rays", planes_));
 }
 
-void Wavefront::trace(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
+bool Wavefront::trace(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
                       const gpu::Buffer<uint32_t>* ends) {
+  if (bounces_) return trace_at_once(scene, ends ? *bounces_samples_ : *bounces_, ends, counts);  // bounces
   waiting_.clear();
   trace_reflected(scene, follower, counts, {1, depth_.transmissions}, ends);
   while (!waiting_.empty()) {
@@ -48,6 +52,19 @@ void Wavefront::trace(const DeviceScene& scene, RayFollower& follower, Discovery
     // The end of a sample is that of the ray that was never transmitted.
     trace_reflected(scene, follower, counts, stage, nullptr);
   }
+  return !sequences_.overflowed();
+}
+
+bool Wavefront::trace_at_once(const DeviceScene& scene, Bounces& bounces, const gpu::Buffer<uint32_t>* ends,
+                              DiscoveryCounts& counts) {
+  const wt_counters after = bounces(scene, rays_, depth_.interactions, sequences_.trie(), ends);
+  uint64_t alive = rays_.count;
+  for (uint32_t depth = 0; depth < depth_.interactions; ++depth) {
+    counts.segments_per_depth[depth] += alive;
+    alive -= after.ended[depth];
+    counts.hits += alive;
+  }
+  return after.trie_overflow == 0;
 }
 
 void Wavefront::trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Stage stage,

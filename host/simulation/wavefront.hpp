@@ -1,10 +1,12 @@
-// The wavefront loop: all rays of a batch take a step together, until none is left.
+// The rays of a batch to their ends: all of them at once where nothing happens to them on their way (bounces), else
+// the wavefront loop, in which all rays take a step together, until none is left.
 // Sort, find hits, scan, interact; one host read for each depth, the number of rays that go on. With transmission rays
 // split where they hit: queues of transmitted rays are traced depth first, so that at most one waits at each depth.
 #pragma once
 #include <optional>
 #include <vector>
 
+#include "passes/bounces.hpp"
 #include "passes/interact.hpp"
 #include "passes/scan.hpp"
 #include "passes/sequences.hpp"
@@ -17,18 +19,19 @@ namespace wavetracer {
 
 class Wavefront {
  public:
-  // options: of interact, but for samples: whether rays may carry them (a refined launch). source, finder and sequences
-  // outlive this.
-  Wavefront(gpu::Context& context, const TracingDepth& depth, InteractOptions options, RaySource& source,
-            HitFinder& finder, Sequences& sequences);
+  // options: of interact, but for samples: whether rays may carry them (a refined launch). at_once: no pass needs the
+  // queues of later depths. source, finder and sequences outlive this.
+  Wavefront(gpu::Context& context, const DeviceScene& scene, const TracingDepth& depth, InteractOptions options,
+            bool at_once, RaySource& source, HitFinder& finder, Sequences& sequences);
   // Room for batches of so many rays, queues alone.
   void reserve(uint64_t rays);
   // The launch rays of a batch, to be filled before it is traced.
   RayQueue& rays() { return rays_; }
   // Segments of a ray, at most.
   uint32_t segments(const RayFollower& follower) const { return depth_.interactions + follower.extra_segments(); }
-  // Traces the rays to their ends. ends: of a refined launch, where each sample ended.
-  void trace(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
+  // Traces the rays to their ends. ends: of a refined launch, where each sample ended. False if the set of sequences
+  // was too small: the batch must be traced again with a larger one.
+  bool trace(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
              const gpu::Buffer<uint32_t>* ends = nullptr);
 
  private:
@@ -36,6 +39,8 @@ class Wavefront {
   struct Stage {
     uint32_t depth, transmissions;
   };
+  bool trace_at_once(const DeviceScene& scene, Bounces& bounces, const gpu::Buffer<uint32_t>* ends,
+                     DiscoveryCounts& counts);
   // The queue and what is reflected of it. Queues of transmitted rays are left in transmitted_, and their stages, from
   // the lowest depth to the highest, in waiting_.
   void trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Stage stage,
@@ -50,6 +55,7 @@ class Wavefront {
   Scan scan_;
   Interact interact_;
   std::optional<Interact> interact_samples_;
+  std::optional<Bounces> bounces_, bounces_samples_;
   RayQueue rays_, next_;
   std::vector<RayQueue> transmitted_;  // for each depth from 2 on, where rays are transmitted
   std::vector<Stage> waiting_;

@@ -64,7 +64,6 @@ typedef struct {
 typedef struct {
   wt_uint node_count;
   wt_uint receiver_capacity;
-  wt_uint groups_per_item;
   wt_uint transmitter_count;
   wt_uint max_reflections;
   wt_uint capacity;
@@ -76,6 +75,16 @@ typedef struct {
   wt_uint max_depth;
   wt_uint capacity;
 } wt_solve_arguments;
+
+typedef struct {
+  wt_uint triangle_slots;
+  float extent_m;
+  wt_uint capacity;
+  wt_uint ray_count;
+  wt_uint interactions;  // of a ray, at most
+  wt_uint trie_mask;
+  wt_uint now;  // of ages
+} wt_bounces_arguments;
 
 // Of occlusion and transmissions.
 typedef struct {

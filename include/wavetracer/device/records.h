@@ -164,13 +164,14 @@ typedef struct {
 
 // Counters that the passes share; one small buffer, cleared a frame.
 typedef struct {
-  wt_uint nodes;             // used slots of the trie
-  wt_uint trie_overflow;     // an insertion found no slot: grow and trace the batch again
-  wt_uint candidates;        // may exceed the capacity: grow and run again
-  wt_uint solved;            // likewise
-  wt_uint visible;           // likewise
-  wt_uint wedge_prefixes;    // likewise
-  wt_uint wedge_candidates;  // likewise
+  wt_uint nodes;                     // used slots of the trie
+  wt_uint trie_overflow;             // an insertion found no slot: grow and trace the batch again
+  wt_uint candidates;                // may exceed the capacity: grow and run again
+  wt_uint solved;                    // likewise
+  wt_uint visible;                   // likewise
+  wt_uint wedge_prefixes;            // likewise
+  wt_uint wedge_candidates;          // likewise
+  wt_uint ended[WT_MAX_DEPTH + 1u];  // rays of bounces by the number of their hits
 } wt_counters;
 
 #endif

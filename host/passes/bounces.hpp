@@ -1,0 +1,27 @@
+// bounces: all segments of the rays of a queue in one launch, where nothing happens to the queue between two depths.
+// Enters the same sequences as trace, scan and interact, one depth after the other.
+#pragma once
+#include "passes/device_scene.hpp"
+#include "passes/ray_queue.hpp"
+#include "passes/sequences.hpp"
+#include "passes/tuning.hpp"
+
+namespace wavetracer {
+
+class Bounces {
+ public:
+  // ages: the trie keeps them. samples: rays carry the number of their sample.
+  Bounces(gpu::Context& context, const DeviceScene& scene, bool ages, bool samples);
+  // interactions: of a ray, at most. ends: one for each sample, where rays carry them, else null. Returns the counters
+  // after it, of which `ended` counts these rays. Throws std::logic_error where the trie or `ends` lack what it needs.
+  wt_counters operator()(const DeviceScene& scene, const RayQueue& rays, uint32_t interactions, const Trie& trie,
+                         const gpu::Buffer<uint32_t>* ends);
+
+ private:
+  gpu::Context& context_;
+  bool ages_, samples_;
+  gpu::Kernel kernel_;
+  Work work_;
+};
+
+}  // namespace wavetracer
