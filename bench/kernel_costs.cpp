@@ -51,6 +51,10 @@ double vehicles_operations(N n) {
   return 2 * box_operations *
          std::ceil(std::log2(std::max<double>(static_cast<double>(n.frame.world.instances.size()), 2)));
 }
+// A ray is read once, and each of its hits enters a sequence.
+double bounces_bytes(N n) {
+  return (rays(n) * (ray_m + 2 * word) + n.hit_share() * segments(n) * (node + word)) / segments(n);
+}
 double interact_bytes(N n) { return word + n.hit_share() * (word + ray_m + 2 * word + queued + node); }
 double missed_rays(N n) { return n.cache_misses() * static_cast<double>(n.frame.cache.lookups); }
 double lookups(N n) { return static_cast<double>(n.frame.cache.lookups); }
@@ -90,6 +94,7 @@ constexpr KernelCost costs[] = {
     {"trace_bvh2/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
     {"trace_bvh8/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
     {"trace_packet16/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
+    {"bounces/bounces", "reflections", "segments", segments, bounces_bytes, tree_operations},
     {"scan/scan", "reflections", "blocks", items_of<"scan/scan">, always<8>, always<1>},
     {"scan/scan_sums", "reflections", "blocks", items_of<"scan/scan_sums">, always<4>, always<1>},
     {"interact/interact", "reflections", "segments", segments, interact_bytes, always<20>},

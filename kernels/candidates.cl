@@ -33,8 +33,8 @@ inline mask may_reach(const global wt_surface* s, float4 image, const global flo
   const lanes size = fabs(x) + fabs(y) + fabs(z) + (fabs(ix) + fabs(iy) + fabs(iz) + fabs(s->offset));
   const lanes error = 1e-6f * size;
   const lanes legs = fabs(a) + fabs(b);
-  const lanes u = fabs(a) / legs;
-  const lanes margin = error * (4.0f + 2.0f * size / legs) + 1e-3f;
+  const lanes per_leg = 1.0f / legs, u = fabs(a) * per_leg;
+  const lanes margin = error * (4.0f + 2.0f * size * per_leg) + 1e-3f;
   const lanes px = ix + u * (x - ix), py = iy + u * (y - iy), pz = iz + u * (z - iz);
   const mask opposite = (a > 0.0f ? b : -b) <= error;
   const mask inside = (px >= s->lower[0] - margin) & (px <= s->upper[0] + margin) & (py >= s->lower[1] - margin) &
@@ -83,6 +83,17 @@ inline int in_boxes(const WT_SPACE sequence* s, const global wt_exact_surface* e
 }
 
 #ifdef WT_CPU
+// A bit for each lane.
+inline uint bits_of(int16 m) {
+  const int16 b = m & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+  const int8 b8 = b.lo | b.hi;
+  const int4 b4 = b8.lo | b8.hi;
+  const int2 b2 = b4.lo | b4.hi;
+  return (uint)(b2.x | b2.y);
+}
+
+inline uint lowest_bit(uint bits) { return bits & (~bits + 1); }
+
 // One sequence per work-item, 16 receivers at a time.
 kernel void candidates(const global ulong* table, const global uint* nodes, const global double4* transmitters,
                        const global double4* exact_receivers, const global wt_exact_surface* exact,
@@ -94,25 +105,28 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
   for (uint group = 0; group < groups; ++group) {
     uint keep = links[(size_t)s.transmitter * groups + group];
     if (keep != 0 && s.depth > 0) {
-      int reached[16];
-      vstore16(may_reach(surfaces + s.chain[s.depth - 1], s.last, receivers + 16 * group, args.receiver_capacity), 0,
-               reached);
-      for (uint k = 0; k < 16; ++k)
-        if ((keep >> k & 1) && !(reached[k] && in_boxes(&s, exact, surfaces, exact_receivers[16 * group + k].xyz)))
-          keep &= ~(1u << k);
+      keep &=
+          bits_of(may_reach(surfaces + s.chain[s.depth - 1], s.last, receivers + 16 * group, args.receiver_capacity));
+      for (uint rest = keep; rest; rest &= rest - 1) {
+        const uint bit = lowest_bit(rest);
+        if (!in_boxes(&s, exact, surfaces, exact_receivers[16 * group + popcount(bit - 1u)].xyz)) keep &= ~bit;
+      }
     }
     uint slot = keep ? atomic_add(&counters->candidates, popcount(keep)) : 0u;
     for (; keep; keep &= keep - 1, ++slot) {
       if (slot >= args.capacity) continue;
       out[slot].node = nodes[i];
-      out[slot].receiver = 16 * group + popcount((keep & (~keep + 1)) - 1u);
+      out[slot].receiver = 16 * group + popcount(lowest_bit(keep) - 1u);
     }
   }
 }
 #else
-// Pairs wait for the second test, so that all lanes make it together; in one round a work-item tests WT_ROUND pairs.
+// Pairs wait for the second test, so that all lanes make it together; at most WT_ROUND pairs a lane between two looks
+// at their number.
 #define WT_ROUND 4u
 #define WT_WAITING (2 * WT_ROUND * WT_GROUP)
+#define WT_NODE_SHIFT 24u  // in the word of a pair; receivers are below
+#define WT_RECEIVER_BITS ((1u << WT_NODE_SHIFT) - 1)
 
 // Is the pair a link, and does it pass the first test?
 inline int passes(const local sequence* s, uint receiver, const global wt_surface* surfaces,
@@ -133,24 +147,34 @@ __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
   local uint waiting[WT_WAITING], kept[WT_WAITING], waiting_count, kept_count, first_slot;
   const uint lane = get_local_id(0), first_node = get_group_id(0) * WT_NODES;
   const uint count = min((uint)WT_NODES, args.node_count - min(first_node, args.node_count));
-  const uint capacity = args.receiver_capacity, pairs = count * capacity;
   for (uint n = lane; n < count; n += WT_GROUP)
     if (!follow_back(table, nodes[first_node + n], transmitters, exact, args, sequences + n))
       sequences[n].depth = WT_NONE;
   if (lane == 0) waiting_count = kept_count = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (uint first = 0; first < pairs; first += WT_ROUND * WT_GROUP) {
-    for (uint pair = first + lane; pair < min(pairs, first + WT_ROUND * WT_GROUP); pair += WT_GROUP)
-      if (passes(sequences + pair / capacity, pair % capacity, surfaces, receivers, links, capacity))
-        waiting[atomic_inc(&waiting_count)] = pair;
+  // Neighbours take neighbouring receivers of one sequence, or of several where there are few receivers.
+  const uint capacity = args.receiver_capacity, together = WT_GROUP / args.lanes;
+  uint first = 0, receiver = lane % args.lanes, steps = 0;
+  for (uint n = lane / args.lanes; first < count;) {
+    if (n < count && receiver < capacity && passes(sequences + n, receiver, surfaces, receivers, links, capacity))
+      waiting[atomic_inc(&waiting_count)] = n << WT_NODE_SHIFT | receiver;
+    receiver += args.lanes;
+    if (receiver - lane % args.lanes >= capacity) {
+      receiver = lane % args.lanes;
+      n += together;
+      first += together;
+    }
+    if (++steps % WT_ROUND != 0 && first < count) continue;
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint now = waiting_count;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (now <= WT_ROUND * WT_GROUP && first + WT_ROUND * WT_GROUP < pairs) continue;
-    for (uint w = lane; w < now; w += WT_GROUP)
-      if (in_boxes(sequences + waiting[w] / capacity, exact, surfaces, exact_receivers[waiting[w] % capacity].xyz))
-        kept[atomic_inc(&kept_count)] = waiting[w];
+    if (now <= WT_ROUND * WT_GROUP && first < count) continue;
+    for (uint w = lane; w < now; w += WT_GROUP) {
+      const uint pair = waiting[w];
+      if (in_boxes(sequences + (pair >> WT_NODE_SHIFT), exact, surfaces, exact_receivers[pair & WT_RECEIVER_BITS].xyz))
+        kept[atomic_inc(&kept_count)] = pair;
+    }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0) {
       first_slot = atomic_add(&counters->candidates, kept_count);
@@ -158,8 +182,8 @@ __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = lane; k < kept_count && first_slot + k < args.capacity; k += WT_GROUP) {
-      out[first_slot + k].node = nodes[first_node + kept[k] / capacity];
-      out[first_slot + k].receiver = kept[k] % capacity;
+      out[first_slot + k].node = nodes[first_node + (kept[k] >> WT_NODE_SHIFT)];
+      out[first_slot + k].receiver = kept[k] & WT_RECEIVER_BITS;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0) kept_count = 0;

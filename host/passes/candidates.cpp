@@ -3,6 +3,7 @@
 #include "passes/candidates.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 #include "passes/growing_list.hpp"
@@ -46,6 +47,7 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
                 scene.surfaces, ends.receiver_planes, ends.links, list_, counters,
                 wt_candidates_arguments{.node_count = node_count,
                                         .receiver_capacity = ends.receiver_capacity,
+                                        .lanes = std::min(std::bit_ceil(ends.receiver_capacity), work_.group),
                                         .transmitter_count = ends.transmitter_count,
                                         .max_reflections = max_reflections_,
                                         .capacity = static_cast<uint32_t>(list_.size())});

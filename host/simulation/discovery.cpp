@@ -42,8 +42,8 @@ InteractOptions interact_options(const TraceConfig& trace, const TracingDepth& d
 // rays through queues are faster.
 bool at_once(const gpu::DeviceInfo& device, const TracingDepth& depth, const DiscoveryOptions& options) {
   const char* env = std::getenv("WT_BOUNCES");  // TEMPORARY
-  return (env ? env[0] == 0x31 : !device.cpu) && !needs_labels(options) && depth.transmissions == 0 && !options.order.each_depth &&
-         options.order.launch.plain();
+  return (env ? env[0] == 0x31 : !device.cpu) && !needs_labels(options) && depth.transmissions == 0 &&
+         !options.order.each_depth && options.order.launch.plain();
 }
 
 }  // namespace
