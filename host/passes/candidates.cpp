@@ -13,9 +13,9 @@ namespace wavetracer {
 
 namespace {
 
-// Local memory for the sequences of a work-group, and that of one sequence: its images, its surfaces and 32 bytes more.
+// Local memory for the sequences of a work-group, and that of one sequence: its images, its surfaces and 96 bytes more.
 constexpr uint32_t group_bytes = 16 << 10;
-uint32_t sequence_bytes(uint32_t reflections) { return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 32; }
+uint32_t sequence_bytes(uint32_t reflections) { return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 96; }
 
 }  // namespace
 

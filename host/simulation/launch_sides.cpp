@@ -1,4 +1,4 @@
-// Planes are rejected in float32, with a bound on its rounding, then judged in double within the box of their surface.
+// Planes are judged in double within the box of their surface.
 // A box is more than its surface: a launch too many costs rays, and never a path.
 #include "simulation/launch_sides.hpp"
 
@@ -23,33 +23,25 @@ double size_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p
 // As far beside a surface as a reflected ray starts (kernels/lib/mirror.clh).
 double step_beside(const glm::dvec3& p) { return 1.9e-6 * std::max(size_of(p), 0.1); }
 
+std::vector<TreeBox> boxes_of(const Scene& scene) {
+  std::vector<TreeBox> out;
+  for (const Surface& s : scene.surfaces) out.push_back({s.lower, s.upper});
+  return out;
+}
+
 }  // namespace
 
 LaunchSides::Planes::Planes(const Scene& of)
-    : scene(&of), radius_m(glm::length(glm::max(glm::abs(of.lower), glm::abs(of.upper)))) {
-  for (const Surface& s : of.surfaces) {
-    x.push_back(static_cast<float>(s.normal.x));
-    y.push_back(static_cast<float>(s.normal.y));
-    z.push_back(static_cast<float>(s.normal.z));
-    offset.push_back(static_cast<float>(s.offset_m));
-  }
-}
+    : scene(&of), boxes(boxes_of(of)), radius_m(glm::length(glm::max(glm::abs(of.lower), glm::abs(of.upper)))) {}
 
 void LaunchSides::Planes::find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const {
-  const auto px = static_cast<float>(p.x), py = static_cast<float>(p.y), pz = static_cast<float>(p.z);
-  const auto bound = static_cast<float>(tolerance_m + 1e-6 * (radius_m + size_of(p)));
-  constexpr size_t block = 256;
-  for (size_t first = 0; first < x.size(); first += block) {
-    const size_t end = std::min(first + block, x.size());
-    bool any = false;  // no branch a plane, so that compilers use vectors
-    for (size_t i = first; i < end; ++i) any |= std::abs(x[i] * px + y[i] * py + z[i] * pz - offset[i]) <= bound;
-    for (size_t i = first; any && i < end; ++i) {
-      const Surface& s = scene->surfaces[i];
-      const double above_m = glm::dot(s.normal, p) - s.offset_m;
-      if (std::abs(above_m) <= tolerance_m && glm::all(glm::greaterThanEqual(p, s.lower - tolerance_m)) &&
-          glm::all(glm::lessThanEqual(p, s.upper + tolerance_m)))
-        found.push_back({s.normal, above_m});
-    }
+  std::vector<uint32_t> on;
+  boxes.at(p, tolerance_m, [&](uint32_t i) { on.push_back(i); });
+  std::ranges::sort(on);  // the first planes count, and the order of a tree is nobody's business
+  for (const uint32_t i : on) {
+    const Surface& s = scene->surfaces[i];
+    const double above_m = glm::dot(s.normal, p) - s.offset_m;
+    if (std::abs(above_m) <= tolerance_m) found.push_back({s.normal, above_m});
   }
 }
 
@@ -82,7 +74,7 @@ std::vector<LaunchSides::Plane> LaunchSides::planes_at(const Launcher& launcher,
 
 std::vector<Launcher> LaunchSides::of(const std::vector<Launcher>& launchers, const WorldState& state) const {
   std::vector<std::vector<Launcher>> sides(launchers.size());
-  tbb::parallel_for(size_t{0}, launchers.size(), [&](size_t i) {
+  const auto find = [&](size_t i) {
     sides[i] = {launchers[i]};
     const double step_m = step_beside(launchers[i].position_m);
     for (const Plane& plane : planes_at(launchers[i], state, step_m)) {
@@ -95,6 +87,10 @@ std::vector<Launcher> LaunchSides::of(const std::vector<Launcher>& launchers, co
         }
       sides[i] = std::move(both);
     }
+  };
+  // One thread does a hundred before others are awake.
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, launchers.size(), 128), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t i = range.begin(); i < range.end(); ++i) find(i);
   });
   std::vector<Launcher> out;
   for (const std::vector<Launcher>& each : sides) out.insert(out.end(), each.begin(), each.end());

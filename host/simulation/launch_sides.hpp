@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "simulation/box_tree.hpp"
+
 #include "passes/generate_rays.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/world_state.hpp"
@@ -25,11 +27,11 @@ class LaunchSides {
     glm::dvec3 normal;
     double above_m;
   };
-  // The planes of a scene in float32, to be gone through for every launcher of every frame.
+  // The planes of a scene, by the boxes of their surfaces.
   struct Planes {
     explicit Planes(const Scene& scene);
     const Scene* scene;
-    std::vector<float> x, y, z, offset;
+    BoxTree boxes;
     double radius_m;  // of the scene about its own origin
     // Appends those that the point is on.
     void find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "simulation/name_pattern.hpp"
@@ -67,16 +68,22 @@ std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitter
   const auto sending =
       std::ranges::count_if(wanted_transmitters_, [&](uint32_t tx) { return transmitters[tx].present; });
   check_pairs(static_cast<size_t>(sending), present.size(), most_present_pairs, "of one frame");
+  // A pair farther apart than the most along one axis is passed over before its distance is known.
+  std::vector<glm::dvec3> at;
+  for (const uint32_t rx : present) at.push_back(receivers[rx].position_m);
+  const double most_m = config_.max_distance_m;
   std::vector<Link> out;
   for (const uint32_t tx : wanted_transmitters_) {
     if (!transmitters[tx].present) continue;
-    for (const uint32_t rx : present) {
-      if (!allowed(transmitters_.vehicles[tx], receivers_.vehicles[rx])) continue;
-      const double distance_m = glm::distance(transmitters[tx].position_m, receivers[rx].position_m);
+    const glm::dvec3& from = transmitters[tx].position_m;
+    const uint32_t vehicle = transmitters_.vehicles[tx];
+    for (size_t k = 0; k < present.size(); ++k) {
+      const glm::dvec3 apart = glm::abs(at[k] - from);
+      if (apart.x > most_m || apart.y > most_m || !allowed(vehicle, receivers_.vehicles[present[k]])) continue;
+      const double distance_m = glm::length(apart);
       // What an antenna on a vehicle sends to itself is no link; a receiver at a transmitter hears its echoes.
-      const uint32_t vehicle = transmitters_.vehicles[tx];
-      const bool itself = distance_m == 0 && vehicle != no_vehicle && vehicle == receivers_.vehicles[rx];
-      if (!itself && distance_m <= config_.max_distance_m) out.push_back({tx, rx});
+      const bool itself = distance_m == 0 && vehicle != no_vehicle && vehicle == receivers_.vehicles[present[k]];
+      if (!itself && distance_m <= most_m) out.push_back({tx, present[k]});
     }
   }
   return out;
