@@ -1,12 +1,12 @@
 // occlusion: is a leg of a solved path obstructed? One leg per work-item; lib/legs.clh has the rule.
-// Consumes solved paths; sets wt_solved::blocked.
-#include "lib/legs.clh"
+// Consumes solved paths; sets wt_solved::blocked. blockers: where given, what hides a path is noted there.
+#include "lib/blockers.clh"
 #include "wavetracer/device/arguments.h"
 
 kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                       const global double4* transmitters, const global double4* receivers,
                       const global wt_exact_surface* surfaces, global wt_solved* solved, const global double* vertices,
-                      const global uint* sequences, wt_legs_arguments args) {
+                      const global uint* sequences, global uint* blockers, wt_legs_arguments args) {
   const uint i = get_global_id(0) / (args.max_depth + 1), leg = get_global_id(0) % (args.max_depth + 1);
   if (i >= args.solved_count || leg > solved[i].depth) return;
   // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One
@@ -15,6 +15,7 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
   const size_t row = (size_t)i * args.max_depth;
   const wt_leg l = wt_leg_of(solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers);
   uint place;
-  if (wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &place))
-    atomic_or(&solved[i].blocked, 1u);
+  if (!wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &place)) return;
+  atomic_or(&solved[i].blocked, 1u);
+  wt_remember_blocker(blockers, args.blocker_mask, solved[i].node, solved[i].receiver, leg, place);
 }

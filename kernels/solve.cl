@@ -1,14 +1,38 @@
 // solve: the image method in double for every candidate; keeps those whose points lie inside their surfaces, on the lit
-// sides. Legs are not tested here (occlusion does that).
+// sides. Legs are not tested here (occlusion does that), but with WT_BLOCKERS against what hid the path before: such
+// paths are counted as hidden, and not kept.
+#ifdef WT_BLOCKERS
+#include "lib/blockers.clh"
+#endif
 #include "lib/reflections.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
+
+#ifdef WT_BLOCKERS
+inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const global uint* blockers, uint mask,
+                  const global wt_exact_surface* surfaces, const uint* chain, uint depth, uint node, uint receiver,
+                  double4 from, double4 to, const double3* points) {
+  const uint noted = blockers[wt_blocker_slot(node, receiver, mask)], k = noted >> WT_BLOCKER_SHIFT;
+  if (noted == WT_NONE || k > depth) return 0;
+  const uint first = k == 0, last = k == depth;
+  wt_leg leg;
+  leg.from = first ? from.xyz : points[k - 1];
+  leg.to = last ? to.xyz : points[k];
+  leg.source = first ? WT_NONE : chain[k - 1];
+  leg.goal = last ? WT_NONE : chain[k];
+  leg.own_from = leg.own_to = WT_NONE;  // of vehicles, which are not remembered
+  return wt_obstructed_at(triangles, triangle_slots, surfaces, &leg, noted & (WT_BLOCKER_PLACES - 1));
+}
+#define WT_BLOCKER_ARGUMENTS const global WT_LEAF *leaves, const global uint *blockers,
+#else
+#define WT_BLOCKER_ARGUMENTS
+#endif
 
 kernel void solve(const global ulong* table, const global uint* quarters, const global double4* transmitters,
                   const global double4* receivers, const global wt_exact_surface* surfaces,
                   const global double* triangles, const global wt_exact_instance* instances,
                   const global wt_candidate* candidates, global wt_solved* solved, global double* vertices,
-                  global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
+                  global uint* sequences, global wt_counters* counters, WT_BLOCKER_ARGUMENTS wt_solve_arguments args) {
   const uint i = get_global_id(0);
   if (i >= args.candidate_count) return;
   uint chain[WT_MAX_DEPTH], transmitter;
@@ -25,6 +49,13 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
   for (uint k = 0; k < depth; ++k) images[k + 1] = wt_reflected(surfaces + chain[k], images[k]);
   const double3 to = receivers[candidates[i].receiver].xyz;
   if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, to, points)) return;
+#ifdef WT_BLOCKERS
+  if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, chain, depth, candidates[i].node,
+             candidates[i].receiver, transmitters[transmitter], receivers[candidates[i].receiver], points)) {
+    atomic_inc(&counters->hidden);
+    return;
+  }
+#endif
   const uint slot = atomic_inc(&counters->solved);
   if (slot >= args.capacity) return;
   solved[slot].transmitter = transmitter;

@@ -1,6 +1,7 @@
 // occlusion: marks solved paths of which a leg is obstructed.
 // A surface blocks a leg whose ends lie on opposite sides of it, both farther than 0.1 mm from its plane.
 #pragma once
+#include "passes/blockers.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -11,7 +12,8 @@ namespace wavetracer {
 class Occlusion {
  public:
   Occlusion(gpu::Context& context, const DeviceScene& scene);
-  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
+  // blockers: where what hides a path is noted, or null.
+  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Blockers* blockers = nullptr);
 
  private:
   Work work_;

@@ -1,6 +1,7 @@
 // solve: exact reflection points of candidates by the image method, in double on the device.
 // The list grows until it holds every solved candidate.
 #pragma once
+#include "passes/blockers.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -10,14 +11,17 @@ namespace wavetracer {
 
 class Solve {
  public:
-  Solve(gpu::Context& context, uint32_t max_depth);
+  // remembers: paths that are hidden by what hid them before are not listed, but counted.
+  Solve(gpu::Context& context, uint32_t max_depth, bool remembers = false);
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                          const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<wt_candidate>& candidates,
-                         uint32_t candidate_count, gpu::Buffer<wt_counters>& counters);
+                         uint32_t candidate_count, gpu::Buffer<wt_counters>& counters,
+                         const Blockers* blockers = nullptr);
 
  private:
   gpu::Context& context_;
   Work work_;
+  bool remembers_;
   gpu::Kernel kernel_;
   SolvedList solved_;
 };

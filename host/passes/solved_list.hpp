@@ -11,6 +11,7 @@ struct SolvedList {
   gpu::Buffer<double> vertices;
   gpu::Buffer<uint32_t> sequences;
   uint32_t count = 0, max_depth = 0;
+  uint32_t hidden = 0;  // solved besides, and known to be obstructed (Blockers)
 
   // Room for so many rows of max_depth; what was there is lost.
   void reserve(gpu::Context& context, size_t rows) {

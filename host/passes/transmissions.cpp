@@ -18,7 +18,8 @@ void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, 
                             .extent_m = scene.extent_m,
                             .solved_count = solved.count,
                             .max_depth = solved.max_depth,
-                            .most = most_});
+                            .most = most_,
+                            .blocker_mask = 0});
 }
 
 }  // namespace wavetracer

@@ -22,7 +22,11 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
     kernel_(work_.range(candidate_count), "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
             scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates, solved_.headers, solved_.vertices,
             solved_.sequences, counters,
-            wt_solve_arguments{candidate_count, solved_.max_depth, static_cast<uint32_t>(solved_.headers.size())});
+            wt_solve_arguments{.candidate_count = candidate_count,
+                               .max_depth = solved_.max_depth,
+                               .capacity = static_cast<uint32_t>(solved_.headers.size()),
+                               .triangle_slots = 0,
+                               .blocker_mask = 0});
   };
   zero_counter(context_, counters, offsetof(wt_counters, solved), "wedge_solve");
   solved_.count = fill_list(

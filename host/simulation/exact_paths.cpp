@@ -18,11 +18,12 @@ uint32_t surface_count(const Scene& scene, const World& world) {
 }  // namespace
 
 ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
-                       const TraceConfig& trace, const Origins& origins)
+                       const TraceConfig& trace, const Origins& origins, bool frames_follow)
     : max_depth(trace.max_depth),
       candidates(context, tracing_depth(trace).reflections),
-      solve(context, trace.max_depth),
+      solve(context, trace.max_depth, frames_follow && !trace.transmission),
       visible(context, trace.max_depth) {
+  if (frames_follow && !trace.transmission) blockers.emplace(context);
   if (trace.diffraction) {
     std::optional<WedgePairs> two;
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
@@ -42,7 +43,7 @@ void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, Sol
   if (transmissions)
     (*transmissions)(scene, ends, solved);
   else
-    (*occlusion)(scene, ends, solved);
+    (*occlusion)(scene, ends, solved, blockers ? &*blockers : nullptr);
 }
 
 }  // namespace wavetracer

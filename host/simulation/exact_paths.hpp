@@ -18,9 +18,9 @@
 namespace wavetracer {
 
 struct ExactPaths {
-  // trace: see with_features.
+  // trace: see with_features. frames_follow: what is hidden in a frame is mostly hidden in the next one, too.
   ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
-             const TraceConfig& trace, const Origins& origins);
+             const TraceConfig& trace, const Origins& origins, bool frames_follow);
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
@@ -29,6 +29,7 @@ struct ExactPaths {
 
   uint32_t max_depth;
   Candidates candidates;
+  std::optional<Blockers> blockers;  // where frames follow each other and legs are not listed
   Solve solve;
   std::optional<DiffractedPaths> diffraction;
   std::optional<Scatter> scatter;

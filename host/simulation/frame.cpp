@@ -182,7 +182,7 @@ void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& e
   exact.visible.clear(set.counters());
   const auto see = [&](SolvedList& solved) {
     exact.check_legs(scene, ends, solved);  // occlusion or transmissions
-    counts.solved += solved.count;
+    counts.solved += solved.count + solved.hidden;
     exact.visible(solved, set.counters());  // visible
     account.device_done();
     watch.tell("paths", ++kinds_done, exact.kinds());
@@ -200,7 +200,7 @@ void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& e
       exact.candidates(scene, ends, set.table(), set.nodes(), nodes, set.counters());  // candidates
   counts.candidates = candidates;
   SolvedList& mirrored = exact.solve(scene, ends, set.table(), set.quarters(), exact.candidates.list(), candidates,
-                                     set.counters());  // solve
+                                     set.counters(), exact.blockers ? &*exact.blockers : nullptr);  // solve
   see(mirrored);
   set.keep(mirrored);
 

@@ -129,7 +129,7 @@ Setup::Setup(const Config& asked, const std::string& device_text)
       trails(make_trails(*this)),
       cache(make_cache(*this)),
       discovery(context, device_scene, trace, discovery_options(*this)),
-      exact_paths(context, device_scene, scene, world, trace, origins),
+      exact_paths(context, device_scene, scene, world, trace, origins, reuse),
       finish(context, scene, with_trace(config, trace), world) {}
 
 }  // namespace wavetracer

@@ -113,7 +113,7 @@ TEST_CASE("what the loop over depths enters, in one launch") {
       const Outcome loop = depth_by_depth(scene, rays, interactions);
       CHECK(at_once(scene, rays, interactions) == loop);
       if (count == 3000) CHECK(loop.sequences.size() > 100 * interactions);
-      if (count == 3000) CHECK(loop.ended[interactions] > 50);
+      if (count == 3000) CHECK(loop.ended[interactions] > 20);
     }
 }
 

@@ -27,7 +27,9 @@ std::set<uint32_t> found_one_by_one(const std::vector<TreeBox>& boxes, const glm
 
 TEST_CASE("the boxes at a point are those of a search one by one") {
   std::mt19937 random(7);
-  const auto between = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
   size_t found = 0;
   for (const size_t count : {0, 1, 4, 5, 1000}) {
     CAPTURE(count);

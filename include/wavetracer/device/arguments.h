@@ -75,6 +75,8 @@ typedef struct {
   wt_uint candidate_count;
   wt_uint max_depth;
   wt_uint capacity;
+  wt_uint triangle_slots;
+  wt_uint blocker_mask;
 } wt_solve_arguments;
 
 typedef struct {
@@ -93,7 +95,8 @@ typedef struct {
   float extent_m;
   wt_uint solved_count;
   wt_uint max_depth;
-  wt_uint most;  // transmissions of a path
+  wt_uint most;          // transmissions of a path
+  wt_uint blocker_mask;  // of the table of what hid paths before
 } wt_legs_arguments;
 
 typedef struct {
