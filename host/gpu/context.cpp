@@ -78,6 +78,14 @@ void Context::finish() {
   }
 }
 
+void Context::flush() {
+  try {
+    state_->queue.flush();
+  } catch (const cl::Error& error) {
+    state_->fail(error.err(), "flushing the queue");
+  }
+}
+
 std::map<std::string, double> Context::profile() {
   finish();
   try {

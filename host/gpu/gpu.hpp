@@ -196,6 +196,8 @@ class Context {
   void keep(const std::string& subject, const std::string& text);
 
   void finish();
+  // Hands what was enqueued to the device, and does not wait for it.
+  void flush();
 
   // Sums of the profiling events since the last reset, seconds per stage; finishes the queue first.
   std::map<std::string, double> profile();

@@ -61,9 +61,12 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
 }
 
 Paths Fields::read(uint32_t frame, const device::wt_row_totals& totals) {
+  context_.flush();  // the device works while the host makes room
+  Paths paths = sized_columns(totals.rows, totals.vertices, frame, ports_);
   const auto rows = rows_.read(0, totals.rows, host_rows_, "fields");
   const auto vertices = vertices_.read(0, totals.vertices, host_vertices_, "fields");
-  return columns_of(rows, vertices, frame, ports_);
+  fill_columns(paths, rows, vertices);
+  return paths;
 }
 
 }  // namespace wavetracer

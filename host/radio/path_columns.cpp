@@ -53,16 +53,19 @@ void take_vertex(Paths& paths, uint64_t at, const device::wt_vertex_row& from) {
 
 }  // namespace
 
-Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
-                 uint32_t frame, Ports ports) {
+Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports) {
   Paths paths;
   paths.tx_ports = ports.tx;
   paths.rx_ports = ports.rx;
-  tbb::parallel_invoke([&] { paths.a.resize(rows.size()); }, [&] { resize_numbers(paths, rows.size()); },
-                       [&] { resize_values(paths, rows.size()); },
-                       [&] { paths.vertex_position_m.resize(vertices.size()); },
-                       [&] { resize_vertices(paths, vertices.size()); });
+  tbb::parallel_invoke([&] { paths.a.resize(rows); }, [&] { resize_numbers(paths, rows); },
+                       [&] { resize_values(paths, rows); }, [&] { paths.vertex_position_m.resize(vertices); },
+                       [&] { resize_vertices(paths, vertices); });
   std::ranges::fill(paths.frame, frame);
+  return paths;
+}
+
+void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
+                  std::span<const device::wt_vertex_row> vertices) {
   for (size_t row = 0; row < rows.size(); ++row)
     paths.vertex_offset[row + 1] = paths.vertex_offset[row] + rows[row].depth;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, rows.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
@@ -71,6 +74,12 @@ Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const devi
   tbb::parallel_for(tbb::blocked_range<size_t>(0, vertices.size(), 1024), [&](const tbb::blocked_range<size_t>& range) {
     for (size_t at = range.begin(); at < range.end(); ++at) take_vertex(paths, at, vertices[at]);
   });
+}
+
+Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
+                 uint32_t frame, Ports ports) {
+  Paths paths = sized_columns(rows.size(), vertices.size(), frame, ports);
+  fill_columns(paths, rows, vertices);
   return paths;
 }
 

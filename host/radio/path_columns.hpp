@@ -12,7 +12,13 @@ struct Ports {
   uint32_t tx = 1, rx = 1;  // the most that any end of that side has
 };
 
-// rows: of one frame, in their order; vertices: of all rows, one after the other.
+// Paths of one frame with room for so many rows and vertices. Their pages are touched, which takes longer than all
+// else.
+Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports);
+// Fills paths of these sizes. rows: in their order; vertices: of all rows, one after the other.
+void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
+                  std::span<const device::wt_vertex_row> vertices);
+// Both.
 Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
                  uint32_t frame, Ports ports);
 
