@@ -1,4 +1,5 @@
-// bench_drive: frames of moving worlds. A hundred vehicles in munich that all talk to each other, links between
+// bench_drive: frames of moving worlds. A hundred vehicles in munich that all talk to each other, a thousand in a
+// generated city, links between
 // standing antennas among moving cars beside Sionna RT, placing instances, and memory over a thousand frames.
 // Assumes a quiet machine. "error" is 1 - the power recall against cold frames of many more rays; of memory, MiB grown.
 #include <fmt/format.h>
@@ -37,13 +38,15 @@ constexpr size_t sionna_gpu_cars = 100, sionna_cpu_cars = 20;
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
-  std::vector<std::string> cases{"drive", "continuous", "links", "top-level", "memory"};
+  std::vector<std::string> cases{"drive", "city", "continuous", "links", "top-level", "memory"};
   uint32_t frames = 30, memory_frames = 1000;
   double step_s = 0.04;
   size_t vehicles = 100, runs = 21;
   std::vector<uint64_t> rays, refresh;
   std::vector<uint32_t> depth{3, 5};
   uint64_t reference_rays = 0, link_rays = sionna_rays;
+  size_t city_vehicles = 1000;
+  uint32_t blocks = 12;
   double max_distance_m = 300;
   bool no_reference = false, gpu = false;
 };
@@ -79,6 +82,27 @@ Config talking_vehicles(const Options& options) {
   config.mounts = roof_mounts(types);
   config.links.max_distance_m = options.max_distance_m;
   return config;
+}
+
+// A thousand vehicles in the streets of a generated city, ten frames a second.
+void run_city(const Options& options, const std::string& command) {
+  constexpr double step_s = 0.1;
+  const std::string city = fmt::format("--seed 1 --blocks {0}x{0}", options.blocks);
+  Drive drive;
+  drive.frames = options.frames;
+  drive.name = fmt::format("city of {0} x {0} blocks, {1} vehicles, links of at most {2:g} m", options.blocks,
+                           options.city_vehicles, options.max_distance_m);
+  drive.config.scene.generate = city;
+  drive.config.trajectories.generate =
+      fmt::format("{} --vehicles {} --seconds {:.1f} --step {:.1f}", city, options.city_vehicles,
+                  std::max(options.frames - 1, 1u) * step_s, step_s);
+  drive.config.mounts = roof_mounts({"passenger", "delivery", "truck"});
+  drive.config.links.max_distance_m = options.max_distance_m;
+  drive.config.trace.max_depth = options.depth.front();
+  const References references = solve_references(drive, options.reference_rays, options.device);
+  for (const uint64_t refresh : options.refresh)
+    measure(drive, {.reuse = true, .rays = options.rays.back(), .refresh_rays = refresh}, references, options.device,
+            command);
 }
 
 // Two discoveries after the first.
@@ -227,6 +251,7 @@ int run(Options options, const std::string& command) {
   for (const std::string& name : options.cases) {
     try {
       if (name == "drive") run_drive(options, command);
+      if (name == "city") run_city(options, command);
       if (name == "continuous") run_continuous(options, command);
       if (name == "links") run_links(options, command);
       if (name == "top-level") print_top_level_times(options.device, options.runs, command);
@@ -248,10 +273,12 @@ int main(int argc, char** argv) {
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/munich/munich.xml");
-  app.add_option("--cases", options.cases, "some of drive, continuous, links, top-level, memory")
-      ->check(CLI::IsMember({"drive", "continuous", "links", "top-level", "memory"}));
+  app.add_option("--cases", options.cases, "some of drive, city, continuous, links, top-level, memory")
+      ->check(CLI::IsMember({"drive", "city", "continuous", "links", "top-level", "memory"}));
   app.add_option("--frames", options.frames, "frames of a drive, 0.04 s apart")->check(CLI::Range(2, 1000));
   app.add_option("--vehicles", options.vehicles, "vehicles of the case drive")->check(CLI::Range(2, 10000));
+  app.add_option("--city-vehicles", options.city_vehicles, "vehicles of the case city")->check(CLI::Range(2, 10000));
+  app.add_option("--blocks", options.blocks, "blocks of the city along each side")->check(CLI::Range(2, 100));
   app.add_option("--rays", options.rays, "rays per transmitter of cold frames; the most of them for reuse, too");
   app.add_option("--refresh", options.refresh, "rays per transmitter that frames launch anew where they reuse");
   app.add_option("--depth", options.depth, "depths of the case drive");
