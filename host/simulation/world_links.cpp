@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <array>
+#include <cmath>
+#include <iterator>
 
 #include "simulation/name_pattern.hpp"
 #include "wavetracer/error.hpp"
@@ -60,32 +63,52 @@ bool LinkRules::any_allowed() const {
   });
 }
 
-std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitters,
-                                        const std::vector<EndState>& receivers) const {
-  std::vector<uint32_t> present;
-  std::copy_if(wanted_receivers_.begin(), wanted_receivers_.end(), std::back_inserter(present),
-               [&](uint32_t rx) { return receivers[rx].present; });
-  const auto sending =
-      std::ranges::count_if(wanted_transmitters_, [&](uint32_t tx) { return transmitters[tx].present; });
-  check_pairs(static_cast<size_t>(sending), present.size(), most_present_pairs, "of one frame");
-  // A pair farther apart than the most along one axis is passed over before its distance is known.
-  std::vector<glm::dvec3> at;
-  for (const uint32_t rx : present) at.push_back(receivers[rx].position_m);
-  const double most_m = config_.max_distance_m;
-  std::vector<Link> out;
-  for (const uint32_t tx : wanted_transmitters_) {
-    if (!transmitters[tx].present) continue;
-    const glm::dvec3& from = transmitters[tx].position_m;
-    const uint32_t vehicle = transmitters_.vehicles[tx];
-    for (size_t k = 0; k < present.size(); ++k) {
-      const glm::dvec3 apart = glm::abs(at[k] - from);
-      if (apart.x > most_m || apart.y > most_m || !allowed(vehicle, receivers_.vehicles[present[k]])) continue;
-      const double distance_m = glm::length(apart);
+void LinkRules::add_links(uint32_t tx, const EndState& from, const Places& present, std::vector<Link>& out) const {
+  const double most_m = config_.max_distance_m, most_square = most_m * most_m * (1 + 1e-12);
+  const uint32_t vehicle = transmitters_.vehicles[tx];
+  constexpr size_t block = 256;
+  std::array<double, block> square;
+  for (size_t first = 0; first < present.ends.size(); first += block) {
+    const size_t count = std::min(block, present.ends.size() - first);
+    for (size_t k = 0; k < count; ++k) {  // no branch a pair, so that compilers use vectors
+      const double x = present.x[first + k] - from.position_m.x, y = present.y[first + k] - from.position_m.y;
+      const double z = present.z[first + k] - from.position_m.z;
+      square[k] = x * x + y * y + z * z;
+    }
+    for (size_t k = 0; k < count; ++k) {
+      if (square[k] > most_square) continue;
+      const uint32_t rx = present.ends[first + k];
+      if (!allowed(vehicle, receivers_.vehicles[rx]) || std::sqrt(square[k]) > most_m) continue;
       // What an antenna on a vehicle sends to itself is no link; a receiver at a transmitter hears its echoes.
-      const bool itself = distance_m == 0 && vehicle != no_vehicle && vehicle == receivers_.vehicles[present[k]];
-      if (!itself && distance_m <= most_m) out.push_back({tx, present[k]});
+      if (square[k] > 0 || vehicle == no_vehicle || vehicle != receivers_.vehicles[rx]) out.push_back({tx, rx});
     }
   }
+}
+
+std::vector<Link> LinkRules::operator()(const std::vector<EndState>& transmitters,
+                                        const std::vector<EndState>& receivers) const {
+  Places present;
+  for (const uint32_t rx : wanted_receivers_) {
+    if (!receivers[rx].present) continue;
+    present.ends.push_back(rx);
+    present.x.push_back(receivers[rx].position_m.x);
+    present.y.push_back(receivers[rx].position_m.y);
+    present.z.push_back(receivers[rx].position_m.z);
+  }
+  std::vector<uint32_t> sending;
+  std::ranges::copy_if(wanted_transmitters_, std::back_inserter(sending),
+                       [&](uint32_t tx) { return transmitters[tx].present; });
+  check_pairs(sending.size(), present.ends.size(), most_present_pairs, "of one frame");
+  // In parts of 128 transmitters, on all cores where there are several.
+  constexpr size_t part = 128;
+  std::vector<std::vector<Link>> parts((sending.size() + part - 1) / part);
+  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) {
+    for (size_t k = i * part; k < std::min((i + 1) * part, sending.size()); ++k)
+      add_links(sending[k], transmitters[sending[k]], present, parts[i]);
+  });
+  if (parts.size() == 1) return std::move(parts.front());
+  std::vector<Link> out;
+  for (const std::vector<Link>& links : parts) out.insert(out.end(), links.begin(), links.end());
   return out;
 }
 

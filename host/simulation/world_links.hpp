@@ -33,7 +33,14 @@ class LinkRules {
   bool any_allowed() const;
 
  private:
+  // Ends that are present, with their positions in metres.
+  struct Places {
+    std::vector<uint32_t> ends;
+    std::vector<double> x, y, z;
+  };
   bool allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const;
+  // Appends the links of a transmitter that is present.
+  void add_links(uint32_t tx, const EndState& from, const Places& present, std::vector<Link>& out) const;
 
   LinksConfig config_;
   LinkSide transmitters_, receivers_;
