@@ -54,57 +54,65 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
 #define WT_WAITING (2 * WT_ROUND * WT_GROUP)
 #define WT_NODE_SHIFT 24u  // in the word of a pair; receivers are below
 #define WT_RECEIVER_BITS ((1u << WT_NODE_SHIFT) - 1)
+#define WT_TEAM 32u  // lanes that take the receivers of one sequence
 
-// Is the pair a link, and does it pass the first test?
-inline int passes(const local wt_followed* s, uint receiver, float3 at, const global ushort* links, uint groups) {
-  if (s->depth == WT_NONE || !(links[s->transmitter * groups + receiver / 16] >> receiver % 16 & 1)) return 0;
-  return s->depth == 0 || wt_may_reach(s, at.x, at.y, at.z);
+// Where a lane has come to: its place among the links of sequence n, and the first place of its team.
+typedef struct {
+  uint n, place, team;
+} walk;
+
+// The next sequence of the team that has links left.
+inline void step_on(walk* w, const local uint* link_counts, uint count, uint lane) {
+  while (w->n < count && w->team >= link_counts[w->n]) {
+    w->n += WT_GROUP / WT_TEAM;
+    w->team = 0;
+  }
+  w->place = w->team + lane % WT_TEAM;
 }
 
-inline float3 position_of(const global float* receivers, uint receiver, uint capacity) {
-  const size_t r = min(receiver, capacity - 1);
-  return (float3)(receivers[r], receivers[capacity + r], receivers[2 * (size_t)capacity + r]);
-}
-
-// WT_NODES sequences per work-group with all receivers.
+// WT_NODES sequences per work-group with the receivers that their transmitters have links to. linked: for each
+// transmitter and one more where its receivers begin, then the receivers.
 __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
     const global ulong* table, const global uint* nodes, const global double4* transmitters,
     const global double4* exact_receivers, const global wt_exact_surface* exact, const global wt_surface* surfaces,
-    const global float* receivers, const global ushort* links, global wt_candidate* out, global wt_counters* counters,
+    const global float* receivers, const global uint* linked, global wt_candidate* out, global wt_counters* counters,
     wt_candidates_arguments args) {
   local wt_followed sequences[WT_NODES];
+  local uint first_links[WT_NODES], link_counts[WT_NODES], unfinished[2];
   local uint waiting[WT_WAITING], kept[WT_WAITING], waiting_count, kept_count, first_slot;
-  const uint lane = get_local_id(0), first_node = get_group_id(0) * WT_NODES;
+  const uint lane = get_local_id(0), first_node = get_group_id(0) * WT_NODES, capacity = args.receiver_capacity;
   const uint count = min((uint)WT_NODES, args.node_count - min(first_node, args.node_count));
-  for (uint n = lane; n < count; n += WT_GROUP)
-    if (!wt_follow_back(table, nodes[first_node + n], transmitters, exact, surfaces, args, sequences + n))
-      sequences[n].depth = WT_NONE;
-  if (lane == 0) waiting_count = kept_count = 0;
+  for (uint n = lane; n < count; n += WT_GROUP) {
+    const int known = wt_follow_back(table, nodes[first_node + n], transmitters, exact, surfaces, args, sequences + n);
+    first_links[n] = known ? linked[sequences[n].transmitter] : 0u;
+    link_counts[n] = known ? linked[sequences[n].transmitter + 1] - first_links[n] : 0u;
+  }
+  if (lane == 0) waiting_count = kept_count = unfinished[0] = unfinished[1] = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  // Neighbours take neighbouring receivers, which they keep for all sequences; some sequences at a time where there are
-  // few receivers.
-  const uint capacity = args.receiver_capacity, together = WT_GROUP / args.lanes;
-  uint receiver = lane % args.lanes, begin = 0, steps = 0;
-  float3 at = position_of(receivers, receiver, capacity);
-  for (uint row = 0; row < capacity;) {
-    const uint n = begin + lane / args.lanes;
-    if (n < count && receiver < capacity && passes(sequences + n, receiver, at, links, capacity / 16))
-      waiting[atomic_inc(&waiting_count)] = n << WT_NODE_SHIFT | receiver;
-    begin += together;
-    if (begin >= count) {
-      begin = 0;
-      row += args.lanes;
-      receiver += args.lanes;
-      at = position_of(receivers, receiver, capacity);
+  walk w = {lane / WT_TEAM, 0, 0};
+  step_on(&w, link_counts, count, lane);
+  uint more = 1;
+  for (uint turn = 0; more; turn ^= 1) {
+    for (uint round = 0; round < WT_ROUND && w.n < count; ++round) {
+      if (w.place < link_counts[w.n]) {
+        const uint r = linked[first_links[w.n] + w.place];
+        if (sequences[w.n].depth == 0 ||
+            wt_may_reach(sequences + w.n, receivers[r], receivers[capacity + r], receivers[2 * (size_t)capacity + r]))
+          waiting[atomic_inc(&waiting_count)] = w.n << WT_NODE_SHIFT | r;
+      }
+      w.team += WT_TEAM;
+      step_on(&w, link_counts, count, lane);
     }
-    if (++steps % WT_ROUND != 0 && row < capacity) continue;
+    if (w.n < count) unfinished[turn] = 1;
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint now = waiting_count;
+    more = unfinished[turn];
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (now <= WT_ROUND * WT_GROUP && row < capacity) continue;
-    for (uint w = lane; w < now; w += WT_GROUP) {
-      const uint pair = waiting[w];
+    if (lane == 0) unfinished[turn] = 0;  // nobody writes it before the next barrier
+    if (now <= WT_ROUND * WT_GROUP && more) continue;
+    for (uint k = lane; k < now; k += WT_GROUP) {
+      const uint pair = waiting[k];
       if (wt_in_boxes(sequences + (pair >> WT_NODE_SHIFT), exact, surfaces,
                       exact_receivers[pair & WT_RECEIVER_BITS].xyz))
         kept[atomic_inc(&kept_count)] = pair;

@@ -3,7 +3,6 @@
 #include "passes/candidates.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <string>
 
 #include "passes/growing_list.hpp"
@@ -39,15 +38,15 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
                                 gpu::Buffer<wt_counters>& counters) {
   if (ends.receiver_capacity == 0) return 0;
   const bool alone = tuning_of(context_.info()).alone;
+  const gpu::Memory& links = alone ? static_cast<const gpu::Memory&>(ends.links) : ends.linked;
   const gpu::Range range = alone ? work_.range(node_count) : work_.groups(node_count);
   return fill_list(
       counters, &wt_counters::candidates, "candidates", [&] { return list_.size(); },
       [&] {
         kernel_(range, "candidates", trie, nodes, ends.transmitters, ends.receivers, scene.exact_surfaces,
-                scene.surfaces, ends.receiver_planes, ends.links, list_, counters,
+                scene.surfaces, ends.receiver_planes, links, list_, counters,
                 wt_candidates_arguments{.node_count = node_count,
                                         .receiver_capacity = ends.receiver_capacity,
-                                        .lanes = std::min(std::bit_ceil(ends.receiver_capacity), work_.group),
                                         .transmitter_count = ends.transmitter_count,
                                         .max_reflections = max_reflections_,
                                         .capacity = static_cast<uint32_t>(list_.size())});

@@ -3,6 +3,7 @@
 // Positions are recentred metres; the instance is that of the vehicle that carries the end, -1 where none does.
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <vector>
 
 #include "gpu/gpu.hpp"
@@ -15,6 +16,8 @@ struct RadioEnds {
   gpu::Buffer<float> receiver_planes;           // three planes of receiver_capacity
   gpu::Buffer<uint16_t> links;                  // bit b of word tx * (receiver_capacity / 16) + g: receiver 16 g + b
   std::vector<uint16_t> link_words;             // what `links` has
+  gpu::Buffer<uint32_t> linked;  // the same as lists: where the receivers of each transmitter begin and the last ones
+                                 // end, then the receivers
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
 };
 
@@ -25,6 +28,20 @@ inline std::vector<uint16_t> link_masks(const RadioEnds& ends, const std::vector
   for (const Link& link : links)
     mask[size_t{link.tx} * groups + link.rx / 16] |= static_cast<uint16_t>(1u << link.rx % 16);
   return mask;
+}
+
+// Links as RadioEnds::linked has them.
+inline std::vector<uint32_t> link_lists(uint32_t transmitter_count, const std::vector<uint16_t>& masks) {
+  const size_t groups = transmitter_count > 0 ? masks.size() / transmitter_count : 0;
+  std::vector<uint32_t> out(transmitter_count + 1);
+  for (uint32_t tx = 0; tx < transmitter_count; ++tx) {
+    out[tx] = static_cast<uint32_t>(out.size());
+    for (uint32_t group = 0; group < groups; ++group)
+      for (uint32_t word = masks[tx * groups + group]; word; word &= word - 1)
+        out.push_back(16 * group + static_cast<uint32_t>(std::countr_zero(word)));
+  }
+  out[transmitter_count] = static_cast<uint32_t>(out.size());
+  return out;
 }
 
 // Positions and the instances that carry them, as wt_end_instance reads them.
@@ -61,6 +78,7 @@ inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::ve
   std::vector<uint16_t> masks = link_masks(ends, links);
   if (ends.links && masks == ends.link_words) return;
   upload(ends.links, masks, "links");
+  if (!context.info().cpu) upload(ends.linked, link_lists(ends.transmitter_count, masks), "lists of links");
   ends.link_words = std::move(masks);
 }
 

@@ -64,7 +64,6 @@ typedef struct {
 typedef struct {
   wt_uint node_count;
   wt_uint receiver_capacity;
-  wt_uint lanes;  // of a work-group for the receivers of a sequence, a power of two
   wt_uint transmitter_count;
   wt_uint max_reflections;
   wt_uint capacity;
