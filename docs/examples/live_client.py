@@ -87,6 +87,11 @@ class Server:
         self.frames += 1
         return self.ask({"message": "frame", "frame": self.frames, "time_s": time_s, "vehicles": vehicles, **more})
 
+    def at(self, time_s, **more):
+        """The channels at a time between the last two frames of poses."""
+        self.frames += 1
+        return self.ask({"message": "at", "frame": self.frames, "time_s": time_s, **more})
+
     def close(self):
         self.lines.close()
         self.socket.close()

@@ -252,24 +252,41 @@ FrameMessage frame_of(const json& value) {
   return out;
 }
 
+FrameMessage instant_of(const json& value) {
+  const Object object(value, "at", {"message", "frame", "time_s", "detail"});
+  FrameMessage out;
+  out.between = true;
+  out.frame = object.count("frame", max_frame);
+  try {
+    out.time_s = object.number("time_s", max_time_s);
+    if (object.has("detail")) out.detail = detail_of(object);
+  } catch (ProtocolError& error) {
+    error.frame = out.frame;
+    throw;
+  }
+  return out;
+}
+
 }  // namespace
 
 Message parse_message(std::string_view line, size_t max_vehicles) {
   const json value = parse_json(line, max_vehicles);
   if (!value.is_object()) refuse("bad_json", "a message must be an object, {\"message\": ...}");
   const auto kind = value.find("message");
-  if (kind == value.end()) refuse("missing_key", "\"message\" is missing: give \"hello\", \"frame\" or \"bye\"");
+  if (kind == value.end())
+    refuse("missing_key", "\"message\" is missing: give \"hello\", \"frame\", \"at\" or \"bye\"");
   if (!kind->is_string()) refuse("bad_value", "\"message\" must be a string");
   const auto& name = kind->get_ref<const std::string&>();
   if (name == "hello") return hello_of(value);
   if (name == "frame") return frame_of(value);
+  if (name == "at") return instant_of(value);
   if (name == "bye") {
     Object(value, "bye", {"message"});
     return Bye{};
   }
   refuse("unknown_message",
-         in_quotes(name) + " must be one of hello, frame, bye" +
-             (name.size() <= max_quoted_bytes ? spelling_hint(name, {"hello", "frame", "bye"}) : ""));
+         in_quotes(name) + " must be one of hello, frame, at, bye" +
+             (name.size() <= max_quoted_bytes ? spelling_hint(name, {"hello", "frame", "at", "bye"}) : ""));
 }
 
 }  // namespace wavetracer::live

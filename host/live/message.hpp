@@ -33,6 +33,7 @@ struct FrameMessage {
   double time_s = 0;
   std::vector<LivePose> vehicles;
   bool cold = false;             // forget what earlier frames have found
+  bool between = false;          // "at": no poses, but a time between those of the last two frames
   std::optional<Detail> detail;  // instead of that of hello
 };
 

@@ -13,15 +13,6 @@ struct Curve {
   double value, rate;
 };
 
-// The cubic over [0, duration_s] that starts at 0 with slope a and ends at `rise` with slope b, and its derivative.
-template <class T>
-struct Cubic {
-  T value, rate;
-  Cubic(const T& rise, const T& a, const T& b, double duration_s, double u)
-      : value((u * u * (3 - 2 * u)) * rise + (duration_s * u * (1 - u)) * ((1 - u) * a - u * b)),
-        rate((6 * u * (1 - u) / duration_s) * rise + ((1 - u) * (1 - 3 * u)) * a + (u * (3 * u - 2)) * b) {}
-};
-
 // The difference between the angles of two samples, the shorter way round for yaw.
 double turn(const Sample& from, const Sample& to, double Sample::*angle) {
   return std::remainder(to.*angle - from.*angle, 2 * std::numbers::pi);

@@ -16,6 +16,15 @@ struct Pose {
   glm::dvec3 angular_velocity_rad_s;  // in the scene's axes; a point at r from position_m moves with v + cross(w, r)
 };
 
+// The cubic over [0, duration_s] that starts at 0 with slope a and ends at `rise` with slope b, and its derivative.
+template <class T>
+struct Cubic {
+  T value, rate;
+  Cubic(const T& rise, const T& a, const T& b, double duration_s, double u)
+      : value((u * u * (3 - 2 * u)) * rise + (duration_s * u * (1 - u)) * ((1 - u) * a - u * b)),
+        rate((6 * u * (1 - u) / duration_s) * rise + ((1 - u) * (1 - 3 * u)) * a + (u * (3 * u - 2)) * b) {}
+};
+
 // A time this near to an end of a segment is that end: k * step is not the decimal number of a file to the last bit.
 inline constexpr double time_tolerance_s = 1e-6;
 

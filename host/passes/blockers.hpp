@@ -1,5 +1,5 @@
-// What hid solved paths in earlier frames (kernels/lib/blockers.clh): occlusion notes it, solve asks it first. Which paths
-// are found does not depend on it; it is worth its memory where frames follow each other.
+// What hid solved paths in earlier frames (kernels/lib/blockers.clh): occlusion notes it, solve asks it first. Which
+// paths are found does not depend on it; it is worth its memory where frames follow each other.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "wavetracer/device/records.h"

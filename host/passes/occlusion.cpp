@@ -16,7 +16,8 @@ void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, Solv
                             .extent_m = scene.extent_m,
                             .solved_count = solved.count,
                             .max_depth = solved.max_depth,
-                            .most = 0, .blocker_mask = Blockers::mask});
+                            .most = 0,
+                            .blocker_mask = Blockers::mask});
 }
 
 }  // namespace wavetracer

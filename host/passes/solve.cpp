@@ -14,8 +14,8 @@ Solve::Solve(gpu::Context& context, uint32_t max_depth, bool remembers)
     : context_(context),
       work_(tuning_of(context.info()).exact),
       remembers_(remembers),
-      kernel_(context.kernel("solve", "solve",
-                             remembers ? gpu::Definitions{{"WT_BLOCKERS", "1"}} : gpu::Definitions{})) {
+      kernel_(
+          context.kernel("solve", "solve", remembers ? gpu::Definitions{{"WT_BLOCKERS", "1"}} : gpu::Definitions{})) {
   solved_.max_depth = std::max(max_depth, 1u);
   solved_.reserve(context, 1 << 14);
 }
@@ -35,14 +35,14 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                                .blocker_mask = Blockers::mask});
   };
   wt_counters now{};
-  solved_.count = grow_until_filled(
-      [&] { remembers_ ? run(scene.leg_leaves(), blockers->places) : run(); },
-      [&] { return (now = counters.read_one(0, "solve")).solved; }, [&] { return solved_.headers.size(); },
-      [&](size_t rows) {
-        solved_.reserve(context_, rows);
-        now.solved = now.hidden = 0;
-        counters.write(std::vector{now}, 0, "solve");
-      });
+  solved_.count = grow_until_filled([&] { remembers_ ? run(scene.leg_leaves(), blockers->places) : run(); },
+                                    [&] { return (now = counters.read_one(0, "solve")).solved; },
+                                    [&] { return solved_.headers.size(); },
+                                    [&](size_t rows) {
+                                      solved_.reserve(context_, rows);
+                                      now.solved = now.hidden = 0;
+                                      counters.write(std::vector{now}, 0, "solve");
+                                    });
   solved_.hidden = now.hidden;
   return solved_;
 }

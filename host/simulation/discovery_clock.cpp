@@ -19,14 +19,13 @@ std::vector<bool> DiscoveryClock::active(const WorldState& world) {
   return out;
 }
 
-bool DiscoveryClock::due(const WorldState& world, bool cold) {
+bool DiscoveryClock::due(const WorldState& world, bool cold, DiscoveryMark& last) const {
   std::vector<bool> now = active(world);
-  bool wanted = cold || !spares() || !last_s_ || std::abs(world.time_s - *last_s_) >= every_s_ - tolerance_s;
-  for (size_t i = 0; i < now.size() && !wanted; ++i) wanted = now[i] && !(i < last_active_.size() && last_active_[i]);
-  if (!wanted) return false;
-  last_s_ = world.time_s;
-  last_active_ = std::move(now);
-  return true;
+  bool wanted = cold || !spares() || world.arrivals || !last.time_s ||
+                std::abs(world.time_s - *last.time_s) >= every_s_ - tolerance_s;
+  for (size_t i = 0; i < now.size() && !wanted; ++i) wanted = now[i] && !(i < last.active.size() && last.active[i]);
+  if (wanted) last = {world.time_s, std::move(now)};
+  return wanted;
 }
 
 std::optional<std::string> unmeasured_warning(double discover_every_s, double step_s, uint64_t frames,

@@ -15,9 +15,9 @@ class DiscoveryClock {
   explicit DiscoveryClock(double every_s) : every_s_(every_s) {}
 
   // Whether the frame of this world launches rays. It does if it is cold, if every_s have passed since the last one
-  // that did, in either direction of time, or if a vehicle is there or a transmitter sends that did not in that frame.
-  // If so, it is the last one from now on.
-  bool due(const WorldState& world, bool cold);
+  // that did, in either direction of time, or if a vehicle is there or a transmitter sends that did not in that frame,
+  // or has come since. If so, it is the last one from now on.
+  bool due(const WorldState& world, bool cold, DiscoveryMark& last) const;
   bool spares() const { return every_s_ > 0; }
 
  private:
@@ -25,8 +25,6 @@ class DiscoveryClock {
   static std::vector<bool> active(const WorldState& world);
 
   double every_s_;
-  std::optional<double> last_s_;
-  std::vector<bool> last_active_;
 };
 
 // What to say of shards that are no longer than discover_every_s: they begin cold, so nothing is measured in them.

@@ -69,7 +69,9 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   const std::vector<Link>& links = block ? block->solved : out.world.links;
   set_radio_ends(s_.context, ends_, out.world.transmitters, out.world.receivers, links, s_.origins.listeners);
   const RadioEnds& ends = ends_;
-  const bool warm = s_.reuse && warm_frames_ > 0, searches = clock_.due(out.world, !warm);
+  const bool warm = s_.reuse && warm_frames_ > 0, spared = task.between && warm && clock_.spares();
+  DiscoveryMark& discovery = task.discovery ? *task.discovery : discovery_;
+  const bool searches = !spared && clock_.due(out.world, !warm, discovery);
   std::optional<Paths> known;  // before rays add to it
   if (searches && warm && clock_.spares()) known = known_paths(task, out.world, ends, account);
   if (searches)

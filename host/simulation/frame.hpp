@@ -18,7 +18,9 @@ struct FrameTask {
   EndName transmitter_name = {}, receiver_name = {};  // for warnings; asked after the poses
   std::optional<TransmitterRange> transmitters = {};  // only the links of these; not given: all
   bool timed = true;                                  // its stages on the device are profiled
-  bool compiling = false;                             // launches are there to be compiled: few rays, and no warnings
+  DiscoveryMark* discovery = nullptr;                 // of the source of poses; null: of the drive
+  bool between = false;    // two frames of poses: launches no rays where frames may do without
+  bool compiling = false;  // launches are there to be compiled: few rays, and no warnings
 };
 
 class FrameLoop {
@@ -41,6 +43,7 @@ class FrameLoop {
 
   Setup& s_;
   DiscoveryClock clock_;
+  DiscoveryMark discovery_;   // of the drive
   RadioEnds ends_;            // of the frame
   uint64_t warm_frames_ = 0;  // that launched rays since the last cold one, which counts
 };

@@ -37,6 +37,22 @@ glm::dvec3 turning(const glm::dquat& from, const glm::dquat& to, double seconds)
 // Quaternions that are unit up to rounding stay as they are, to the last bit.
 glm::dquat unit(const glm::dquat& q) { return std::abs(glm::dot(q, q) - 1) <= 1e-12 ? q : glm::normalize(q); }
 
+// At the share u of the way between two poses; see LivePlaces::between.
+Pose pose_between(const LiveTraffic::Vehicle& from, const LiveTraffic::Vehicle& to, double duration_s, double u) {
+  const glm::dvec3 way_m = to.position_m - from.position_m, even_m_s = way_m / duration_s;
+  if (glm::length(even_m_s) > jump_m_s) {
+    const LiveTraffic::Vehicle& at = u < 1 ? from : to;
+    return {at.position_m, at.orientation, glm::dvec3(0), glm::dvec3(0)};
+  }
+  const Cubic<glm::dvec3> cubic(way_m, from.velocity_m_s.value_or(even_m_s), to.velocity_m_s.value_or(even_m_s),
+                                duration_s, u);
+  const glm::dvec3 turn_rad_s = turning(from.orientation, to.orientation, duration_s);
+  const double rate = glm::length(turn_rad_s);
+  const glm::dquat turned =
+      rate > 0 ? glm::angleAxis(rate * duration_s * u, turn_rad_s / rate) * from.orientation : from.orientation;
+  return {from.position_m + cubic.value, unit(turned), cubic.rate, turn_rad_s};
+}
+
 }  // namespace
 
 LivePlaces::LivePlaces(const Config& config, const VehicleModels& vehicles, const Scene& scene)
@@ -128,12 +144,12 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, s
   }
 
   const double passed_s = time_s - traffic.time_s;
-  LiveTraffic next{{}, time_s, traffic.frames};
+  LiveTraffic next{{}, time_s, traffic.frames, {}, traffic.time_s, traffic.discovery};
   std::vector<PlacedPose> out;
   for (const LivePose& pose : poses) {
     const auto known = traffic.vehicles.find(pose.id);
     const bool stays = known != traffic.vehicles.end();
-    LiveTraffic::Vehicle now{0, pose.position_m, unit(pose.orientation)};
+    LiveTraffic::Vehicle now{0, pose.position_m, unit(pose.orientation), pose.velocity_m_s};
     if (stays) {
       now.place = known->second.place;
     } else {
@@ -149,20 +165,52 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, s
       now.place = static_cast<uint32_t>(free - taken.begin());
     }
     Pose placed{pose.position_m - origin_m_, now.orientation, glm::dvec3(0), glm::dvec3(0)};
+    bool jumped = false;
     if (stays && passed_s > 0) {
       const glm::dvec3 velocity_m_s = (pose.position_m - known->second.position_m) / passed_s;
-      if (glm::length(velocity_m_s) <= jump_m_s) {
+      jumped = glm::length(velocity_m_s) > jump_m_s;
+      if (!jumped) {
         placed.velocity_m_s = velocity_m_s;
+        if (!now.velocity_m_s) now.velocity_m_s = velocity_m_s;
         const glm::dvec3 turn_rad_s = turning(known->second.orientation, now.orientation, passed_s);
         if (within(turn_rad_s, most_rad_s)) placed.angular_velocity_rad_s = turn_rad_s;
       }
     }
     placed.velocity_m_s = pose.velocity_m_s.value_or(placed.velocity_m_s);
     placed.angular_velocity_rad_s = pose.angular_velocity_rad_s.value_or(placed.angular_velocity_rad_s);
-    out.push_back({now.place, placed});
+    out.push_back({now.place, placed, pose.id, !stays || jumped});
     next.vehicles.emplace(pose.id, now);
   }
+  next.earlier = std::move(traffic.vehicles);
   traffic = std::move(next);
+  return out;
+}
+
+std::vector<PlacedPose> LivePlaces::between(const LiveTraffic& traffic, double time_s) const {
+  const double duration_s = traffic.time_s - traffic.earlier_s;
+  if (traffic.frames < 2 || !(duration_s > 0))
+    throw PoseError("out_of_time", "there are no two frames of poses yet, the later one after the earlier one");
+  if (!(time_s >= traffic.earlier_s && time_s <= traffic.time_s))
+    throw PoseError("out_of_time", fmt::format("time_s is {}, and the last two frames of poses are of {} and {} s",
+                                               time_s, traffic.earlier_s, traffic.time_s));
+  std::vector<PlacedPose> out;
+  const auto alone = [&](const LiveTraffic::Vehicles& in, const LiveTraffic::Vehicles& other) {
+    for (const auto& [id, vehicle] : in)
+      if (!other.contains(id))
+        out.push_back({vehicle.place,
+                       {vehicle.position_m - origin_m_, vehicle.orientation,
+                        vehicle.velocity_m_s.value_or(glm::dvec3(0)), glm::dvec3(0)},
+                       id});
+  };
+  if (time_s == traffic.earlier_s) alone(traffic.earlier, traffic.vehicles);
+  if (time_s == traffic.time_s) alone(traffic.vehicles, traffic.earlier);
+  const double u = (time_s - traffic.earlier_s) / duration_s;
+  for (const auto& [id, to] : traffic.vehicles) {
+    const auto from = traffic.earlier.find(id);
+    if (from == traffic.earlier.end()) continue;
+    out.push_back({to.place, pose_between(from->second, to, duration_s, u), id});
+    out.back().pose.position_m -= origin_m_;
+  }
   return out;
 }
 

@@ -2,6 +2,7 @@
 // Assumes that instances and ends are made once, so that a vehicle that comes takes a place that is free.
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "motion/pose.hpp"
@@ -14,6 +15,8 @@ namespace wavetracer {
 struct PlacedPose {
   uint32_t place;  // the index of its track
   Pose pose;       // recentred
+  std::string id;
+  bool arrives = false;  // it was not there in the frame before, or has jumped
 };
 
 class LivePlaces {
@@ -29,6 +32,11 @@ class LivePlaces {
   // The vehicles of a frame in their places: those of the last frame keep theirs, others take the first free one of
   // their type. Updates the traffic; throws PoseError and leaves it as it was.
   std::vector<PlacedPose> place(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const;
+
+  // The vehicles at a time between the last two frames, both included: those that were in both of them, on the cubic
+  // with the positions and velocities of both, turning evenly; a jump stays where it was. At the time of a frame also
+  // those that were in that one alone. Throws PoseError for another time, or where there are no two frames.
+  std::vector<PlacedPose> between(const LiveTraffic& traffic, double time_s) const;
 
  private:
   const LiveType& type_of(const LivePose& pose) const;

@@ -24,6 +24,21 @@ struct Simulation::State {
             .receiver_name = name(setup.config.receivers)};
   }
 
+  // A frame of a live world. pose: the world, and the names in the frame.
+  LiveFrame live_frame(const LiveTraffic& traffic, DiscoveryMark& discovery, bool between,
+                       const std::function<WorldState(LiveFrame&)>& pose) {
+    LiveFrame out;
+    FrameTask task{.transmitter_name = [&](uint32_t end) { return out.transmitters[end]; },
+                   .receiver_name = [&](uint32_t end) { return out.receivers[end]; }};
+    task.frame = traffic.frames;
+    task.discovery = &discovery;
+    task.between = between;
+    task.pose = [&] { return pose(out); };
+    task.timed = timed();
+    out.result = frames.run(task);
+    return out;
+  }
+
   // Whether the frame that comes next is profiled.
   bool timed() {
     const uint64_t run = runs++;
@@ -109,20 +124,20 @@ FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters)
 }
 
 LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) {
-  const World& world = state_->setup.world;
-  LiveFrame out;
-  FrameTask task{.transmitter_name = [&](uint32_t end) { return out.transmitters[end]; },
-                 .receiver_name = [&](uint32_t end) { return out.receivers[end]; }};
-  task.frame = traffic.frames;
-  task.pose = [&] {
+  return state_->live_frame(traffic, traffic.discovery, false, [&](LiveFrame& out) {
+    const World& world = state_->setup.world;
     WorldState state = world.live_state(traffic, time_s, poses);
     ++traffic.frames;
     world.set_names(traffic, out);
     return state;
-  };
-  task.timed = state_->timed();
-  out.result = state_->frames.run(task);
-  return out;
+  });
+}
+
+LiveFrame Simulation::run_between(const LiveTraffic& traffic, double time_s) {
+  DiscoveryMark discovery = traffic.discovery;
+  return state_->live_frame(traffic, discovery, true, [&](LiveFrame& out) {
+    return state_->setup.world.live_state_between(traffic, time_s, out);
+  });
 }
 
 const std::vector<LiveType>& Simulation::live_types() const { return state_->setup.world.live_types(); }

@@ -93,6 +93,8 @@ struct World::State {
   void set_reach(const glm::dvec3& origin_m);
   void warn_outside(const Scene& scene);
   WorldState state(double time_s, const std::vector<VehicleState>& vehicles) const;
+  WorldState live_state(double time_s, const std::vector<PlacedPose>& placed) const;
+  void set_names(const std::vector<std::string>& ids, LiveFrame& frame) const;
 };
 
 void World::State::add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
@@ -342,21 +344,37 @@ const LivePlaces& World::places() const {
 const std::vector<LiveType>& World::live_types() const { return places().types(); }
 const LiveBounds& World::live_bounds() const { return places().bounds(); }
 
-WorldState World::live_state(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const {
-  const State& s = *state_;
-  const std::vector<PlacedPose> placed = places().place(traffic, time_s, poses);
+WorldState World::State::live_state(double time_s, const std::vector<PlacedPose>& placed) const {
   std::vector<VehicleState> vehicles;
-  vehicles.reserve(s.trajectories.tracks.size());
-  for (const Track& track : s.trajectories.tracks) vehicles.push_back({*pose_at(track, 0), false});
-  for (const auto& [place, pose] : placed) vehicles[place] = {pose, true};
-  return s.state(time_s, vehicles);
+  vehicles.reserve(trajectories.tracks.size());
+  for (const Track& track : trajectories.tracks) vehicles.push_back({*pose_at(track, 0), false});
+  for (const PlacedPose& at : placed) vehicles[at.place] = {at.pose, true};
+  WorldState out = state(time_s, vehicles);
+  out.arrivals = std::ranges::any_of(placed, &PlacedPose::arrives);
+  return out;
+}
+
+WorldState World::live_state(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const {
+  return state_->live_state(time_s, places().place(traffic, time_s, poses));
+}
+
+WorldState World::live_state_between(const LiveTraffic& traffic, double time_s, LiveFrame& names) const {
+  const std::vector<PlacedPose> placed = places().between(traffic, time_s);
+  std::vector<std::string> ids(state_->trajectories.tracks.size());
+  for (const PlacedPose& at : placed) ids[at.place] = at.id;
+  state_->set_names(ids, names);
+  return state_->live_state(time_s, placed);
 }
 
 void World::set_names(const LiveTraffic& traffic, LiveFrame& frame) const {
-  const State& s = *state_;
-  std::vector<std::string> ids(s.trajectories.tracks.size());
+  std::vector<std::string> ids(state_->trajectories.tracks.size());
   for (const auto& [id, vehicle] : traffic.vehicles) ids[vehicle.place] = id;
-  for (const uint32_t track : s.instance_track) frame.instances.push_back(ids[track]);
+  state_->set_names(ids, frame);
+}
+
+// ids: of the vehicles in all places, empty where there is none.
+void World::State::set_names(const std::vector<std::string>& ids, LiveFrame& frame) const {
+  for (const uint32_t track : instance_track) frame.instances.push_back(ids[track]);
   const auto names = [&](const EndsOfRole& role) {
     std::vector<std::string> out;
     for (size_t i = 0; i < role.ends.size(); ++i) {
@@ -366,13 +384,13 @@ void World::set_names(const LiveTraffic& traffic, LiveFrame& frame) const {
         continue;
       }
       const uint32_t track = role.mounted[i - role.standing.size()].track;
-      const std::string& place = s.trajectories.tracks[track].id;  // the name is PLACE/MOUNT
+      const std::string& place = trajectories.tracks[track].id;  // the name is PLACE/MOUNT
       out.push_back(ids[track].empty() ? "" : ids[track] + name.substr(place.size()));
     }
     return out;
   };
-  frame.transmitters = names(s.transmitters);
-  frame.receivers = names(s.receivers);
+  frame.transmitters = names(transmitters);
+  frame.receivers = names(receivers);
 }
 
 }  // namespace wavetracer

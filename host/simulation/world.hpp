@@ -55,6 +55,9 @@ class World {
   WorldState live_state(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const;
   // What ends and instances are called in a frame of this traffic.
   void set_names(const LiveTraffic& traffic, LiveFrame& frame) const;
+  // The world at a time between the last two frames of a traffic, with the names of those who are there; see
+  // LivePlaces::between.
+  WorldState live_state_between(const LiveTraffic& traffic, double time_s, LiveFrame& names) const;
 
   // No recentred coordinate of an end or of a corner of an instance is larger than this, in any frame.
   double reach_m() const;

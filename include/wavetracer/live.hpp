@@ -27,7 +27,7 @@ struct LivePose {
 
 // A vehicle that cannot be placed. Nothing has changed when this is thrown.
 struct PoseError : InputError {
-  // unknown_type, type_changed, no_place, duplicate_id, out_of_bounds, bad_value
+  // unknown_type, type_changed, no_place, duplicate_id, out_of_bounds, out_of_time, bad_value
   std::string code;
   PoseError(std::string error_code, const std::string& message) : InputError(message), code(std::move(error_code)) {}
 };
@@ -45,17 +45,22 @@ struct LiveType {
   std::vector<MountConfig> mounts;  // that it carries
 };
 
-// The traffic of one source of poses: the place of each of its vehicles, and its pose in the last frame.
+// The traffic of one source of poses: the place of each of its vehicles, and its poses in the last two frames.
 // Several sources may use one Simulation in turn, each with its own traffic: in a frame all places are for one source.
 struct LiveTraffic {
   struct Vehicle {
     uint32_t place = 0;
     glm::dvec3 position_m{0};  // file coordinates
     glm::dquat orientation{1, 0, 0, 0};
+    std::optional<glm::dvec3> velocity_m_s = {};  // given, or from two poses
   };
-  std::map<std::string, Vehicle, std::less<>> vehicles;  // of the last frame, by id
-  double time_s = 0;                                     // of the last frame
-  uint32_t frames = 0;                                   // computed so far; the number of the next frame
+  using Vehicles = std::map<std::string, Vehicle, std::less<>>;  // by id
+  Vehicles vehicles;                                             // of the last frame
+  double time_s = 0;                                             // of the last frame
+  uint32_t frames = 0;                                           // computed so far; the number of the next frame
+  Vehicles earlier;                                              // of the frame before the last one
+  double earlier_s = 0;                                          // of the frame before the last one
+  DiscoveryMark discovery;                                       // see trace.discover_every_s
 };
 
 // A frame, and the names of its ends and vehicles that the sender of the poses uses. Absent ends have empty names.

@@ -67,6 +67,10 @@ class Simulation {
   // A frame of poses that come at run time, in a world with [[live_vehicle]]. Updates the traffic. Throws PoseError,
   // which leaves all as it was, and ConfigError where there is no [[live_vehicle]].
   LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
+  // The same at a time between the last two frames of poses of that traffic, which it leaves as it is: vehicles are on
+  // the cubic that has the positions and velocities of both, and turn evenly. With trace.discover_every_s such frames
+  // launch no rays. Throws PoseError for any other time.
+  LiveFrame run_between(const LiveTraffic& traffic, double time_s);
   const std::vector<LiveType>& live_types() const;
   const LiveBounds& live_bounds() const;
   // Measures the device's stages in the first of so many frames and leaves them out of the others: profiling makes

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,14 @@ struct WorldState {
   std::vector<Placement> instances;
   std::vector<EndState> transmitters, receivers;
   std::vector<Link> links;  // of ends that are present, sorted, each once
+  bool arrivals = false;    // of a live world: a vehicle has come, or jumped, since the frame before
+};
+
+// The last frame of a source of poses that launched rays.
+struct DiscoveryMark {
+  std::optional<double> time_s;
+  std::vector<bool>
+      active;  // of the vehicles, then of the transmitters: whether they were there, and whether they sent
 };
 
 // The properties of an instance that do not change with time.

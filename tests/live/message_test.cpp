@@ -41,7 +41,7 @@ std::string vehicle(const std::string& more) { return R"({"id":"a","type":"passe
 
 }  // namespace
 
-TEST_CASE("hello, frame and bye") {
+TEST_CASE("hello, frame, at and bye") {
   const auto hello = std::get<Hello>(
       parse_message(R"({"message":"hello","protocol":1,"token":"abc","mode":"free","detail":"vertices",)"
                     R"("encoding":"cbor"})",
@@ -66,6 +66,14 @@ TEST_CASE("hello, frame and bye") {
   CHECK(ahead.y == doctest::Approx(1));
   CHECK(*pose.velocity_m_s == glm::dvec3(4, 5, 6));
   CHECK(!pose.angular_velocity_rad_s);
+  CHECK(!asked.between);
+  const auto at =
+      std::get<FrameMessage>(parse_message(R"({"message":"at","frame":8,"time_s":0.25,"detail":"paths"})", 4));
+  CHECK(at.between);
+  CHECK(at.frame == 8);
+  CHECK(at.time_s == 0.25);
+  CHECK(at.detail == Detail::paths);
+  CHECK(at.vehicles.empty());
   CHECK(std::holds_alternative<Bye>(parse_message(R"({"message":"bye"})", 4)));
 }
 

@@ -204,3 +204,67 @@ TEST_CASE("what is refused changes nothing") {
   both.tracks = {{.id = "b", .waypoints = {{0, -40, -3, 0}, {1, -30, -3, 0}}}};
   CHECK_THROWS_AS(Simulation(both, ""), ConfigError);
 }
+
+TEST_CASE("between two poses: cars on their cubic, with the Doppler shifts of their delays, and no rays") {
+  Config config = live_city(true);
+  config.trace.discover_every_s = 0.2;
+  Simulation live(config);
+  LiveTraffic traffic;
+  LivePose a = pose("a", 0, -40), b = pose("b", 30, -3);
+  a.velocity_m_s = {0, 15, 0};
+  b.velocity_m_s = {-8, 0, 0};
+  live.run_poses(traffic, 10, std::vector{a, b, pose("gone", 60, 3)});
+  a.position_m.y += 1.6;  // faster and faster, and turning
+  a.velocity_m_s = {0.5, 17, 0};
+  a.orientation = {std::cos(0.04), 0, 0, std::sin(0.04)};
+  b.position_m.x -= 0.8;
+  const LiveFrame frame = live.run_poses(traffic, 10.1, std::vector{a, b, pose("come", -60, 3)});
+  REQUIRE(frame.result.counts.rays > 0);  // somebody has come
+  const LiveTraffic before = traffic;
+
+  // Row by row, by ends and order: the same sequences at neighbouring instants.
+  const auto named = [](const LiveFrame& f) {
+    std::map<std::tuple<std::string, std::string, std::vector<uint32_t>>, std::pair<double, double>> out;
+    const Paths& p = f.result.paths;
+    for (size_t row = 0; row < p.size(); ++row) {
+      std::vector<uint32_t> surfaces(p.vertex_surface.begin() + static_cast<ptrdiff_t>(p.vertex_offset[row]),
+                                     p.vertex_surface.begin() + static_cast<ptrdiff_t>(p.vertex_offset[row + 1]));
+      out[{f.transmitters[p.tx[row]], f.receivers[p.rx[row]], surfaces}] = {p.delay_s[row], p.doppler_hz[row]};
+    }
+    return out;
+  };
+  const double step_s = 1e-3, time_s = 10.06;
+  const LiveFrame middle = live.run_between(traffic, time_s);
+  CHECK(middle.result.counts.rays == 0);
+  CHECK(middle.result.world.time_s == time_s);
+  const auto earlier = named(live.run_between(traffic, time_s - step_s));
+  const auto at = named(middle), later = named(live.run_between(traffic, time_s + step_s));
+  size_t compared = 0;
+  for (const auto& [key, values] : at) {
+    CHECK(std::get<0>(key) != "come/roof");
+    CHECK(std::get<1>(key) != "gone/roof");
+    if (!earlier.contains(key) || !later.contains(key)) continue;
+    const double rate = (later.at(key).first - earlier.at(key).first) / (2 * step_s);
+    CHECK(-5.9e9 * rate == doctest::Approx(values.second).epsilon(1e-4));
+    ++compared;
+  }
+  CHECK(compared > 20);
+
+  // At the time of a frame all is as it was.
+  const auto last = named(live.run_between(traffic, 10.1)), same = named(frame);
+  REQUIRE(last.size() == same.size());
+  for (const auto& [key, values] : same) {
+    REQUIRE(last.contains(key));
+    CHECK(last.at(key).first == doctest::Approx(values.first).epsilon(1e-14));
+  }
+  CHECK(traffic.frames == before.frames);
+  CHECK(traffic.time_s == before.time_s);
+  for (const double outside : {9.999, 10.101, std::nan("")}) {
+    CAPTURE(outside);
+    CHECK_THROWS_AS(live.run_between(traffic, outside), PoseError);
+  }
+  LiveTraffic fresh;
+  CHECK_THROWS_AS(live.run_between(fresh, 0), PoseError);
+  live.run_poses(fresh, 0, std::vector{a});
+  CHECK_THROWS_AS(live.run_between(fresh, 0), PoseError);
+}

@@ -187,6 +187,30 @@ def two_clients():
     print("two clients, and two that vanish")
 
 
+def between_poses():
+    """Channels at times between two frames of poses: the car on its way, and its Doppler shift."""
+    with Server() as server, server.connect() as client:
+        client.hello(detail="paths")
+        expect(client.ask({"message": "at", "frame": 0, "time_s": 0})["code"] == "out_of_time", "no poses yet")
+        ends = []
+        for step in range(2):
+            y, speed = -60 + 1.1 * step, 10 + 2 * step
+            ends.append(client.ask(frame(step, step / 10, [vehicle("ego", 3, y, 90, velocity_m_s=[0, speed, 0])])))
+        inner = [client.ask({"message": "at", "frame": 2 + k, "time_s": 0.02 * k}) for k in range(6)]
+        expect([a["frame"] for a in inner] == list(range(2, 8)), inner)
+        sight = [min(a["links"][0]["delay_s"]) for a in inner]
+        shift = [a["links"][0]["doppler_hz"][a["links"][0]["delay_s"].index(d)] for a, d in zip(inner, sight)]
+        expect(all(a > b for a, b in zip(sight, sight[1:])), f"it comes closer: {sight}")
+        expect(shift == sorted(shift), f"faster and faster: {shift}")
+        for here, there in ((inner[0], ends[0]), (inner[5], ends[1])):
+            expect(math.isclose(min(here["links"][0]["delay_s"]), min(there["links"][0]["delay_s"]), rel_tol=1e-12),
+                   "at the poses themselves")
+        expect(client.ask({"message": "at", "frame": 8, "time_s": 0.11})["code"] == "out_of_time", "later than poses")
+        expect(client.ask({"message": "at", "frame": 9})["code"] == "missing_key", "no time")
+        expect(client.ask({"message": "at", "frame": 9, "time_s": 0, "vehicles": []})["code"] == "unknown_key", "poses")
+    print("between poses")
+
+
 def free_running():
     """Of frames that come faster than they are solved the newest is, and the others are counted."""
     with Server(sets=["live.max_pending_frames=1"]) as server, server.connect() as client:
@@ -240,6 +264,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         steps_and_detail(f"unix:{folder}/live.sock")
     two_clients()
+    between_poses()
     free_running()
     starts_again()
 

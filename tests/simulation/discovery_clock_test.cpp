@@ -21,24 +21,26 @@ WorldState world_at(double time_s) {
 
 TEST_CASE("rays are launched when the interval has passed, to a rounding error, and where a frame is cold") {
   DiscoveryClock clock(0.1);
+  DiscoveryMark last;
   CHECK(clock.spares());
   int launches = 0;
   for (int frame = 0; frame <= 1000; ++frame) {
-    const bool due = clock.due(world_at(7 + frame * 0.001), frame == 0);
+    const bool due = clock.due(world_at(7 + frame * 0.001), frame == 0, last);
     CHECK(due == (frame % 100 == 0));
     launches += due;
   }
   CHECK(launches == 11);
-  CHECK(clock.due(world_at(8.05), true));
-  CHECK_FALSE(clock.due(world_at(8.1), false));  // counted from the cold one
-  CHECK(clock.due(world_at(8.15), false));
-  CHECK(clock.due(world_at(2), false));  // time may go back
+  CHECK(clock.due(world_at(8.05), true, last));
+  CHECK_FALSE(clock.due(world_at(8.1), false, last));  // counted from the cold one
+  CHECK(clock.due(world_at(8.15), false, last));
+  CHECK(clock.due(world_at(2), false, last));  // time may go back
 }
 
 TEST_CASE("without an interval every frame launches rays") {
   DiscoveryClock clock(0);
+  DiscoveryMark last;
   CHECK_FALSE(clock.spares());
-  for (int frame = 0; frame < 3; ++frame) CHECK(clock.due(world_at(0.001 * frame), false));
+  for (int frame = 0; frame < 3; ++frame) CHECK(clock.due(world_at(0.001 * frame), false, last));
 }
 
 TEST_CASE("shards that are as short as the interval are warned of, because nothing is measured in them") {
@@ -53,18 +55,37 @@ TEST_CASE("shards that are as short as the interval are warned of, because nothi
 
 TEST_CASE("who was not there when rays were launched makes them due, who leaves does not") {
   DiscoveryClock clock(1);
+  DiscoveryMark last;
   WorldState world = world_at(0);
   world.instances[1].present = false;
-  CHECK(clock.due(world, true));
+  CHECK(clock.due(world, true, last));
   world.time_s = 0.1;
-  CHECK_FALSE(clock.due(world, false));
+  CHECK_FALSE(clock.due(world, false, last));
   world.instances[1].present = true;
-  CHECK(clock.due(world, false));
+  CHECK(clock.due(world, false, last));
   world.time_s = 0.2;
   world.instances[0].present = false;
-  CHECK_FALSE(clock.due(world, false));
+  CHECK_FALSE(clock.due(world, false, last));
   world.links.push_back({2, 0});  // begins to send
-  CHECK(clock.due(world, false));
+  CHECK(clock.due(world, false, last));
   world.links = {{2, 0}};
-  CHECK_FALSE(clock.due(world, false));
+  CHECK_FALSE(clock.due(world, false, last));
+}
+
+TEST_CASE("who comes to the place of another one makes rays due, and sources of poses do not count for each other") {
+  DiscoveryClock clock(1);
+  DiscoveryMark first, second;
+  WorldState world = world_at(0);
+  CHECK(clock.due(world, false, first));
+  world.time_s = 0.5;
+  CHECK_FALSE(clock.due(world, false, first));
+  world.arrivals = true;
+  CHECK(clock.due(world, false, first));
+  world.arrivals = false;
+  CHECK(clock.due(world, false, second));
+  world.time_s = 1.2;
+  CHECK_FALSE(clock.due(world, false, first));
+  world.time_s = 1.5;
+  CHECK(clock.due(world, false, first));
+  CHECK(clock.due(world, false, second));
 }

@@ -168,8 +168,8 @@ typedef struct {
   wt_uint trie_overflow;             // an insertion found no slot: grow and trace the batch again
   wt_uint candidates;                // may exceed the capacity: grow and run again
   wt_uint solved;                    // likewise
-  wt_uint hidden;  // solved, and hidden by what hid the path before
-  wt_uint visible;  // may exceed the capacity, as candidates
+  wt_uint hidden;                    // solved, and hidden by what hid the path before
+  wt_uint visible;                   // may exceed the capacity, as candidates
   wt_uint wedge_prefixes;            // likewise
   wt_uint wedge_candidates;          // likewise
   wt_uint ended[WT_MAX_DEPTH + 1u];  // rays of bounces by the number of their hits
