@@ -110,10 +110,20 @@ def read_token(path):
         return file.read().strip()
 
 
+def links_of(answer):
+    """The links of an answer in either encoding, a dict each."""
+    links = answer["links"]
+    if isinstance(links, list):
+        return links
+    rows = [dict(zip(links, values)) for values in zip(*links.values())]
+    return [{**row, "tx": answer["transmitters"][row["tx"]], "rx": answer["receivers"][row["rx"]]} for row in rows]
+
+
 def print_links(answer, most=5):
     """The strongest links of a frame, one per line."""
-    heard = sorted((link for link in answer["links"] if link["paths"]), key=lambda link: -(link["path_gain_db"] or -999))
-    print(f"{answer['time_s']:.2f} s: {len(heard)} of {len(answer['links'])} links have paths, "
+    links = links_of(answer)
+    heard = sorted((link for link in links if link["paths"]), key=lambda link: -(link["path_gain_db"] or -999))
+    print(f"{answer['time_s']:.3f} s: {len(heard)} of {len(links)} links have paths, "
           f"solved in {1e3 * answer['seconds']['solve']:.1f} ms")
     for link in heard[:most]:
         print(f"  {link['tx']} -> {link['rx']}: {link['path_gain_db']:.2f} dB "

@@ -8,7 +8,9 @@ What follows `--` is the command that starts SUMO (sumo or sumo-gui). --offset i
 get those of the scene. SUMO's angle is a compass bearing and its position the middle of the front bumper: both are
 turned into what the server wants, yaw from +x counter-clockwise and the middle of the vehicle. A vehicle takes a place
 of the type that is called as its vehicle class (passenger, truck, bus, ...), or as --default-type; one that has no
-place, or is outside of the scene, is left out and counted. It needs SUMO's TraCI (Debian: sumo-tools).
+place, or is outside of the scene, is left out and counted. --between N also asks for the channels at N instants of
+every step, from the vehicles that both of its ends have: SUMO steps by tenths of a second, radios by milliseconds.
+It needs SUMO's TraCI (Debian: sumo-tools).
 """
 import argparse
 import json
@@ -68,22 +70,35 @@ def main():
     parser.add_argument("--default-type", default="passenger")
     parser.add_argument("--steps", type=int, default=100)
     parser.add_argument("--detail", choices=["links", "paths", "vertices"], default="links")
+    parser.add_argument("--encoding", choices=["json", "cbor"], default="json", help="of the channels")
+    parser.add_argument("--between", type=int, default=0, metavar="N", help="instants of a step, beside its ends")
     parser.add_argument("-o", "--output", help="file for the answers, one line of JSON a step")
     parser.add_argument("sumo", nargs="+", help="command that starts SUMO")
     options = parser.parse_args()
+    if options.output and options.encoding == "cbor":
+        sys.exit("--output writes lines of JSON: leave out --encoding cbor")
     try:
         import traci
     except ImportError:
         sys.exit("no TraCI: install sumo-tools, or set SUMO_HOME")
     traci.start(options.sumo)
     output = open(options.output, "w", encoding="utf-8") if options.output else None
+    hello = {"detail": options.detail, "encoding": options.encoding}
     try:
-        with Server(options.server, read_token(options.token_file), detail=options.detail) as server:
+        with Server(options.server, read_token(options.token_file), **hello) as server:
             places = Places(server.world, options.default_type)
+            last_s = None
             for _ in range(options.steps):
                 traci.simulationStep()
                 vehicles, left_out = places.vehicles(traci, options.offset)
-                answer = server.channels(traci.simulation.getTime(), vehicles)
+                now_s = traci.simulation.getTime()
+                answer = server.channels(now_s, vehicles)
+                for k in range(options.between if last_s is not None else 0):
+                    inner = server.at(last_s + (k + 1) * (now_s - last_s) / (options.between + 1))
+                    print_links(inner, 1)
+                    if output:
+                        output.write(json.dumps(inner) + "\n")
+                last_s = now_s
                 print_links(answer, 3)
                 if left_out:
                     print(f"  {left_out} vehicles had no place, or were outside of the scene")

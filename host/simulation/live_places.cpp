@@ -124,6 +124,18 @@ void LivePlaces::check(const LivePose& pose) const {
     refuse("bad_value", fmt::format("a component of angular_velocity_rad_s is beyond {} rad/s", most_rad_s));
 }
 
+// The first place of the vehicle's type that is free, and takes it.
+uint32_t LivePlaces::free_place(const LivePose& pose, std::vector<bool>& taken) const {
+  const LiveType& type = type_of(pose);
+  const auto first = taken.begin() + type.first_place, end = first + type.count, free = std::find(first, end, false);
+  if (free == end)
+    throw PoseError("no_place", fmt::format("vehicle \"{}\": all {} places of type \"{}\" are taken: raise the count "
+                                            "of its [[live_vehicle]]",
+                                            pose.id, type.count, pose.type));
+  *free = true;
+  return static_cast<uint32_t>(free - taken.begin());
+}
+
 std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const {
   if (!std::isfinite(time_s)) throw PoseError("bad_value", "time_s is not finite");
   std::set<std::string_view> ids;
@@ -153,16 +165,7 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, s
     if (stays) {
       now.place = known->second.place;
     } else {
-      const LiveType& type = type_of(pose);
-      const auto first = taken.begin() + type.first_place, end = first + type.count,
-                 free = std::find(first, end, false);
-      if (free == end)
-        throw PoseError("no_place",
-                        fmt::format("vehicle \"{}\": all {} places of type \"{}\" are taken: raise the count "
-                                    "of its [[live_vehicle]]",
-                                    pose.id, type.count, pose.type));
-      *free = true;
-      now.place = static_cast<uint32_t>(free - taken.begin());
+      now.place = free_place(pose, taken);
     }
     Pose placed{pose.position_m - origin_m_, now.orientation, glm::dvec3(0), glm::dvec3(0)};
     bool jumped = false;

@@ -41,6 +41,7 @@ class LivePlaces {
  private:
   const LiveType& type_of(const LivePose& pose) const;
   void check(const LivePose& pose) const;
+  uint32_t free_place(const LivePose& pose, std::vector<bool>& taken) const;
 
   std::vector<LiveType> types_;
   LiveBounds bounds_;

@@ -56,6 +56,18 @@ std::vector<Row> rows(const Paths& p, const auto& tx_name, const auto& rx_name) 
   return out;
 }
 
+// Delay and Doppler shift of every path, by its ends and surfaces: the same sequences at neighbouring instants.
+auto named(const LiveFrame& f) {
+  std::map<std::tuple<std::string, std::string, std::vector<uint32_t>>, std::pair<double, double>> out;
+  const Paths& p = f.result.paths;
+  for (size_t row = 0; row < p.size(); ++row) {
+    std::vector<uint32_t> surfaces(p.vertex_surface.begin() + static_cast<ptrdiff_t>(p.vertex_offset[row]),
+                                   p.vertex_surface.begin() + static_cast<ptrdiff_t>(p.vertex_offset[row + 1]));
+    out[{f.transmitters[p.tx[row]], f.receivers[p.rx[row]], surfaces}] = {p.delay_s[row], p.doppler_hz[row]};
+  }
+  return out;
+}
+
 }  // namespace
 
 // Here to rounding, since poses are taken from the placements of the drive; protocol_test.py compares bits.
@@ -222,17 +234,6 @@ TEST_CASE("between two poses: cars on their cubic, with the Doppler shifts of th
   REQUIRE(frame.result.counts.rays > 0);  // somebody has come
   const LiveTraffic before = traffic;
 
-  // Row by row, by ends and order: the same sequences at neighbouring instants.
-  const auto named = [](const LiveFrame& f) {
-    std::map<std::tuple<std::string, std::string, std::vector<uint32_t>>, std::pair<double, double>> out;
-    const Paths& p = f.result.paths;
-    for (size_t row = 0; row < p.size(); ++row) {
-      std::vector<uint32_t> surfaces(p.vertex_surface.begin() + static_cast<ptrdiff_t>(p.vertex_offset[row]),
-                                     p.vertex_surface.begin() + static_cast<ptrdiff_t>(p.vertex_offset[row + 1]));
-      out[{f.transmitters[p.tx[row]], f.receivers[p.rx[row]], surfaces}] = {p.delay_s[row], p.doppler_hz[row]};
-    }
-    return out;
-  };
   const double step_s = 1e-3, time_s = 10.06;
   const LiveFrame middle = live.run_between(traffic, time_s);
   CHECK(middle.result.counts.rays == 0);

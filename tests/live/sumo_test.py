@@ -51,6 +51,12 @@ def main():
                             server.name, "--offset", "-100", "-100", "0", "--steps", "15", "--detail", "paths", "-o",
                             out, "--", "sumo", "-n", net, "-r", routes, "--fcd-output", fcd, "--precision", "6",
                             "--no-step-log"], check=True, stdout=subprocess.DEVNULL)
+            between = subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "docs/examples/sumo_live.py"), "--server",
+                                      server.name, "--offset", "-100", "-100", "0", "--steps", "6", "--between", "4",
+                                      "--encoding", "cbor", "--", "sumo", "-n", net, "-r", routes, "--no-step-log"],
+                                     check=True, capture_output=True, text=True).stdout
+            times = [float(line.split()[0]) for line in between.splitlines() if " links have paths" in line]
+            expect(times == [k / 5 for k in range(5, 31)], f"instants between the steps: {times}")
         with open(out, encoding="utf-8") as file:
             answers = [json.loads(line) for line in file]
         steps = {round(float(step.get("time"))): step for step in tree.parse(fcd).getroot()}
