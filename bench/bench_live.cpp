@@ -260,7 +260,8 @@ void run(const Options& options, uint32_t vehicles, const std::string& command) 
 
   Result line;
   line.bench = "live";
-  line.name = fmt::format("city, {} vehicles, {} rays, {} anew{}", vehicles, options.rays, options.refresh,
+  line.name = fmt::format("city, {} vehicles, {} rays, {} anew{}{}", vehicles, options.rays, options.refresh,
+                          options.detail == "links" ? "" : ", " + options.detail,
                           options.encoding == "json" ? "" : ", columns in CBOR");
   line.device = device;
   line.value = percentile(seconds["all"], 0.5);

@@ -132,7 +132,9 @@ Simulation make_simulation(const Place& place, const Case& c, const std::string&
   config.trace.diffraction = c.diffraction();
   config.trace.free_edges = false;
   config.trace.diffraction_rays = c.diffraction_rays;
-  return Simulation(config, device);
+  Simulation simulation(config, device);
+  simulation.profile_every(1'000'000);  // no stages are printed, so but for the first frames nothing is profiled
+  return simulation;
 }
 
 // The paths of many more rays.
