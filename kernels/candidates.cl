@@ -2,9 +2,11 @@
 // surface, then in double where a reflection misses the box of its surface. Roots (lines of sight) are candidates
 // always. Conservative: each bound covers the rounding of everything it is computed from.
 // Of transmitters below transmitter_count alone, and of at most max_reflections surfaces: the trie may hold what other
-// ends see, and longer prefixes. nodes[] holds the roots first, then the trie's nodes. receivers: three planes of
+// ends see, and longer prefixes. nodes[] holds the roots first, then the trie's nodes (lib/count.clh), at most
+// node_count. receivers: three planes of
 // receiver_capacity floats, padded to a multiple of 16 with copies of the last one. links: a mask of the wanted
 // receivers for each transmitter and 16 receivers.
+#include "lib/count.clh"
 #include "lib/reach.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -27,7 +29,9 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
                        global wt_candidate* out, global wt_counters* counters, wt_candidates_arguments args) {
   const uint i = get_global_id(0), groups = args.receiver_capacity / 16;
   wt_followed s;
-  if (i >= args.node_count || !wt_follow_back(table, nodes[i], transmitters, exact, surfaces, args, &s)) return;
+  if (i >= wt_node_count(counters, args.node_count) ||
+      !wt_follow_back(table, nodes[i], transmitters, exact, surfaces, args, &s))
+    return;
   for (uint group = 0; group < groups; ++group) {
     uint keep = links[(size_t)s.transmitter * groups + group];
     if (keep != 0 && s.depth > 0) {
@@ -70,6 +74,9 @@ inline void step_on(walk* w, const local uint* link_counts, uint count, uint lan
   w->place = w->team + lane % WT_TEAM;
 }
 
+// How many of `count` nodes a group takes that begins with `first`.
+inline uint left_from(uint first, uint count) { return min((uint)WT_NODES, count - min(first, count)); }
+
 // WT_NODES sequences per work-group with the receivers that their transmitters have links to. linked: for each
 // transmitter and one more where its receivers begin, then the receivers.
 __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
@@ -81,7 +88,7 @@ __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
   local uint first_links[WT_NODES], link_counts[WT_NODES], unfinished[2];
   local uint waiting[WT_WAITING], kept[WT_WAITING], waiting_count, kept_count, first_slot;
   const uint lane = get_local_id(0), first_node = get_group_id(0) * WT_NODES, capacity = args.receiver_capacity;
-  const uint count = min((uint)WT_NODES, args.node_count - min(first_node, args.node_count));
+  const uint count = left_from(first_node, wt_node_count(counters, args.node_count));
   for (uint n = lane; n < count; n += WT_GROUP) {
     const int known = wt_follow_back(table, nodes[first_node + n], transmitters, exact, surfaces, args, sequences + n);
     first_links[n] = known ? linked[sequences[n].transmitter] : 0u;

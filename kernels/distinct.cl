@@ -2,6 +2,7 @@
 // where links have one the other way, adds each path's reversed twin: a row is a number
 // (wavetracer/device/path_rows.h), nothing is copied. Keys bring the rows of a link together, by a coarse length;
 // neighbours then settle the rest.
+#include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/path_world.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -18,11 +19,13 @@ inline uint row_key(wt_distinct_arguments args, uint link, double length_m) {
 kernel void row_keys(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                      const global double* transmitters, const global double* receivers, const global uint* receiver_of,
                      const global uint* transmitter_of, const global ushort* links, const global ushort* own,
-                     global uint* keys, global double* lengths, wt_distinct_arguments args) {
+                     global uint* keys, global double* lengths, const global wt_counters* counters,
+                     wt_distinct_arguments args) {
   const uint item = get_global_id(0);
   if (item >= args.row_count) return;
   const uint row = args.twins ? item : 2 * item;
   keys[item] = WT_NONE;
+  if (row / 2 >= wt_length(counters, args.visible_counter, args.row_count)) return;
   const wt_path_list list = {solved,    vertices,    steps,          transmitters,
                              receivers, receiver_of, transmitter_of, args.max_depth};
   if (row & 1u) {
@@ -42,7 +45,7 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
                       const global double* transmitters, const global double* receivers, const global uint* receiver_of,
                       const global uint* transmitter_of, const global wt_exact_surface* surfaces,
                       const global uint* keys, const global uint* order, const global double* lengths,
-                      global uchar* stays, global uchar* quarters, global wt_row_totals* totals,
+                      global uchar* stays, global uchar* quarters, global wt_counters* counters,
                       wt_distinct_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count) return;
@@ -74,10 +77,10 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
   const int is_near = wt_is_near(&world, &path);
   stays[place] = is_near ? WT_ROW_IS_NEAR : WT_ROW_STAYS;
   if (is_near) {
-    atomic_inc(&totals->near);
+    atomic_inc(&counters->near_rows);
   } else {
-    atomic_inc(&totals->rows);
-    atomic_add(&totals->vertices, path.depth);
+    atomic_inc(&counters->rows);
+    atomic_add(&counters->row_vertices, path.depth);
   }
 }
 

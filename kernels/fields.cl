@@ -4,7 +4,8 @@
 #include "wavetracer/device/path_field.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// One place of the rows per work-item. first_row and first_vertex: how many rows and vertices stand before each place.
+// One place of the rows per work-item; what does not fit is left out, as the counters of rows and vertices tell.
+// first_row and first_vertex: how many rows and vertices stand before each place.
 kernel void fields(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                    const global double* transmitter_places, const global double* receiver_places,
                    const global uint* receiver_of, const global uint* transmitter_of, const global uint* rows,
@@ -18,6 +19,7 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
                    wt_fields_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count || rows[place] == WT_NO_ROW) return;
+  if (first_row[place] >= args.row_capacity || first_vertex[place] + WT_MAX_DEPTH > args.vertex_capacity) return;
   const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
                              receiver_places, receiver_of, transmitter_of, args.max_depth};
   const wt_field_world world = {surfaces,        materials_of,       materials,    wedges,
@@ -26,5 +28,5 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
                                 args.seed,       args.transmissions, args.scatters};
   const wt_ordered_rows ordered = {&list, rows, delays, args.row_count};
   wt_write_row(&world, &ordered, place, quarters[place], (double3)(args.origin[0], args.origin[1], args.origin[2]),
-               out + first_row[place], out_vertices + first_vertex[place]);
+               first_vertex[place], out + first_row[place], out_vertices);
 }

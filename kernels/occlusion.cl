@@ -1,14 +1,16 @@
 // occlusion: is a leg of a solved path obstructed? One leg per work-item; lib/legs.clh has the rule.
 // Consumes solved paths; sets wt_solved::blocked. blockers: where given, what hides a path is noted there.
 #include "lib/blockers.clh"
+#include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
 
 kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                       const global double4* transmitters, const global double4* receivers,
                       const global wt_exact_surface* surfaces, global wt_solved* solved, const global double* vertices,
-                      const global uint* sequences, global uint* blockers, wt_legs_arguments args) {
+                      const global uint* sequences, global uint* blockers, const global wt_counters* counters,
+                      wt_legs_arguments args) {
   const uint i = get_global_id(0) / (args.max_depth + 1), leg = get_global_id(0) % (args.max_depth + 1);
-  if (i >= args.solved_count || leg > solved[i].depth) return;
+  if (i >= wt_length(counters, args.solved_counter, args.solved_count) || leg > solved[i].depth) return;
   // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One
   // that comes too soon to see it does no harm.
   if (wt_load_relaxed_u32(&solved[i].blocked)) return;

@@ -1,5 +1,6 @@
 // scatter: paths transmitter - tile - receiver over the surfaces that a transmitter's rays saw directly. lit finds
 // which receivers each of them may serve, scatter writes a row for each of those and each tile. Legs are not tested.
+#include "lib/count.clh"
 #include "lib/images.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -13,9 +14,10 @@ inline int carries(const global wt_exact_surface* s, double4 end) {
 // Appends (node, group, mask of receivers, tiles); *count is their number.
 kernel void lit(const global ulong* table, const global uint* nodes, const global double4* transmitters,
                 const global double4* receivers, const global ushort* links, const global wt_exact_surface* surfaces,
-                const global uint4* tiles_of, global uint4* out, global uint* count, wt_lit_arguments args) {
+                const global uint4* tiles_of, global uint4* out, global uint* count, const global wt_counters* counters,
+                wt_lit_arguments args) {
   const uint group = get_global_id(0) / args.node_count, i = get_global_id(0) % args.node_count;
-  if (group >= args.groups || (nodes[i] & WT_ROOT)) return;
+  if (group >= args.groups || i >= wt_node_count(counters, args.node_count) || (nodes[i] & WT_ROOT)) return;
   const ulong key = table[nodes[i]];
   const uint transmitter = wt_trie_parent(key) & ~WT_ROOT, surface = wt_trie_surface(key);
   if (!(wt_trie_parent(key) & WT_ROOT) || transmitter >= args.transmitter_count || tiles_of[surface].z == 0) return;

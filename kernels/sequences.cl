@@ -4,6 +4,7 @@
 // With WT_AGES, ages[slot] is twice the last frame in which the sequence was met, by a ray, as a neighbour or by a
 // path, and one more if by a ray; a node is never older than its children. `now` is that of rays in this frame.
 // quarters: see lib/trie.clh. What is entered for another sequence is found by who found that one.
+#include "lib/count.clh"
 #include "lib/trie.clh"
 
 // Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number. A work-item
@@ -29,9 +30,15 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
 #endif
 }
 
-inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* quarters, uint found,
-                  global uint* ages, uint now) {
-  const uint node = wt_trie_insert(table, mask, parent, surface);
+// Lists what is new after the nodes that collect has listed.
+inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* nodes, uint capacity,
+                  global wt_counters* counters, global uint* quarters, uint found, global uint* ages, uint now) {
+  int is_new;
+  const uint node = wt_trie_enter(table, mask, parent, surface, &is_new);
+  if (is_new) {
+    const uint at = counters->nodes + atomic_inc(&counters->exchanged);
+    if (at < capacity) nodes[at] = node;
+  }
   wt_note_quarters(quarters, node, found << WT_EXCHANGED_SHIFT);
 #ifdef WT_AGES
   if (node != WT_NONE) atomic_max(ages + node, now - 1);
@@ -45,12 +52,13 @@ inline uint enter(global ulong* table, uint mask, uint parent, uint surface, glo
 // Mirrors in perpendicular planes commute: where a ray met a wall and then the ground, the same image also serves the
 // ground and then the wall, and the receiver's position decides which of the two is a path. Rays find one of them and
 // may miss the other (nearly all missed paths of street scenes are such), so both are entered: for every listed node,
-// every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always.
-kernel void commute(global ulong* table, uint mask, const global uint* nodes, uint node_count,
+// every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always. counters->nodes of at
+// most node_count nodes are listed, and what is new is listed after them, as far as there is room.
+kernel void commute(global ulong* table, uint mask, global uint* nodes, uint node_count, uint capacity,
                     const global wt_surface* surfaces, global uint* quarters, global wt_counters* counters,
                     global uint* ages, uint now) {
   const uint i = get_global_id(0);
-  if (i >= node_count || (nodes[i] & WT_ROOT)) return;
+  if (i >= min(node_count, counters->nodes) || (nodes[i] & WT_ROOT)) return;
 #ifdef WT_AGES
   if (wt_load_relaxed_u32(ages + nodes[i]) != now)
     return;  // no ray met it in this frame: its neighbours are as old as it is
@@ -70,9 +78,10 @@ kernel void commute(global ulong* table, uint mask, const global uint* nodes, ui
     // A surface never follows itself: its image of an image is the thing itself, and rounding would see a path through
     // it.
     if ((k + 2 < depth && chain[k + 2] == chain[k]) || (k > 0 && chain[k - 1] == chain[k + 1])) continue;
-    uint node = enter(table, mask, parents[k + 1], chain[k], quarters, found, ages, now);
-    node = enter(table, mask, node, chain[k + 1], quarters, found, ages, now);
-    for (uint j = k; j-- > 0;) node = enter(table, mask, node, chain[j], quarters, found, ages, now);
+    uint node = enter(table, mask, parents[k + 1], chain[k], nodes, capacity, counters, quarters, found, ages, now);
+    node = enter(table, mask, node, chain[k + 1], nodes, capacity, counters, quarters, found, ages, now);
+    for (uint j = k; j-- > 0;)
+      node = enter(table, mask, node, chain[j], nodes, capacity, counters, quarters, found, ages, now);
     if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
   }
 }
@@ -102,10 +111,10 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
 }
 
 // The sequences of visible paths are as young as the frame, and so are their prefixes.
-kernel void keep(const global ulong* table, const global wt_solved* solved, uint solved_count, global uint* ages,
-                 uint now) {
+kernel void keep(const global ulong* table, const global wt_solved* solved, uint solved_count, uint solved_counter,
+                 const global wt_counters* counters, global uint* ages, uint now) {
   const uint i = get_global_id(0);
-  if (i >= solved_count || solved[i].blocked) return;
+  if (i >= wt_length(counters, solved_counter, solved_count) || solved[i].blocked) return;
   for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(table[n])) atomic_max(ages + n, now - 1);
 }
 

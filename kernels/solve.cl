@@ -34,7 +34,7 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
                   const global wt_candidate* candidates, global wt_solved* solved, global double* vertices,
                   global uint* sequences, global wt_counters* counters, WT_BLOCKER_ARGUMENTS wt_solve_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= args.candidate_count) return;
+  if (i >= min(args.candidate_count, counters->candidates)) return;
   uint chain[WT_MAX_DEPTH], transmitter;
   const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
   // The vehicle that carries an antenna is no mirror to it, as it hides nothing from it.

@@ -1,6 +1,7 @@
 // transmissions: the surfaces that the legs of a solved path pass through, entered into its row as interactions. Waves
 // go straight on, so a path with transmissions is one without whose legs are obstructed. lib/legs.clh says by what.
 // Consumes solved paths; rewrites their rows, or sets wt_solved::blocked where that is more than the path may pass.
+#include "lib/count.clh"
 #include "lib/legs.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -47,9 +48,9 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
                           const global double4* transmitters, const global double4* receivers,
                           const global wt_exact_surface* surfaces, const global wt_surface* boxes,
                           global wt_solved* solved, global double* vertices, global uint* sequences,
-                          wt_legs_arguments args) {
+                          const global wt_counters* counters, wt_legs_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= args.solved_count) return;
+  if (i >= wt_length(counters, args.solved_counter, args.solved_count)) return;
   const uint depth = solved[i].depth, allowed = min(args.most, args.max_depth - depth);
   global double* v = vertices + 3 * (size_t)args.max_depth * i;
   global uint* s = sequences + (size_t)args.max_depth * i;

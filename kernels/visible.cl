@@ -1,13 +1,14 @@
 // visible: the solved paths without an obstructed leg, side by side, so that the host reads no others. In no particular
 // order; counters->visible is their number.
-#include "wavetracer/device/records.h"
+#include "lib/count.clh"
 
 // One solved path a work-item; rows of both lists have max_depth vertices and surfaces.
 kernel void visible(const global wt_solved* solved, const global double* vertices, const global uint* sequences,
-                    uint solved_count, uint max_depth, global wt_solved* out, global double* out_vertices,
-                    global uint* out_sequences, uint capacity, global wt_counters* counters) {
+                    uint solved_count, uint solved_counter, uint max_depth, global wt_solved* out,
+                    global double* out_vertices, global uint* out_sequences, uint capacity,
+                    global wt_counters* counters) {
   const uint i = get_global_id(0);
-  if (i >= solved_count || solved[i].blocked) return;
+  if (i >= wt_length(counters, solved_counter, solved_count) || solved[i].blocked) return;
   const uint slot = atomic_inc(&counters->visible);
   if (slot >= capacity) return;
   out[slot] = solved[i];

@@ -47,7 +47,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
                         const global wt_wedge_candidate* candidates, global wt_solved* solved, global double* vertices,
                         global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= args.candidate_count) return;
+  if (i >= min(args.candidate_count, counters->wedge_candidates)) return;
   const wt_wedge_candidate c = candidates[i];
   uint chain[WT_MAX_DEPTH], back_chain[WT_MAX_DEPTH], transmitter, origin;
   double3 images[WT_MAX_DEPTH + 1], points[WT_MAX_DEPTH], back_images[WT_MAX_DEPTH + 1], back_points[WT_MAX_DEPTH];
@@ -71,7 +71,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, p, points)) return;
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;
 
-  const uint slot = atomic_inc(&counters->solved);
+  const uint slot = atomic_inc(&counters->wedge_solved);
   if (slot >= args.capacity) return;
   const uint diffractions = two ? 2 : 1, total = depth + diffractions + back;
   solved[slot].transmitter = transmitter;

@@ -103,22 +103,22 @@ HostMemory Context::host_memory(size_t bytes, const char* name) {
   return memory;
 }
 
-void Memory::read_to(const HostMemory& to, size_t offset, size_t bytes, const char* stage) const {
+void Memory::read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, const char* stage) const {
   if (bytes > to.bytes())
     throw std::out_of_range(fmt::format("reading {} bytes into {} bytes of the host", bytes, to.bytes()));
-  read_bytes(to.data(), offset, bytes, stage);
+  read_bytes(to.data(), offset, bytes, stage, wait);
 }
 
-void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage) const {
+void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage, bool wait) const {
   require(static_cast<bool>(handle_), "reading");
   Context::State& s = *context_->state_;
   check_bounds(*s.allocations, handle_.get(), bytes_, "reading", offset, bytes);
   if (bytes == 0) return;
   cl::Event event;
-  const cl_int code =
-      clEnqueueReadBuffer(s.queue(), handle_of(handle_), CL_TRUE, offset, bytes, to, 0, nullptr, s.event_of(event));
+  const cl_int code = clEnqueueReadBuffer(s.queue(), handle_of(handle_), wait ? CL_TRUE : CL_FALSE, offset, bytes, to,
+                                          0, nullptr, s.event_of(event));
   if (code != CL_SUCCESS) s.fail(code, fmt::format("reading buffer \"{}\"", s.allocations->name(handle_.get())));
-  s.staged.done();
+  if (wait) s.staged.done();
   s.profile.add(stage, std::move(event));
 }
 

@@ -82,9 +82,9 @@ class Memory {
   std::shared_ptr<void> handle_;  // cl_mem
   Context* context_ = nullptr;
   size_t bytes_ = 0;
-  void read_bytes(void* to, size_t offset, size_t bytes, const char* stage) const;
+  void read_bytes(void* to, size_t offset, size_t bytes, const char* stage, bool wait = true) const;
   void write_bytes(const void* from, size_t offset, size_t bytes, const char* stage);
-  void read_to(const HostMemory& to, size_t offset, size_t bytes, const char* stage) const;
+  void read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, const char* stage) const;
 };
 
 // A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and done with the host's memory
@@ -107,8 +107,12 @@ class Buffer : public Memory {
   std::vector<T> read() const { return read(0, size()); }
   // The same into pinned memory, which has room for them. The elements stay there until it is used again.
   std::span<const T> read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
-    read_to(to, first * sizeof(T), count * sizeof(T), stage);
+    read_to(to, first * sizeof(T), count * sizeof(T), true, stage);
     return {static_cast<const T*>(to.data()), count};
+  }
+  // The same without waiting: the elements are there after the next read that waits.
+  void begin_read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
+    read_to(to, first * sizeof(T), count * sizeof(T), false, stage);
   }
   T read_one(size_t i, const char* stage = "transfer") const {
     T out;

@@ -2,7 +2,6 @@
 // One ray per work-item.
 #include "passes/bounces.hpp"
 
-#include <cstddef>
 #include <stdexcept>
 
 #include "wavetracer/device/arguments.h"
@@ -10,22 +9,20 @@
 namespace wavetracer {
 
 Bounces::Bounces(gpu::Context& context, const DeviceScene& scene, bool ages, bool samples)
-    : context_(context), ages_(ages), samples_(samples), work_(tuning_of(context.info()).bounces) {
+    : ages_(ages), samples_(samples), work_(tuning_of(context.info()).bounces) {
   gpu::Definitions definitions = scene.definitions;
   if (ages) definitions["WT_AGES"] = "1";
   if (samples) definitions["WT_SAMPLES"] = "1";
   kernel_ = context.kernel("bounces", "bounces", definitions);
 }
 
-wt_counters Bounces::operator()(const DeviceScene& scene, const RayQueue& rays, uint32_t interactions, const Trie& trie,
-                                const gpu::Buffer<uint32_t>* ends) {
+void Bounces::operator()(const DeviceScene& scene, const RayQueue& rays, uint32_t interactions, const Trie& trie,
+                         const gpu::Buffer<uint32_t>* ends) {
   if (ages_ && !trie.ages) throw std::logic_error("bounces: the set of sequences keeps no ages");
   if (samples_ && !ends) throw std::logic_error("bounces: there is no list for the ends of samples");
   if (interactions > WT_MAX_DEPTH) throw std::logic_error("bounces: more interactions than rays may have");
-  const wt_uint none = 0;
-  context_.fill(trie.counters, &none, sizeof none, offsetof(wt_counters, ended), sizeof(wt_counters::ended), "trace");
   kernel_(work_.range(rays.count), "trace", scene.leg_nodes(), scene.leg_leaves(), scene.moving, rays.planes,
-          scene.surfaces, trie.table, trie.quarters, trie.counters, trie.ages, ends,
+          scene.surfaces, trie.table, trie.quarters, trie.counters.buffer(), trie.ages, ends,
           wt_bounces_arguments{.triangle_slots = scene.triangle_slots,
                                .extent_m = scene.extent_m,
                                .capacity = rays.capacity,
@@ -33,7 +30,6 @@ wt_counters Bounces::operator()(const DeviceScene& scene, const RayQueue& rays, 
                                .interactions = interactions,
                                .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
                                .now = trie.now});
-  return trie.counters.read_one(0, "trace");
 }
 
 }  // namespace wavetracer

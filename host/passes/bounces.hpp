@@ -12,13 +12,12 @@ class Bounces {
  public:
   // ages: the trie keeps them. samples: rays carry the number of their sample.
   Bounces(gpu::Context& context, const DeviceScene& scene, bool ages, bool samples);
-  // interactions: of a ray, at most. ends: one for each sample, where rays carry them, else null. Returns the counters
-  // after it, of which `ended` counts these rays. Throws std::logic_error where the trie or `ends` lack what it needs.
-  wt_counters operator()(const DeviceScene& scene, const RayQueue& rays, uint32_t interactions, const Trie& trie,
-                         const gpu::Buffer<uint32_t>* ends);
+  // interactions: of a ray, at most. ends: one for each sample, where rays carry them, else null. Adds the rays to
+  // wt_counters::ended. Throws std::logic_error where the trie or `ends` lack what it needs.
+  void operator()(const DeviceScene& scene, const RayQueue& rays, uint32_t interactions, const Trie& trie,
+                  const gpu::Buffer<uint32_t>* ends);
 
  private:
-  gpu::Context& context_;
   bool ages_, samples_;
   gpu::Kernel kernel_;
   Work work_;

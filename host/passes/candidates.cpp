@@ -34,8 +34,7 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
 }
 
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                                const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
-                                gpu::Buffer<wt_counters>& counters) {
+                                const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters) {
   if (ends.receiver_capacity == 0) return 0;
   const bool alone = tuning_of(context_.info()).alone;
   const gpu::Memory& links = alone ? static_cast<const gpu::Memory&>(ends.links) : ends.linked;
@@ -44,7 +43,7 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
       counters, &wt_counters::candidates, "candidates", [&] { return list_.size(); },
       [&] {
         kernel_(range, "candidates", trie, nodes, ends.transmitters, ends.receivers, scene.exact_surfaces,
-                scene.surfaces, ends.receiver_planes, links, list_, counters,
+                scene.surfaces, ends.receiver_planes, links, list_, counters.buffer(),
                 wt_candidates_arguments{.node_count = node_count,
                                         .receiver_capacity = ends.receiver_capacity,
                                         .transmitter_count = ends.transmitter_count,

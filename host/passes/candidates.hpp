@@ -1,6 +1,7 @@
 // candidates: sequences and receivers that a path may join, after two conservative rejections.
 // The list grows until it holds all of them.
 #pragma once
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/tuning.hpp"
@@ -11,9 +12,9 @@ class Candidates {
  public:
   // max_reflections: longer sequences are no paths.
   explicit Candidates(gpu::Context& context, uint32_t max_reflections = WT_MAX_DEPTH);
-  // nodes: roots first, then trie nodes. Returns the number of candidates, in list().
+  // nodes: roots first, then trie nodes. Returns the number of candidates, in list(), or a bound of it.
   uint32_t operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                      const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, gpu::Buffer<wt_counters>& counters);
+                      const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
   gpu::Buffer<wt_candidate>& list() { return list_; }
 
  private:

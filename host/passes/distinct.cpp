@@ -27,8 +27,7 @@ Distinct::Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of,
       twins_(std::ranges::any_of(receiver_of, [](uint32_t receiver) { return receiver != WT_NONE; })),
       receiver_of_(context.buffer(std::vector(receiver_of.begin(), receiver_of.end()), "receivers of transmitters")),
       transmitter_of_(
-          context.buffer(std::vector(transmitter_of.begin(), transmitter_of.end()), "transmitters of receivers")),
-      totals_(context.buffer<device::wt_row_totals>(1, "totals of rows")) {
+          context.buffer(std::vector(transmitter_of.begin(), transmitter_of.end()), "transmitters of receivers")) {
   reserve(1 << 13);
 }
 
@@ -45,7 +44,8 @@ void Distinct::reserve(size_t places) {
   rows_.quarters = context_.buffer<uint8_t>(places, "quarters of rows");
 }
 
-uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible) {
+uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible,
+                        Counters& counters) {
   const uint64_t links = uint64_t{ends.transmitter_count} * ends.receiver_count;
   const uint64_t places = uint64_t{visible.count} * (twins_ ? 2 : 1);
   if (links >= 0xFFFFFFFFu || places > 0x7FFFFFFFu)
@@ -57,25 +57,25 @@ uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own,
   if (places == 0) return 0;
   if (places > keys_.size()) reserve(places + places / 4);
   arguments_ = {.row_count = rows_.places,
+                .visible_counter = visible.counter,
                 .max_depth = visible.max_depth,
                 .receiver_count = ends.receiver_count,
                 .groups = ends.receiver_capacity / 16,
                 .twins = twins_,
                 .length_bits = std::min(most_length_bits, 32u - static_cast<uint32_t>(std::bit_width(links)))};
   row_keys_({places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
-            ends.receivers, receiver_of_, transmitter_of_, ends.links, own, keys_, lengths_, arguments_);
+            ends.receivers, receiver_of_, transmitter_of_, ends.links, own, keys_, lengths_, counters.buffer(),
+            arguments_);
   return rows_.places;
 }
 
-device::wt_row_totals Distinct::place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible) {
-  totals_.write(std::vector<device::wt_row_totals>{{}}, 0, "distinct");
+void Distinct::place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible, Counters& counters) {
   mark_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
              ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, scene.exact_surfaces, keys_, order_,
-             lengths_, stays_, quarters_, totals_, arguments_);
+             lengths_, stays_, quarters_, counters.buffer(), arguments_);
   order_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
               ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, keys_, order_, lengths_, stays_,
               quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.vertex_counts, rows_.quarters, arguments_);
-  return totals_.read_one(0, "distinct");
 }
 
 std::map<Link, uint32_t> Distinct::left_out() {

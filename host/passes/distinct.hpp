@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -31,9 +32,9 @@ class Distinct {
 
   // Keys of all rows, and how many places they take. own: the links whose paths are wanted, as RadioEnds::links has
   // them. Throws RuntimeError where links are too many for a key.
-  uint32_t keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible);
-  // By sorted keys: which rows stay, and where. Returns how many of what kind.
-  device::wt_row_totals place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible);
+  uint32_t keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible, Counters& counters);
+  // By sorted keys: which rows stay, and where. wt_counters has how many of what kind.
+  void place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible, Counters& counters);
   // How many paths of which link were left out so.
   std::map<Link, uint32_t> left_out();
 
@@ -51,7 +52,6 @@ class Distinct {
   uint32_t local_;
   bool twins_;
   gpu::Buffer<uint32_t> receiver_of_, transmitter_of_, keys_, order_;
-  gpu::Buffer<device::wt_row_totals> totals_;
   gpu::Buffer<double> lengths_;
   gpu::Buffer<uint8_t> stays_, quarters_;
   wt_distinct_arguments arguments_{};

@@ -2,6 +2,9 @@
 // One row per work-item; rows are read as records, once per frame.
 #include "passes/fields.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace wavetracer {
 namespace {
 
@@ -27,6 +30,8 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts,
                  .wavelength_m = tables.wavelength_m,
                  .seed = tables.seed,
                  .row_count = 0,
+                 .row_capacity = 0,
+                 .vertex_capacity = 0,
                  .max_depth = 0,
                  .transmissions = tables.transmissions,
                  .scatters = tables.scatters},
@@ -42,7 +47,7 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts,
 
 void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                         const WorldState& world, const SolvedList& visible, const Distinct& distinct,
-                        const RowList& rows, const device::wt_row_totals& totals) {
+                        const RowList& rows, RowCounts most) {
   const std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
                                                         field_ends(world.receivers, transmitters_)};
   for (int side = 0; side < 2; ++side) {
@@ -50,9 +55,11 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
       ends_[side] = context_.buffer<device::wt_field_end>(records[side].size(), "ends of paths");
     ends_[side].write(records[side], 0, "fields");
   }
-  make_room(context_, rows_, host_rows_, totals.rows, "path rows");
-  make_room(context_, vertices_, host_vertices_, totals.vertices, "path vertex rows");
+  make_room(context_, rows_, host_rows_, most.rows, "path rows");
+  make_room(context_, vertices_, host_vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
   arguments_.row_count = rows.places;
+  arguments_.row_capacity = static_cast<uint32_t>(rows_.size());
+  arguments_.vertex_capacity = static_cast<uint32_t>(vertices_.size());
   arguments_.max_depth = visible.max_depth;
   kernel_(work_.range(rows.places), "fields", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
           ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.delays, rows.quarters,
@@ -60,12 +67,23 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
           area_of_tile_, scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, rows_, vertices_, arguments_);
 }
 
-Paths Fields::read(uint32_t frame, const device::wt_row_totals& totals) {
-  context_.flush();  // the device works while the host makes room
-  Paths paths = sized_columns(totals.rows, totals.vertices, frame, ports_);
-  const auto rows = rows_.read(0, totals.rows, host_rows_, "fields");
-  const auto vertices = vertices_.read(0, totals.vertices, host_vertices_, "fields");
-  fill_columns(paths, rows, vertices);
+void Fields::begin_read(uint32_t frame, RowCounts expected) {
+  read_ = {static_cast<uint32_t>(std::min<size_t>(expected.rows, rows_.size())),
+           static_cast<uint32_t>(std::min<size_t>(expected.vertices, vertices_.size()))};
+  rows_.begin_read(0, read_.rows, host_rows_, "fields");
+  vertices_.begin_read(0, read_.vertices, host_vertices_, "fields");
+  context_.flush();
+  frame_ = frame;
+  room_ = sized_columns(read_.rows, read_.vertices, frame, ports_);
+}
+
+Paths Fields::columns(RowCounts count) {
+  if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, "fields");
+  if (count.vertices > read_.vertices) vertices_.read(0, count.vertices, host_vertices_, "fields");
+  Paths paths = std::exchange(room_, {});
+  resize_columns(paths, count.rows, count.vertices, frame_);
+  fill_columns(paths, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows},
+               {static_cast<const device::wt_vertex_row*>(host_vertices_.data()), count.vertices});
   return paths;
 }
 

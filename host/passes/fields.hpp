@@ -12,18 +12,25 @@
 
 namespace wavetracer {
 
+struct RowCounts {
+  uint32_t rows = 0, vertices = 0;
+};
+
 class Fields {
  public:
   // diffracts: whether paths may have edges, which takes a larger kernel. origin_m: of recentred coordinates.
   Fields(gpu::Context& context, const FieldTables& tables, bool diffracts, const glm::dvec3& origin_m);
 
-  // Computes the rows. Their counts are scanned. wedges: placed in the frame, or
-  // nullptr where nothing diffracts.
+  // Computes the rows. Their counts are scanned. wedges: placed in the frame, or nullptr where nothing diffracts.
+  // most: how many rows and vertices there may be.
   void operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                   const WorldState& world, const SolvedList& visible, const Distinct& distinct, const RowList& rows,
-                  const device::wt_row_totals& totals);
-  // The rows that were computed last, on the host.
-  Paths read(uint32_t frame, const device::wt_row_totals& totals);
+                  RowCounts most);
+  // Begins to read the rows that were computed last, `expected` of them, and makes room for their columns while the
+  // device works.
+  void begin_read(uint32_t frame, RowCounts expected);
+  // Their columns. count: how many there are. To be called once the device has finished.
+  Paths columns(RowCounts count);
 
  private:
   gpu::Context& context_;
@@ -40,6 +47,9 @@ class Fields {
   gpu::Buffer<device::wt_path_row> rows_;
   gpu::Buffer<device::wt_vertex_row> vertices_;
   gpu::HostMemory host_rows_, host_vertices_;
+  RowCounts read_;  // already
+  uint32_t frame_ = 0;
+  Paths room_;
 };
 
 }  // namespace wavetracer

@@ -33,7 +33,7 @@ void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const 
   gpu::Kernel& kernel = to.transmitted ? kernel_through_ : kernel_;
   const auto planes = [](const RayQueue* queue) { return queue ? &queue->planes : nullptr; };
   kernel(work_.range(rays.count), "interact", rays.planes, hits.planes, hits.block_hits, scene.surfaces, trie.table,
-         trie.quarters, trie.counters, planes(to.reflected), trie.ages, to.ends, planes(to.transmitted),
+         trie.quarters, trie.counters.buffer(), planes(to.reflected), trie.ages, to.ends, planes(to.transmitted),
          wt_interact_arguments{.capacity = rays.capacity,
                                .ray_count = rays.count,
                                .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),

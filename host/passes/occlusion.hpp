@@ -2,6 +2,7 @@
 // A surface blocks a leg whose ends lie on opposite sides of it, both farther than 0.1 mm from its plane.
 #pragma once
 #include "passes/blockers.hpp"
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -13,7 +14,8 @@ class Occlusion {
  public:
   Occlusion(gpu::Context& context, const DeviceScene& scene);
   // blockers: where what hides a path is noted, or null.
-  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Blockers* blockers = nullptr);
+  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
+                  Blockers* blockers = nullptr);
 
  private:
   Work work_;

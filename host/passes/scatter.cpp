@@ -48,14 +48,14 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
 }
 
 uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                           const gpu::Buffer<uint32_t>& nodes, uint32_t node_count) {
+                           const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters) {
   const uint32_t groups = ends.receiver_capacity / 16;
   const auto capacity = [&] { return static_cast<uint32_t>(entries_.size() / 4); };
   return grow_until_filled(
       [&] {
         context_.fill(count_, 0, "scatter");
         lit_({size_t{node_count} * groups, local_}, "scatter", trie, nodes, ends.transmitters, ends.receivers,
-             ends.links, scene.exact_surfaces, tiles_of_, entries_, count_,
+             ends.links, scene.exact_surfaces, tiles_of_, entries_, count_, counters.buffer(),
              wt_lit_arguments{node_count, ends.transmitter_count, groups, capacity()});
       },
       [&] { return count_.read_one(0, "scatter"); }, capacity,
@@ -87,10 +87,10 @@ std::vector<uint32_t> Scatter::place_rows(uint32_t entry_count) {
 
 SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                                 const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes,
-                                uint32_t node_count) {
+                                uint32_t node_count, Counters& counters) {
   solved_.count = 0;
   const bool any = node_count > 0 && ends.transmitter_count > 0 && ends.receiver_count > 0;
-  const uint32_t entry_count = any ? find_lit(scene, ends, trie, nodes, node_count) : 0;
+  const uint32_t entry_count = any ? find_lit(scene, ends, trie, nodes, node_count, counters) : 0;
   if (entry_count == 0) return solved_;
   const std::vector<uint32_t> first_row = place_rows(entry_count);
   first_row_.write(first_row, 0, "scatter");

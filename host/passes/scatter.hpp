@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -20,13 +21,13 @@ class Scatter {
   // wt_solved::node is that of the tile's surface, seen from the transmitter.
   // Throws RuntimeError, naming trace.tile_m, where the rows outgrow the buffers of the device.
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                         const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes,
-                         uint32_t node_count);
+                         const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
+                         Counters& counters);
 
  private:
   // Fills entries_, all of them; their number.
   uint32_t find_lit(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
-                    const gpu::Buffer<uint32_t>& nodes, uint32_t node_count);
+                    const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
   // Where the rows of each entry begin, and their number after the last; room for them all in the list.
   std::vector<uint32_t> place_rows(uint32_t entry_count);
 

@@ -2,7 +2,6 @@
 // The table starts small: a million rays in a city leave a few thousand sequences.
 #include "passes/sequences.hpp"
 
-#include <cstddef>
 #include <numeric>
 
 #include "passes/growing_list.hpp"
@@ -16,7 +15,7 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
       slots_work_(tuning_of(context.info()).slots),
       work_(tuning_of(context.info()).sequences),
       nodes_(context.buffer<uint32_t>(4096, "sequence list")),
-      counters_(context.buffer<wt_counters>(1, "counters")) {
+      counters_(context) {
   gpu::Definitions definitions = {{"WT_SLOTS_PER_ITEM", slots_work_.option()}};
   if (keep_ages) definitions["WT_AGES"] = "1";
   collect_ = context.kernel("sequences", "collect", definitions);
@@ -40,15 +39,8 @@ void Sequences::resize(uint64_t slots) {
 void Sequences::clear() {
   context_.fill(table_, WT_EMPTY, "sequences");
   context_.fill(quarters_, 0, "sequences");
-  counters_.write(std::vector<wt_counters>{{}}, 0, "sequences");
+  counters_.zero();
 }
-
-void Sequences::begin_frame() {
-  ++frame_;
-  zero_counters();
-}
-
-void Sequences::zero_counters() { counters_.write(std::vector<wt_counters>{{}}, 0, "sequences"); }
 
 gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest) {
   const gpu::Buffer<uint64_t> old_table = table_;
@@ -61,7 +53,7 @@ gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uin
     resize(slots);
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
       regrow_(work_.range(old_table.size()), "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth,
-              moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_,
+              moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_.buffer(),
               keep_ages_ ? &old_ages : nullptr, ages(), oldest);
     if (!overflowed()) return moved;
   }
@@ -78,17 +70,22 @@ void Sequences::forget(uint32_t frames, uint32_t max_depth) {
 
 void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
-  keep_(work_.range(solved.count), "sequences", table_, solved.headers, solved.count, ages_, now());
+  keep_(work_.range(solved.count), "sequences", table_, solved.headers, solved.count, solved.counter,
+        counters_.buffer(), ages_, now());
 }
 
-void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
-  for (;;) {
+uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
+  const size_t room = nodes_.size() - node_count;
+  for (bool grew = false;; grew = true) {
     commute_(work_.range(node_count), "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
-             surfaces, quarters_, counters_, ages(), now());
-    if (!overflowed()) return;
+             static_cast<uint32_t>(nodes_.size()), surfaces, quarters_, counters_.buffer(), ages(), now());
+    const uint32_t added = counters_.length(&wt_counters::exchanged, room, "sequences");
+    if (counters_.foresees()) return node_count + added;
+    if (!overflowed()) return grew || added > room ? collect(roots_) : node_count + added;
     // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
     // full.
     regrow(max_depth, node_count);
+    counters_.restart_nodes(node_count, "sequences");
   }
 }
 
@@ -103,19 +100,21 @@ void Sequences::write_roots(uint32_t transmitter_count) {
 }
 
 uint32_t Sequences::collect(uint32_t transmitter_count) {
+  const auto reserve = [&](size_t entries) {
+    nodes_ = context_.buffer<uint32_t>(entries, "sequence list");
+    roots_ = 0;
+  };
+  const size_t wanted = counters_.expected(&wt_counters::nodes) + counters_.expected(&wt_counters::exchanged);
+  if (counters_.foresees() && wanted > nodes_.size()) reserve(wanted);
   return grow_until_filled(
       [&] {
         write_roots(transmitter_count);
-        context_.fill(counters_, &transmitter_count, sizeof transmitter_count, offsetof(wt_counters, nodes),
-                      sizeof transmitter_count, "sequences");
+        counters_.restart_nodes(transmitter_count, "sequences");
         collect_(slots_work_.range(table_.size()), "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
-                 static_cast<uint32_t>(nodes_.size()), counters_);
+                 static_cast<uint32_t>(nodes_.size()), counters_.buffer());
       },
-      [&] { return counters_.read_one(0, "sequences").nodes; }, [&] { return nodes_.size(); },
-      [&](size_t entries) {
-        nodes_ = context_.buffer<uint32_t>(entries, "sequence list");
-        roots_ = 0;
-      });
+      [&] { return counters_.length(&wt_counters::nodes, nodes_.size(), "sequences"); }, [&] { return nodes_.size(); },
+      reserve);
 }
 
 }  // namespace wavetracer

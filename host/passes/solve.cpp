@@ -17,33 +17,31 @@ Solve::Solve(gpu::Context& context, uint32_t max_depth, bool remembers)
       kernel_(
           context.kernel("solve", "solve", remembers ? gpu::Definitions{{"WT_BLOCKERS", "1"}} : gpu::Definitions{})) {
   solved_.max_depth = std::max(max_depth, 1u);
+  solved_.counter = counter_word(&wt_counters::solved);
   solved_.reserve(context, 1 << 14);
 }
 
 SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                               const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<wt_candidate>& candidates,
-                              uint32_t candidate_count, gpu::Buffer<wt_counters>& counters, const Blockers* blockers) {
+                              uint32_t candidate_count, Counters& counters, const Blockers* blockers) {
   if (remembers_ && !blockers) throw std::logic_error("solve: there is no table of what hid paths");
   const auto run = [&](const auto&... table) {
     kernel_(work_.range(candidate_count), "solve", trie, quarters, ends.transmitters, ends.receivers,
             scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, candidates, solved_.headers,
-            solved_.vertices, solved_.sequences, counters, table...,
+            solved_.vertices, solved_.sequences, counters.buffer(), table...,
             wt_solve_arguments{.candidate_count = candidate_count,
                                .max_depth = solved_.max_depth,
                                .capacity = static_cast<uint32_t>(solved_.headers.size()),
                                .triangle_slots = scene.triangle_slots,
                                .blocker_mask = Blockers::mask});
   };
-  wt_counters now{};
-  solved_.count = grow_until_filled([&] { remembers_ ? run(scene.leg_leaves(), blockers->places) : run(); },
-                                    [&] { return (now = counters.read_one(0, "solve")).solved; },
-                                    [&] { return solved_.headers.size(); },
-                                    [&](size_t rows) {
-                                      solved_.reserve(context_, rows);
-                                      now.solved = now.hidden = 0;
-                                      counters.write(std::vector{now}, 0, "solve");
-                                    });
-  solved_.hidden = now.hidden;
+  solved_.count = fill_list(
+      counters, &wt_counters::solved, "solve", [&] { return solved_.headers.size(); },
+      [&] { remembers_ ? run(scene.leg_leaves(), blockers->places) : run(); },
+      [&](size_t rows) {
+        solved_.reserve(context_, rows);
+        counters.restart(&wt_counters::hidden, 0, "solve");
+      });
   return solved_;
 }
 

@@ -2,6 +2,7 @@
 // The list grows until it holds every solved candidate.
 #pragma once
 #include "passes/blockers.hpp"
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -15,8 +16,7 @@ class Solve {
   Solve(gpu::Context& context, uint32_t max_depth, bool remembers = false);
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                          const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<wt_candidate>& candidates,
-                         uint32_t candidate_count, gpu::Buffer<wt_counters>& counters,
-                         const Blockers* blockers = nullptr);
+                         uint32_t candidate_count, Counters& counters, const Blockers* blockers = nullptr);
 
  private:
   gpu::Context& context_;

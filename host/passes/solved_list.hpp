@@ -11,7 +11,9 @@ struct SolvedList {
   gpu::Buffer<double> vertices;
   gpu::Buffer<uint32_t> sequences;
   uint32_t count = 0, max_depth = 0;
-  uint32_t hidden = 0;  // solved besides, and known to be obstructed (Blockers)
+  // The word of wt_counters that has the length, where `count` may be a bound of it (counters.hpp); WT_NONE: it is
+  // exact.
+  uint32_t counter = WT_NONE;
 
   // Room for so many rows of max_depth; what was there is lost.
   void reserve(gpu::Context& context, size_t rows) {
@@ -26,6 +28,7 @@ struct SolvedList {
     context.copy(list.vertices, vertices, 3 * rows * max_depth * sizeof(double), "visible");
     context.copy(list.sequences, sequences, rows * max_depth * sizeof(uint32_t), "visible");
     count = list.count;
+    counter = list.counter;
   }
 };
 

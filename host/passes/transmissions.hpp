@@ -1,6 +1,7 @@
 // transmissions: enters the surfaces that solved paths pass through into their rows, in order along the path.
 // Takes the place of occlusion: marks paths that pass more surfaces than they may, or one that nothing passes.
 #pragma once
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -13,7 +14,7 @@ class Transmissions {
   // most: transmissions of a path, no more than interactions of all kinds, of which a row of the list has room for the
   // most (or for one, where there is none).
   Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most);
-  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
+  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
 
  private:
   uint32_t most_;

@@ -2,14 +2,14 @@
 // See passes/sequences.hpp, which makes it, and kernels/lib/trie.clh.
 #pragma once
 #include "gpu/gpu.hpp"
-#include "wavetracer/device/records.h"
+#include "passes/counters.hpp"
 
 namespace wavetracer {
 
 struct Trie {
   gpu::Buffer<uint64_t>& table;
   gpu::Buffer<uint32_t>& quarters;
-  gpu::Buffer<wt_counters>& counters;
+  Counters& counters;
   gpu::Buffer<uint32_t>* ages = nullptr;  // where they are kept
   uint32_t now = 0;                       // the age of what rays meet in this frame
 };

@@ -2,6 +2,7 @@
 // all kinds, one after the other. The list grows until it holds them.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "passes/counters.hpp"
 #include "passes/solved_list.hpp"
 
 namespace wavetracer {
@@ -9,10 +10,10 @@ namespace wavetracer {
 class Visible {
  public:
   Visible(gpu::Context& context, uint32_t max_depth);
-  // The list begins with nothing.
-  void clear(gpu::Buffer<wt_counters>& counters);
+  // The list begins with nothing, as its counter does.
+  void clear() { visible_.count = 0; }
   // Appends those of `solved`.
-  void operator()(const SolvedList& solved, gpu::Buffer<wt_counters>& counters);
+  void operator()(const SolvedList& solved, Counters& counters);
   SolvedList& list() { return visible_; }
 
  private:

@@ -18,7 +18,7 @@ WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receive
       list_(context.buffer<wt_wedge_candidate>(1 << 14, "wedge candidates")) {}
 
 uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                               const RadioEnds& ends, gpu::Buffer<wt_counters>& counters, WedgePairs* pairs) {
+                               const RadioEnds& ends, Counters& counters, WedgePairs* pairs) {
   const size_t items = size_t{prefixes.count} * lanes_;
   const auto run = [&] {
     const wt_wedge_join_arguments arguments{.count = prefixes.count,
@@ -28,7 +28,7 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .max_depth = max_depth_,
                                             .capacity = static_cast<uint32_t>(list_.size())};
     kernel_({items, group_}, "wedge_join", prefixes.keys, prefixes.order, prefixes.prefixes, receiver_of_origin_,
-            ends.links, wedges.wedges, scene.surfaces, list_, counters, arguments);
+            ends.links, wedges.wedges, scene.surfaces, list_, counters.buffer(), arguments);
     if (pairs && max_depth_ >= 2)
       (*pairs)(scene, prefixes, wedges, ends, receiver_of_origin_, arguments, list_, counters);
   };

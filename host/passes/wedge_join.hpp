@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/wedge_lists.hpp"
@@ -19,7 +20,7 @@ class WedgeJoin {
   // prefixes: sorted by their keys. pairs: for paths over two wedges too, or nullptr. Returns the number of candidates,
   // in list().
   uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                      const RadioEnds& ends, gpu::Buffer<wt_counters>& counters, WedgePairs* pairs);
+                      const RadioEnds& ends, Counters& counters, WedgePairs* pairs);
   const gpu::Buffer<wt_wedge_candidate>& list() const { return list_; }
 
  private:

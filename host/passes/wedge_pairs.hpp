@@ -2,6 +2,7 @@
 // no path is lost by it (wedge_sight).
 #pragma once
 #include "gpu/gpu.hpp"
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/wedge_lists.hpp"
@@ -17,8 +18,7 @@ class WedgePairs {
   // Appends to the list, and counts in counters.wedge_candidates. join: of the same prefixes (see wedge_join).
   void operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                   const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
-                  const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
-                  gpu::Buffer<wt_counters>& counters);
+                  const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list, Counters& counters);
 
   WedgeSight sight;  // to be asked before prefixes are sorted
 

@@ -22,17 +22,21 @@ void WedgePrefixes::reserve(size_t entries) {
 WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                            const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
                                            const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
-                                           gpu::Buffer<wt_counters>& counters) {
-  list_.count = fill_list(
-      counters, &wt_counters::wedge_prefixes, "wedge_prefixes", [&] { return list_.keys.size(); },
+                                           Counters& counters) {
+  const Counters::Count count = &wt_counters::wedge_prefixes;
+  list_.count = grow_until_filled(  // read in each frame: a sort needs to know
       [&] {
         kernel_(work_.range(node_count), "wedge_prefixes", trie, quarters, nodes, ends.transmitters,
-                scene.exact_surfaces, wedges.first, wedges.of_surfaces, wedges.wedges, list_.keys, list_.prefixes,
-                counters,
+                scene.exact_surfaces, scene.surfaces, wedges.first, wedges.of_surfaces, wedges.wedges, list_.keys,
+                list_.prefixes, counters.buffer(),
                 wt_wedge_prefixes_arguments{static_cast<uint32_t>(trie.size() - 1), node_count,
                                             static_cast<uint32_t>(list_.keys.size())});
       },
-      [&](size_t entries) { reserve(entries); });
+      [&] { return counters.read("wedge_prefixes").*count; }, [&] { return list_.keys.size(); },
+      [&](size_t entries) {
+        reserve(entries);
+        counters.restart(count, 0, "wedge_prefixes");
+      });
   return list_;
 }
 

@@ -2,6 +2,7 @@
 // The list grows until it holds them.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/tuning.hpp"
@@ -15,8 +16,7 @@ class WedgePrefixes {
   // nodes: of the trie, in any order; roots among them are passed over. The keys are not sorted yet.
   WedgePrefixList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                               const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
-                              const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
-                              gpu::Buffer<wt_counters>& counters);
+                              const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
 
  private:
   void reserve(size_t entries);

@@ -2,8 +2,6 @@
 // One candidate per work-item.
 #include "passes/wedge_solve.hpp"
 
-#include <cstddef>
-
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
@@ -12,25 +10,25 @@ namespace wavetracer {
 WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth)
     : context_(context), work_(tuning_of(context.info()).exact), kernel_(context.kernel("wedge_solve", "wedge_solve")) {
   solved_.max_depth = max_depth;
+  solved_.counter = counter_word(&wt_counters::wedge_solved);
   solved_.reserve(context, 1 << 12);
 }
 
 SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                    const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
-                                   uint32_t candidate_count, gpu::Buffer<wt_counters>& counters) {
+                                   uint32_t candidate_count, Counters& counters) {
   const auto run = [&] {
     kernel_(work_.range(candidate_count), "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
             scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates, solved_.headers, solved_.vertices,
-            solved_.sequences, counters,
+            solved_.sequences, counters.buffer(),
             wt_solve_arguments{.candidate_count = candidate_count,
                                .max_depth = solved_.max_depth,
                                .capacity = static_cast<uint32_t>(solved_.headers.size()),
                                .triangle_slots = 0,
                                .blocker_mask = 0});
   };
-  zero_counter(context_, counters, offsetof(wt_counters, solved), "wedge_solve");
   solved_.count = fill_list(
-      counters, &wt_counters::solved, "wedge_solve", [&] { return solved_.headers.size(); }, run,
+      counters, &wt_counters::wedge_solved, "wedge_solve", [&] { return solved_.headers.size(); }, run,
       [&](size_t rows) { solved_.reserve(context_, rows); });
   return solved_;
 }

@@ -1,6 +1,7 @@
 // wedge_solve: exact points of diffracted paths, on their edges and in their surfaces, in double on the device.
 // The list grows until it holds every solved candidate.
 #pragma once
+#include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -14,7 +15,7 @@ class WedgeSolve {
   WedgeSolve(gpu::Context& context, uint32_t max_depth);
   SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                          const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
-                         uint32_t candidate_count, gpu::Buffer<wt_counters>& counters);
+                         uint32_t candidate_count, Counters& counters);
 
  private:
   gpu::Context& context_;

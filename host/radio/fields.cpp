@@ -157,7 +157,7 @@ Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const Wo
   const OrderedRows ordered = ordered_rows(list, world, geometry.size(), near);
   if (left_out) *left_out = std::move(near);
 
-  std::vector<uint64_t> first_vertex{0};
+  std::vector<uint32_t> first_vertex{0};
   for (const uint32_t row : ordered.rows) first_vertex.push_back(first_vertex.back() + solved.solved[row / 2].depth);
   std::vector<device::wt_path_row> path_rows(ordered.rows.size());
   std::vector<device::wt_vertex_row> vertex_rows(first_vertex.back());
@@ -166,7 +166,7 @@ Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const Wo
   tbb::parallel_for(tbb::blocked_range<uint32_t>(0, rows.count, 64), [&](const tbb::blocked_range<uint32_t>& range) {
     for (uint32_t row = range.begin(); row < range.end(); ++row)
       device::wt_write_row(&world, &rows, row, solved.solved[ordered.rows[row] / 2].quarters, scene_.origin_m,
-                           &path_rows[row], vertex_rows.data() + first_vertex[row]);
+                           first_vertex[row], &path_rows[row], vertex_rows.data());
   });
   Paths paths = columns_of(path_rows, vertex_rows, frame, tables_.ports);
   if (geometry.quarters.empty()) paths.quarters.clear();

@@ -3,9 +3,12 @@
 // Frames of a drive see nearly the same, so their counts make a mean frame, and not a larger sample.
 #include "wavetracer/missed.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 #include "radio/path_power.hpp"
 
@@ -41,6 +44,24 @@ MissedRange missed_paths(const std::array<double, 4>& found) {
           .high = path_factor * likeness(f1, f2) * (estimate + deviations * std::sqrt(variance)) + unseen};
 }
 
+// Rows are counted in parts of so many, whose sums do not depend on the number of cores.
+constexpr size_t block = 4096;
+
+MissedCounts counts_of_rows(const Paths& paths, size_t first, size_t end) {
+  MissedCounts out;
+  out.frames = 1;
+  for (size_t row = first; row < end; ++row) {
+    const double power = power_of(paths, row);
+    out.power += power;
+    if (paths.depth[row] == 0) continue;
+    const auto k = static_cast<size_t>(std::max(std::popcount(paths.quarters[row]), 1) - 1);
+    ++out.paths[k];
+    out.powers[k] += power;
+    out.amplitude += std::sqrt(power);
+  }
+  return out;
+}
+
 }  // namespace
 
 void add_part(MissedCounts& sum, const MissedCounts& more) {
@@ -60,18 +81,14 @@ void add(MissedCounts& sum, const MissedCounts& more) {
 }
 
 MissedCounts missed_counts(const Paths& paths, size_t first, size_t end) {
+  if (paths.quarters.size() != paths.size()) return {};
+  std::vector<MissedCounts> parts((end - first) / block + 1);
+  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) {
+    const size_t begin = first + i * block;
+    parts[i] = counts_of_rows(paths, begin, std::min(begin + block, end));
+  });
   MissedCounts out;
-  if (paths.quarters.size() != paths.size()) return out;
-  out.frames = 1;
-  for (size_t row = first; row < end; ++row) {
-    const double power = power_of(paths, row);
-    out.power += power;
-    if (paths.depth[row] == 0) continue;
-    const auto k = static_cast<size_t>(std::max(std::popcount(paths.quarters[row]), 1) - 1);
-    ++out.paths[k];
-    out.powers[k] += power;
-    out.amplitude += std::sqrt(power);
-  }
+  for (const MissedCounts& part : parts) add_part(out, part);
   return out;
 }
 

@@ -9,8 +9,9 @@
 namespace wavetracer {
 namespace {
 
-void resize_numbers(Paths& paths, size_t rows) {
-  for (auto* column : {&paths.frame, &paths.tx, &paths.rx, &paths.depth}) column->resize(rows);
+void resize_numbers(Paths& paths, size_t rows, uint32_t frame) {
+  for (auto* column : {&paths.tx, &paths.rx, &paths.depth}) column->resize(rows);
+  paths.frame.resize(rows, frame);
   paths.quarters.resize(rows);
   paths.vertex_offset.resize(rows + 1);
 }
@@ -30,7 +31,7 @@ void resize_vertices(Paths& paths, size_t vertices) {
 void take_row(Paths& paths, size_t row, const device::wt_path_row& from) {
   paths.tx[row] = from.tx;
   paths.rx[row] = from.rx;
-  paths.depth[row] = from.depth;
+  paths.vertex_offset[row] = from.first_vertex;
   paths.quarters[row] = static_cast<uint8_t>(from.quarters);
   paths.delay_s[row] = from.delay_s;
   paths.gain_db[row] = from.gain_db;
@@ -57,19 +58,29 @@ Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports) {
   Paths paths;
   paths.tx_ports = ports.tx;
   paths.rx_ports = ports.rx;
-  tbb::parallel_invoke([&] { paths.a.resize(rows); }, [&] { resize_numbers(paths, rows); },
+  tbb::parallel_invoke([&] { paths.a.resize(rows); }, [&] { resize_numbers(paths, rows, frame); },
                        [&] { resize_values(paths, rows); }, [&] { paths.vertex_position_m.resize(vertices); },
                        [&] { resize_vertices(paths, vertices); });
-  std::ranges::fill(paths.frame, frame);
   return paths;
+}
+
+void resize_columns(Paths& paths, size_t rows, size_t vertices, uint32_t frame) {
+  paths.a.resize(rows);
+  resize_numbers(paths, rows, frame);
+  resize_values(paths, rows);
+  paths.vertex_position_m.resize(vertices);
+  resize_vertices(paths, vertices);
 }
 
 void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
                   std::span<const device::wt_vertex_row> vertices) {
-  for (size_t row = 0; row < rows.size(); ++row)
-    paths.vertex_offset[row + 1] = paths.vertex_offset[row] + rows[row].depth;
+  paths.vertex_offset[rows.size()] = vertices.size();
   tbb::parallel_for(tbb::blocked_range<size_t>(0, rows.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t row = range.begin(); row < range.end(); ++row) take_row(paths, row, rows[row]);
+    for (size_t row = range.begin(); row < range.end(); ++row) {
+      take_row(paths, row, rows[row]);
+      const size_t end = row + 1 < rows.size() ? rows[row + 1].first_vertex : vertices.size();
+      paths.depth[row] = static_cast<uint32_t>(end - rows[row].first_vertex);
+    }
   });
   tbb::parallel_for(tbb::blocked_range<size_t>(0, vertices.size(), 1024), [&](const tbb::blocked_range<size_t>& range) {
     for (size_t at = range.begin(); at < range.end(); ++at) take_vertex(paths, at, vertices[at]);

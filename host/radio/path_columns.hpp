@@ -15,6 +15,8 @@ struct Ports {
 // Paths of one frame with room for so many rows and vertices. Their pages are touched, which takes longer than all
 // else.
 Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports);
+// Room for another number of them.
+void resize_columns(Paths& paths, size_t rows, size_t vertices, uint32_t frame);
 // Fills paths of these sizes. rows: in their order; vertices: of all rows, one after the other.
 void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
                   std::span<const device::wt_vertex_row> vertices);

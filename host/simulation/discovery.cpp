@@ -2,7 +2,6 @@
 #include "simulation/discovery.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace wavetracer {
 
@@ -41,9 +40,8 @@ InteractOptions interact_options(const TraceConfig& trace, const TracingDepth& d
 // Does nothing happen to rays between two depths but their reflection? Then they need no queues. On CPUs packets of
 // rays through queues are faster.
 bool at_once(const gpu::DeviceInfo& device, const TracingDepth& depth, const DiscoveryOptions& options) {
-  const char* env = std::getenv("WT_BOUNCES");  // TEMPORARY
-  return (env ? env[0] == 0x31 : !device.cpu) && !needs_labels(options) && depth.transmissions == 0 &&
-         !options.order.each_depth && options.order.launch.plain();
+  return !device.cpu && !needs_labels(options) && depth.transmissions == 0 && !options.order.each_depth &&
+         options.order.launch.plain();
 }
 
 }  // namespace

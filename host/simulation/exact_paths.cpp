@@ -39,11 +39,11 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     occlusion.emplace(context, device_scene);
 }
 
-void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved) {
+void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters) {
   if (transmissions)
-    (*transmissions)(scene, ends, solved);
+    (*transmissions)(scene, ends, solved, counters);
   else
-    (*occlusion)(scene, ends, solved, blockers ? &*blockers : nullptr);
+    (*occlusion)(scene, ends, solved, counters, blockers ? &*blockers : nullptr);
 }
 
 }  // namespace wavetracer

@@ -23,7 +23,7 @@ struct ExactPaths {
              const TraceConfig& trace, const Origins& origins, bool frames_follow);
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
-  void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved);
+  void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
   // Of paths: specular, diffracted, scattered.
   uint64_t kinds() const { return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()}; }
 

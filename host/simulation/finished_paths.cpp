@@ -4,6 +4,14 @@
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
+namespace {
+
+// What is read of a frame before it is known how much there is: little more than of the last one.
+RowCounts expected_rows(const wt_counters& last) {
+  return {last.rows + last.rows / 16 + 16, last.row_vertices + last.row_vertices / 16 + 64};
+}
+
+}  // namespace
 
 FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world)
     : context_(context),
@@ -13,25 +21,32 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
       fields_(context, make_field_tables(scene, config, world.models(), world.instances()), config.trace.diffraction,
               scene.origin_m) {}
 
-Paths FinishedPaths::operator()(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
-                                const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
-                                LeftOut& left_out, FrameAccount& account) {
-  const uint32_t places = distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links,
-                                         visible);  // distinct
-  device::wt_row_totals totals{};
+void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
+                          const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
+                          Counters& counters) {
+  const uint32_t places =
+      distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
+                     counters);  // distinct
+  RowCounts most{}, expected{};
   if (places > 0) {
     sort_(distinct_.sort_keys(), distinct_.order(), places, 32, "distinct");  // sort
-    totals = distinct_.place(scene, ends, visible);                           // distinct
-    if (totals.near > 0) left_out = distinct_.left_out();
+    distinct_.place(scene, ends, visible, counters);                          // distinct
+    most = {counters.length(&wt_counters::rows, places, "distinct"),
+            counters.length(&wt_counters::row_vertices, size_t{places} * visible.max_depth, "distinct")};
+    expected = counters.foresees() ? expected_rows(counters.last()) : most;
   }
-  if (totals.rows > 0) {
+  if (most.rows > 0) {
     scan_.prefix(distinct_.rows().counts, places, "distinct");         // scan
     scan_.prefix(distinct_.rows().vertex_counts, places, "distinct");  // scan
     fields_(scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_, distinct_.rows(),
-            totals);  // fields
+            most);  // fields
   }
-  account.device_done();
-  return fields_.read(frame, totals);
+  fields_.begin_read(frame, expected);
+}
+
+Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out) {
+  if (counted.near_rows > 0) left_out = distinct_.left_out();
+  return fields_.columns({counted.rows, counted.row_vertices});
 }
 
 void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible) {

@@ -20,11 +20,13 @@ class FinishedPaths {
   // config: with all ends of the world, and the features that are on.
   FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world);
 
-  // visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose paths are wanted,
-  // where they are not all that ends.links has. left_out: gets paths that radio/fields.hpp does not count.
-  Paths operator()(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
-                   const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, LeftOut& left_out,
-                   FrameAccount& account);
+  // Starts the passes. visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose
+  // paths are wanted, where they are not all that ends.links has.
+  void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
+             const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, Counters& counters);
+  // The paths, once the device has finished, with the counters as it left them. left_out: gets paths that
+  // radio/fields.hpp does not count.
+  Paths take(const wt_counters& counted, LeftOut& left_out);
 
  private:
   gpu::Context& context_;

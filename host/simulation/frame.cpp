@@ -72,34 +72,25 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   const bool warm = s_.reuse && warm_frames_ > 0, spared = task.between && warm && clock_.spares();
   DiscoveryMark& discovery = task.discovery ? *task.discovery : discovery_;
   const bool searches = !spared && clock_.due(out.world, !warm, discovery);
-  std::optional<Paths> known;  // before rays add to it
+  std::optional<Paths> known;  // before rays add to the sequences
   if (searches && warm && clock_.spares()) known = known_paths(task, out.world, ends, account);
-  if (searches)
-    begin_sequences();
-  else
-    s_.discovery.sequences().zero_counters();
+  // Frames like the one before: what tells of rays on their way, and blocks of links, are not.
+  const bool alike = !block && !task.compiling && !known && !s_.cache && !s_.trails;
+  if (searches) next_frame(s_.discovery.sequences());
   if (s_.cache) s_.cache->begin_frame(out.world);
   if (s_.trails) s_.trails->begin_frame(task.frame, ends, out.world);
 
-  DiscoveryCounts found;
-  if (searches) found = discover(task, out.world, block ? &*block : nullptr);  // order_keys to refine (discovery.cpp)
+  const auto [found, counted] = find_paths(task, out.world, ends, block ? &*block : nullptr, searches, alike, account);
   account.discovered(found);
   if (s_.cache) out.cache = s_.cache->summary();
   if (s_.cache && s_.config.output.cache_entries) s_.cache->add_entries(task.frame, out.cache_entries);
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();
 
-  const bool spheres = s_.trails && s_.trails->receives();
-  if (spheres)
-    receive_paths(ends, account);
-  else
-    solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), searches, s_.frame_watch,
-                account);  // sequences to visible
-  account.end_stage("paths");
-
   LeftOut left_out;
-  out.paths = finished_paths(task.frame, out.world, ends, block ? &block->own : nullptr, left_out, account);
+  out.paths = s_.finish.take(counted, left_out);
   if (block) out.world.links = block->own;
-  if (spheres || s_.cache) out.paths.quarters.clear();  // what they find, no smaller launch tells of
+  if (s_.cache || (s_.trails && s_.trails->receives()))
+    out.paths.quarters.clear();  // what they find, no smaller launch tells of
   if (found.rays > 0) out.missed = missed_counts(out.paths, 0, out.paths.size());
   if (known) out.late = late_counts(*known, out.paths);
   if (const auto text = recall_warning(found, s_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
@@ -109,35 +100,70 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   return account.close();
 }
 
+// From rays to fields, without waiting for the device where the frame is like the one before; once more, and waiting,
+// if it was not.
+FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
+                                       const LinkBlock* block, bool searches, bool alike, FrameAccount& account) {
+  Sequences& set = s_.discovery.sequences();
+  Counters& counters = set.counters();
+  Found out;
+  counters.foresee(alike);
+  for (bool settled = false; !settled; counters.foresee(false)) {
+    begin_sequences(set, searches);
+    out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
+    const uint32_t scattered = s_.trails && s_.trails->receives()
+                                   ? receive_paths(ends, account)
+                                   : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, s_.frame_watch,
+                                                 account);  // sequences to visible
+    account.end_stage("paths");
+    finish_paths(task.frame, world, ends, block ? &block->own : nullptr);  // distinct to fields
+    out.counted = counters.read("fields");
+    account.device_done();
+    account.counted(out.counted, ends.transmitter_count, scattered);
+    settled = !alike || counters.settle(out.counted);
+  }
+  if (out.rays.unread > 0) out.rays.add_ended(out.rays.unread, out.counted.ended);
+  return out;
+}
+
 // The paths of the sequences that are known, with the same rules as those of the frame.
 Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                              FrameAccount& account) {
-  const FrameCounts counts = account.result.counts;
-  s_.discovery.sequences().zero_counters();
-  solve_paths(s_.exact_paths, s_.device_scene, ends, s_.discovery.sequences(), false, s_.frame_watch, account);
-  account.result.counts = counts;
+  Sequences& set = s_.discovery.sequences();
+  set.counters().zero();
+  solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, s_.frame_watch, account);
   account.end_stage("paths");
+  finish_paths(task.frame, world, ends, nullptr);
+  const wt_counters counted = set.counters().read("fields");
+  account.device_done();
   LeftOut left_out;
-  Paths out = finished_paths(task.frame, world, ends, nullptr, left_out, account);
+  Paths out = s_.finish.take(counted, left_out);
   account.end_stage("columns");
   return out;
 }
 
 // distinct to fields (finished_paths.cpp)
-Paths FrameLoop::finished_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends,
-                                const std::vector<Link>* own, LeftOut& left_out, FrameAccount& account) {
+void FrameLoop::finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends,
+                             const std::vector<Link>* own) {
   DiffractedPaths* edges = s_.exact_paths.diffraction ? &*s_.exact_paths.diffraction : nullptr;
-  return s_.finish(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, left_out, account);
+  s_.finish.start(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own,
+                  s_.discovery.sequences().counters());
+}
+
+// What is entered from now on is younger than all before, and what is too old is forgotten.
+void FrameLoop::next_frame(Sequences& set) {
+  if (!s_.reuse) warm_frames_ = 0;
+  set.begin_frame();
+  if (warm_frames_ > 0 && warm_frames_ % s_.trace.forget_frames == 0)
+    set.forget(s_.trace.forget_frames, s_.trace.max_depth);
 }
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
-void FrameLoop::begin_sequences() {
-  Sequences& sequences = s_.discovery.sequences();
-  if (!s_.reuse) warm_frames_ = 0;
-  if (warm_frames_ == 0) sequences.clear();
-  sequences.begin_frame();
-  if (warm_frames_ > 0 && warm_frames_ % s_.trace.forget_frames == 0)
-    sequences.forget(s_.trace.forget_frames, s_.trace.max_depth);
+void FrameLoop::begin_sequences(Sequences& set, bool searches) {
+  if (searches && warm_frames_ == 0)
+    set.clear();
+  else
+    set.counters().zero();
 }
 
 // With diffraction listeners launch too, and what both ends see meets at the edge.
@@ -169,40 +195,35 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths.
-void FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
-  FrameCounts& counts = account.result.counts;
-  counts.sequences = s_.discovery.sequences().collect(ends.transmitter_count) - ends.transmitter_count;
-  counts.receptions = s_.trails->receptions();
+uint32_t FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
+  Sequences& set = s_.discovery.sequences();
+  set.collect(ends.transmitter_count);
+  account.result.counts.receptions = s_.trails->receptions();
   account.device_done();
-  upload_visible(s_.context, s_.trails->paths(), s_.exact_paths.visible.list());
+  SolvedList& visible = s_.exact_paths.visible.list();
+  upload_visible(s_.context, s_.trails->paths(), visible);
+  set.counters().restart(&wt_counters::visible, visible.count, "visible");
+  return 0;
 }
 
-void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
-                 const FrameWatch& watch, FrameAccount& account) {
-  FrameCounts& counts = account.result.counts;
+uint32_t solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+                     const FrameWatch& watch, FrameAccount& account) {
+  Counters& counters = set.counters();
   uint64_t kinds_done = 0;
-  exact.visible.clear(set.counters());
+  exact.visible.clear();
   const auto see = [&](SolvedList& solved) {
-    exact.check_legs(scene, ends, solved);  // occlusion or transmissions
-    counts.solved += solved.count + solved.hidden;
-    exact.visible(solved, set.counters());  // visible
+    exact.check_legs(scene, ends, solved, counters);  // occlusion or transmissions
+    exact.visible(solved, counters);                  // visible
     account.device_done();
     watch.tell("paths", ++kinds_done, exact.kinds());
   };
   watch.tell("paths", 0, exact.kinds());
 
   uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
-  if (searched) {
-    set.commute(scene.surfaces, nodes, exact.max_depth);
-    nodes = set.collect(ends.transmitter_count);
-  }
-  counts.sequences = nodes - ends.transmitter_count;
-
-  const uint32_t candidates =
-      exact.candidates(scene, ends, set.table(), set.nodes(), nodes, set.counters());  // candidates
-  counts.candidates = candidates;
+  if (searched) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
+  const uint32_t candidates = exact.candidates(scene, ends, set.table(), set.nodes(), nodes, counters);  // candidates
   SolvedList& mirrored = exact.solve(scene, ends, set.table(), set.quarters(), exact.candidates.list(), candidates,
-                                     set.counters(), exact.blockers ? &*exact.blockers : nullptr);  // solve
+                                     counters, exact.blockers ? &*exact.blockers : nullptr);  // solve
   see(mirrored);
   set.keep(mirrored);
 
@@ -210,20 +231,19 @@ void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& e
     DiffractedPaths& edges = *exact.diffraction;
     edges.wedges(scene);  // wedges
     WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
-                                               set.nodes(), nodes, set.counters());  // wedge_prefixes
-    if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);       // wedge_sight
-    edges.sort(prefixes);                                                            // sort
-    const uint32_t joined = edges.join(scene, prefixes, edges.wedges.list(), ends, set.counters(),
+                                               set.nodes(), nodes, counters);   // wedge_prefixes
+    if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);  // wedge_sight
+    edges.sort(prefixes);                                                       // sort
+    const uint32_t joined = edges.join(scene, prefixes, edges.wedges.list(), ends, counters,
                                        edges.for_two());  // wedge_join, wedge_pairs
-    counts.candidates += joined;
     see(edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.join.list(), joined,
-                    set.counters()));  // wedge_solve
+                    counters));  // wedge_solve
   }
-  if (exact.scatter) {
-    SolvedList& scattered = (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes);  // scatter
-    counts.candidates += scattered.count;
-    see(scattered);
-  }
+  if (!exact.scatter) return 0;
+  SolvedList& scattered =
+      (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
+  see(scattered);
+  return scattered.count;
 }
 
 }  // namespace wavetracer

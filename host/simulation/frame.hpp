@@ -33,12 +33,19 @@ class FrameLoop {
   void forget();
 
  private:
+  struct Found {
+    DiscoveryCounts rays;
+    wt_counters counted{};
+  };
+
   FrameResult solve(const FrameTask& task);
-  void begin_sequences();
+  Found find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, const LinkBlock* block,
+                   bool searches, bool alike, FrameAccount& account);
+  void next_frame(Sequences& set);
+  void begin_sequences(Sequences& set, bool searches);
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
-  void receive_paths(const RadioEnds& ends, FrameAccount& account);
-  Paths finished_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
-                       LeftOut& left_out, FrameAccount& account);
+  uint32_t receive_paths(const RadioEnds& ends, FrameAccount& account);
+  void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own);
   Paths known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;
@@ -49,8 +56,9 @@ class FrameLoop {
 };
 
 // Finds the exact paths of the sequences that rays have found, in exact.visible.list(). searched: rays may have added
-// sequences since the call before, whose exchanges are added then.
-void solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
-                 const FrameWatch& watch, FrameAccount& account);
+// sequences since the call before, whose exchanges are added then. Returns the rows of scattering that were solved,
+// which no counter has.
+uint32_t solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+                     const FrameWatch& watch, FrameAccount& account);
 
 }  // namespace wavetracer

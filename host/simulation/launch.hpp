@@ -40,14 +40,24 @@ enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 struct DiscoveryCounts {
   uint64_t rays = 0, hits = 0;
   std::vector<uint64_t> segments_per_depth;
+  uint64_t unread = 0;  // rays whose segments the device has counted, and nobody has read yet (wt_counters::ended)
   // Of a refined launch: the share of sequences that one sample alone met, and why it ended.
   double share_once = 0;
   LaunchEnd end = LaunchEnd::recall;
 
+  // Adds the segments of so many rays. ended: how many of them ended after how many hits.
+  void add_ended(uint64_t alive, const wt_uint* ended) {
+    for (uint64_t& segments : segments_per_depth) {
+      segments += alive;
+      alive -= *ended++;
+      hits += alive;
+    }
+  }
   // Adds another launch that was not refined.
   void add(const DiscoveryCounts& more) {
     rays += more.rays;
     hits += more.hits;
+    unread += more.unread;
     if (segments_per_depth.size() < more.segments_per_depth.size())
       segments_per_depth.resize(more.segments_per_depth.size());
     for (size_t k = 0; k < more.segments_per_depth.size(); ++k) segments_per_depth[k] += more.segments_per_depth[k];

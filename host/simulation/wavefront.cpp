@@ -57,13 +57,15 @@ bool Wavefront::trace(const DeviceScene& scene, RayFollower& follower, Discovery
 
 bool Wavefront::trace_at_once(const DeviceScene& scene, Bounces& bounces, const gpu::Buffer<uint32_t>* ends,
                               DiscoveryCounts& counts) {
-  const wt_counters after = bounces(scene, rays_, depth_.interactions, sequences_.trie(), ends);
-  uint64_t alive = rays_.count;
-  for (uint32_t depth = 0; depth < depth_.interactions; ++depth) {
-    counts.segments_per_depth[depth] += alive;
-    alive -= after.ended[depth];
-    counts.hits += alive;
+  Counters& counters = sequences_.counters();
+  if (!counters.foresees()) counters.restart_ended("trace");
+  bounces(scene, rays_, depth_.interactions, sequences_.trie(), ends);
+  if (counters.foresees()) {
+    counts.unread += rays_.count;
+    return true;
   }
+  const wt_counters after = counters.read("trace");
+  counts.add_ended(rays_.count, after.ended);
   return after.trie_overflow == 0;
 }
 

@@ -33,14 +33,14 @@ struct Frames {
   }
 
   Found visible(const RadioEnds& ends, bool remember) {
+    set.counters().zero();
     node_count = set.collect(1);
-    set.zero_counters();
     const uint32_t count = find(scene, ends, set.table(), set.nodes(), node_count, set.counters());
     SolvedList& list = (remember ? remembering : plain)(scene, ends, set.table(), set.quarters(), find.list(), count,
                                                         set.counters(), remember ? &blockers : nullptr);
-    if (list.count > 0) occlusion(scene, ends, list, remember ? &blockers : nullptr);
-    hidden = list.hidden;
-    solved = list.count + list.hidden;
+    if (list.count > 0) occlusion(scene, ends, list, set.counters(), remember ? &blockers : nullptr);
+    hidden = set.counters().read("solve").hidden;
+    solved = list.count + hidden;
     Found out;
     if (list.count == 0) return out;
     const std::vector<uint32_t> surfaces = list.sequences.read(0, size_t{list.count} * list.max_depth);

@@ -161,11 +161,13 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
   Scan scan(context());
   const RadioEnds on_device = make_radio_ends(context(), states(ends.tx), states(ends.rx), links);
   const SolvedList visible = uploaded(found);
-  const uint32_t places = distinct.keys(on_device, on_device.links, visible);
+  Counters counters(context());
+  const uint32_t places = distinct.keys(on_device, on_device.links, visible, counters);
   if (places == 0) return {};
   sort(distinct.sort_keys(), distinct.order(), places, 32);
-  const device::wt_row_totals totals = distinct.place(scene, on_device, visible);
-  if (left_out && totals.near > 0) *left_out = distinct.left_out();
+  distinct.place(scene, on_device, visible, counters);
+  const wt_counters totals = counters.read("distinct");
+  if (left_out && totals.near_rows > 0) *left_out = distinct.left_out();
   const std::vector<uint32_t> counts = distinct.rows().counts.read(0, places);
   const uint32_t rows = scan(distinct.rows().counts, places), vertices = scan(distinct.rows().vertex_counts, places);
   const std::vector<uint32_t> at = distinct.rows().counts.read(0, places), of = distinct.rows().rows.read(0, places);
@@ -184,10 +186,9 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
     seen += static_cast<uint32_t>(path.points.size());
     out.push_back(path);
   }
-  CHECK(rows == out.size());
   CHECK(vertices == seen);
-  CHECK(totals.rows == rows);
-  CHECK(totals.vertices == vertices);
+  CHECK((rows == out.size() && totals.rows == rows));
+  CHECK(totals.row_vertices == vertices);
   return out;
 }
 

@@ -152,7 +152,7 @@ struct Exact {
     Solve solve(context(), max_depth);
     SolvedList& list = solve(uploaded, ends, set.table(), set.quarters(), find.list(), candidate_count, set.counters());
     Occlusion occlusion(context(), uploaded);
-    if (list.count > 0) occlusion(uploaded, ends, list);
+    if (list.count > 0) occlusion(uploaded, ends, list, set.counters());
     read(list);
   }
 

@@ -120,7 +120,8 @@ TEST_CASE("a vertex exempts the surface that reflects there, and no wedge or til
     for (const double x : {0.01, 5e-5}) rows.push_back({{-3, -1, 0}, {-3, 1, 0}, {kind | 0u}, {{x, 0, 0}}});
   SolvedList list = upload_rows(rows, 1);
   Occlusion occlusion(context(), uploaded);
-  occlusion(uploaded, ends_of(rows), list);
+  Counters counters(context());
+  occlusion(uploaded, ends_of(rows), list, counters);
   std::vector<bool> blocked;
   for (const PathRow& row : download_rows(list)) blocked.push_back(row.blocked);
   // An edge lies on the planes of its faces, which then do not hide it.

@@ -68,9 +68,9 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
   enter(set, scene, sequences, 3);
   const uint32_t node_count = set.collect(static_cast<uint32_t>(world.transmitters.size() + world.listeners.size()));
   Scatter scatter(context(), tiles, world.surface_count(), max_depth);
-  scatter(scene, ends, set.table(), set.quarters(), set.nodes(),
-          node_count);  // twice: nothing of the first run may be left
-  SolvedList& list = scatter(scene, ends, set.table(), set.quarters(), set.nodes(), node_count);
+  scatter(scene, ends, set.table(), set.quarters(), set.nodes(), node_count,
+          set.counters());  // twice: nothing of the first run may be left
+  SolvedList& list = scatter(scene, ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
   Run run;
   run.listed = list.count;
   if (list.count == 0) return run;
@@ -89,9 +89,9 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
     run.rows[{headers[i].transmitter, headers[i].receiver, tile}] = {xyz[3 * at], xyz[3 * at + 1], xyz[3 * at + 2]};
   }
   Occlusion occlusion(context(), scene);
-  occlusion(scene, ends, list);
+  occlusion(scene, ends, list, set.counters());
   Visible visible(context(), max_depth);
-  visible.clear(set.counters());
+  visible.clear();
   visible(list, set.counters());
   run.visible = visible.list().count;
   return run;

@@ -143,7 +143,14 @@ TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, 
     Sequences set(context(), slots);
     enter(set, scene, sequences, 4);
     REQUIRE(contents(set, 2) == with_prefixes(sequences));
-    set.commute(scene.surfaces, set.collect(2), 4);
+    const uint32_t count = set.commute(scene.surfaces, set.collect(2), 4);
+    const auto listed = [&](uint32_t length) {
+      std::vector<uint32_t> nodes = set.nodes().read(0, length);
+      std::ranges::sort(nodes);
+      return nodes;
+    };
+    const std::vector<uint32_t> after_exchanges = listed(count);
+    CHECK((listed(set.collect(2)) == after_exchanges));  // what is new is listed, once
     CHECK(contents(set, 2) == with_prefixes(expected));
   }
 }

@@ -59,7 +59,7 @@ TEST_CASE("labels follow a ray through its reflections") {
   const uint32_t hit_count = Scan(context())(hits.block_hits, hits.blocks(queue.count));
   auto trie = context().buffer<uint64_t>(4096, "trie");
   context().fill(trie, WT_EMPTY);
-  auto counters = context().buffer<wt_counters>(1, "counters");
+  Counters counters(context());
   auto quarters = context().buffer<uint32_t>(4096, "quarters");
   context().fill(quarters, 0);
   Interact(context(), {.labels = true})(scene, queue, hits, hit_count, {trie, quarters, counters},

@@ -18,7 +18,8 @@ std::vector<PathRow> pass(const DeviceScene& scene, const std::vector<PathRow>& 
                           uint32_t max_depth) {
   SolvedList list = upload_rows(rows, max_depth);
   Transmissions transmissions(context(), scene, most);
-  transmissions(scene, ends_of(rows), list);
+  Counters counters(context());
+  transmissions(scene, ends_of(rows), list, counters);
   return download_rows(list);
 }
 
@@ -73,7 +74,8 @@ TEST_CASE("what random paths among random quads pass, in order, is what brute fo
   const std::vector<PathRow> few = pass(uploaded, rows, 2, 4);
   SolvedList list = upload_rows(rows, 4);
   Occlusion occlusion(context(), uploaded);
-  occlusion(uploaded, ends_of(rows), list);
+  Counters counters(context());
+  occlusion(uploaded, ends_of(rows), list, counters);
   const std::vector<PathRow> legs = download_rows(list), none = pass(uploaded, rows, 0, 4);
   size_t passing = 0, allowed = 0;
   for (size_t i = 0; i < rows.size(); ++i) {

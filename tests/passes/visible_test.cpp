@@ -61,12 +61,12 @@ SolvedList made_up(uint32_t count, uint32_t max_depth, double blocked_share) {
 
 TEST_CASE("visible keeps every row that is not obstructed, and no other") {
   Visible visible(context(), 5);
-  auto counters = context().buffer<wt_counters>(1, "counters");
+  Counters counters(context());
   for (const uint32_t count : {0u, 1u, 100u, 9000u})
     for (const double blocked : {0.0, 0.7, 1.0}) {
       const SolvedList solved = made_up(count, 5, blocked);
-      counters.write(std::vector<wt_counters>{{}});
-      visible.clear(counters);
+      counters.zero();
+      visible.clear();
       visible(solved, counters);
       const SolvedList& kept = visible.list();
       const std::vector<ListedRow> wanted = rows_of(solved);
@@ -77,9 +77,7 @@ TEST_CASE("visible keeps every row that is not obstructed, and no other") {
 
 TEST_CASE("visible appends list after list, and keeps what it has where it must grow") {
   Visible visible(context(), 5);
-  auto counters = context().buffer<wt_counters>(1, "counters");
-  counters.write(std::vector<wt_counters>{{}});
-  visible.clear(counters);
+  Counters counters(context());
   std::vector<ListedRow> wanted;
   for (const uint32_t count : {30u, 0u, 9001u, 500u}) {
     const SolvedList solved = made_up(count, 5, 0.3);
@@ -89,6 +87,6 @@ TEST_CASE("visible appends list after list, and keeps what it has where it must 
   }
   std::sort(wanted.begin(), wanted.end());
   CHECK((rows_of(visible.list()) == wanted));
-  visible.clear(counters);
+  visible.clear();
   CHECK(visible.list().count == 0);
 }

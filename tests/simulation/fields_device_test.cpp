@@ -15,9 +15,11 @@ namespace {
 
 // All that was visible in the last frame, equal paths included.
 PathGeometry visible_of(const Setup& s) {
-  const SolvedList& list = const_cast<Setup&>(s).exact_paths.visible.list();
-  const auto headers = list.headers.read(0, list.count);
-  const auto steps = list.sequences.read(0, size_t{list.count} * list.max_depth);
+  Setup& setup = const_cast<Setup&>(s);
+  const SolvedList& list = setup.exact_paths.visible.list();
+  const uint32_t count = setup.discovery.sequences().counters().last().visible;
+  const auto headers = list.headers.read(0, count);
+  const auto steps = list.sequences.read(0, size_t{count} * list.max_depth);
   const auto vertices = list.vertices.read(0, 3 * steps.size());
   PathGeometry out;
   for (size_t i = 0; i < headers.size(); ++i) {

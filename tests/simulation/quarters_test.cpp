@@ -40,9 +40,11 @@ Paths found(const Config& config, DirectionShare share) {
                                       .sorted = false});
   FrameAccount account(s.context, 0);
   solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), true, s.frame_watch, account);
-  LeftOut left_out;
+  Counters& counters = s.discovery.sequences().counters();
   DiffractedPaths* edges = s.exact_paths.diffraction ? &*s.exact_paths.diffraction : nullptr;
-  return s.finish(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, left_out, account);
+  s.finish.start(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, counters);
+  LeftOut left_out;
+  return s.finish.take(counters.read("fields"), left_out);
 }
 
 bool same_path(const Paths& a, size_t i, const Paths& b, size_t j) {

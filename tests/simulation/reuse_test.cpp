@@ -88,6 +88,32 @@ TEST_CASE("without reuse a frame is the same to the last bit, whatever was run b
   check_same(one.run_frame(5), other.run_frame(5));
 }
 
+TEST_CASE("a frame with far more than the one before is as complete as if it came first") {
+  // Thirty more cars at once: lists are several times as long as foreseen (passes/counters.hpp).
+  for (const bool reuse : {false, true}) {
+    CAPTURE(reuse);
+    Config config = city(20000, 3, 2, 0.2);
+    config.trace.reuse = reuse;
+    std::vector<Straight> crowd;
+    for (int i = 0; i < 30; ++i)
+      crowd.push_back({fmt::format("crowd{}", i),
+                       "passenger",
+                       {-70 + 5.5 * i, i % 2 ? -4.1 : 4.3, 0},
+                       {i % 2 ? 0.7 : -0.6, 0.01, 0},
+                       0.9,
+                       2});
+    add_vehicles(config, crowd, 0.2);
+    Simulation one(config), other(config);
+    const std::vector<FrameResult> before = frames(one, {1, 2, 3, 4});
+    if (reuse) frames(other, {1});  // with the same sequences, and lengths that were not foreseen yet
+    if (reuse) one.forget(), other.forget();
+    const FrameResult full = one.run_frame(6);
+    CHECK(full.paths.size() > before.back().paths.size() * 5 / 4 + 1024);
+    check_same(full, other.run_frame(6));
+    check_same(one.run_frame(6), other.run_frame(6));
+  }
+}
+
 TEST_CASE("after forget() a frame is a first frame, to the last bit") {
   const Config config = city(50000, 3, 2, 0.2);
   Simulation one(config), other(config);

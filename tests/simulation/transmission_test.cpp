@@ -103,7 +103,7 @@ std::vector<PathRow> paths(const Scene& scene, const TraceConfig& config, const 
   Solve solve(context(), config.max_depth);
   SolvedList& solved = solve(uploaded, ends, set.table(), set.quarters(), candidates.list(), count, set.counters());
   Transmissions transmissions(context(), uploaded, std::min(config.max_transmissions, config.max_depth));
-  if (solved.count > 0) transmissions(uploaded, ends, solved);
+  if (solved.count > 0) transmissions(uploaded, ends, solved, set.counters());
   std::vector<PathRow> rows = download_rows(solved);
   std::erase_if(rows, [](const PathRow& row) { return row.blocked; });
   return rows;

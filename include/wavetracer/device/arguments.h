@@ -69,7 +69,7 @@ typedef struct {
   wt_uint capacity;
 } wt_candidates_arguments;
 
-// Of solve and wedge_solve.
+// Of solve and wedge_solve. Here and below lengths of lists are bounds, where a counter says how long they are.
 typedef struct {
   wt_uint candidate_count;
   wt_uint max_depth;
@@ -93,6 +93,7 @@ typedef struct {
   wt_uint triangle_slots;
   float extent_m;
   wt_uint solved_count;
+  wt_uint solved_counter;  // its word of wt_counters, or WT_NONE
   wt_uint max_depth;
   wt_uint most;          // transmissions of a path
   wt_uint blocker_mask;  // of the table of what hid paths before
@@ -141,6 +142,7 @@ typedef struct {
 // Of row_keys, mark_rows and order_rows. twins: not 0 where rows of the other way are counted, each after its own.
 typedef struct {
   wt_uint row_count;
+  wt_uint visible_counter;  // the word of wt_counters of the visible paths, or WT_NONE
   wt_uint max_depth;
   wt_uint receiver_count;
   wt_uint groups;  // of 16 receivers
@@ -153,6 +155,8 @@ typedef struct {
   double wavelength_m;
   wt_ulong seed;
   wt_uint row_count;
+  wt_uint row_capacity;
+  wt_uint vertex_capacity;
   wt_uint max_depth;
   wt_uint transmissions;
   wt_uint scatters;

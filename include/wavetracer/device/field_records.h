@@ -45,19 +45,12 @@ typedef struct {
   wt_uint padding;
 } wt_field_end;
 
-// The rows that stay, their interactions, and the rows that are left out because an antenna touches what reflects
-// there.
-typedef struct {
-  wt_uint rows, vertices, near;
-  wt_uint padding;
-} wt_row_totals;
-
 // A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp).
 typedef struct {
   double delay_s, gain_db, doppler_hz;
   double aod_theta, aod_phi, aoa_theta, aoa_phi;  // radians
   double a[8];                                    // receiver's port 2 r + transmitter's port t; real, imaginary
-  wt_uint tx, rx, depth, quarters;
+  wt_uint tx, rx, first_vertex, quarters;         // vertices of a row follow those of the row before
 } wt_path_row;
 
 typedef struct {

@@ -85,7 +85,42 @@ inline void wt_port_coefficients(const wt_matrix* m, const wt_port_fields* sent,
   out->gain_db = 10.0 * wt_log10(power);
 }
 
-// Row `row` of the ordered rows.
+// A wave on its way along a path: the leg that it is on, what was done to it, and the path so far.
+typedef struct {
+  wt_walk_leg leg;
+  wt_transfer transfer;
+  double spread, since_m, speed;
+} wt_wave;
+
+// Past vertex k, whatever the vertex does to the wave. Returns the leg before it.
+inline wt_walk_leg wt_pass(const wt_field_world* world, const wt_path* path, wt_uint k, wt_wave* wave) {
+  const wt_walk_leg leg = wave->leg;
+  wave->leg = wt_next_leg(world, path, k, &leg);
+  wave->since_m += leg.length_m;
+  wave->speed += wt_closing_speed_at(world, wt_step(path, k), wave->leg.from, leg.direction, wave->leg.direction);
+  return leg;
+}
+
+// From vertex k over reflections, transmissions and scattering to the next edge, which is returned, or the end.
+inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path, double length_m, wt_uint k,
+                                wt_wave* wave) {
+  for (; k < path->depth && wt_kind(path, k) != WT_STEP_DIFFRACTION; ++k) {
+    const wt_uint step = wt_step(path, k);
+    const wt_walk_leg leg = wt_pass(world, path, k, wave);
+#if WT_SCATTERS
+    if ((step & WT_STEP_KIND) == WT_STEP_SCATTERING) {
+      wt_scatter_at(world, step & ~WT_STEP_KIND, leg.direction, wave->leg.direction, &wave->transfer);
+      wave->spread = 1.0 / (wave->since_m * (length_m - wave->since_m));
+      continue;
+    }
+#endif
+    wt_meet_surface(world, step, leg.direction, wave->leg.direction, &wave->transfer);
+  }
+  return k;
+}
+
+// Row `row` of the ordered rows. Rows that are computed side by side meet their surfaces together and then their edges,
+// wherever on their ways these are.
 inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row) {
   const wt_path path = wt_path_of(ordered->list, ordered->rows[row]);
   const WT_GLOBAL wt_field_end* tx = world->transmitters + path.transmitter;
@@ -93,52 +128,41 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   wt_path_field out;
   out.delay_s = ordered->delays[row];
 
-  wt_walk_leg leg = wt_first_leg(&path);
-  const wt_double3 departure = leg.direction;
+  wt_wave wave;
+  wave.leg = wt_first_leg(&path);
+  const wt_double3 departure = wave.leg.direction;
   const wt_basis departure_basis = wt_spherical_basis(departure);
-  wt_transfer transfer = wt_transfer_from(departure_basis);
+  wave.transfer = wt_transfer_from(departure_basis);
   const double length_m = wt_path_length(&path);
-  double spread = 1.0 / length_m, since_m = 0.0, speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
+  wave.spread = 1.0 / length_m;
+  wave.since_m = 0.0;
+  wave.speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
 #if WT_DIFFRACTS
   wt_edge edges[2];
   const wt_uint edge_count = wt_edges_of(world, &path, edges);
-  wt_uint next_edge = 0;
-  if (edge_count > 0) spread = wt_edge_spreading(edges, edge_count);
-  if (edge_count > 1) spread *= wt_snap_to_shared_face(world, edges);
-#endif
-  for (wt_uint k = 0; k < path.depth; ++k) {
-    const wt_walk_leg next = wt_next_leg(world, &path, k, &leg);
-    const wt_uint step = wt_step(&path, k), kind = step & WT_STEP_KIND;
-    since_m += leg.length_m;
-    if (kind == WT_STEP_REFLECTION || kind == WT_STEP_TRANSMISSION)
-      wt_meet_surface(world, step, leg.direction, next.direction, &transfer);
-#if WT_DIFFRACTS
-    if (kind == WT_STEP_DIFFRACTION) {
-      const wt_edge* edge = edges + next_edge++;
-      wt_lit_sides lit;
-      lit.direct = lit.reflected[0] = lit.reflected[1] = -1;
-      if (edge_count == 1) lit = wt_lit_sides_of(world, ordered, row, &path, edge);
-      wt_diffract_at(world, edge, lit, &transfer);
-    }
-#endif
-#if WT_SCATTERS
-    if (kind == WT_STEP_SCATTERING) {
-      wt_scatter_at(world, step & ~WT_STEP_KIND, leg.direction, next.direction, &transfer);
-      spread = 1.0 / (since_m * (length_m - since_m));
-    }
-#endif
-    speed += wt_closing_speed_at(world, step, next.from, leg.direction, next.direction);
-    leg = next;
+  if (edge_count > 0) wave.spread = wt_edge_spreading(edges, edge_count);
+  if (edge_count > 1) wave.spread *= wt_snap_to_shared_face(world, edges);
+  wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
+  for (wt_uint i = 0; i < edge_count; ++i) {
+    wt_lit_sides lit;
+    lit.direct = lit.reflected[0] = lit.reflected[1] = -1;
+    if (edge_count == 1) lit = wt_lit_sides_of(world, ordered, row, &path, edges + i);
+    wt_pass(world, &path, k, &wave);
+    wt_diffract_at(world, edges + i, lit, &wave.transfer);
+    k = wt_pass_surfaces(world, &path, length_m, k + 1, &wave);
   }
-  const wt_double3 arrival = -leg.direction;
+#else
+  wt_pass_surfaces(world, &path, length_m, 0, &wave);
+#endif
+  const wt_double3 arrival = -wave.leg.direction;
   const wt_basis arrival_basis = wt_spherical_basis(arrival);
-  speed += wt_dot3(wt_vector(rx->velocity_m_s), arrival);
-  wt_matrix m = wt_seen_in(&transfer, arrival_basis);
-  for (int i = 0; i < 4; ++i) m.m[i] = m.m[i] * spread;
+  wave.speed += wt_dot3(wt_vector(rx->velocity_m_s), arrival);
+  wt_matrix m = wt_seen_in(&wave.transfer, arrival_basis);
+  for (int i = 0; i < 4; ++i) m.m[i] = m.m[i] * wave.spread;
 
   out.departure = wt_angles_of(departure);
   out.arrival = wt_angles_of(arrival);
-  out.doppler_hz = speed / world->wavelength_m + 0.0;  // plus zero: where all stands still the shift is 0, not -0
+  out.doppler_hz = wave.speed / world->wavelength_m + 0.0;  // plus zero: where all stands still the shift is 0, not -0
   const wt_port_fields sent =
       wt_antenna_fields(world->antennas + tx->antenna, world->samples, tx->rotation, departure, departure_basis);
   const wt_port_fields heard =
@@ -147,14 +171,16 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   return out;
 }
 
-// The row at `place` of the ordered rows, and its vertices. origin: of recentred coordinates in those of the file.
+// The row at `place` of the ordered rows, and its vertices from first_vertex on. origin: of recentred coordinates in
+// those of the file.
 inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint place, wt_uint quarters,
-                         wt_double3 origin, WT_GLOBAL wt_path_row* row, WT_GLOBAL wt_vertex_row* vertices) {
+                         wt_double3 origin, wt_uint first_vertex, WT_GLOBAL wt_path_row* row,
+                         WT_GLOBAL wt_vertex_row* vertices) {
   const wt_path path = wt_path_of(ordered->list, ordered->rows[place]);
   const wt_path_field field = wt_field_of(world, ordered, place);
   row->tx = path.transmitter;
   row->rx = path.receiver;
-  row->depth = path.depth;
+  row->first_vertex = first_vertex;
   row->quarters = quarters;
   row->delay_s = field.delay_s;
   row->gain_db = field.gain_db;
@@ -170,7 +196,7 @@ inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ord
   for (wt_uint k = 0; k < path.depth; ++k) {
     const wt_uint step = wt_step(&path, k);
     const wt_double3 p = wt_vertex(&path, k) + origin;
-    WT_GLOBAL wt_vertex_row* vertex = vertices + k;
+    WT_GLOBAL wt_vertex_row* vertex = vertices + first_vertex + k;
     vertex->position[0] = p.x;
     vertex->position[1] = p.y;
     vertex->position[2] = p.z;

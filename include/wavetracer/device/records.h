@@ -164,7 +164,8 @@ typedef struct {
 
 // Counters that the passes share; one small buffer, cleared a frame.
 typedef struct {
-  wt_uint nodes;                     // used slots of the trie
+  wt_uint nodes;                     // used slots of the trie, as they are listed
+  wt_uint exchanged;                 // listed after them, which exchanges have added
   wt_uint trie_overflow;             // an insertion found no slot: grow and trace the batch again
   wt_uint candidates;                // may exceed the capacity: grow and run again
   wt_uint solved;                    // likewise
@@ -172,6 +173,10 @@ typedef struct {
   wt_uint visible;                   // may exceed the capacity, as candidates
   wt_uint wedge_prefixes;            // likewise
   wt_uint wedge_candidates;          // likewise
+  wt_uint wedge_solved;              // likewise
+  wt_uint rows;                      // of paths
+  wt_uint row_vertices;              // their interactions
+  wt_uint near_rows;                 // left out because an antenna touches what reflects there
   wt_uint ended[WT_MAX_DEPTH + 1u];  // rays of bounces by the number of their hits
 } wt_counters;
 

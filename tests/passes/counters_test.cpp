@@ -1,0 +1,89 @@
+// Counters: lengths that are read, lengths that are foreseen, and when a frame was as foreseen.
+#include "passes/counters.hpp"
+
+#include <doctest/doctest.h>
+
+#include "passes/triangles.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+constexpr size_t list_room = 1 << 20;
+
+void count_to(Counters& counters, uint32_t candidates, uint32_t solved) {
+  counters.restart(&wt_counters::candidates, candidates, "test");
+  counters.restart(&wt_counters::solved, solved, "test");
+}
+
+// A frame with two lists; whether it was as foreseen.
+bool settles(Counters& counters, bool foresee, uint32_t candidates, uint32_t solved, size_t capacity = list_room) {
+  counters.foresee(foresee);
+  counters.zero();
+  count_to(counters, candidates, solved);
+  const uint32_t first = counters.length(&wt_counters::candidates, capacity, "test");
+  const uint32_t second = counters.length(&wt_counters::solved, capacity, "test");
+  if (!counters.foresees()) {
+    CHECK(first == candidates);
+    CHECK(second == solved);
+  }
+  CHECK(first <= std::max<size_t>(capacity, candidates));
+  return counters.settle(counters.read("test"));
+}
+
+}  // namespace
+
+TEST_CASE("each counter by its word") {
+  CHECK(counter_word(&wt_counters::nodes) == 0);
+  CHECK(counter_word(&wt_counters::candidates) == offsetof(wt_counters, candidates) / 4);
+  Counters counters(context());
+  count_to(counters, 7, 9);
+  counters.restart_nodes(5, "test");
+  wt_counters now = counters.read("test");
+  CHECK(now.candidates == 7);
+  CHECK(now.solved == 9);
+  CHECK(now.nodes == 5);
+  CHECK(now.exchanged == 0);
+  CHECK(now.visible == 0);
+  counters.restart_ended("test");
+  counters.zero();
+  now = counters.read("test");
+  CHECK(now.candidates == 0);
+}
+
+TEST_CASE("nothing is foreseen before a frame has settled; then lengths are bounds with room") {
+  Counters counters(context());
+  counters.foresee(true);
+  CHECK(!counters.foresees());
+  CHECK(settles(counters, true, 10'000, 300));
+  counters.foresee(true);
+  CHECK(counters.foresees());
+  counters.zero();
+  CHECK(counters.length(&wt_counters::candidates, list_room, "test") >= 12'500);
+  CHECK(counters.length(&wt_counters::candidates, 11'000, "test") == 11'000);  // no more than there is room for
+  CHECK(counters.last().candidates == 10'000);
+}
+
+TEST_CASE("a frame with more than was foreseen does not settle, and the next one foresees it") {
+  Counters counters(context());
+  REQUIRE(settles(counters, false, 10'000, 300));
+  CHECK(settles(counters, true, 12'000, 1'200));
+  CHECK(!settles(counters, true, 12'000, 9'000));  // one list is enough
+  CHECK(counters.last().solved == 1'200);
+  // Read, as a frame that did not settle is repeated. What hid paths in its first try hides them at once in the second:
+  // counts may be lower then, and yet the next frame needs the room of the first.
+  CHECK(settles(counters, false, 12'000, 2'000));
+  CHECK(settles(counters, true, 12'000, 9'000));
+  // A list that has no room for all of it does not settle either.
+  CHECK(!settles(counters, true, 12'000, 9'000, 8'500));
+}
+
+TEST_CASE("a full set of sequences does not settle where lengths are foreseen") {
+  Counters counters(context());
+  REQUIRE(settles(counters, false, 100, 100));
+  counters.foresee(true);
+  counters.zero();
+  counters.restart(&wt_counters::trie_overflow, 1, "test");
+  CHECK(!counters.settle(counters.read("test")));
+}
