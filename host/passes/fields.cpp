@@ -77,6 +77,18 @@ void Fields::begin_read(uint32_t frame, RowCounts expected) {
   room_ = sized_columns(read_.rows, read_.vertices, frame, ports_);
 }
 
+void Fields::begin_read_carrier(RowCounts expected) {
+  read_ = {static_cast<uint32_t>(std::min<size_t>(expected.rows, rows_.size())), 0};
+  rows_.begin_read(0, read_.rows, host_rows_, "fields");
+}
+
+CarrierFields Fields::carrier(RowCounts count) {
+  if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, "fields");
+  CarrierFields out;
+  fill_carrier(out, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows}, ports_);
+  return out;
+}
+
 Paths Fields::columns(RowCounts count) {
   if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, "fields");
   if (count.vertices > read_.vertices) vertices_.read(0, count.vertices, host_vertices_, "fields");

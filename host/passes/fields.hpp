@@ -8,7 +8,7 @@
 #include "passes/tuning.hpp"
 #include "radio/field_tables.hpp"
 #include "radio/path_columns.hpp"
-#include "wavetracer/paths.hpp"
+#include "wavetracer/frame_result.hpp"
 
 namespace wavetracer {
 
@@ -31,6 +31,9 @@ class Fields {
   void begin_read(uint32_t frame, RowCounts expected);
   // Their columns. count: how many there are. To be called once the device has finished.
   Paths columns(RowCounts count);
+  // The same of what differs at the carrier of these tables; its frequency is for the caller to say.
+  void begin_read_carrier(RowCounts expected);
+  CarrierFields carrier(RowCounts count);
 
  private:
   gpu::Context& context_;

@@ -1,6 +1,7 @@
 // The passes in their order; nothing is read between them but the numbers of rows.
 #include "simulation/finished_paths.hpp"
 
+#include "radio/carriers.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
@@ -18,12 +19,18 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
       distinct_(context, world.receiver_of_transmitter(), world.transmitter_of_receiver()),
       sort_(context),
       scan_(context),
-      fields_(context, make_field_tables(scene, config, world.models(), world.instances()), config.trace.diffraction,
-              scene.origin_m) {}
+      carriers_hz_(carriers_hz(config.radio)) {
+  for (const double carrier_hz : carriers_hz_) {
+    Config at_carrier = config;
+    at_carrier.radio.frequency_hz = carrier_hz;
+    fields_.emplace_back(context, make_field_tables(scene, at_carrier, world.models(), world.instances()),
+                         config.trace.diffraction, scene.origin_m);
+  }
+}
 
 void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
                           const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
-                          Counters& counters) {
+                          bool carriers, Counters& counters) {
   const uint32_t places =
       distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
                      counters);  // distinct
@@ -38,15 +45,22 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
   if (most.rows > 0) {
     scan_.prefix(distinct_.rows().counts, places, "distinct");         // scan
     scan_.prefix(distinct_.rows().vertex_counts, places, "distinct");  // scan
-    fields_(scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_, distinct_.rows(),
-            most);  // fields
+    for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
+      fields_[i](scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_,
+                 distinct_.rows(), most);  // fields
   }
-  fields_.begin_read(frame, expected);
+  for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);
+  fields_[0].begin_read(frame, expected);
 }
 
-Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out) {
+Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers) {
   if (counted.near_rows > 0) left_out = distinct_.left_out();
-  return fields_.columns({counted.rows, counted.row_vertices});
+  const RowCounts count{counted.rows, counted.row_vertices};
+  for (size_t i = 1; carriers && i < fields_.size(); ++i) {
+    carriers->push_back(fields_[i].carrier(count));
+    carriers->back().frequency_hz = carriers_hz_[i];
+  }
+  return fields_[0].columns(count);
 }
 
 void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible) {

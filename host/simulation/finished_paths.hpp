@@ -17,23 +17,26 @@ namespace wavetracer {
 
 class FinishedPaths {
  public:
-  // config: with all ends of the world, and the features that are on.
+  // config: with all ends of the world, and the features that are on. Throws ConfigError.
   FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world);
 
   // Starts the passes. visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose
-  // paths are wanted, where they are not all that ends.links has.
+  // paths are wanted, where they are not all that ends.links has. carriers: are fields of radio.frequencies_hz wanted,
+  // besides those of the first?
   void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
-             const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, Counters& counters);
+             const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, bool carriers,
+             Counters& counters);
   // The paths, once the device has finished, with the counters as it left them. left_out: gets paths that
-  // radio/fields.hpp does not count.
-  Paths take(const wt_counters& counted, LeftOut& left_out);
+  // radio/fields.hpp does not count. carriers: gets the fields that were started besides; may be nullptr.
+  Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
 
  private:
   gpu::Context& context_;
   Distinct distinct_;
   Sort sort_;
   Scan scan_;
-  Fields fields_;
+  std::vector<Fields> fields_;  // of each carrier, which share nothing but the rows
+  std::vector<double> carriers_hz_;
 };
 
 // Paths that were found elsewhere as visible ones, instead of those that the list has.

@@ -87,7 +87,7 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();
 
   LeftOut left_out;
-  out.paths = s_.finish.take(counted, left_out);
+  out.paths = s_.finish.take(counted, left_out, &out.carriers);
   if (block) out.world.links = block->own;
   if (s_.cache || (s_.trails && s_.trails->receives()))
     out.paths.quarters.clear();  // what they find, no smaller launch tells of
@@ -97,6 +97,10 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (searches) ++warm_frames_;
   if (!task.compiling) account.left_out(left_out, task.transmitter_name, task.receiver_name);
   account.end_stage("columns");
+  if (s_.elements.on() && !task.compiling) {
+    s_.elements(out);
+    account.end_stage("elements");
+  }
   return account.close();
 }
 
@@ -116,7 +120,7 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
                                    : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, s_.frame_watch,
                                                  account);  // sequences to visible
     account.end_stage("paths");
-    finish_paths(task.frame, world, ends, block ? &block->own : nullptr);  // distinct to fields
+    finish_paths(task.frame, world, ends, block ? &block->own : nullptr, true);  // distinct to fields
     out.counted = counters.read("fields");
     account.device_done();
     account.counted(out.counted, ends.transmitter_count, scattered);
@@ -133,20 +137,20 @@ Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, con
   set.counters().zero();
   solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, s_.frame_watch, account);
   account.end_stage("paths");
-  finish_paths(task.frame, world, ends, nullptr);
+  finish_paths(task.frame, world, ends, nullptr, false);
   const wt_counters counted = set.counters().read("fields");
   account.device_done();
   LeftOut left_out;
-  Paths out = s_.finish.take(counted, left_out);
+  Paths out = s_.finish.take(counted, left_out, nullptr);
   account.end_stage("columns");
   return out;
 }
 
 // distinct to fields (finished_paths.cpp)
 void FrameLoop::finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends,
-                             const std::vector<Link>* own) {
+                             const std::vector<Link>* own, bool carriers) {
   DiffractedPaths* edges = s_.exact_paths.diffraction ? &*s_.exact_paths.diffraction : nullptr;
-  s_.finish.start(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own,
+  s_.finish.start(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, carriers,
                   s_.discovery.sequences().counters());
 }
 

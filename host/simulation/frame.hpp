@@ -45,7 +45,8 @@ class FrameLoop {
   void begin_sequences(Sequences& set, bool searches);
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   uint32_t receive_paths(const RadioEnds& ends, FrameAccount& account);
-  void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own);
+  void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
+                    bool carriers);
   Paths known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;

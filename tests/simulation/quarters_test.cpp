@@ -42,9 +42,9 @@ Paths found(const Config& config, DirectionShare share) {
   solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), true, s.frame_watch, account);
   Counters& counters = s.discovery.sequences().counters();
   DiffractedPaths* edges = s.exact_paths.diffraction ? &*s.exact_paths.diffraction : nullptr;
-  s.finish.start(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, counters);
+  s.finish.start(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, false, counters);
   LeftOut left_out;
-  return s.finish.take(counters.read("fields"), left_out);
+  return s.finish.take(counters.read("fields"), left_out, nullptr);
 }
 
 bool same_path(const Paths& a, size_t i, const Paths& b, size_t j) {

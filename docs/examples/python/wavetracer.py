@@ -15,7 +15,7 @@ import weakref
 import numpy as np
 
 _SONAME = "libwavetracer.so.0.2"
-_TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex128}
+_TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex128, 6: np.complex64}
 _Handle, _Text = ctypes.c_void_p, ctypes.c_char_p
 
 

@@ -1,0 +1,234 @@
+// Arrays against tracing: every element is made an end of its own, and what is found there is what the path between the
+// centres says of these elements, as long as the sequences are the same.
+#include "wavetracer/arrays.hpp"
+
+#include <map>
+#include <numbers>
+
+#include "radio/antenna.hpp"
+#include "simulation/run.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+using Complex = std::complex<double>;
+// What a path has met: kinds and surfaces.
+using Sequence = std::vector<std::pair<uint8_t, uint32_t>>;
+
+Sequence sequence_of(const Paths& paths, size_t row) {
+  Sequence out;
+  for (uint64_t k = paths.vertex_offset[row]; k < paths.vertex_offset[row + 1]; ++k)
+    out.emplace_back(paths.vertex_interaction[k], paths.vertex_surface[k]);
+  return out;
+}
+
+// Two walls of a street, the ground, and a screen across half of it, which diffracts.
+SceneFile street() {
+  return SceneFile(
+      std::vector<Part>{{{{{-30, -8, 0}, {60, 0, 0}, {0, 16, 0}}}, "concrete"},
+                        {{{{-30, -8, 0}, {60, 0, 0}, {0, 0, 12}}, {{-30, 8, 0}, {60, 0, 0}, {0, 0, 12}}}, "concrete"},
+                        {{{{0, -3, 0}, {0, 6, 0}, {0, 0, 4}}}, "metal"}});
+}
+
+ArrayConfig panel(uint32_t rows, uint32_t columns) {
+  ArrayConfig out;
+  out.name = fmt::format("{}x{}", rows, columns);
+  out.rows = rows;
+  out.columns = columns;
+  return out;
+}
+
+Config array_config(const std::filesystem::path& scene) {
+  Config config = config_of(scene, {{-12, 1.3, 5}}, {{11, -2.1, 1.5}}, 200000, 3);
+  config.arrays = {panel(8, 8), panel(4, 2)};
+  config.transmitters[0].array = "8x8";
+  config.transmitters[0].orientation_deg = {10, 5, 3};
+  config.receivers[0].array = "4x2";
+  config.receivers[0].orientation_deg = {170, -4, 20};
+  config.trace.diffraction = true;
+  config.trace.max_diffractions = 2;
+  return config;
+}
+
+// The same with an end for every element.
+Config traced_config(Config config) {
+  const auto split = [&](std::vector<RadioEnd>& ends) {
+    const RadioEnd centre = ends[0];
+    const auto positions = element_positions_m(config, centre);
+    ends.clear();
+    for (const glm::dvec3& p : positions) {
+      RadioEnd end = centre;
+      const glm::dvec3 moved = rotation_of(centre.orientation_deg) * p;
+      for (int axis = 0; axis < 3; ++axis) end.position_m[static_cast<size_t>(axis)] += moved[axis];
+      end.name += fmt::format("/{}", ends.size());
+      end.array.clear();
+      ends.push_back(end);
+    }
+  };
+  split(config.transmitters);
+  split(config.receivers);
+  return config;
+}
+
+struct PhaseErrors {
+  size_t compared = 0;   // pairs of elements, of all paths
+  double worst_rad = 0;  // of the phase of the delay at the carrier
+};
+
+// kinds: of the interactions of the paths that are compared.
+PhaseErrors compare(const Simulation& simulation, const FrameResult& arrays, const FrameResult& traced, uint8_t kinds) {
+  const ElementModel model(simulation);
+  std::map<std::tuple<uint32_t, uint32_t, Sequence>, size_t> rows;
+  for (size_t row = 0; row < traced.paths.size(); ++row)
+    rows[{traced.paths.tx[row], traced.paths.rx[row], sequence_of(traced.paths, row)}] = row;
+  PhaseErrors out;
+  for (size_t row = 0; row < arrays.paths.size(); ++row) {
+    const Sequence sequence = sequence_of(arrays.paths, row);
+    uint8_t met = 0;
+    for (const auto& [kind, surface] : sequence) met |= kind;
+    if ((met & ~kinds) != 0) continue;
+    const ElementPaths pairs = model.element_paths(arrays, row);
+    for (uint32_t r = 0; r < pairs.rx_elements; ++r)
+      for (uint32_t t = 0; t < pairs.tx_elements; ++t) {
+        const auto found = rows.find({t, r, sequence});
+        if (found == rows.end()) continue;
+        ++out.compared;
+        const size_t pair = size_t{r} * pairs.tx_elements + t;
+        const double late_s = pairs.delay_s[pair] - traced.paths.delay_s[found->second];
+        out.worst_rad = std::max(out.worst_rad, std::abs(2 * std::numbers::pi * 5.9e9 * late_s));
+      }
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("an 8 x 8 panel and a 4 x 2 panel: spherical waves are as if every element had been traced") {
+  const SceneFile scene = street();
+  const Config config = array_config(scene.path());
+  Simulation simulation(config);
+  const FrameResult arrays = simulation.run_frame(0);
+  const FrameResult traced = run(traced_config(config));
+  const PhaseErrors mirrored = compare(simulation, arrays, traced, reflection);
+  MESSAGE(mirrored.compared << " pairs of elements, reflections: largest error of the phase " << mirrored.worst_rad
+                            << " rad");
+  CHECK(mirrored.compared >= 5 * 512);
+  CHECK(mirrored.worst_rad < 1e-6);
+  const PhaseErrors all = compare(simulation, arrays, traced, reflection | diffraction);
+  MESSAGE(all.compared << " pairs of elements, with diffraction: largest error of the phase " << all.worst_rad
+                       << " rad");
+  CHECK(all.compared > 10 * mirrored.compared);
+  CHECK(all.worst_rad < 1e-6);
+}
+
+// What a plane leaves out of |r + d| is at most d^2 / (2 r) of a path of length r; d: by how much the elements of both
+// ends are away from their centres.
+TEST_CASE("plane waves err by the curvature that they leave out, and no more") {
+  const SceneFile scene = street();
+  Config config = array_config(scene.path());
+  config.trace.diffraction = false;
+  config.radio.wavefront = "plane";
+  Simulation simulation(config);
+  const FrameResult arrays = simulation.run_frame(0);
+  const PhaseErrors plane = compare(simulation, arrays, run(traced_config(config)), reflection);
+  const double wavelength_m = speed_of_light / 5.9e9,
+               apart_m = 0.5 * wavelength_m * (std::hypot(3.5, 3.5) + std::hypot(1.5, 0.5)),
+               shortest_m = arrays.paths.delay_s[0] * speed_of_light;
+  const double bound_rad = 2 * std::numbers::pi / wavelength_m * apart_m * apart_m / (2 * (shortest_m - apart_m));
+  MESSAGE("plane waves over " << shortest_m << " m: largest error of the phase " << plane.worst_rad
+                              << " rad of at most " << bound_rad);
+  CHECK(plane.compared >= 5 * 512);
+  CHECK(plane.worst_rad < bound_rad);
+  CHECK(plane.worst_rad > 0.1 * bound_rad);
+}
+
+TEST_CASE("what is scattered, and what goes through walls, has the exact length between elements") {
+  const SceneFile scene(std::vector<Part>{{{{{-30, -8, 0}, {60, 0, 0}, {0, 16, 0}}}, "concrete"},
+                                          {{{{-30, 8, 0}, {60, 0, 0}, {0, 0, 12}}}, "brick"},
+                                          {{{{0, -3, 0}, {0, 6, 0}, {0, 0, 4}}}, "glass"}});
+  Config config = array_config(scene.path());
+  config.trace.diffraction = false;
+  config.trace.transmission = config.trace.scattering = true;
+  config.materials.resize(1);
+  config.materials[0].name = "brick";
+  config.materials[0].scattering = 0.4;
+  config.arrays = {panel(2, 4), panel(4, 2)};
+  config.transmitters[0].array = "2x4";
+  Simulation simulation(config);
+  const FrameResult arrays = simulation.run_frame(0), traced = run(traced_config(config));
+  for (const uint8_t kinds : {uint8_t{reflection | transmission}, uint8_t{scattering}}) {
+    const PhaseErrors errors = compare(simulation, arrays, traced, kinds);
+    CAPTURE(int{kinds});
+    CHECK(errors.compared >= 8 * 64);
+    CHECK(errors.worst_rad < 1e-6);
+  }
+}
+
+// The panel turns with its vehicle, and the mirror is another vehicle.
+TEST_CASE("arrays on vehicles, and mirrors that are vehicles: as mounts for every element") {
+  const SceneFile scene(std::vector<Part>{{{{{-100, -50, 0}, {200, 0, 0}, {0, 100, 0}}}, "concrete"}});
+  Config config;
+  config.scene.file = scene.path().string();
+  config.tracks = {{"a", "car", {{0, -20, 0, 0}, {1, -12, 5, 0}, {2, -8, 12, 0}}},
+                   {"b", "car", {{0, 20, 0, 0}, {2, 10, 0, 0}}},
+                   {"c", "bus", {{0, -3, 14, 0}, {2, 5, 16, 0}}}};
+  config.arrays = {panel(2, 3)};
+  MountConfig mount;
+  mount.name = "roof";
+  mount.on = "car";
+  mount.offset_m = {0.3, 0.2, 1.7};
+  mount.array = "2x3";
+  mount.orientation_deg = {30, -10, 5};
+  config.mounts = {mount};
+  config.vehicle_types = {{"car", "car", 4, 1.8, 1.5, "metal"}, {"bus", "van", 12, 2.5, 3, "metal"}};
+  config.time.step_s = 0.5;
+  config.trace.rays = 200000;
+  config.trace.max_depth = 2;
+  Config traced = config;
+  traced.mounts.clear();
+  RadioEnd end;
+  end.array = "2x3";
+  for (const glm::dvec3& p : element_positions_m(config, end)) {
+    const glm::dvec3 moved = rotation_of(mount.orientation_deg) * p;
+    MountConfig one = mount;
+    one.array.clear();
+    for (int axis = 0; axis < 3; ++axis) one.offset_m[static_cast<size_t>(axis)] += moved[axis];
+    one.name = fmt::format("roof{}", traced.mounts.size());
+    traced.mounts.push_back(one);
+  }
+  Simulation simulation(config), elements(traced);
+  const ElementModel model(simulation);
+  size_t compared = 0, on_vehicles = 0;
+  double worst_rad = 0;
+  for (const uint32_t frame : {1u, 3u}) {
+    simulation.forget();
+    elements.forget();
+    const FrameResult arrays = simulation.run_frame(frame), all = elements.run_frame(frame);
+    std::map<std::tuple<uint32_t, uint32_t, Sequence>, double> delays;
+    for (size_t row = 0; row < all.paths.size(); ++row)
+      delays[{all.paths.tx[row], all.paths.rx[row], sequence_of(all.paths, row)}] = all.paths.delay_s[row];
+    for (size_t row = 0; row < arrays.paths.size(); ++row) {
+      const ElementPaths pairs = model.element_paths(arrays, row);
+      const Sequence sequence = sequence_of(arrays.paths, row);
+      bool on_vehicle = false;
+      for (uint64_t k = arrays.paths.vertex_offset[row]; k < arrays.paths.vertex_offset[row + 1]; ++k)
+        on_vehicle |= arrays.paths.vertex_instance[k] != no_instance;
+      for (uint32_t r = 0; r < 6; ++r)
+        for (uint32_t t = 0; t < 6; ++t) {
+          const auto found = delays.find({6 * arrays.paths.tx[row] + t, 6 * arrays.paths.rx[row] + r, sequence});
+          if (found == delays.end()) continue;
+          ++compared;
+          on_vehicles += on_vehicle;
+          worst_rad = std::max(
+              worst_rad, 2 * std::numbers::pi * 5.9e9 * std::abs(pairs.delay_s[size_t{6} * r + t] - found->second));
+        }
+    }
+  }
+  MESSAGE(compared << " pairs of elements on vehicles, " << on_vehicles
+                   << " of paths that vehicles reflect: largest error " << worst_rad << " rad");
+  CHECK(compared >= 4 * 36);
+  CHECK(on_vehicles >= 36);
+  CHECK(worst_rad < 1e-6);
+}
