@@ -245,6 +245,7 @@ const std::vector<Table>& tables() {
       material_table(),
       transmitter_table(),
       receiver_table(),
+      station_table(),
       receiver_grid_table(),
       mount_table(),
       vehicle_type_table(),
