@@ -144,7 +144,8 @@ struct TraceConfig {
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
-  std::optional<uint64_t> batch_rays = {};  // traced at once; not given: chosen for the device
+  std::optional<uint64_t> batch_rays = {};       // traced at once; not given: chosen for the device
+  std::optional<uint32_t> batch_receivers = {};  // that launch rays, computed at once; not given: 8192
 };
 
 // Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the word that was given.

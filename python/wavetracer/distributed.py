@@ -5,7 +5,7 @@ A drive is cut into N parts, each of which depends on the configuration alone. P
     wavetracer run -c CONFIG -o FOLDER --shard K/N
 
 on whatever machine, and `wavetracer merge` joins the parts to the files that one process would have written, byte for
-byte. This module hands those two commands to a scheduler and does nothing else: the scheduler decides where a part is
+byte, if it was given the configuration by its absolute path, as parts are. This module hands those two commands to a scheduler and does nothing else: the scheduler decides where a part is
 computed, tries it again when a worker dies, and shows how far the drive is.
 
     from dask.distributed import Client
@@ -60,7 +60,7 @@ class DriveError(RuntimeError):
 class Job:
     """A drive and the number of its parts. Two jobs with the same fields compute the same.
 
-    config, output  absolute paths: the TOML file, and the folder of the results
+    config, output  the TOML file, and the folder of the results; made absolute here
     parts           number of parts, N of `--shard K/N`; parts that the drive is too short for are empty
     sets            texts KEY=VALUE, as after --set
     frames          text A:B, as after --frames; empty: all frames

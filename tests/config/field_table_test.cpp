@@ -37,6 +37,7 @@ TEST_CASE("every key of the contract is in the table, once") {
                           "receiver.polarization",
                           "receiver.orientation_deg",
                           "receiver.velocity_m_s",
+                          "trace.batch_receivers",
                           "station.name",
                           "station.position_m",
                           "station.antenna",
