@@ -8,7 +8,6 @@
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
 #include "scene/tiles.hpp"
-#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
@@ -17,10 +16,6 @@ namespace {
 std::vector<device::wt_material> materials_at(const Scene& scene, double frequency_hz) {
   std::vector<bool> is_used(scene.materials.size());
   for (const Surface& surface : scene.surfaces) is_used[surface.material] = true;
-  std::vector<Material> used;
-  for (size_t i = 0; i < is_used.size(); ++i)
-    if (is_used[i]) used.push_back(scene.materials[i]);
-  if (const std::string problem = range_problem(used, frequency_hz); !problem.empty()) throw ConfigError(problem);
   std::vector<device::wt_material> records(scene.materials.size());
   for (size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;
