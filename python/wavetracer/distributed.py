@@ -113,8 +113,8 @@ class Job:
 
 # --- on the workers --------------------------------------------------------------------------------------------------
 
-_running = collections.defaultdict(set)  # processes of this worker, by the folder of results
-_stopped = set()
+_running = collections.defaultdict(set)  # processes of this worker, by the token of what was submitted
+_stopped = set()                         # tokens of what was given up
 _lock = threading.Lock()
 
 # The program ends with its worker, even if that is killed: a part that is tried again elsewhere should not be computed
@@ -136,7 +136,7 @@ def _start(command, environment):
                             text=True, errors="replace", env={**os.environ, **dict(environment)})
 
 
-def _call(job, command, what):
+def _call(job, token, command, what):
     """Runs a command of a job; its messages go to the log of the worker. Returns None where it went well, or
     {"error": text, "code": exit code} where trying again would change nothing; else raises DriveError."""
     last = collections.deque(maxlen=20)
@@ -145,8 +145,8 @@ def _call(job, command, what):
     except FileNotFoundError as error:
         return {"error": str(error), "code": 2}
     with _lock:
-        _running[job.output].add(process)
-        if job.output in _stopped:
+        _running[token].add(process)
+        if token in _stopped:
             process.kill()
     try:
         for line in process.stderr:
@@ -158,7 +158,7 @@ def _call(job, command, what):
         process.wait()
         process.stderr.close()
         with _lock:
-            _running[job.output].discard(process)
+            _running[token].discard(process)
     if code == 0:
         return None
     text = f"{what} on {socket.gethostname()} has failed"
@@ -169,7 +169,7 @@ def _call(job, command, what):
     raise DriveError(text, code)
 
 
-def compute_part(job: Job, index: int) -> dict:
+def compute_part(job: Job, index: int, token: str = "") -> dict:
     """Computes a part and returns {"folder": its folder}, or {"error": text, "code": exit code} where trying again would
     change nothing. Other failures raise DriveError. A part that is there already is not computed again.
 
@@ -181,7 +181,7 @@ def compute_part(job: Job, index: int) -> dict:
     attempt = final.with_name(f".{final.name}.{socket.gethostname()}.{uuid.uuid4().hex[:12]}")
     try:
         attempt.mkdir(parents=True)
-        failure = _call(job, job.part_command(index, attempt), f"part {index} of {job.parts}")
+        failure = _call(job, token, job.part_command(index, attempt), f"part {index} of {job.parts}")
         if failure:
             return failure
         try:
@@ -194,13 +194,13 @@ def compute_part(job: Job, index: int) -> dict:
         shutil.rmtree(attempt, ignore_errors=True)
 
 
-def merge(job: Job, parts=(), keep_parts: bool = False) -> dict:
+def merge(job: Job, parts=(), keep_parts: bool = False, token: str = "") -> dict:
     """Joins the parts of a job to its results and removes them; returns {"folder": the results} or {"error", "code"}.
     parts: what compute_part returned, of which the first error is handed on."""
     for part in parts:
         if "error" in part:
             return part
-    failure = _call(job, job.merge_command(), "the merge")
+    failure = _call(job, token, job.merge_command(), "the merge")
     if failure:
         return failure
     if not keep_parts:
@@ -208,17 +208,12 @@ def merge(job: Job, parts=(), keep_parts: bool = False) -> dict:
     return {"folder": job.output}
 
 
-def _stop(output):
-    """Ends what this worker computes for these results, now and from now on."""
+def _stop(token):
+    """Ends what this worker computes of what was submitted under the token, now and from now on."""
     with _lock:
-        _stopped.add(output)
-        for process in _running[output]:
+        _stopped.add(token)
+        for process in _running[token]:
             process.kill()
-
-
-def _allow(output):
-    with _lock:
-        _stopped.discard(output)
 
 
 # --- on a Dask cluster -----------------------------------------------------------------------------------------------
@@ -252,16 +247,18 @@ def submit(job: Job, *, client, retries: int = 2, keep_parts: bool = False, **op
              (distributed.scheduler.allowed-failures)
     options  further arguments of Client.submit for the parts: resources={"GPU": 1}, workers=..., priority=..."""
     token = uuid.uuid4().hex[:8]
-    parts = [client.submit(compute_part, job, index, key=f"wavetracer-part-{token}-{index:05d}", retries=retries,
+    parts = [client.submit(compute_part, job, index, token, key=f"wavetracer-part-{token}-{index:05d}", retries=retries,
                            pure=False, **options) for index in range(job.parts)]
-    whole = client.submit(merge, job, parts, keep_parts, key=f"wavetracer-merge-{token}", retries=retries, pure=False)
+    whole = client.submit(merge, job, parts, keep_parts, token, key=f"wavetracer-merge-{token}", retries=retries, pure=False)
     return parts, whole
 
 
-def cancel(job: Job, futures, *, client) -> None:
-    """Gives up a job: takes its tasks from the cluster and ends the processes that compute it."""
-    client.cancel(list(futures), force=True)
-    client.run(_stop, job.output)
+def cancel(futures, *, client) -> None:
+    """Gives up what submit() has returned: takes the tasks from the cluster and ends the processes that compute them."""
+    futures = list(futures)
+    client.cancel(futures, force=True)
+    for token in {str(future.key).split("-")[2] for future in futures}:
+        client.run(_stop, token)
 
 
 def _result(future, job):
@@ -299,7 +296,6 @@ def run(config, output, *, client=None, parts: int | None = None, sets=(), frame
         sets = [f"{key}={value}" for key, value in sets.items()]
     job = Job(str(config), str(output), parts or _default_parts(client), tuple(sets), frames, device, program,
               tuple(dict(environment).items()))
-    client.run(_allow, job.output)
     futures, whole = submit(job, client=client, retries=retries, keep_parts=keep_parts, **options)
     try:
         _wait(job, futures, progress)
@@ -308,7 +304,7 @@ def run(config, output, *, client=None, parts: int | None = None, sets=(), frame
             raise DriveError(outcome["error"], outcome["code"])
         return pathlib.Path(outcome["folder"])
     except BaseException:
-        cancel(job, [*futures, whole], client=client)
+        cancel([*futures, whole], client=client)
         raise
 
 

@@ -131,7 +131,7 @@ def mistakes(client, folder):
     error = fails(lambda: wd.run(wrong, folder, client=client, parts=3, program=PROGRAM, retries=5),
                   f"{wrong.name}:3", 'did you mean "trace.max_depth"', "exit code 2")
     assert error.code == 2 and pickle.loads(pickle.dumps(error)).code == 2
-    assert not list((folder / "parts").glob("*"))
+    wait_until("the other parts are given up", lambda: not list((folder / "parts").glob("*")))
     fails(lambda: wd.run(wrong, folder, client=client, parts=1, program="no-such-wavetracer"), "no such program")
     # What fails every time fails for good after the retries, and says what the program said.
     broken = written(folder.with_suffix(".sh"), "#!/bin/sh\necho the device is gone >&2\nexit 4\n", executable=True)
@@ -146,14 +146,17 @@ def mistakes(client, folder):
             raise AssertionError(parts)
 
 
-def given_up(client, config, folder):
-    """What is cancelled leaves no process, and the same call goes on."""
+def given_up(client, config, folder, expected):
+    """What is cancelled leaves no process, and the next call computes it."""
     forever = written(folder.with_suffix(".sh"), "#!/bin/sh\nexec sleep 1000\n", executable=True)
     job = wd.Job(str(config), str(folder), 2, program=(str(forever),))
     futures, whole = wd.submit(job, client=client)
     wait_until("both workers have begun", lambda: len(list(job.folder.glob(".*"))) == 2)
-    wd.cancel(job, [*futures, whole], client=client)
+    wd.cancel([*futures, whole], client=client)
     wait_until("nothing is left", lambda: not list(job.folder.glob(".*")))
+    assert not processes_of(job.folder)
+    wd.run(config, folder, client=client, parts=2, program=PROGRAM)
+    check_same(folder, expected)
 
 
 def as_command(cluster, config, folder, expected):
@@ -222,7 +225,7 @@ def main(folder):
         killed_in_the_middle(client, config, folder / "killed", one)
         tried_again(client, config, folder / "again", one)
         mistakes(client, folder / "wrong")
-        given_up(client, config, folder / "forever")
+        given_up(client, config, folder / "forever", one)
         as_command(cluster, config, folder / "command", one)
 
 
