@@ -1,5 +1,6 @@
 # Man pages and completions, written by the built program from its own options and field table, and installed.
-# docs/configuration.md is kept with the sources: the target `reference` writes it, a test says when it is stale.
+# docs/configuration.md and docs/materials.md are kept with the sources: the target `reference` writes them, a test says
+# when one is stale.
 set(pages ${CMAKE_BINARY_DIR}/pages)
 file(MAKE_DIRECTORY ${pages})
 
@@ -26,4 +27,5 @@ wavetracer_page(wavetracer.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions
 add_custom_target(wavetracer_pages ALL DEPENDS ${page_files})
 
 add_custom_target(reference COMMAND wavetracer documentation --reference -o ${CMAKE_SOURCE_DIR}/docs/configuration.md
-  COMMENT "Writing docs/configuration.md" VERBATIM)
+  COMMAND wavetracer documentation --materials -o ${CMAKE_SOURCE_DIR}/docs/materials.md
+  COMMENT "Writing docs/configuration.md and docs/materials.md" VERBATIM)

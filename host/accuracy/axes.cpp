@@ -3,6 +3,7 @@
 #include "accuracy/axes.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace wavetracer::accuracy {
@@ -48,6 +49,27 @@ Axis depth_axis(const Config& own) {
   return axis;
 }
 
+Setting of_listener_rays(uint64_t rays) {
+  return {"diffraction_rays", grouped(rays), {fmt::format("trace.diffraction_rays={}", rays)}};
+}
+
+// From a few hundred, which maps of many receivers can afford. Not with trace.rays = "auto", which takes no such
+// number.
+std::optional<Axis> listener_axis(const Config& own) {
+  if (!own.trace.diffraction || !own.trace.rays) return std::nullopt;
+  std::set<uint64_t> steps;
+  for (const uint64_t rays : {300, 1000, 3000, 10000, 30000})
+    if (rays <= *own.trace.rays) steps.insert(rays);
+  if (own.trace.diffraction_rays) steps.insert(*own.trace.diffraction_rays);
+  if (steps.empty()) return std::nullopt;
+  const uint64_t most = 3 * *steps.rbegin();
+  Axis axis{of_listener_rays(most), {}};
+  if (most > *own.trace.rays)
+    axis.reference.keys.push_back(fmt::format("trace.rays={}", most));  // never more than these
+  for (const uint64_t rays : steps) axis.settings.push_back(of_listener_rays(rays));
+  return axis;
+}
+
 }  // namespace
 
 const std::vector<Mechanism>& mechanisms() {
@@ -64,6 +86,7 @@ const std::vector<Mechanism>& mechanisms() {
 
 std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays) {
   std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
+  if (const auto listeners = listener_axis(own)) all.push_back(*listeners);
   for (const Mechanism& mechanism : mechanisms())
     all.push_back(
         {{mechanism.feature, "on", mechanism.on, mechanism.feature}, {{mechanism.feature, "off", mechanism.off}}});

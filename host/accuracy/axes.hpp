@@ -10,7 +10,7 @@
 namespace wavetracer::accuracy {
 
 struct Setting {
-  std::string axis;               // rays, auto, reuse, depth, or the name of a Feature
+  std::string axis;               // rays, auto, reuse, depth, diffraction_rays, or the name of a Feature
   std::string name;               // on its axis
   std::vector<std::string> keys;  // KEY=VALUE over the user's own
   std::string needs = {};         // the Feature without which it says nothing; empty: none

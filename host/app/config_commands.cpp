@@ -63,12 +63,13 @@ void add_validate(CLI::App& program) {
     for (const std::string& warning : world_warnings(config)) std::cerr << "warning: " << warning << "\n";
     const std::string scene =
         config.scene.file.empty() ? "city \"" + config.scene.generate + "\"" : "scene " + config.scene.file;
+    const std::string standing = config.stations.empty() ? "" : fmt::format(", stations: {}", config.stations.size());
     const std::string mounted =
         config.mounts.empty() ? "" : fmt::format(", antennas per vehicle: {}", config.mounts.size());
     std::cout << fmt::format(
-        "{}: ok\n{}; fixed transmitters: {}, fixed receivers: {}{}; {} rays per transmitter, depth {}, {:g} GHz\n",
-        options->file, scene, config.transmitters.size(), config.receivers.size(), mounted, rays_in_words(config.trace),
-        config.trace.max_depth, config.radio.frequency_hz / 1e9);
+        "{}: ok\n{}; fixed transmitters: {}, fixed receivers: {}{}{}; {} rays per transmitter, depth {}, {:g} GHz\n",
+        options->file, scene, config.transmitters.size(), config.receivers.size(), standing, mounted,
+        rays_in_words(config.trace), config.trace.max_depth, config.radio.frequency_hz / 1e9);
   });
 }
 

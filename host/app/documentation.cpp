@@ -5,6 +5,7 @@
 #include <memory>
 #include "app/command_text.hpp"
 #include "app/commands.hpp"
+#include "app/materials.hpp"
 #include "base/file.hpp"
 #include "config/reference.hpp"
 #include "wavetracer/version.hpp"
@@ -14,14 +15,14 @@ namespace {
 
 struct DocumentationOptions {
   std::string man, shell, output;
-  bool reference = false;
+  bool reference = false, materials = false;
 };
 
 std::string page(const CLI::App& program, const DocumentationOptions& options) {
   if (options.man == "program") return program_manual(describe(program), WAVETRACER_VERSION);
   if (options.man == "config") return config::manual_page(WAVETRACER_VERSION);
   if (!options.shell.empty()) return completion(describe(program), options.shell);
-  return config::markdown_reference();
+  return options.materials ? materials_page() : config::markdown_reference();
 }
 
 }  // namespace
@@ -36,6 +37,7 @@ void add_documentation(CLI::App& program) {
   what->add_option("--completion", options->shell, "The completion script of a shell")
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   what->add_flag("--reference", options->reference, "All keys of the configuration, as Markdown");
+  what->add_flag("--materials", options->materials, "The library of radio materials, as Markdown");
   what->require_option(1);
   command->add_option("-o,--output", options->output, "File to write, instead of standard output");
   command->callback([options, &program] {

@@ -1,10 +1,11 @@
-// `wavetracer scene info` and `wavetracer scene city`.
+// `wavetracer scene info`, `wavetracer scene materials` and `wavetracer scene city`.
 // Neither needs a device.
 #include <fmt/format.h>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/materials.hpp"
 #include "app/named_files.hpp"
 #include "base/file.hpp"
 #include "motion/fcd_writer.hpp"
@@ -44,6 +45,24 @@ void add_info(CLI::App& scene) {
   });
 }
 
+void add_materials(CLI::App& scene) {
+  struct Options {
+    double frequency_hz = RadioConfig{}.frequency_hz;
+    std::string edition = ItuEdition{}.text();
+  };
+  CLI::App* command = scene.add_subcommand(
+      "materials", "List the radio materials that are known by name, with what they are at a frequency");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--frequency", options->frequency_hz, "Frequency in Hz, like the key radio.frequency_hz")
+      ->check(CLI::Range(1e6, 1e12))
+      ->capture_default_str();
+  command->add_option("--edition", options->edition, "Edition of ITU-R P.2040, like the key scene.itu_edition")
+      ->check(CLI::IsMember(std::vector<std::string>(ItuEdition::words.begin(), ItuEdition::words.end())))
+      ->capture_default_str();
+  command->callback(
+      [options] { std::cout << materials_table(ItuEdition::named(options->edition), options->frequency_hz); });
+}
+
 // The configuration beside drive.fcd.xml; {} are the road-side unit's x, y and z.
 constexpr const char* drive_config =
     R"(# Every vehicle of drive.fcd.xml to every other within 300 m, and to a road-side unit.
@@ -63,18 +82,13 @@ on = "*"                    # ids or types of vehicles
 role = "both"               # sends and receives
 offset_m = [0.0, 0.0, 1.6]  # ahead, left, up from the middle of the vehicle, on the ground
 
-# The road-side unit on its mast sends, and receives under a second name.
-[[transmitter]]
-name = "rsu-tx"
-position_m = [{0:.1f}, {1:.1f}, {2:.1f}]
-
-[[receiver]]
-name = "rsu-rx"
+# The road-side unit on its mast sends and receives, too.
+[[station]]
+name = "rsu"
 position_m = [{0:.1f}, {1:.1f}, {2:.1f}]
 
 [links]
 max_distance_m = 300  # pairs farther apart are not computed
-i2i = false           # nor what the road-side unit hears of itself
 
 [trace]
 rays = 200000  # a transmitter
@@ -140,9 +154,11 @@ void add_city(CLI::App& scene) {
 }  // namespace
 
 void add_scene(CLI::App& program) {
-  CLI::App* scene = program.add_subcommand("scene", "Print what a scene file contains, or generate a city");
+  CLI::App* scene =
+      program.add_subcommand("scene", "Print what a scene file contains, list radio materials, or generate a city");
   scene->require_subcommand(1);
   add_info(*scene);
+  add_materials(*scene);
   add_city(*scene);
 }
 

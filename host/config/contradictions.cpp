@@ -198,12 +198,18 @@ void check_ends(const Config& config, Found& out) {
     const auto has_role = [&](const MountConfig& m) { return m.role == role || m.role == "both"; };
     if (none && std::none_of(config.mounts.begin(), config.mounts.end(), has_role))
       out.push_back({{},
-                     fmt::format("no [[{0}]]: add one with name and position_m, or a [[mount]] with name and role = "
-                                 "\"{0}\" or \"both\" for vehicles",
+                     fmt::format("no [[{0}]]: add one with name and position_m, a [[station]], which sends and "
+                                 "receives, or a [[mount]] with name and role = \"{0}\" or \"both\" for vehicles",
                                  role.word())});
   };
-  check("transmitter", config.transmitters.empty());
-  check("receiver", config.receivers.empty() && config.receiver_grids.empty());
+  check("transmitter", config.transmitters.empty() && config.stations.empty());
+  check("receiver", config.receivers.empty() && config.receiver_grids.empty() && config.stations.empty());
+  if (config.stations.size() == 1 && config.transmitters.empty() && config.receivers.empty() &&
+      config.receiver_grids.empty() && config.mounts.empty())
+    out.push_back(
+        {{"station.0"},
+         "one [[station]] alone has no other end to send to: add a second one, a [[receiver]], or a [[mount]] "
+         "for vehicles"});
 }
 
 void check_trajectories(const Config& config, Found& out) {
@@ -246,8 +252,9 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_waypoints(config, out);
   check_cache(config, out);
   check_ends(config, out);
-  const auto transmitters = check_names("transmitter", "name", config.transmitters, &RadioEnd::name, {}, out);
-  check_names("receiver", "name", config.receivers, &RadioEnd::name, transmitters, out);
+  auto names = check_names("transmitter", "name", config.transmitters, &RadioEnd::name, {}, out);
+  names = check_names("receiver", "name", config.receivers, &RadioEnd::name, names, out);
+  check_names("station", "name", config.stations, &RadioEnd::name, names, out);
   check_names("receiver_grid", "name", config.receiver_grids, &ReceiverGridConfig::name, {}, out);
   check_names("material", "name", config.materials, &MaterialConfig::name, {}, out);
   check_names("mount", "name", config.mounts, &MountConfig::name, {}, out);

@@ -89,6 +89,7 @@ Table scene_table();
 Table material_table();
 Table transmitter_table();
 Table receiver_table();
+Table station_table();
 
 // Of grid_fields.cpp.
 Table receiver_grid_table();

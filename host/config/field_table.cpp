@@ -139,6 +139,14 @@ Table trace_table() {
            .none = "0",
            .doc = "The number of rays that are traced at once, which limits the device memory; results do not depend "
                   "on it. 0: chosen for the device."},
+          {.name = "batch_receivers",
+           .slot = t(&TraceConfig::batch_receivers),
+           .unit = "receivers",
+           .range = {0, 4294967295.0},
+           .none = "0",
+           .doc = "Only with diffraction, in a run of one frame: the number of receivers that are computed at once. It "
+                  "limits the memory of coverage maps, because every receiver keeps what its rays have found; results "
+                  "do not depend on it. 0: 8192."},
       }};
 }
 
@@ -248,6 +256,7 @@ const std::vector<Table>& tables() {
       material_table(),
       transmitter_table(),
       receiver_table(),
+      station_table(),
       receiver_grid_table(),
       array_table(),
       mount_table(),

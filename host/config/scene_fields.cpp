@@ -8,7 +8,8 @@ namespace wavetracer::config {
 namespace {
 
 template <auto List>
-Table ends_table(std::string name, std::string doc, std::string example_name, std::string example_position) {
+Table ends_table(std::string name, std::string doc, std::string example_name, std::string example_position,
+                 bool optional = false) {
   const auto e = [](auto member) { return at(List, member); };
   return {
       .name = std::move(name),
@@ -18,7 +19,7 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
               {.name = "name",
                .slot = e(&RadioEnd::name),
                .required = true,
-               .doc = "Unique among all transmitters and receivers.",
+               .doc = "Unique among all transmitters, receivers and stations.",
                .example = std::move(example_name)},
               {.name = "position_m",
                .slot = e(&RadioEnd::position_m),
@@ -39,7 +40,8 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
                .doc = "Velocity along x, y, z. It gives the Doppler shift of each path; the position does not change."},
           },
       .append = append<List>,
-      .count = count<List>};
+      .count = count<List>,
+      .optional = optional};
 }
 
 }  // namespace
@@ -72,6 +74,16 @@ Table scene_table() {
                .slot = s(&SceneConfig::default_material),
                .doc = "Radio material of meshes that name none. If this is empty, a mesh without a material is an "
                       "error, because a guess could be wrong without anybody noticing."},
+              {.name = "itu_edition",
+               .slot = s(&SceneConfig::itu_edition),
+               .doc = "The edition of Recommendation ITU-R P.2040 whose materials are known by name. P.2040-4 "
+                      "(09/2025) has all materials of P.2040-3 (08/2023) with the same values, four new ones and laws "
+                      "above 100 GHz; `wavetracer scene materials` lists them with their ranges."},
+              {.name = "extrapolate_materials",
+               .slot = s(&SceneConfig::extrapolate_materials),
+               .doc = "What to do with a material that is not known at the carrier. false: it is an error. true: its "
+                      "law of the nearest range is used, with a warning; ITU-R P.2040 calls the ranges indicative. "
+                      "The three kinds of ground stay an error, because for them the range is a limit."},
               {.name = "streets",
                .slot = s(&SceneConfig::streets),
                .form = Form::input_file,
@@ -100,10 +112,16 @@ Table material_table() {
                    .required = true,
                    .doc = "The name that the scene uses, or that scene.material_alias gives.",
                    .example = "\"concrete\""},
+                  {.name = "library",
+                   .slot = m(&MaterialConfig::library),
+                   .doc = "The material of ITU-R P.2040 that it is made of, under a name of your own: its law and "
+                          "range hold, except for what the other keys say. Not given: the one of its own name, if "
+                          "there is one.",
+                   .example = "\"concrete\""},
                   {.name = "a",
                    .slot = m(&MaterialConfig::a),
                    .range = {0, 1e6, true},
-                   .doc = "Factor of the relative permittivity a f^b, with f in GHz (ITU-R P.2040-3, Table 3).",
+                   .doc = "Factor of the relative permittivity a f^b, with f in GHz (ITU-R P.2040, Table 3).",
                    .example = "5.24"},
                   {.name = "b",
                    .slot = m(&MaterialConfig::b),
@@ -114,7 +132,7 @@ Table material_table() {
                    .slot = m(&MaterialConfig::c),
                    .unit = "S/m",
                    .range = {0, 1e12},
-                   .doc = "Factor of the conductivity c f^d, with f in GHz (ITU-R P.2040-3, Table 3).",
+                   .doc = "Factor of the conductivity c f^d, with f in GHz (ITU-R P.2040, Table 3).",
                    .example = "0.0462"},
                   {.name = "d",
                    .slot = m(&MaterialConfig::d),
@@ -166,15 +184,26 @@ Table material_table() {
 Table transmitter_table() {
   return ends_table<&Config::transmitters>(
       "transmitter",
-      "An antenna that sends; one table per transmitter. At least one is needed, unless a [[mount]] transmits.",
+      "An antenna that sends; one table per transmitter. At least one is needed, unless there is a [[station]] or a "
+      "[[mount]] that transmits.",
       "\"rsu\"", "[0.0, 0.0, 6.0]");
 }
 
 Table receiver_table() {
   return ends_table<&Config::receivers>("receiver",
                                         "An antenna that receives; one table per receiver. At least one is needed, "
-                                        "unless a [[mount]] or a [[receiver_grid]] receives.",
+                                        "unless there is a [[station]], a [[receiver_grid]] or a [[mount]] that "
+                                        "receives.",
                                         "\"car\"", "[40.0, 0.0, 1.5]");
+}
+
+Table station_table() {
+  return ends_table<&Config::stations>(
+      "station",
+      "An antenna that sends and receives, as that of a road-side unit; one table per station. It is one radio with "
+      "one "
+      "name: a transmitter after those of [[transmitter]], and a receiver after those of [[receiver]].",
+      "\"rsu\"", "[0.0, 0.0, 6.0]", true);
 }
 
 }  // namespace wavetracer::config

@@ -77,7 +77,7 @@ Table links_table() {
       .name = "links",
       .doc =
           "Which links (pairs of a transmitter and a receiver) are computed. Two ends at the same place on a vehicle, "
-          "such as the two roles of one antenna, are never linked.",
+          "such as the two roles of one antenna, are never linked, nor is a [[station]] to itself.",
       .fields = {
           {.name = "max_distance_m",
            .slot = l(&LinksConfig::max_distance_m),

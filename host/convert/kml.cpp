@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/kml_text.hpp"
@@ -150,19 +151,30 @@ void KmlWriter::put_styles() {
   }
   put("<Style id=\"transmitter\"><IconStyle><color>ff5d5dff</color></IconStyle></Style>\n"
       "<Style id=\"receiver\"><IconStyle><color>ffffd15a</color></IconStyle></Style>\n"
+      "<Style id=\"station\"><IconStyle><color>ffff5dd1</color></IconStyle></Style>\n"
       "<Style "
       "id=\"vehicle\"><LineStyle><color>ffb0b0b0</color></LineStyle><PolyStyle><color>c0d8c8b8</color></PolyStyle>"
       "</Style>\n");
 }
 
+// A radio that sends and receives, under one name, is one placemark.
 void KmlWriter::put_ends(const SavedFrame& frame, const std::string& span, bool staying) {
-  const auto put_kind = [&](const char* style, const auto& ends, const auto& positions_m, const auto& stays) {
-    for (size_t i = 0; i < ends.size(); ++i)
+  std::map<std::string_view, const char*> styles;
+  for (const RadioEnd& end : run_.transmitters()) styles[end.name] = "transmitter";
+  for (const RadioEnd& end : run_.receivers()) {
+    const auto [style, alone] = styles.try_emplace(end.name, "receiver");
+    if (!alone) style->second = "station";
+  }
+  const auto put_kind = [&](bool second, const auto& ends, const auto& positions_m, const auto& stays) {
+    for (size_t i = 0; i < ends.size(); ++i) {
+      const std::string_view style = styles.at(ends[i].name);
+      if (second && style == "station") continue;
       if ((stays[i] != 0) == staying && is_finite(positions_m[i]))
-        put_placemark(ends[i].name, span, style, "", point(positions_m[i]));
+        put_placemark(ends[i].name, span, std::string(style), "", point(positions_m[i]));
+    }
   };
-  put_kind("transmitter", run_.transmitters(), frame.transmitter_position_m, survey_.transmitter_stays);
-  put_kind("receiver", run_.receivers(), frame.receiver_position_m, survey_.receiver_stays);
+  put_kind(false, run_.transmitters(), frame.transmitter_position_m, survey_.transmitter_stays);
+  put_kind(true, run_.receivers(), frame.receiver_position_m, survey_.receiver_stays);
 }
 
 // As boxes: the footprint of the body's bounding box, at the height of its roof, with walls down to the ground.

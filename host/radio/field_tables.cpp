@@ -14,19 +14,19 @@ namespace {
 
 // Of the surfaces of one scene; materials that no surface uses are not asked for.
 std::vector<device::wt_material> materials_at(const Scene& scene, double frequency_hz) {
+  std::vector<bool> is_used(scene.materials.size());
+  for (const Surface& surface : scene.surfaces) is_used[surface.material] = true;
   std::vector<device::wt_material> records(scene.materials.size());
-  std::vector<bool> known(scene.materials.size());
-  for (const Surface& surface : scene.surfaces) {
-    if (known[surface.material]) continue;
-    known[surface.material] = true;
-    const Material& material = scene.materials[surface.material];
+  for (size_t i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i]) continue;
+    const Material& material = scene.materials[i];
     const std::complex<double> permittivity = complex_permittivity(material, frequency_hz);
-    records[surface.material] = {.permittivity = {permittivity.real(), permittivity.imag()},
-                                 .thickness_m = material.thickness_m,
-                                 .scattering = material.scattering,
-                                 .cross_polar = material.scattering_cross_polar,
-                                 .lobe = static_cast<uint32_t>(material.scattering_lobe),
-                                 .padding = 0};
+    records[i] = {.permittivity = {permittivity.real(), permittivity.imag()},
+                  .thickness_m = material.thickness_m,
+                  .scattering = material.scattering,
+                  .cross_polar = material.scattering_cross_polar,
+                  .lobe = static_cast<uint32_t>(material.scattering_lobe),
+                  .padding = 0};
   }
   return records;
 }

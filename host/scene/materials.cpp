@@ -25,22 +25,10 @@ std::array<std::string, 3> spellings(std::string_view name) {
   return {std::string(name), std::string(bare), std::string(strip(bare, "itu_"))};
 }
 
-std::string itu_names() {
-  std::string out;
-  std::string_view last;
-  for (const Material& m : itu_materials()) {
-    if (m.name == last) continue;
-    if (!out.empty()) out += ", ";
-    out += m.name;
-    last = m.name;
-  }
-  return out;
-}
-
 class Resolver {
  public:
   Resolver(const SceneConfig& scene, const std::vector<MaterialConfig>& overrides, double frequency_hz)
-      : scene_(scene), overrides_(overrides), frequency_ghz_(frequency_hz * 1e-9) {
+      : scene_(scene), overrides_(overrides), frequency_ghz_(frequency_hz / 1e9) {
     std::set<std::string> names;
     for (const MaterialConfig& m : overrides) {
       if (m.name.empty()) throw ConfigError("[[material]]: name is missing");
@@ -61,19 +49,20 @@ class Resolver {
       throw ConfigError(
           fmt::format("[scene.material_alias]: '{}' is mapped to '{}', which is not a known material; known materials: "
                       "{}; define others with [[material]]",
-                      spelling, alias->second, itu_names()));
+                      spelling, alias->second, itu_names(scene_.itu_edition)));
     }
     if (definition && (definition->itu_type || definition->permittivity)) return defined(*definition);
     if (const auto material = known(name)) return *material;
     throw InputError(
-        fmt::format("{}: the material '{}' is not known; known ITU materials: {}. Map it in the configuration:\n"
+        fmt::format("{}: the material '{}' is not known{}; known ITU materials: {}. Map it in the configuration:\n"
                     "  [scene.material_alias]\n  \"{}\" = \"concrete\"\nor define it:\n"
                     "  [[material]]\n  name = \"{}\"\n  permittivity = 5.24\n  conductivity_s_m = 0.19",
-                    used_by, name, itu_names(), name, name));
+                    used_by, name, newer_edition(spellings(name)[2]), itu_names(scene_.itu_edition), name, name));
   }
 
-  std::vector<std::string> unused() const {
-    std::vector<std::string> out;
+  // What the library had to say, then what nothing has used.
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> out(notes_.begin(), notes_.end());
     for (const auto& [from, to] : scene_.material_alias) {
       if (!used_.contains("alias " + from)) {
         out.push_back(fmt::format("[scene.material_alias] '{}' = '{}': no mesh has this material", from, to));
@@ -103,6 +92,22 @@ class Resolver {
     if (m.thickness_m && !(*m.thickness_m > 0)) fail("thickness_m must be positive (inf: a half space)");
   }
 
+  // "", or that the newest edition knows the name.
+  std::string newer_edition(const std::string& name) const {
+    constexpr ItuEdition newest = "P.2040-4";
+    if (scene_.itu_edition == newest || ranges_in_words(newest, name).empty()) return "";
+    return fmt::format(" to ITU-R {} (scene.itu_edition), but to {}", scene_.itu_edition.word(), newest.word());
+  }
+
+  std::string not_in_library(const std::string& name, const std::string& who) const {
+    return fmt::format("{}: library = '{}' is not a material{}; known: {}", who, name,
+                       newer_edition(spellings(name)[2]), itu_names(scene_.itu_edition));
+  }
+
+  static bool gives_law(const MaterialConfig& m) {
+    return m.a || m.b || m.c || m.d || m.permittivity || m.conductivity_s_m;
+  }
+
   // The configuration's fields over base. Coefficients that the user gave are not bound to the table's range.
   void apply(const MaterialConfig& over, Material& base) {
     used_.insert("material " + over.name);
@@ -116,7 +121,7 @@ class Resolver {
     base.scattering = over.scattering.value_or(base.scattering);
     base.scattering_lobe = over.scattering_lobe.value_or(base.scattering_lobe);
     base.scattering_cross_polar = over.scattering_cross_polar.value_or(base.scattering_cross_polar);
-    if (over.a || over.b || over.c || over.d || over.permittivity || over.conductivity_s_m) {
+    if (gives_law(over)) {
       base.min_ghz = 0;
       base.max_ghz = std::numeric_limits<double>::infinity();
     }
@@ -131,25 +136,37 @@ class Resolver {
     return nullptr;
   }
 
-  // The table's entry of this exact name; the range that holds the frequency, else the first one.
-  std::optional<Material> itu(const std::string& name) const {
-    std::optional<Material> found;
-    for (const Material& m : itu_materials()) {
-      if (m.name != name) continue;
-      if (frequency_ghz_ >= m.min_ghz && frequency_ghz_ <= m.max_ghz) return m;
-      if (!found) found = m;
+  // What the library says of this exact name at the carrier. Beyond the ranges of its laws: that of the nearest one,
+  // whose range is lifted where the configuration wants it. Nothing is said of a law that the configuration replaces.
+  std::optional<Material> itu(const std::string& name, bool law_is_given) {
+    std::optional<ItuLaw> law = find_itu_law(scene_.itu_edition, name, frequency_ghz_);
+    if (!law || law_is_given) return law ? std::optional(law->material) : std::nullopt;
+    if (!law->choice.empty()) notes_.insert(law->choice);
+    if (!law->in_range && scene_.extrapolate_materials && !range_is_a_limit(name)) {
+      notes_.insert(
+          fmt::format("the material \"{}\" was measured from {}, and is used at {:g} GHz all the same "
+                      "(scene.extrapolate_materials)",
+                      name, range_in_words(law->material), frequency_ghz_));
+      law->material.min_ghz = 0;
+      law->material.max_ghz = std::numeric_limits<double>::infinity();
     }
-    return found;
+    return law->material;
   }
 
   // What configuration and table say of a name.
   std::optional<Material> known(std::string_view name) {
-    std::optional<Material> material = itu(spellings(name)[2]);
-    if (const MaterialConfig* over = override_of(name)) {
+    const MaterialConfig* over = override_of(name);
+    const bool made_of = over && !over->library.empty();
+    std::optional<Material> material = itu(spellings(made_of ? over->library : name)[2], over && gives_law(*over));
+    if (over) {
+      if (made_of && !material) throw ConfigError(not_in_library(over->library, "[[material]] '" + over->name + "'"));
+      if (made_of) material->name = spellings(over->name)[2];
       if (!material) {
         if (!over->a && !over->permittivity) {
           throw ConfigError(fmt::format(
-              "[[material]] '{}' is not an ITU material, so it needs permittivity (or a, b, c, d)", over->name));
+              "[[material]] '{}' is not an ITU material, so it needs permittivity (or a, b, c, d), or the library "
+              "material that it is made of",
+              over->name));
         }
         material = Material{.name = spellings(over->name)[2]};
       }
@@ -165,7 +182,8 @@ class Resolver {
       const auto base = known(*definition.itu_type);
       if (!base) {
         throw InputError(fmt::format("{}: material '{}' has the ITU type '{}', which is not known; known: {}",
-                                     definition.where, definition.name, *definition.itu_type, itu_names()));
+                                     definition.where, definition.name, *definition.itu_type,
+                                     itu_names(scene_.itu_edition)));
       }
       material = *base;
       const MaterialConfig* over = override_of(*definition.itu_type);
@@ -183,34 +201,10 @@ class Resolver {
   const SceneConfig& scene_;
   const std::vector<MaterialConfig>& overrides_;
   double frequency_ghz_;
-  std::set<std::string> used_;
+  std::set<std::string> used_, notes_;
 };
 
 }  // namespace
-
-const std::vector<Material>& itu_materials() {
-  static const std::vector<Material> table = {
-      // name, a, b, c, d, GHz from, GHz to
-      {"vacuum", 1, 0, 0, 0, 0.001, 100},
-      {"concrete", 5.24, 0, 0.0462, 0.7822, 1, 100},
-      {"brick", 3.91, 0, 0.0238, 0.16, 1, 40},
-      {"plasterboard", 2.73, 0, 0.0085, 0.9395, 1, 100},
-      {"wood", 1.99, 0, 0.0047, 1.0718, 0.001, 100},
-      {"glass", 6.31, 0, 0.0036, 1.3394, 0.1, 100},
-      {"glass", 5.79, 0, 0.0004, 1.658, 220, 450},
-      {"ceiling_board", 1.48, 0, 0.0011, 1.0750, 1, 100},
-      {"chipboard", 2.58, 0, 0.0217, 0.78, 1, 100},
-      {"plywood", 2.71, 0, 0.33, 0, 1, 40},
-      {"marble", 7.074, 0, 0.0055, 0.9262, 1, 60},
-      {"floorboard", 3.66, 0, 0.0044, 1.3515, 50, 100},
-      {"metal", 1, 0, 1e7, 0, 1, 100},
-      {"very_dry_ground", 3, 0, 0.00015, 2.52, 1, 10},
-      {"medium_dry_ground", 15, -0.1, 0.035, 1.63, 1, 10},
-      {"wet_ground", 30, -0.4, 0.15, 1.30, 1, 10},
-      {"asphalt_concrete", 4.83, 0, 0.0108, 1.3969, 1, 40},
-  };
-  return table;
-}
 
 ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scene,
                                     const std::vector<MaterialConfig>& overrides, double frequency_hz) {
@@ -235,7 +229,7 @@ ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scen
     }
     out.mesh_material.push_back(index);
   }
-  out.warnings = resolver.unused();
+  out.warnings = resolver.warnings();
   return out;
 }
 

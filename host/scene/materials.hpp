@@ -1,17 +1,15 @@
-// Radio materials: the ITU table, and what a material name of a scene file means under a configuration.
-// Assumes nothing about frequency except where one name has two laws (glass): the range that holds it is taken.
+// Radio materials: what a material name of a scene file means under a configuration.
+// Assumes nothing about frequency except where one name has several laws: the range that holds it is taken.
 #pragma once
 #include <string>
 #include <vector>
 
+#include "scene/itu_materials.hpp"
 #include "scene/raw_scene.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
-
-// ITU-R P.2040-3 (08/2023), Table 3, with asphalt_concrete of later editions; 0.1 m thick. Glass has two entries.
-const std::vector<Material>& itu_materials();
 
 struct ResolvedMaterials {
   std::vector<Material> materials;      // distinct, in order of first use
@@ -21,7 +19,9 @@ struct ResolvedMaterials {
 
 // A name is looked up in this order: its alias (scene.material_alias); [[material]] or the file itself; the ITU
 // material of that name. "mat-" and then "itu_" are stripped where the full name is not known. [[material]] of the
-// configuration overrides file and table, field by field. Throws InputError that names mesh, file and material.
+// configuration overrides file and table, field by field. A material that its edition does not know at the frequency
+// keeps its range, which its evaluation will refuse, or loses it under scene.extrapolate_materials, with a warning.
+// Throws InputError that names mesh, file and material.
 ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scene,
                                     const std::vector<MaterialConfig>& overrides, double frequency_hz);
 

@@ -81,7 +81,8 @@ RawMesh mesh_of(const Body& body, double length_m, double width_m, double height
 
 }  // namespace
 
-Scene vehicle_model(NamedBody kind, double length_m, double width_m, double height_m) {
+Scene vehicle_model(NamedBody kind, double length_m, double width_m, double height_m, const SceneConfig& scene,
+                    const std::vector<MaterialConfig>& materials, double frequency_hz) {
   const Body& body = body_of(kind);
   for (const double size_m : {length_m, width_m, height_m}) {
     if (size_m > 0 && size_m < std::numeric_limits<double>::infinity()) continue;
@@ -97,7 +98,7 @@ Scene vehicle_model(NamedBody kind, double length_m, double width_m, double heig
   mesh.where = raw.file;
   mesh.material = 0;
   raw.meshes.push_back(std::move(mesh));
-  return build_scene(raw, resolve_materials(raw, {}, {}, RadioConfig{}.frequency_hz));
+  return build_scene(raw, resolve_materials(raw, scene, materials, frequency_hz));
 }
 
 }  // namespace wavetracer

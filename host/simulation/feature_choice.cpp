@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "radio/material.hpp"
 #include "radio/opacity.hpp"
+#include "wavetracer/error.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
@@ -29,6 +31,17 @@ bool any_material(const Scene& scene, const World& world, const Holds& holds) {
     return std::ranges::any_of(s.surfaces,
                                [&](const Surface& surface) { return holds(s.materials[surface.material]); });
   });
+}
+
+// One text names all of them; what asks for a material later would name the first.
+void check_materials(const Config& config, const Scene& scene, const World& world) {
+  std::vector<Material> used;
+  any_material(scene, world, [&](const Material& material) {
+    if (std::ranges::find(used, material) == used.end()) used.push_back(material);
+    return false;
+  });
+  if (const std::string problem = range_problem(used, config.radio.frequency_hz); !problem.empty())
+    throw ConfigError(problem);
 }
 
 struct Reason {
@@ -61,6 +74,7 @@ std::map<Interaction, std::vector<Reason>> needs(const Config& config, const Sce
 }  // namespace
 
 Features choose_features(const Config& config, const Scene& scene, const World& world) {
+  check_materials(config, scene, world);
   const TraceConfig& trace = config.trace;
   auto needed = needs(config, scene, world);
   Features out;

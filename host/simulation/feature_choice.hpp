@@ -8,6 +8,7 @@
 
 namespace wavetracer {
 
+// Throws ConfigError if materials of the scene or of vehicles are not known at the carrier, and names all of them.
 Features choose_features(const Config& config, const Scene& scene, const World& world);
 
 // A copy of trace in which all features that are off are switched off.

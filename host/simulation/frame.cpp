@@ -42,10 +42,10 @@ void FrameLoop::forget() {
 // A frame that is given up leaves half of its sequences, which the next one must not take for all. Frames of blocks
 // neither reuse anything nor leave anything.
 FrameResult FrameLoop::run(const FrameTask& task) {
-  if (task.transmitters) forget();
+  if (task.is_block()) forget();
   try {
     FrameResult out = solve(task);
-    if (task.transmitters) forget();
+    if (task.is_block()) forget();
     return out;
   } catch (const FrameStopped&) {
     forget();
@@ -60,8 +60,9 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
 
   out.world = task.pose();
   std::optional<LinkBlock> block;
-  if (task.transmitters)
-    block = make_link_block(out.world.links, *task.transmitters, s_.world.receiver_of_transmitter(),
+  if (task.is_block())
+    block = make_link_block(out.world.links, task.transmitters.value_or(TransmitterRange{0, no_end}),
+                            task.receivers.value_or(ReceiverRange{}), s_.world.receiver_of_transmitter(),
                             s_.world.transmitter_of_receiver(), s_.origins);
   account.end_stage("poses");
 

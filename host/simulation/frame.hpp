@@ -17,9 +17,11 @@ struct FrameTask {
   std::function<WorldState()> pose = {};              // where everything is
   EndName transmitter_name = {}, receiver_name = {};  // for warnings; asked after the poses
   std::optional<TransmitterRange> transmitters = {};  // only the links of these; not given: all
+  std::optional<ReceiverRange> receivers = {};        // likewise
   bool timed = true;                                  // its stages on the device are profiled
   DiscoveryMark* discovery = nullptr;                 // of the source of poses; null: of the drive
-  bool between = false;    // two frames of poses: launches no rays where frames may do without
+  bool between = false;  // two frames of poses: launches no rays where frames may do without
+  bool is_block() const { return transmitters || receivers; }
   bool compiling = false;  // launches are there to be compiled: few rays, and no warnings
 };
 

@@ -1,4 +1,4 @@
-// Cuts by transmitter.
+// Cuts by transmitter and receiver.
 // Whether a launcher sends or listens is decided in the whole frame: that says how many rays it has.
 #include "simulation/link_block.hpp"
 
@@ -6,15 +6,15 @@
 
 namespace wavetracer {
 
-LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange range,
+LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from, ReceiverRange to,
                           std::span<const uint32_t> receiver_of_transmitter,
                           std::span<const uint32_t> transmitter_of_receiver, const Origins& origins) {
-  LinkBlock block{range, {}, {}, std::vector<char>(origins.count(), 0)};
+  LinkBlock block{{}, {}, std::vector<char>(origins.count(), 0)};
   const auto launch = [&](uint32_t origin) {
     if (origin != no_end) block.launches[origin] = 1;
   };
   for (const Link& link : links) {
-    if (link.tx < range.first || link.tx >= range.end) continue;
+    if (link.tx < from.first || link.tx >= from.end || link.rx < to.first || link.rx >= to.end) continue;
     block.own.push_back(link);
     block.solved.push_back(link);
     launch(link.tx);

@@ -117,19 +117,22 @@ class Ends {
 
 void say_named(const Config& config, const Ends& ends, const World& world, Kind kind, std::vector<std::string>& out) {
   Few few(out);
-  const auto say = [&](const char* role, const std::vector<RadioEnd>& all, size_t i, const Findings& findings) {
-    if (!findings[kind].empty()) few.add(fmt::format("{} \"{}\" {}", role, all[i].name, findings[kind]));
+  const auto say = [&](const char* role, size_t of_role, const std::vector<RadioEnd>& all, size_t i,
+                       const Findings& findings) {
+    if (!findings[kind].empty())
+      few.add(fmt::format("{} \"{}\" {}", i < of_role ? role : "station", all[i].name, findings[kind]));
   };
-  for (size_t i = 0; i < config.transmitters.size(); ++i)
-    say("transmitter", world.transmitters(), i, ends.transmitter(i));
-  for (size_t i = 0; i < config.receivers.size(); ++i)
+  const size_t stations = config.stations.size();
+  for (size_t i = 0; i < config.transmitters.size() + stations; ++i)
+    say("transmitter", config.transmitters.size(), world.transmitters(), i, ends.transmitter(i));
+  for (size_t i = 0; i < config.receivers.size() + stations; ++i)
     if (world.transmitter_of_receiver()[i] == no_end)  // else it was named as a transmitter
-      say("receiver", world.receivers(), i, ends.receiver(i));
+      say("receiver", config.receivers.size(), world.receivers(), i, ends.receiver(i));
   few.end(fmt::format("other antennas are {}", words[kind]));
 }
 
 void say_grids(const Config& config, const Surroundings& around, const Ends& ends, std::vector<std::string>& out) {
-  size_t first = config.receivers.size();
+  size_t first = config.receivers.size() + config.stations.size();
   for (const ReceiverGridConfig& grid : config.receiver_grids) {
     const GridShape shape = grid_shape(grid, around.scene());
     const size_t count = size_t{shape.columns} * shape.rows;

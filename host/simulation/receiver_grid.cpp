@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "wavetracer/error.hpp"
 
@@ -74,6 +75,11 @@ std::vector<double> ground_m(const GridShape& shape, const Scene& scene) {
   return z_m;
 }
 
+std::vector<RadioEnd> joined(std::vector<RadioEnd> ends, const std::vector<RadioEnd>& more) {
+  ends.insert(ends.end(), more.begin(), more.end());
+  return ends;
+}
+
 }  // namespace
 
 GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene) {
@@ -84,15 +90,20 @@ GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene) {
   return {static_cast<uint32_t>(x.count), static_cast<uint32_t>(y.count), x.first_m, y.first_m, grid.step_m};
 }
 
+std::vector<RadioEnd> standing_transmitters(const Config& config) {
+  return joined(config.transmitters, config.stations);
+}
+
 std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scene) {
-  std::vector<RadioEnd> out = config.receivers;
+  std::vector<RadioEnd> out = joined(config.receivers, config.stations);
   if (config.receiver_grids.empty()) return out;
+  const size_t singles = out.size();
   std::set<std::string> taken;
-  for (const auto* ends : {&config.transmitters, &config.receivers})
+  for (const auto* ends : {&config.transmitters, &std::as_const(out)})
     for (const RadioEnd& end : *ends) taken.insert(end.name);
   for (const ReceiverGridConfig& grid : config.receiver_grids) {
     const GridShape shape = grid_shape(grid, scene);
-    check_count(grid, static_cast<double>(out.size() - config.receivers.size() + uint64_t{shape.columns} * shape.rows));
+    check_count(grid, static_cast<double>(out.size() - singles + uint64_t{shape.columns} * shape.rows));
     const std::vector<double> ground = grid.above == "ground" ? ground_m(shape, scene) : std::vector<double>{};
     for (uint32_t iy = 0; iy < shape.rows; ++iy)
       for (uint32_t ix = 0; ix < shape.columns; ++ix) {

@@ -23,7 +23,10 @@ struct GridShape {
 // exchanged, and for more than max_grid_receivers.
 GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene);
 
-// All receivers that stand: those of the configuration, then those of its grids, in their order. Only the scene's
+// All transmitters that stand: [[transmitter]], then [[station]].
+std::vector<RadioEnd> standing_transmitters(const Config& config);
+
+// All receivers that stand: [[receiver]], then [[station]], then the cells of grids, in their order. Only the scene's
 // origin and extent are used, and its triangles where above = "ground". Throws ConfigError, also for a name that is
 // taken.
 std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scene);

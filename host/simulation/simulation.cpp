@@ -7,6 +7,7 @@
 
 #include "simulation/frame.hpp"
 #include "simulation/missing_paths.hpp"
+#include "simulation/receiver_batches.hpp"
 #include "wavetracer/arrays.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/live.hpp"
@@ -23,6 +24,22 @@ struct Simulation::State {
             .pose = [this, frame] { return setup.world.state(frame); },
             .transmitter_name = name(setup.config.transmitters),
             .receiver_name = name(setup.config.receivers)};
+  }
+
+  // A frame that reuses nothing may be solved in batches of receivers.
+  FrameResult run(FrameTask task) {
+    const bool whole = setup.reuse || !block_obstacle(setup.config).empty();
+    const auto receivers = static_cast<uint32_t>(setup.world.receivers().size());
+    const std::vector<ReceiverRange> batches = receiver_batches(setup.trace, whole ? 0 : receivers);
+    if (batches.size() == 1) return frames.run(task);
+    std::vector<FrameResult> parts;
+    for (const ReceiverRange& batch : batches) {
+      setup.frame_watch.set_part(parts.size(), batches.size());
+      task.receivers = batch;
+      parts.push_back(frames.run(task));
+    }
+    setup.frame_watch.set_part(0, 1);
+    return joined_batches(std::move(parts));
   }
 
   // A frame of a live world. pose: the world, and the names in the frame.
@@ -105,7 +122,7 @@ const StageSeconds& Simulation::setup_seconds() const { return state_->setup.sec
 FrameResult Simulation::run_frame(uint32_t frame) {
   FrameTask task = state_->task(frame);
   task.timed = state_->timed();
-  return state_->frames.run(task);
+  return state_->run(std::move(task));
 }
 
 std::string block_obstacle(const Config& config) {
@@ -121,7 +138,7 @@ FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters)
     throw ConfigError("a frame of this configuration cannot be cut into blocks of transmitters: " + why);
   FrameTask task = state_->task(frame);
   task.transmitters = transmitters;
-  return state_->frames.run(task);
+  return state_->run(std::move(task));
 }
 
 LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) {

@@ -274,7 +274,7 @@ World::World(const Config& config, const Scene& scene) : state_(std::make_unique
   for (Track& track : s.trajectories.tracks)
     for (Sample& sample : track.samples) sample.position_m -= scene.origin_m;
   s.warnings = s.trajectories.warnings;
-  s.add_standing(s.transmitters, config.transmitters, scene.origin_m);
+  s.add_standing(s.transmitters, standing_transmitters(config), scene.origin_m);
   s.add_standing(s.receivers, standing_receivers(config, scene), scene.origin_m);
   s.add_instances(vehicles, scene);
   s.add_mounts(config.mounts, scene.origin_m);

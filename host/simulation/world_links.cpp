@@ -56,6 +56,14 @@ bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
   return tx_vehicle == rx_vehicle ? config_.same_vehicle : config_.v2v;
 }
 
+// Of two ends in one place. What an antenna on a vehicle or a station sends to itself is no link; a receiver at a
+// transmitter, under a name of its own, hears its echoes.
+bool LinkRules::one_radio(uint32_t tx, uint32_t rx) const {
+  const uint32_t vehicle = transmitters_.vehicles[tx];
+  if (vehicle != receivers_.vehicles[rx]) return false;
+  return vehicle != no_vehicle || transmitters_.names[tx] == receivers_.names[rx];
+}
+
 bool LinkRules::any_allowed() const {
   return std::ranges::any_of(wanted_transmitters_, [&](uint32_t tx) {
     return std::ranges::any_of(
@@ -79,8 +87,7 @@ void LinkRules::add_links(uint32_t tx, const EndState& from, const Places& prese
       if (square[k] > most_square) continue;
       const uint32_t rx = present.ends[first + k];
       if (!allowed(vehicle, receivers_.vehicles[rx]) || std::sqrt(square[k]) > most_m) continue;
-      // What an antenna on a vehicle sends to itself is no link; a receiver at a transmitter hears its echoes.
-      if (square[k] > 0 || vehicle == no_vehicle || vehicle != receivers_.vehicles[rx]) out.push_back({tx, rx});
+      if (square[k] > 0 || !one_radio(tx, rx)) out.push_back({tx, rx});
     }
   }
 }

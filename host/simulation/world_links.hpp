@@ -25,7 +25,7 @@ class LinkRules {
   // Throws ConfigError for a pattern of names that no end has, RuntimeError for more pairs than a drive can have.
   LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers);
 
-  // The links of ends that are present, sorted. Ends at the same place are not linked.
+  // The links of ends that are present, sorted. The two ends of one radio are not linked.
   // Throws RuntimeError where more pairs are present than a frame can have.
   std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;
 
@@ -39,6 +39,7 @@ class LinkRules {
     std::vector<double> x, y, z;
   };
   bool allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const;
+  bool one_radio(uint32_t tx, uint32_t rx) const;
   // Appends the links of a transmitter that is present.
   void add_links(uint32_t tx, const EndState& from, const Places& present, std::vector<Link>& out) const;
 

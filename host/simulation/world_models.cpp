@@ -90,12 +90,20 @@ const VehicleTypeConfig* VehicleModels::row_of(std::string_view name) const {
   return found == config_.vehicle_types.end() ? nullptr : &*found;
 }
 
+// Of the scene's keys those that say what a material's name means.
+SceneConfig VehicleModels::material_rules() const {
+  SceneConfig rules;
+  rules.material_alias = config_.scene.material_alias;
+  rules.itu_edition = config_.scene.itu_edition;
+  rules.extrapolate_materials = config_.scene.extrapolate_materials;
+  return rules;
+}
+
 const Scene& VehicleModels::mesh_of(const VehicleTypeConfig& row) {
   const auto [mesh, is_new] = meshes_.try_emplace({row.model, row.material});
   if (is_new) {
-    SceneConfig scene;
+    SceneConfig scene = material_rules();
     scene.default_material = row.material;
-    scene.material_alias = config_.scene.material_alias;
     mesh->second = load_scene_file(row.model, scene, config_.materials, config_.radio.frequency_hz,
                                    config_.trace.diffraction ? EdgeSearch::of_model : EdgeSearch::none);
   }
@@ -149,7 +157,8 @@ std::optional<uint32_t> VehicleModels::model_of(const VehicleType& type, std::st
       if (extent_m[axis] > 0) scale[axis] = size_of(type)[axis] / extent_m[axis];
     models_.push_back(stretched(scene, scale));
   } else if (is_new) {
-    models_.push_back(vehicle_model(NamedBody::named(body), type.length_m, type.width_m, type.height_m));
+    models_.push_back(vehicle_model(NamedBody::named(body), type.length_m, type.width_m, type.height_m,
+                                    material_rules(), config_.materials, config_.radio.frequency_hz));
   }
   return found->second;
 }

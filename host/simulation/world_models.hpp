@@ -35,6 +35,7 @@ class VehicleModels {
   using Key = std::tuple<std::string, std::string, double, double, double>;  // kind or file, material, sizes
 
   const VehicleTypeConfig* row_of(std::string_view name) const;
+  SceneConfig material_rules() const;
   const Scene& mesh_of(const VehicleTypeConfig& row);
   VehicleType sized(const VehicleTypeConfig& row);
 

@@ -48,11 +48,15 @@ Config with_traffic(const Config& city, const std::string& drive, uint64_t frame
   return config;
 }
 
-Config driven(const Config& standing, uint64_t frames) {
+Config driven(const Config& asked, uint64_t frames) {
+  Config standing = asked;  // stations send and receive by themselves: the first of all that send is what moves
+  standing.transmitters.insert(standing.transmitters.end(), asked.stations.begin(), asked.stations.end());
+  standing.receivers.insert(standing.receivers.end(), asked.stations.begin(), asked.stations.end());
+  standing.stations.clear();
   if (standing.transmitters.empty())
     throw ConfigError(
-        fmt::format("{}nothing that sends can be driven: give a [[transmitter]], or vehicles with "
-                    "antennas ([[mount]]) and their trajectories",
+        fmt::format("{}nothing that sends can be driven: give a [[transmitter]] or a [[station]], or vehicles "
+                    "with antennas ([[mount]]) and their trajectories",
                     standing.file.empty() ? "" : standing.file + ": "));
   const RadioEnd& end = standing.transmitters.front();
   Config config = standing;

@@ -16,6 +16,7 @@ namespace wavetracer {
 
 struct MaterialConfig {  // [[material]]: overrides or adds a radio material by name
   std::string name;
+  std::string library;               // the material of the library that it is made of; empty: that of its own name
   std::optional<double> a, b, c, d;  // ITU-R P.2040 coefficients
   std::optional<double> permittivity, conductivity_s_m;
   std::optional<double> thickness_m;                                          // infinity allowed: a half space
@@ -23,6 +24,7 @@ struct MaterialConfig {  // [[material]]: overrides or adds a radio material by 
 };
 
 using UpAxis = Choice<"auto", "y", "z">;
+using ItuEdition = Choice<"P.2040-4", "P.2040-3">;  // of Recommendation ITU-R P.2040
 
 struct SceneConfig {
   std::string file;                                   // absolute after parsing (given relative to the config file)
@@ -30,6 +32,8 @@ struct SceneConfig {
   double scale = 1;                                   // metres per file unit (OBJ, GLB, PLY)
   UpAxis up = "auto";                                 // auto: y for glTF, else z
   std::map<std::string, std::string> material_alias;  // [scene.material_alias]: name in the file -> radio material
+  ItuEdition itu_edition = "P.2040-4";                // whose materials are known by name
+  bool extrapolate_materials = false;                 // beyond the range that they were measured in, with a warning
   std::string default_material;                       // for meshes without one; empty: a missing material is an error
   std::string streets;                                // a SUMO network, for pictures only
 };
@@ -50,7 +54,7 @@ struct RadioConfig {
 using NamedAntenna = Choice<"isotropic", "short-dipole", "dipole", "tr38901">;
 using Polarization = Choice<"V", "H", "VH", "cross">;
 
-struct RadioEnd {  // [[transmitter]] or [[receiver]]
+struct RadioEnd {  // [[transmitter]], [[receiver]] or [[station]]
   std::string name;
   std::array<double, 3> position_m{0, 0, 0};  // file coordinates
   std::string antenna = "isotropic";          // a NamedAntenna, or a pattern file
@@ -167,7 +171,8 @@ struct TraceConfig {
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
-  std::optional<uint64_t> batch_rays = {};  // traced at once; not given: chosen for the device
+  std::optional<uint64_t> batch_rays = {};       // traced at once; not given: chosen for the device
+  std::optional<uint32_t> batch_receivers = {};  // that launch rays, computed at once; not given: 8192
 };
 
 // Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the word that was given.
@@ -253,6 +258,7 @@ struct Config {
   RadioConfig radio;
   std::vector<MaterialConfig> materials;
   std::vector<RadioEnd> transmitters, receivers;
+  std::vector<RadioEnd> stations;  // each of them is a transmitter and a receiver of one name
   std::vector<ReceiverGridConfig> receiver_grids;
   std::vector<ArrayConfig> arrays;
   TrajectoriesConfig trajectories;

@@ -81,6 +81,19 @@ TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one 
   CHECK(still[1].reference.keys == std::vector<std::string>{"trace.max_depth=3"});
   CHECK(still[1].settings.size() == 3);
   CHECK(still.size() == 2 + mechanisms().size());
+  // With diffraction receivers launch rays, too.
+  own.trace.diffraction = true;
+  own.trace.diffraction_rays = 2000;
+  const Axis listeners = axes(own, false, default_rays)[2];
+  names.clear();
+  for (const Setting& setting : listeners.settings) names.push_back(setting.name);
+  CHECK(names == std::vector<std::string>{"300", "1,000", "2,000", "3,000", "10,000", "30,000"});
+  CHECK(listeners.reference.keys == std::vector<std::string>{"trace.diffraction_rays=90000"});
+  own.trace.rays = 50000;  // a receiver launches no more than a transmitter
+  CHECK(axes(own, false, default_rays)[2].reference.keys ==
+        std::vector<std::string>{"trace.diffraction_rays=90000", "trace.rays=90000"});
+  own.trace.rays.reset();
+  CHECK(axes(own, false, default_rays).size() == 2 + mechanisms().size());
   // Every key and value is one that a configuration accepts.
   for (const Axis& axis : drive) {
     std::vector<Setting> all = axis.settings;

@@ -261,6 +261,32 @@ TEST_CASE("mistakes in --set are reported as --set") {
   check_contains(of("trace.max_diffractions=5"), "--set trace.max_diffractions=5: trace.max_diffractions = 5 is out");
 }
 
+TEST_CASE("a station stands for a transmitter and a receiver; its name is its own") {
+  const std::string station = "[[station]]\nname = \"rsu\"\nposition_m = [0, 0, 6]\n";
+  const Config c = parse_config(scene + station +
+                                    "antenna = \"dipole\"\npolarization = \"VH\"\norientation_deg = [9, 8, 7]\n"
+                                    "velocity_m_s = [1, 2, 3]\n[[station]]\nname = \"b\"\nposition_m = [1, 2, 3]\n",
+                                "a.toml", {"station.1.polarization=cross"});
+  REQUIRE(c.stations.size() == 2);
+  CHECK(c.transmitters.empty());
+  CHECK(c.receivers.empty());
+  CHECK(c.stations[0].name == "rsu");
+  CHECK(c.stations[0].position_m == std::array<double, 3>{0, 0, 6});
+  CHECK(c.stations[0].antenna == "dipole");
+  CHECK(c.stations[0].polarization.word() == "VH");
+  CHECK(c.stations[0].orientation_deg == std::array<double, 3>{9, 8, 7});
+  CHECK(c.stations[0].velocity_m_s == std::array<double, 3>{1, 2, 3});
+  CHECK(c.stations[1].polarization.word() == "cross");
+  CHECK(parse_config(c.text, "b.toml").text == c.text);
+  CHECK(c.text.find("[[transmitter]]") == std::string::npos);
+  check_contains(error_of(scene + station), "a.toml:2:1: one [[station]] alone has no other end to send to");
+  check_contains(error_of(scene + ends + "[[station]]\nname = \"r\"\nposition_m = [0, 0, 0]\n"),
+                 "station.name = \"r\" is used twice");
+  check_contains(error_of(scene + station + station), "station.name = \"rsu\" is used twice");
+  check_contains(error_of(scene + "[[station]]\nname = \"s\"\n"), "[[station]] has no position_m");
+  check_contains(error_of(scene + ends + station + "role = \"both\"\n"), "unknown key");
+}
+
 TEST_CASE("a file that cannot be read is a config error") {
   CHECK_THROWS_AS(wavetracer::load_config("/nonexistent/a.toml"), ConfigError);
   CHECK_THROWS_AS(wavetracer::load_config("/"), ConfigError);

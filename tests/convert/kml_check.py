@@ -62,7 +62,8 @@ with h5py.File(os.path.join(sys.argv[1], "run/paths.h5"), "r") as file:
             assert placemark.find("k:styleUrl", NS).text in styles
 
         where = {"car<1>/roof": file["frames/receiver_position_m"][row, list(rx).index("car<1>/roof")]}
-        assert [p.find("k:name", NS).text for p in parts["ends"]] == ["car<1>/roof"] * 2  # it sends and receives
+        assert [p.find("k:name", NS).text for p in parts["ends"]] == ["car<1>/roof"]  # once, as it sends and receives
+        assert parts["ends"][0].find("k:styleUrl", NS).text == "#station"
         check_places(places(parts["ends"][0]), where["car<1>/roof"][None])
 
         poses = np.nonzero(file["poses/frame"][...] == number)[0]

@@ -49,7 +49,7 @@ expect() {
   [ "$got" = "$wanted" ] || fail "after \"$*\": \"$got\" instead of \"$wanted\""
 }
 expect 'run ' ru
-expect 'city info ' scene ''
+expect 'city info materials ' scene ''
 expect '--resume ' run --res
 expect 'trace.rays= ' run -c file.toml --set trace.ra
 expect 'fibonacci hilbert horizon random ' run --set trace.directions = ''
@@ -68,8 +68,16 @@ for shell in zsh fish; do
   ! command -v "$shell" >/dev/null || "$shell" -n "$folder/$shell" || fail "$shell completion"
 done
 
-# --- the reference ---
+# --- radio materials, by edition and frequency ---
+"$program" scene materials --frequency 140e9 | grep -Eq '^concrete +110 to 330 GHz +5.17 +3.16' || fail "scene materials"
+"$program" scene materials | grep -Eq '^concrete +1 to 100 GHz +5.24 +0.185' || fail "scene materials at 5.9 GHz"
+! "$program" scene materials --edition P.2040-3 | grep -q vinyl_tile || fail "scene materials --edition"
+
+# --- the reference, and the library of materials ---
 "$program" documentation --reference -o "$folder/configuration.md"
 cmp -s "$folder/configuration.md" "$source/docs/configuration.md" ||
   fail "docs/configuration.md is stale: cmake --build BUILD --target reference writes it"
+"$program" documentation --materials -o "$folder/materials.md"
+cmp -s "$folder/materials.md" "$source/docs/materials.md" ||
+  fail "docs/materials.md is stale: cmake --build BUILD --target reference writes it"
 exit "$failed"

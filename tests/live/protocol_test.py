@@ -166,6 +166,22 @@ def steps_and_detail(listen):
     print(f"steps over {listen.split(':')[0]}")
 
 
+def station():
+    """A road-side unit that sends and receives, under one name in both lists; it is no link to itself."""
+    with Server(config=CONFIG.replace("[[transmitter]]", "[[station]]")) as server, server.connect() as client:
+        world = client.hello(detail="paths")
+        expect(world["transmitters"] == ["rsu"] and world["receivers"] == ["rsu"], world)
+        links = {(link["tx"], link["rx"]): link for link in client.ask(frame(0, 0.0, POSES))["links"]}
+        cars = ("ego/roof", "other/roof")
+        expect(links.keys() == {(a, b) for a in ("rsu", *cars) for b in ("rsu", *cars) if a != b}, links.keys())
+        for car in cars:  # isotropic antennas: as much one way as the other
+            there, back = links["rsu", car], links[car, "rsu"]
+            expect(len(there["delay_s"]) == len(back["delay_s"]) > 2, (there, back))
+            for one, other in zip(there["delay_s"], back["delay_s"]):
+                expect(math.isclose(one, other, rel_tol=1e-12), (there, back))
+    print("a station sends and receives")
+
+
 def two_clients():
     """Each has its own vehicles, though they share ids and places."""
     with Server() as server, server.connect() as one, server.connect() as two:
@@ -263,6 +279,7 @@ def main():
     steps_and_detail("tcp:127.0.0.1:0")
     with tempfile.TemporaryDirectory() as folder:
         steps_and_detail(f"unix:{folder}/live.sock")
+    station()
     two_clients()
     between_poses()
     free_running()

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 #include "radio/world.hpp"
 #include "wavetracer/error.hpp"
@@ -19,6 +20,9 @@ TEST_CASE("permittivity follows a f^b and c f^d") {
   const std::complex<double> ground = complex_permittivity(test::medium_dry_ground(), 5.9e9);
   CHECK(ground.real() == test::near(15 * std::pow(5.9, -0.1), 1e-14));
   CHECK(ground.imag() == test::near(-17.9751 * 0.035 * std::pow(5.9, 1.63) / 5.9, 1e-5));
+
+  const Material marble{"marble", 7.074, 0, 0.0055, 0.9262, 1, 60};
+  CHECK_NOTHROW(complex_permittivity(marble, 60e9));  // 60e9 * 1e-9 is more than 60
 
   const Material own{.name = "own", .a = 3.5, .c = 0.02};
   CHECK(complex_permittivity(own, 1e6).real() == 3.5);
@@ -42,4 +46,22 @@ TEST_CASE("a material is refused outside its range, with a message that helps") 
       }
     }
   }
+}
+
+TEST_CASE("all materials that are not known at the carrier are named at once, with what may be done") {
+  const Material concrete = test::concrete(0.1), own{.name = "own", .a = 3.5, .c = 0.02};
+  const Material ground = test::medium_dry_ground(), metal{"metal", 1, 0, 1e7, 0, 1, 100};
+  const std::vector<Material> all{concrete, own, ground, metal};
+  CHECK(range_problem(all, 5.9e9).empty());
+  const std::string at_d_band = range_problem(all, 140e9);
+  for (const char* part : {"radio.frequency_hz = 1.4e+11", "\"concrete\" is only known from 1 to 100 GHz",
+                           "\"medium_dry_ground\" is only known from 1 to 10 GHz", "\"metal\"",
+                           "scene.itu_edition = \"P.2040-4\"", "scene.extrapolate_materials = true"}) {
+    CAPTURE(part);
+    CHECK(at_d_band.find(part) != std::string::npos);
+  }
+  CHECK(at_d_band.find("\"own\"") == std::string::npos);
+  const std::string of_ground = range_problem({&ground, 1}, 28e9);  // its range is a limit, in every edition
+  CHECK(of_ground.find("extrapolate") == std::string::npos);
+  CHECK(of_ground.find("itu_edition") == std::string::npos);
 }

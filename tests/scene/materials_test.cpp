@@ -1,7 +1,9 @@
 // Radio materials: the table, and who wins among alias, configuration, file and table.
-// Values of the table are spot-checked against ITU-R P.2040-3, Table 3.
+// Values of the table are spot-checked against ITU-R P.2040-3 and P.2040-4, Table 3.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -41,14 +43,114 @@ Material resolve(const RawMaterial& material, const std::vector<MaterialConfig>&
 }  // namespace
 
 TEST_CASE("the ITU table") {
-  CHECK(itu_materials().size() == 17);
+  CHECK(itu_materials("P.2040-3").size() == 17);
+  CHECK(itu_materials("P.2040-4").size() == 38);
   const Material ground = resolve(named("itu_medium_dry_ground"));
   CHECK(ground == Material{"medium_dry_ground", 15, -0.1, 0.035, 1.63, 1, 10, 0.1});
   CHECK(resolve(named("mat-itu_concrete")) == Material{"concrete", 5.24, 0, 0.0462, 0.7822, 1, 100, 0.1});
   CHECK(resolve(named("asphalt_concrete")).d == 1.3969);
   CHECK(resolve(named("glass")).a == 6.31);
   CHECK(resolve(named("glass"), {}, {}, 300e9).a == 5.79);
-  CHECK(resolve(named("glass"), {}, {}, 150e9).max_ghz == 100);  // outside both: the evaluation will refuse
+  CHECK(resolve(named("glass"), {}, {}, 150e9).a == 6.5767);  // since P.2040-4
+  SceneConfig older;
+  older.itu_edition = "P.2040-3";
+  CHECK(resolve(named("glass"), {}, older, 150e9).max_ghz == 450);  // outside both: the evaluation will refuse
+}
+
+TEST_CASE("the editions of ITU-R P.2040: below 100 GHz they differ in what they have, never in a value") {
+  for (const Material& law : itu_materials("P.2040-3")) {
+    CAPTURE(law.name);
+    CHECK(std::ranges::count(itu_materials("P.2040-4"), law) == 1);
+  }
+  std::vector<std::string> added;
+  for (const Material& law : itu_materials("P.2040-4"))
+    if (law.max_ghz <= 100 && std::ranges::count(itu_materials("P.2040-3"), law) == 0) added.push_back(law.name);
+  CHECK(added == std::vector<std::string>{"vinyl_tile", "carpet_tile", "asphalt_concrete"});
+  SceneConfig older;
+  older.itu_edition = "P.2040-3";
+  CHECK_THROWS_WITH_AS(resolve(named("vinyl_tile"), {}, older),
+                       Contains("'vinyl_tile' is not known to ITU-R P.2040-3 (scene.itu_edition), but to P.2040-4"),
+                       InputError);
+  CHECK(resolve(named("itu_carpet_tile")) == Material{"carpet_tile", 2.08, 0, 0.0009, 0.82, 1, 40, 0.1});
+  // Rows of P.2040-4 as Sionna RT 2.2 prints them: name, GHz, a, c, d.
+  const struct {
+    const char* name;
+    double ghz, a, c, d;
+  } rows[] = {{"concrete", 200, 5.17, 0.0145, 1.09},         {"brick", 110, 4.15, 0.0006, 1.5712},
+              {"clear_acrylic", 330, 2.58, 0.0001, 1.6524},  {"chipboard", 150, 2.16, 0.0023, 1.359},
+              {"marble", 380, 8.62, 0.0027, 1.15},           {"floorboard", 250, 5.27, 2.22e-17, 7.3413},
+              {"floorboard", 350, 5.27, 0.0003, 2.0298},     {"floorboard", 425, 5.27, 49.8726, 0},
+              {"floorboard", 150, 3.1575, 0.001675, 1.32775}};
+  for (const auto& row : rows) {
+    CAPTURE(row.name);
+    const Material m = resolve(named(row.name), {}, {}, row.ghz * 1e9);
+    CHECK(m.a == row.a);
+    CHECK(m.c == row.c);
+    CHECK(m.d == row.d);
+  }
+}
+
+TEST_CASE("laws that overlap: the narrower range, with a warning; each ordered so in the table") {
+  const auto warnings = [](const char* name, double ghz) {
+    return resolve_materials(one_mesh(named(name)), {}, {}, ghz * 1e9).warnings;
+  };
+  CHECK(warnings("glass", 5.9).empty());
+  CHECK(warnings("glass", 150).empty());
+  REQUIRE(warnings("glass", 300).size() == 1);
+  CHECK(warnings("glass", 300)[0] ==
+        "ITU-R P.2040-4 has 2 laws of \"glass\" at 300 GHz (220 to 450 GHz, 100 to 400 GHz): that of 220 to 450 GHz is "
+        "used, because its range is narrower; a [[material]] with a, b, c and d takes another one");
+  const std::vector<Material>& all = itu_materials("P.2040-4");
+  for (size_t i = 0; i < all.size(); ++i)
+    for (size_t k = i + 1; k < all.size(); ++k) {
+      if (all[i].name != all[k].name || all[i].max_ghz < all[k].min_ghz || all[k].max_ghz < all[i].min_ghz) continue;
+      CAPTURE(all[i].name);
+      CHECK(all[i].max_ghz - all[i].min_ghz < all[k].max_ghz - all[k].min_ghz);
+    }
+}
+
+TEST_CASE("beyond the range that a material was measured in") {
+  SceneConfig beyond;
+  beyond.extrapolate_materials = true;
+  CHECK(resolve(named("brick"), {}, {}, 60e9).max_ghz == 40);  // the evaluation will refuse
+  const ResolvedMaterials brick = resolve_materials(one_mesh(named("brick")), beyond, {}, 60e9);
+  CHECK(brick.materials[0].a == 3.91);  // the nearer range, by the ratio: 40 to 60, not 60 to 110
+  CHECK(std::isinf(brick.materials[0].max_ghz));
+  REQUIRE(brick.warnings.size() == 1);
+  CHECK(brick.warnings[0].find("\"brick\" was measured from 1 to 40 GHz, and is used at 60 GHz") != std::string::npos);
+  CHECK(resolve(named("brick"), {}, beyond, 80e9).a == 4.15);
+  CHECK(resolve(named("brick"), {}, beyond, 5.9e9).max_ghz == 40);  // in its range nothing is lifted
+  MaterialConfig own_law = table("brick", {{&MaterialConfig::permittivity, 4}});
+  CHECK(resolve_materials(one_mesh(named("brick")), beyond, {own_law}, 60e9).warnings.empty());
+  CHECK(resolve(named("marble"), {}, {}, 60e9).max_ghz == 60);
+  CHECK(resolve_materials(one_mesh(named("marble")), beyond, {}, 60e9).warnings.empty());  // 60 GHz is in the range
+  for (const char* ground : {"very_dry_ground", "medium_dry_ground", "wet_ground"}) {
+    CAPTURE(ground);
+    CHECK(resolve(named(ground), {}, beyond, 60e9).max_ghz == 10);
+  }
+}
+
+TEST_CASE("a material of the library under a name of one's own") {
+  MaterialConfig facade = table("facade");
+  facade.library = "itu_brick";
+  CHECK(resolve(named("facade"), {facade}) == Material{"facade", 3.91, 0, 0.0238, 0.16, 1, 40, 0.1});
+  facade.thickness_m = 0.3;
+  facade.scattering = 0.2;
+  const Material thick = resolve(named("mat-facade"), {facade});
+  CHECK(thick.thickness_m == 0.3);
+  CHECK(thick.scattering == 0.2);
+  CHECK(thick.max_ghz == 40);
+  facade.conductivity_s_m = 0.1;
+  CHECK(resolve(named("facade"), {facade}).c == 0.1);
+  CHECK(resolve(named("facade"), {facade}).a == 3.91);
+  MaterialConfig concrete = table("concrete");  // also of a name that the library has
+  concrete.library = "marble";
+  CHECK(resolve(named("concrete"), {concrete}) == Material{"concrete", 7.074, 0, 0.0055, 0.9262, 1, 60, 0.1});
+  MaterialConfig wrong = table("facade");
+  wrong.library = "bricks";
+  CHECK_THROWS_WITH_AS(resolve(named("facade"), {wrong}),
+                       Contains("[[material]] 'facade': library = 'bricks' is not a material; known: vacuum, concrete"),
+                       ConfigError);
 }
 
 TEST_CASE("aliases map names with and without prefixes") {

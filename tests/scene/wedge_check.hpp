@@ -69,7 +69,8 @@ inline Scene build(std::vector<RawMesh> meshes, std::vector<uint32_t> material =
   raw.file = "test";
   raw.meshes = std::move(meshes);
   ResolvedMaterials resolved;
-  resolved.materials = {itu_materials()[1], itu_materials()[2]};
+  resolved.materials = {find_itu_law("P.2040-4", "concrete", 5.9)->material,
+                        find_itu_law("P.2040-4", "brick", 5.9)->material};
   material.resize(raw.meshes.size(), 0);
   resolved.mesh_material = std::move(material);
   return build_scene(raw, std::move(resolved));

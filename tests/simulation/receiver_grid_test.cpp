@@ -142,6 +142,19 @@ TEST_CASE("grids stand behind the receivers of the configuration, and the world 
   CHECK(simulation.config().receivers[4].name == "g/1,1");
 }
 
+TEST_CASE("a grid follows the stations, and takes none of their names") {
+  Config config;
+  config.stations.resize(1);
+  config.stations[0].name = "rsu";
+  config.receiver_grids = {grid_of(0, 2, 0, 1, 1)};
+  const std::vector<RadioEnd> ends = standing_receivers(config, box_scene());
+  REQUIRE(ends.size() == 3);
+  CHECK(ends[0].name == "rsu");
+  CHECK(ends[1].name == "g/0,0");
+  config.stations[0].name = "g/1,0";
+  CHECK(error_of(config, box_scene()).find("\"g/1,0\" exists already") != std::string::npos);
+}
+
 TEST_CASE("above the ground: the lowest surface at each place, a slope here, with a roof over a part of it") {
   // z = x / 10 + 5 over 100 x 100 m, and a plate 20 m above it.
   const SceneFile file({{{0, 0, 5}, {100, 0, 10}, {0, 100, 0}}, {{40, 40, 30}, {20, 0, 0}, {0, 20, 0}}});

@@ -44,6 +44,37 @@ TEST_CASE("ends that stand in the same place are one end; what stands keeps the 
   CHECK(world.transmitter_of_receiver() == std::vector<uint32_t>{1, no_end});
 }
 
+TEST_CASE("a station is a transmitter and a receiver of one name, which are no link to each other") {
+  Config config;
+  config.transmitters = {end("mast", {9, 0, 6})};
+  config.receivers = {end("car", {5, 0, 1.5})};
+  config.stations = {end("rsu", {0, 0, 6}), end("other", {30, 0, 6})};
+  config.stations[0].velocity_m_s = {1, 2, 3};
+  config.receiver_grids = {{.name = "g", .x_min_m = 0, .x_max_m = 2, .y_min_m = 0, .y_max_m = 1, .step_m = 1}};
+  const World world(config, static_scene());
+  const auto names = [](const std::vector<RadioEnd>& ends) {
+    std::vector<std::string> out;
+    for (const RadioEnd& end : ends) out.push_back(end.name);
+    return out;
+  };
+  CHECK(names(world.transmitters()) == std::vector<std::string>{"mast", "rsu", "other"});
+  CHECK(names(world.receivers()) == std::vector<std::string>{"car", "rsu", "other", "g/0,0", "g/1,0"});
+  CHECK(world.receiver_of_transmitter() == std::vector<uint32_t>{no_end, 1, 2});
+  CHECK(world.transmitter_of_receiver() == std::vector<uint32_t>{no_end, 1, 2, no_end, no_end});
+  const WorldState state = world.state(0);
+  CHECK(state.transmitters[1].position_m == state.receivers[1].position_m);
+  CHECK(state.transmitters[1].velocity_m_s == glm::dvec3(1, 2, 3));
+  CHECK(state.receivers[1].velocity_m_s == glm::dvec3(1, 2, 3));
+  std::vector<Link> expected;
+  for (uint32_t tx = 0; tx < 3; ++tx)
+    for (uint32_t rx = 0; rx < 5; ++rx)
+      if (tx == 0 || tx != rx) expected.push_back({tx, rx});
+  CHECK(state.links == expected);
+  config.links.transmitters = {"rsu"};  // a name chooses each role by itself
+  config.links.receivers = {"other"};
+  CHECK(World(config, static_scene()).state(0).links == std::vector<Link>{{1, 2}});
+}
+
 TEST_CASE("two vehicles in one place: their antennas are linked, and none is to itself") {
   Config config;
   config.tracks = {{.id = "a", .waypoints = {{0, 3, 4, 0}}}, {.id = "b", .waypoints = {{0, 3, 4, 0}}}};

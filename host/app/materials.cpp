@@ -1,0 +1,151 @@
+// What laws give is computed here by the code that the fields use, so that the page cannot differ from the program.
+#include "app/materials.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include "radio/constants.hpp"
+#include "radio/material.hpp"
+#include "scene/itu_materials.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+constexpr ItuEdition older = "P.2040-3", newest = "P.2040-4";
+constexpr double d_band_ghz = 140;  // where the page compares the laws of both editions
+
+// Without its range, to see what the law itself gives.
+std::complex<double> permittivity_of(Material law, double ghz) {
+  law.min_ghz = 0;
+  law.max_ghz = ghz;
+  return complex_permittivity(law, ghz * 1e9);
+}
+
+// Decibels of a reflection or loss; nothing reflects off vacuum.
+std::string decibels(double db) {
+  if (!std::isfinite(db)) return "none";
+  return fmt::format("{:.1f}", std::abs(db) < 0.05 ? 0.0 : db);
+}
+
+double conductivity_of(const Material& law, double ghz) { return law.c * std::pow(ghz, law.d); }
+
+// Of a half space, at normal incidence.
+double reflected_db(const std::complex<double>& permittivity) {
+  const std::complex<double> n = std::sqrt(permittivity);
+  return 20 * std::log10(std::abs((1.0 - n) / (1.0 + n)));
+}
+
+// Of a plane wave in the material, per centimetre.
+double loss_db_cm(const std::complex<double>& permittivity, double ghz) {
+  const double nepers_m =
+      2 * std::numbers::pi * ghz * 1e9 / speed_of_light_m_s * std::abs(std::sqrt(permittivity).imag());
+  return 20 / std::numbers::ln10 * nepers_m / 100;
+}
+
+bool holds(const Material& law, double ghz) { return ghz >= law.min_ghz && ghz <= law.max_ghz; }
+
+bool in_edition(ItuEdition edition, const Material& law) {
+  for (const Material& other : itu_materials(edition))
+    if (other == law) return true;
+  return false;
+}
+
+std::string power(double factor, double exponent) {
+  return exponent == 0 ? fmt::format("{:g}", factor) : fmt::format("{:g} f^{:g}", factor, exponent);
+}
+
+std::string law_row(const Material& law) {
+  constexpr double v2x_ghz = 5.9;
+  std::string at = " | | |";
+  if (holds(law, v2x_ghz)) {
+    const std::complex<double> eta = permittivity_of(law, v2x_ghz);
+    at = fmt::format(" {:.3g} | {:.3g} | {} |", eta.real(), conductivity_of(law, v2x_ghz), decibels(reflected_db(eta)));
+  }
+  return fmt::format("| `{}` | {} | {} | {} | {} |{}\n", law.name, range_in_words(law), power(law.a, law.b),
+                     power(law.c, law.d), in_edition(older, law) ? "both" : newest.word(), at);
+}
+
+struct LargestChange {
+  double reflected_db = 0, loss_factor = 1;
+  std::string reflected_of, loss_of;
+  void add(const std::string& name, double db, double factor) {
+    if (db > reflected_db) reflected_db = db, reflected_of = name;
+    if (factor > loss_factor) loss_factor = factor, loss_of = name;
+  }
+};
+
+// The law that the newest edition has at the frequency, beside the older edition's nearest one carried on to it.
+std::string difference_row(const Material& law, double ghz, LargestChange& most) {
+  const auto before = find_itu_law(older, law.name, ghz);
+  const std::complex<double> now = permittivity_of(law, ghz);
+  std::string out = fmt::format("| `{}` | {:.3g} | {:.3g} | {} | {} |", law.name, now.real(), conductivity_of(law, ghz),
+                                decibels(reflected_db(now)), decibels(loss_db_cm(now, ghz)));
+  if (!before) return out + " unknown | | | |\n";
+  const std::complex<double> then = permittivity_of(before->material, ghz);
+  most.add(law.name, std::abs(reflected_db(then) - reflected_db(now)),
+           std::max(loss_db_cm(then, ghz) / loss_db_cm(now, ghz), loss_db_cm(now, ghz) / loss_db_cm(then, ghz)));
+  return out + fmt::format(" {:.3g} | {:.3g} | {} | {} |\n", then.real(), conductivity_of(before->material, ghz),
+                           decibels(reflected_db(then)), decibels(loss_db_cm(then, ghz)));
+}
+
+constexpr const char* head = R"(# Radio materials
+The materials that scenes may name: those of Recommendation ITU-R P.2040, Table 3. This page is made by `wavetracer documentation --materials`; [scenarios.md](scenarios.md#materials) says how they are used.
+
+`scene.itu_edition` chooses the edition: `P.2040-4` (09/2025, the default) or `P.2040-3` (08/2023). **At the carriers of vehicles they do not differ:** every law of P.2040-3 is in P.2040-4 with the same values and the same range. What P.2040-4 adds are four materials (`clear_acrylic`, `vinyl_tile`, `carpet_tile`, `asphalt_concrete`) and laws above 100 GHz. ITU's document itself was not at hand: the values are those of two transcriptions of Table 3 that agree in every number, in the sources of Sionna RT (`src/sionna/rt/radio_materials/itu.py`, its pull request 70) and of DiffeRT (`differt/src/differt/em/_material.py`).
+
+## Laws
+Relative permittivity a f^b and conductivity c f^d in S/m, f in GHz. The last columns are what that is at 5.9 GHz, with the reflection of a half space at normal incidence. Where two laws of a name hold one frequency, that of the narrower range is used, and a warning says so.
+
+| material | known from | permittivity | conductivity, S/m | edition | permittivity at 5.9 GHz | S/m at 5.9 GHz | reflected, dB |
+| --- | --- | --- | --- | --- | --- | --- | --- |
+)";
+
+constexpr const char* difference = R"(
+## Where the editions differ
+At {0:g} GHz P.2040-3 knows none of these materials: a run stops with an error that names them. With `scene.extrapolate_materials = true` it carries on the law that was measured nearest to that frequency, which is what the columns on the right show. The columns are permittivity, conductivity in S/m, reflection of a half space at normal incidence in dB, and loss inside of the material in dB per cm.
+
+| at {0:g} GHz | P.2040-4 | S/m | reflected, dB | dB/cm | P.2040-3, carried on | S/m | reflected, dB | dB/cm |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- |
+)";
+
+constexpr const char* foot = R"(
+So much may a law err that is carried on: by up to {:.1f} dB in reflection (`{}`), and by a factor of up to {:.0f} in loss (`{}`). The three kinds of ground are not known above 10 GHz in either edition, and metal not above 100 GHz.
+)";
+
+}  // namespace
+
+std::string materials_page() {
+  std::string out = head;
+  for (const Material& law : itu_materials(newest)) out += law_row(law);
+  out += fmt::format(difference, d_band_ghz);
+  std::string last;
+  LargestChange most;
+  for (const Material& law : itu_materials(newest)) {
+    if (law.name == last || !holds(law, d_band_ghz)) continue;
+    last = law.name;
+    out += difference_row(law, d_band_ghz, most);
+  }
+  return out + fmt::format(foot, most.reflected_db, most.reflected_of, most.loss_factor, most.loss_of);
+}
+
+std::string materials_table(ItuEdition edition, double frequency_hz) {
+  const double ghz = frequency_hz / 1e9;
+  std::string out =
+      fmt::format("{:<18} {:<18} {:>12} {:>14} {:>13} {:>10}  at {:g} GHz, ITU-R {}\n", "material", "known from",
+                  "permittivity", "conduct., S/m", "reflected, dB", "dB/cm", ghz, edition.word());
+  for (const Material& law : itu_materials(edition)) {
+    out += fmt::format("{:<18} {:<18}", law.name, range_in_words(law));
+    if (holds(law, ghz)) {
+      const std::complex<double> eta = permittivity_of(law, ghz);
+      out += fmt::format(" {:>12.4g} {:>14.4g} {:>13} {:>10.3g}", eta.real(), conductivity_of(law, ghz),
+                         decibels(reflected_db(eta)), loss_db_cm(eta, ghz));
+    } else {
+      out += fmt::format(" {:>12}", "not known");
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace wavetracer::app

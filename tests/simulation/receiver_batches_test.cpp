@@ -1,0 +1,94 @@
+// A frame in batches of receivers is the frame in one, bit for bit; and how receivers are cut.
+#include "simulation/receiver_batches.hpp"
+
+#include <utility>
+
+#include "simulation/bends.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// Two masts and a station over two boxes, to 35 receivers, a station among them, that launch rays.
+Config map_of(const SceneFile& file) {
+  Config config = config_of(file.path(), {{-11, 3, 7}, {9, -8, 4}}, {{0.3, 4, 1}}, 20000, 2);
+  config.trace = diffracting(20000, 2);
+  config.trace.diffraction_rays = 3000;
+  config.stations.resize(1);
+  config.stations[0].name = "rsu";
+  config.stations[0].position_m = {1.1, -7.3, 2};
+  ReceiverGridConfig grid;
+  grid.name = "g";
+  grid.x_min_m = grid.y_min_m = -15;
+  grid.x_max_m = 15;
+  grid.y_max_m = 18;
+  grid.step_m = 5;
+  config.receiver_grids = {grid};
+  return config;
+}
+
+}  // namespace
+
+TEST_CASE("receivers are cut into ranges that hold each of them once") {
+  TraceConfig trace;
+  const auto cut = [&](uint32_t receivers) {
+    std::vector<std::pair<uint32_t, uint32_t>> out;
+    for (const ReceiverRange& batch : receiver_batches(trace, receivers)) out.emplace_back(batch.first, batch.end);
+    return out;
+  };
+  using Cut = std::vector<std::pair<uint32_t, uint32_t>>;
+  const Cut whole{{0, no_end}};
+  CHECK(cut(1000000) == whole);  // who launches no rays keeps nothing
+  trace.diffraction = true;
+  CHECK(cut(8192) == whole);
+  CHECK(cut(8193) == Cut{{0, 8192}, {8192, 8193}});
+  trace.batch_receivers = 3;
+  CHECK(cut(3) == whole);
+  CHECK(cut(7) == Cut{{0, 3}, {3, 6}, {6, 7}});
+  trace.batch_receivers = 4294967295u;
+  CHECK(cut(4294967295u) == whole);
+}
+
+TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
+  const SceneFile file(two_boxes());
+  Config config = map_of(file);
+  const FrameResult whole = run(config);
+  REQUIRE(whole.paths.size() > 500);
+  for (const uint32_t batch : {1u, 10u, 37u}) {
+    CAPTURE(batch);
+    config.trace.batch_receivers = batch;
+    bool within = true;
+    uint64_t least = 0, most = 0;  // of the steps that paths take
+    Simulation simulation(config);
+    simulation.observe([&](const FrameProgress& at) {
+      within = within && at.done <= at.total;
+      if (at.stage == "paths") within = within && at.done >= std::exchange(least, at.done), most = at.total;
+      return true;
+    });
+    const FrameResult found = simulation.run_frame(0);
+    CHECK(within);
+    CHECK(least == most);  // at the end of the last batch
+    CHECK(identical(found.paths, whole.paths));
+    CHECK(found.paths.quarters == whole.paths.quarters);
+    CHECK(found.world.links == whole.world.links);
+    CHECK(found.missed.paths == whole.missed.paths);
+    CHECK(found.counts.paths == whole.counts.paths);
+    CHECK(found.counts.rays > whole.counts.rays);  // transmitters launch again
+    CHECK(simulation.run_block(0, {1, 3}).paths.size() < whole.paths.size());
+  }
+}
+
+TEST_CASE("batches without a link are empty, and a frame that is given up goes on with any other") {
+  const SceneFile file(two_boxes());
+  Config config = map_of(file);
+  config.links.max_distance_m = 9;
+  const FrameResult whole = run(config);
+  config.trace.batch_receivers = 2;
+  Simulation simulation(config);
+  uint64_t calls = 0;
+  simulation.observe([&](const FrameProgress&) { return ++calls < 20; });
+  CHECK_THROWS_AS(simulation.run_frame(0), FrameStopped);
+  simulation.observe({});
+  CHECK(identical(simulation.run_frame(0).paths, whole.paths));
+}
