@@ -146,6 +146,41 @@ static void check_write(const wavetracer_simulation* simulation, const wavetrace
   CHECK(exists(folder, "paths.h5") && exists(folder, "links.csv") && exists(folder, "summary.json"));
 }
 
+/* Notes what it is told, and gives the frame up at the first step where it is asked to. */
+struct watched {
+  int calls, go_on, rays, paths;
+};
+
+static int watch(void* user, const char* stage, uint64_t done, uint64_t total) {
+  struct watched* noted = user;
+  ++noted->calls;
+  noted->rays |= strcmp(stage, "rays") == 0;
+  noted->paths |= strcmp(stage, "paths") == 0;
+  CHECK(done <= total);
+  return noted->go_on;
+}
+
+static void check_observer(void) {
+  wavetracer_error* error = NULL;
+  const char* const sets[] = {"trace.max_depth=1"};
+  wavetracer_simulation* simulation = wavetracer_open(config, NULL, sets, 1, NULL, NULL);
+  struct watched noted = {0, 1, 0, 0};
+  wavetracer_observe(NULL, watch, &noted);
+  wavetracer_observe(simulation, watch, &noted);
+  wavetracer_frame* frame = wavetracer_run_frame(simulation, 0, &error);
+  CHECK(frame != NULL && noted.calls > 1 && noted.rays && noted.paths);
+  CHECK(wavetracer_frame_time_s(frame) == 0 && isnan(wavetracer_frame_time_s(NULL)));
+  wavetracer_frame_free(frame);
+  noted.calls = noted.go_on = 0;
+  CHECK(wavetracer_run_frame(simulation, 0, &error) == NULL && noted.calls == 1);
+  check_error(error, WAVETRACER_STOPPED, "given up");
+  wavetracer_observe(simulation, NULL, NULL);
+  frame = wavetracer_run_frame(simulation, 0, &error);
+  CHECK(frame != NULL && noted.calls == 1);
+  wavetracer_frame_free(frame);
+  wavetracer_close(simulation);
+}
+
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   wavetracer_error* error = NULL;
@@ -171,6 +206,9 @@ int main(int argc, char** argv) {
   check_frame(frame);
   check_columns(frame);
   check_write(simulation, frame, argv[1]);
+  check_observer();
+  CHECK(wavetracer_frequency_hz(simulation) == 5.9e9 && isnan(wavetracer_frequency_hz(NULL)));
+  CHECK(strstr(wavetracer_devices(NULL), wavetracer_device_name(simulation)) != NULL);
   const char* const sets[] = {"trace.rays=2000"};
   wavetracer_simulation* other = wavetracer_open(config, NULL, sets, 1, NULL, NULL);
   CHECK(other != NULL);

@@ -1,0 +1,37 @@
+"""The command `wavetracer` of this package: where the program is, and how it is started with the same drivers."""
+from __future__ import annotations
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from . import _drivers
+from .errors import RunError, error_of
+
+
+def find() -> str:
+    """The program: what WAVETRACER_PROGRAM names, the one of this package, else the one in the PATH."""
+    own: pathlib.Path = pathlib.Path(__file__).resolve().parent / "bin/wavetracer"
+    found = os.environ.get("WAVETRACER_PROGRAM") or (str(own) if own.exists() else shutil.which("wavetracer"))
+    if not found:
+        raise RunError("the program wavetracer is not there: `pip install wavetracer` brings it, and WAVETRACER_PROGRAM "
+                       "names another file")
+    return found
+
+
+def call(*arguments: str | os.PathLike[str]) -> str:
+    """Runs a command of the program, and returns what it prints. Raises what it fails with, in its own words."""
+    done: subprocess.CompletedProcess[str] = subprocess.run([find(), *(os.fspath(each) for each in arguments)], env=os.environ | _drivers.environment(), check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise error_of(done.returncode, done.stderr.strip().removeprefix("wavetracer: "))
+    return done.stdout
+
+
+def main() -> None:
+    """The entry point of the command: this process becomes the program."""
+    os.environ.update(_drivers.environment())
+    program = find()
+    os.execv(program, [program, *sys.argv[1:]])
