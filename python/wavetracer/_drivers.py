@@ -116,13 +116,10 @@ def linker() -> str | None:
 
 
 def environment() -> dict[str, str]:
-    """What the environment of the library and of the program lacks so that they find their drivers and files."""
+    """What the environment of the library and of the program lacks so that they find their drivers."""
     out = {}
-    here = pathlib.Path(__file__).resolve().parent
     if not os.environ.get("OCL_ICD_VENDORS") and sys.platform == "linux" and (vendors := _vendors()):
         out["OCL_ICD_VENDORS"] = vendors
     if pocl_library() and (folder := linker()):
         out["PATH"] = os.environ.get("PATH", os.defpath) + os.pathsep + folder
-    if (here / "share/proj/proj.db").exists() and not os.environ.get("PROJ_DATA"):
-        out["PROJ_DATA"] = str(here / "share/proj")
     return out

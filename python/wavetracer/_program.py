@@ -11,9 +11,21 @@ from . import _drivers
 from .errors import RunError, error_of
 
 
+_HERE = pathlib.Path(__file__).resolve().parent
+
+
+def environment() -> dict[str, str]:
+    """What the program's environment lacks: drivers, and the data of its own PROJ, which are not for the PROJ of other
+    packages in this process."""
+    out = _drivers.environment()
+    if (_HERE / "share/proj/proj.db").exists():
+        out["PROJ_DATA"] = str(_HERE / "share/proj")
+    return out
+
+
 def find() -> str:
     """The program: what WAVETRACER_PROGRAM names, the one of this package, else the one in the PATH."""
-    own: pathlib.Path = pathlib.Path(__file__).resolve().parent / "bin/wavetracer"
+    own = _HERE / "bin/wavetracer"
     found = os.environ.get("WAVETRACER_PROGRAM") or (str(own) if own.exists() else shutil.which("wavetracer"))
     if not found:
         raise RunError("the program wavetracer is not there: `pip install wavetracer` brings it, and WAVETRACER_PROGRAM "
@@ -23,7 +35,7 @@ def find() -> str:
 
 def call(*arguments: str | os.PathLike[str]) -> str:
     """Runs a command of the program, and returns what it prints. Raises what it fails with, in its own words."""
-    done: subprocess.CompletedProcess[str] = subprocess.run([find(), *(os.fspath(each) for each in arguments)], env=os.environ | _drivers.environment(), check=False,
+    done: subprocess.CompletedProcess[str] = subprocess.run([find(), *(os.fspath(each) for each in arguments)], env=os.environ | environment(), check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         raise error_of(done.returncode, done.stderr.strip().removeprefix("wavetracer: "))
@@ -32,6 +44,6 @@ def call(*arguments: str | os.PathLike[str]) -> str:
 
 def main() -> None:
     """The entry point of the command: this process becomes the program."""
-    os.environ.update(_drivers.environment())
+    os.environ.update(environment())
     program = find()
     os.execv(program, [program, *sys.argv[1:]])
