@@ -93,6 +93,7 @@ class Parser {
     for (size_t i = 0; i < sets_.size(); ++i) read_set(i);
     config_.output.directory = resolved_path("", config_.output.directory);  // the default is relative, too
     for (const auto& [path, assignment] : assignments_) store(assignment);
+    take_first_carrier();
     for (const auto& [key, said] : retired_)
       if (!said.first->is_boolean() || said.first->as_boolean()->get()) fail(said.second, find_retired(key)->advice);
     finish();
@@ -251,6 +252,18 @@ class Parser {
     const Slot slot = a.field->slot(config_, a.element);
     const std::string problem = assign(*a.field, a.key, slot, *a.value, a.place.set > 0 ? fs::path() : folder_);
     if (!problem.empty()) fail(a.place, problem);
+  }
+
+  // Of several carriers the first is the one that everything else goes by.
+  void take_first_carrier() {
+    RadioConfig& radio = config_.radio;
+    if (radio.frequencies_hz.empty()) return;
+    const double first_hz = radio.frequencies_hz.front();
+    if (assignments_.contains("radio.frequency_hz") && radio.frequency_hz != first_hz)
+      fail(place_of("radio.frequency_hz"),
+           fmt::format("radio.frequency_hz = {} is not the first of radio.frequencies_hz, {}: remove one of the keys",
+                       radio.frequency_hz, first_hz));
+    radio.frequency_hz = first_hz;
   }
 
   // Of a key, transmitter.0.name; else of what holds it, transmitter.0; else the head of the file.

@@ -253,7 +253,9 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_names("mount", "name", config.mounts, &MountConfig::name, {}, out);
   check_names("vehicle_type", "name", config.vehicle_types, &VehicleTypeConfig::name, {}, out);
   check_names("track", "id", config.tracks, &TrackConfig::id, {}, out);
+  check_names("array", "name", config.arrays, &ArrayConfig::name, {}, out);
   check_materials(config.materials, out);
+  check_arrays(config, out);
   check_trajectories(config, out);
   return out;
 }

@@ -15,4 +15,7 @@ struct Contradiction {
 
 std::vector<Contradiction> contradictions(const Config& config);
 
+// Of array_checks.cpp: a part of them, what concerns arrays and several carriers.
+void check_arrays(const Config& config, std::vector<Contradiction>& out);
+
 }  // namespace wavetracer::config

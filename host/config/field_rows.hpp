@@ -59,6 +59,21 @@ Field polarization_field(const Member& member, auto polarization) {
               "antennas."};
 }
 
+template <class Member>
+Field array_field(const Member& member, auto array) {
+  return {.name = "array",
+          .slot = member(array),
+          .doc =
+              "Name of an [[array]], whose elements are placed around the position and turned by orientation_deg; each "
+              "has the antenna and the polarization that are given here. Empty: one element."};
+}
+
+// Of array_fields.cpp; the first two are keys of [radio].
+Field frequencies_field();
+Field wavefront_field();
+Table array_table();
+Table response_table();
+
 // Of cache_fields.cpp.
 Table cache_table();
 

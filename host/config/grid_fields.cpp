@@ -52,6 +52,7 @@ Table receiver_grid_table() {
                       "point of the scene."},
               antenna_field(g, &ReceiverGridConfig::antenna),
               polarization_field(g, &ReceiverGridConfig::polarization),
+              array_field(g, &ReceiverGridConfig::array),
               {.name = "orientation_deg",
                .slot = g(&ReceiverGridConfig::orientation_deg),
                .unit = "degrees",

@@ -28,6 +28,7 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
                .example = std::move(example_position)},
               antenna_field(e, &RadioEnd::antenna),
               polarization_field(e, &RadioEnd::polarization),
+              array_field(e, &RadioEnd::array),
               {.name = "orientation_deg",
                .slot = e(&RadioEnd::orientation_deg),
                .unit = "degrees",

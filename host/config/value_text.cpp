@@ -53,7 +53,8 @@ std::string literal(const Field& field, const Slot& slot) {
                         [](const ChoiceSlot& choice) { return toml_string(choice.words[choice.chosen->value]); },
                         [&](const std::array<double, 3>* v) { return list(*v, number_text); },
                         [&](const std::vector<std::string>* words) { return list(*words, toml_string); },
-                        [&](const std::vector<std::array<double, 4>>* rows) {
+                        [&](const std::vector<double>* numbers) { return list(*numbers, number_text); },
+                        [&]<size_t N>(const std::vector<std::array<double, N>>* rows) {
                           return list(*rows, [&](const auto& row) { return list(row, number_text); });
                         },
                         [](const Aliases* aliases) {
@@ -98,6 +99,8 @@ std::string accepted(const Field& field) {
           [&](const std::array<double, 3>*) -> std::string { return "three numbers" + unit; },
           [&](const Aliases*) -> std::string { return "a table of strings"; },
           [&](const std::vector<std::string>*) -> std::string { return "a string or an array of strings"; },
+          [&](const std::vector<double>*) -> std::string { return range("an array of numbers"); },
+          [&](const std::vector<std::array<double, 3>>*) -> std::string { return "an array of [x, y, z]" + unit; },
           [&](const std::vector<std::array<double, 4>>*) -> std::string {
             return "an array of [time, x, y, z]" + unit;
           },

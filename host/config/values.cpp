@@ -151,17 +151,34 @@ std::string assign_words(const Field& field, const std::string& key, std::vector
   return to.empty() ? key + " is empty: give at least one" : "";
 }
 
-std::string assign_waypoints(const Field& field, const std::string& key, std::vector<std::array<double, 4>>& to,
-                             const toml::node& value) {
+std::string assign_numbers(const Field& field, const std::string& key, std::vector<double>& to,
+                           const toml::node& value) {
   const auto* array = value.as_array();
   if (!array) return wrong_type(field, key, value);
   to.resize(array->size());
   for (size_t i = 0; i < to.size(); ++i) {
-    const std::string problem =
-        assign_vector(field, fmt::format("{}[{}]", key, i), to[i], (*array)[i], "four numbers (" + field.unit + ")");
+    const toml::node& node = (*array)[i];
+    if (!node.is_number()) return fmt::format("{}[{}] must be a number, not {}", key, i, kind_of(node));
+    to[i] = *node.value<double>();
+    if (!inside(to[i], field.range))
+      return fmt::format("{}[{}] = {} is out of range: the key takes {}", key, i, unquoted(node), accepted(field));
+  }
+  return {};
+}
+
+// Rows of N numbers; none are allowed where the field is not required.
+template <size_t N>
+std::string assign_rows(const Field& field, const std::string& key, std::vector<std::array<double, N>>& to,
+                        const toml::node& value, const char* count, const char* row) {
+  const auto* array = value.as_array();
+  if (!array) return wrong_type(field, key, value);
+  to.resize(array->size());
+  for (size_t i = 0; i < to.size(); ++i) {
+    const std::string problem = assign_vector(field, fmt::format("{}[{}]", key, i), to[i], (*array)[i],
+                                              fmt::format("{} numbers ({})", count, field.unit));
     if (!problem.empty()) return problem;
   }
-  return to.empty() ? key + " is empty: give at least one waypoint" : "";
+  return to.empty() && field.required ? fmt::format("{} is empty: give at least one {}", key, row) : "";
 }
 
 }  // namespace
@@ -182,7 +199,13 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
           },
           [&](std::array<double, 3>* to) { return assign_vector(field, key, *to, value, accepted(field)); },
           [&](std::vector<std::string>* to) { return assign_words(field, key, *to, value); },
-          [&](std::vector<std::array<double, 4>>* to) { return assign_waypoints(field, key, *to, value); },
+          [&](std::vector<double>* to) { return assign_numbers(field, key, *to, value); },
+          [&](std::vector<std::array<double, 3>>* to) {
+            return assign_rows(field, key, *to, value, "three", "position");
+          },
+          [&](std::vector<std::array<double, 4>>* to) {
+            return assign_rows(field, key, *to, value, "four", "waypoint");
+          },
           [&](Aliases* to) {  // key is that of one entry: table.field.NAME
             if (!value.is_string()) return fmt::format("{} must be a string, not {}", key, kind_of(value));
             const size_t dot = key.find('.', key.find('.') + 1);

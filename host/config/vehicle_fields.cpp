@@ -126,6 +126,7 @@ Table mount_table() {
                    .example = "[0.0, 0.0, 1.6]"},
                   antenna_field(m, &MountConfig::antenna),
                   polarization_field(m, &MountConfig::polarization),
+                  array_field(m, &MountConfig::array),
                   {.name = "orientation_deg",
                    .slot = m(&MountConfig::orientation_deg),
                    .unit = "degrees",

@@ -10,6 +10,7 @@
 #include "convert/convert.hpp"
 #include "convert/deepmimo_scene.hpp"
 #include "convert/npz.hpp"
+#include "convert/response_arrays.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 
@@ -134,6 +135,32 @@ void write_frame(const PendingFolder& folder, const std::filesystem::path& where
   }
 }
 
+// The channels of each transmitter in the order of DeepMIMO's, (receiver, rx antenna, tx antenna, subcarrier, time).
+void write_channels(const PendingFolder& folder, const SavedRun& run, const ExportOptions& options,
+                    const ResponseArray& all, size_t digits) {
+  const size_t per_receiver = all.rx_antennas * all.tx_antennas * all.frequencies * all.times;
+  for (size_t frame = 0; frame < all.frames; ++frame)
+    for (size_t tx = 0; tx < all.tx; ++tx) {
+      const std::filesystem::path where =
+          all.frames > 1 ? fmt::format("frame_{:0{}}", run.number(options.first_row + frame), digits) : "";
+      std::vector<double> re, im;
+      re.reserve(all.rx * per_receiver);
+      im.reserve(all.rx * per_receiver);
+      for (size_t i = 0; i < all.rx * per_receiver; ++i) {
+        const size_t time = i % all.times, k = i / all.times % all.frequencies,
+                     t = i / all.times / all.frequencies % all.tx_antennas,
+                     receiver = i / all.times / all.frequencies / all.tx_antennas;  // and its antenna
+        const size_t pair = ((frame * all.rx * all.rx_antennas + receiver) * all.tx + tx) * all.tx_antennas + t;
+        const size_t cell = (pair * all.times + time) * all.frequencies + k;
+        re.push_back(all.re[cell]);
+        im.push_back(all.im[cell]);
+      }
+      const Npz::Shape shape{all.rx, all.rx_antennas, all.tx_antennas, all.frequencies, all.times};
+      write_array(folder, where, "channel_re", tx, shape, re);
+      write_array(folder, where, "channel_im", tx, shape, im);
+    }
+}
+
 // Sizes of the arrays, and how many receivers have a path at all.
 Sizes measure(const SavedRun& run, const ExportOptions& options, size_t& active_receivers) {
   Sizes sizes;
@@ -242,6 +269,12 @@ Written export_deepmimo(const SavedRun& run, const ExportOptions& options, Warni
     const std::filesystem::path where = frames > 1 ? fmt::format("frame_{:0{}}", frame.number, digits) : "";
     write_frame(folder, where, frame, sizes, run.frequency_hz());
     scene_size = scene.write(folder, where, frame);
+  }
+  if (const auto responses = response_array(run, options, "deepmimo")) {
+    write_channels(folder, run, options, *responses, digits);
+    warnings.push_back(
+        "deepmimo: it computes channels itself and loads none; channel_*.npz beside its arrays hold those of "
+        "responses.h5, (receiver, rx antenna, tx antenna, subcarrier, time)");
   }
   nlohmann::ordered_json params;
   params["version"] = "4.0.0";

@@ -4,6 +4,7 @@
 #include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/matlab_file.hpp"
+#include "results/saved_responses.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
@@ -197,6 +198,43 @@ void add_links(MatlabFile& file, const std::vector<SavedFrame>& frames) {
   file.add("/run/links/rx", {rx.size(), 1}, rx);
 }
 
+// h is (response, frequency); the responses of link i of these rows are first_response(i) to first_response(i + 1) - 1,
+// one for each time, receiving and transmitting antenna, the last of which goes fastest.
+void add_responses(MatlabFile& file, const SavedRun& run, const ExportOptions& options) {
+  const std::optional<SavedResponses> saved = saved_responses(run);
+  if (!saved) return;
+  std::vector<uint32_t> number, tx, rx, tx_antennas, rx_antennas;
+  std::vector<double> first_response{1};
+  std::vector<std::complex<double>> h;
+  const size_t frequencies = saved->frequencies_hz().size();
+  for (size_t row = options.first_row; row <= options.last_row; ++row)
+    for (const SavedResponse& response : saved->frame(run.number(row))) {
+      number.push_back(run.number(row));
+      tx.push_back(response.link.tx + 1);
+      rx.push_back(response.link.rx + 1);
+      tx_antennas.push_back(saved->tx_antennas()[response.link.tx]);
+      rx_antennas.push_back(saved->rx_antennas()[response.link.rx]);
+      first_response.push_back(first_response.back() + static_cast<double>(response.h.size() / frequencies));
+      h.insert(h.end(), response.h.begin(), response.h.end());
+    }
+  file.add_struct("/run/responses");
+  const auto column = [&](const char* name, const auto& values) {
+    file.add(std::string("/run/responses/") + name, {values.size(), 1}, values);
+  };
+  column("frame", number);
+  column("tx", tx);
+  column("rx", rx);
+  column("tx_antennas", tx_antennas);
+  column("rx_antennas", rx_antennas);
+  column("first_response", first_response);
+  column("frequency_hz", saved->frequencies_hz());
+  column("time_s", saved->times_s());
+  const size_t rows = h.size() / frequencies;
+  file.add(
+      "/run/responses/h", {rows, frequencies},
+      by_column<std::complex<double>>(rows, frequencies, [&](size_t i, size_t k) { return h[i * frequencies + k]; }));
+}
+
 }  // namespace
 
 Written export_matlab(const SavedRun& run, const ExportOptions& options, Warnings&) {
@@ -219,6 +257,7 @@ Written export_matlab(const SavedRun& run, const ExportOptions& options, Warning
   add_ends(file, "/run/receivers", run.receivers());
   add_vehicles(file, frames, run);
   add_links(file, frames);
+  add_responses(file, run, options);
   PendingFile out(options.output, file.image("written by wavetracer " + run.version() + ", HDF5 schema 1.00 ."));
   out.commit();
   return {options.output};

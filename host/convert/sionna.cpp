@@ -5,6 +5,7 @@
 #include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/npz.hpp"
+#include "convert/response_arrays.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 
@@ -188,6 +189,16 @@ void add_ends(Npz& npz, const SavedRun& run, const std::vector<Frame>& frames, c
   npz.add_texts("object_names", objects);
 }
 
+// As Paths.cfr() gives them: (rx, rx antenna, tx, tx antenna, time, frequency).
+void add_responses(Npz& npz, const ResponseArray& responses, const Axes& axes) {
+  const Npz::Shape shape = axes.with_frames({responses.rx, responses.rx_antennas, responses.tx, responses.tx_antennas,
+                                             responses.times, responses.frequencies});
+  npz.add("h_real", shape, responses.re);
+  npz.add("h_imag", shape, responses.im);
+  npz.add("h_frequency_hz", {responses.frequencies}, responses.frequencies_hz);
+  npz.add("h_time_s", {responses.times}, responses.times_s);
+}
+
 }  // namespace
 
 Written export_sionna(const SavedRun& run, const ExportOptions& options, Warnings& warnings) {
@@ -210,6 +221,7 @@ Written export_sionna(const SavedRun& run, const ExportOptions& options, Warning
   }
   npz.add("frame", {numbers.size()}, numbers);
   npz.add("time_s", {times_s.size()}, times_s);
+  if (const auto responses = response_array(run, options, "sionna")) add_responses(npz, *responses, axes);
   npz.finish();
   file.sync();
   file.commit();

@@ -153,7 +153,8 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   });
   if (parts.files.size() != h5_outputs(record.config).size() + 1)
     throw RuntimeError(found.record.string() +
-                       " does not belong to the parts beside it: output.waypoints or output.cache_entries differs");
+                       " does not belong to the parts beside it: keys that say which files are written differ, such as "
+                       "output.waypoints or response.bandwidth_hz");
   PendingDirectory folder(directory);
   std::vector<PendingFile> files = merge_outputs(record.config, parts, Parts::foreign, Proof::none, directory,
                                                  [&](const H5Output& output, const fs::path& first, hdf5::File& head) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include "base/read_text.hpp"
 #include "output/json_count.hpp"
+#include "radio/codebook.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -44,6 +45,9 @@ std::string encode_run_record(const Run& run) {
   json["reuse"] = run.config.trace.reuse;
   json["waypoints"] = run.config.output.waypoints;
   json["cache_entries"] = run.config.output.cache_entries;
+  json["responses"] = run.config.response.bandwidth_hz.has_value();
+  json["beams"] = has_beams(run.config);
+  json["carriers"] = run.config.radio.frequencies_hz.size();
   json["compression"] = run.config.output.compression;
   json["cache"] = {{"kind", run.config.cache.kind.word()}, {"key", run.config.cache.key.word()}};
   json["scene_file"] = run.scene.file;
@@ -55,6 +59,17 @@ std::string encode_run_record(const Run& run) {
         {{"name", input.name}, {"file", input.file}, {"bytes", input.bytes}, {"hash", input.hash}});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
+
+namespace {
+
+// As much of the configuration as says which files of elements the run writes; older versions write none.
+void restore_element_outputs(const Json& json, Config& config) {
+  if (json.value("responses", false)) config.response.bandwidth_hz = 1;
+  if (json.value("beams", false)) config.arrays.emplace_back().codebook = "dft";
+  if (json.contains("carriers") && whole<uint64_t>(json.at("carriers")) > 1) config.radio.frequencies_hz = {1, 2};
+}
+
+}  // namespace
 
 RunRecord decode_run_record(std::string_view text, const std::string& name) try {
   const Json json = Json::parse(text);
@@ -79,6 +94,7 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   out.config.trace.reuse = json.at("reuse");
   out.config.output.waypoints = whole<uint64_t>(json.at("waypoints"));
   if (json.contains("cache_entries")) out.config.output.cache_entries = json.at("cache_entries").get<bool>();
+  restore_element_outputs(json, out.config);
   if (json.contains("compression")) out.config.output.compression = whole<uint32_t>(json.at("compression"));
   if (out.config.output.compression > 9) throw RuntimeError(name + ": \"compression\" is no level from 0 to 9");
   out.config.cache.kind = CacheKind::named(json.at("cache").at("kind").get<std::string>());

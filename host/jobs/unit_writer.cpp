@@ -10,11 +10,12 @@ constexpr size_t most_waiting_bytes = size_t{1} << 26;
 
 // About what a frame takes in memory.
 size_t bytes_of(const FrameResult& frame) {
-  constexpr size_t path = 180, vertex = 33, waypoint = 53, entry = 36;
+  constexpr size_t path = 180, vertex = 33, waypoint = 53, entry = 36, beam = 24, fields = 80;
   const WorldState& world = frame.world;
   return frame.paths.size() * path + frame.paths.vertex_position_m.size() * vertex + frame.waypoints.size() * waypoint +
-         frame.cache_entries.size() * entry + world.links.size() * sizeof(Link) +
-         world.instances.size() * sizeof(Placement) +
+         frame.cache_entries.size() * entry + frame.responses.h.size() * sizeof frame.responses.h[0] +
+         frame.beams.size() * beam + frame.carriers.size() * frame.paths.size() * fields +
+         world.links.size() * sizeof(Link) + world.instances.size() * sizeof(Placement) +
          (world.transmitters.size() + world.receivers.size()) * sizeof(EndState);
 }
 

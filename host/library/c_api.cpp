@@ -65,6 +65,24 @@ std::string device_lines() {
   return lines(out);
 }
 
+CarrierColumns carrier_columns(const FrameResult& frame) {
+  CarrierColumns out;
+  if (frame.carriers.empty()) return out;
+  const Paths& paths = frame.paths;
+  const auto ports = static_cast<std::ptrdiff_t>(size_t{paths.rx_ports} * paths.tx_ports);
+  out.carriers = 1 + frame.carriers.size();
+  const auto append = [&](size_t row, const auto& fields) {
+    out.a.insert(out.a.end(), fields.a[row].begin(), fields.a[row].begin() + ports);
+    out.gain_db.push_back(fields.gain_db[row]);
+    out.doppler_hz.push_back(fields.doppler_hz[row]);
+  };
+  for (size_t row = 0; row < paths.size(); ++row) {
+    append(row, paths);
+    for (const CarrierFields& fields : frame.carriers) append(row, fields);
+  }
+  return out;
+}
+
 const char* name_of(const std::vector<RadioEnd>& ends, size_t index) {
   return index < ends.size() ? ends[index].name.c_str() : nullptr;
 }
@@ -166,6 +184,7 @@ wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t fra
     out->warnings = lines(out->result.warnings);
     out->a = packed(out->result.paths);
     out->links = link_columns(out->result, simulation.config().radio.frequency_hz);
+    out->carriers = carrier_columns(out->result);
     out->transmitter_position_m = file_positions(out->result.world.transmitters, simulation.scene().origin_m);
     out->receiver_position_m = file_positions(out->result.world.receivers, simulation.scene().origin_m);
     return out.release();

@@ -57,6 +57,31 @@ wavetracer_column coefficients(const wavetracer_frame& frame) {
 }
 
 template <auto Member>
+wavetracer_column of_carriers(const wavetracer_frame& frame) {
+  const CarrierColumns& carriers = frame.carriers;
+  return checked({(carriers.*Member).data(), carriers.carriers ? frame.result.paths.size() : 0, carriers.carriers,
+                  WAVETRACER_FLOAT64});
+}
+
+wavetracer_column carrier_coefficients(const wavetracer_frame& frame) {
+  const Paths& paths = frame.result.paths;
+  const size_t carriers = frame.carriers.carriers;
+  return checked({frame.carriers.a.data(), carriers ? paths.size() : 0, carriers * paths.rx_ports * paths.tx_ports,
+                  WAVETRACER_COMPLEX128});
+}
+
+wavetracer_column responses(const wavetracer_frame& frame) {
+  const Responses& all = frame.result.responses;
+  return checked(
+      {all.h.data(), all.frequencies ? all.h.size() / all.frequencies : 0, all.frequencies, WAVETRACER_COMPLEX64});
+}
+
+template <auto Member>
+wavetracer_column of_beams(const wavetracer_frame& frame) {
+  return view(frame.result.beams.*Member);
+}
+
+template <auto Member>
 wavetracer_column of_links(const wavetracer_frame& frame) {
   return view(frame.links.*Member);
 }
@@ -94,6 +119,16 @@ constexpr Row rows[] = {
     {"link_rms_delay_spread_s", of_links<&LinkColumns::rms_delay_spread_s>},
     {"link_doppler_spread_hz", of_links<&LinkColumns::doppler_spread_hz>},
     {"link_missed_power_share", of_links<&LinkColumns::missed_power_share>},
+    {"carrier_a", carrier_coefficients},
+    {"carrier_gain_db", of_carriers<&CarrierColumns::gain_db>},
+    {"carrier_doppler_hz", of_carriers<&CarrierColumns::doppler_hz>},
+    {"response", responses},
+    {"response_offset", [](const wavetracer_frame& frame) { return view(frame.result.responses.row_offset); }},
+    {"beam_tx", of_beams<&BeamRows::tx>},
+    {"beam_rx", of_beams<&BeamRows::rx>},
+    {"beam_tx_beam", of_beams<&BeamRows::tx_beam>},
+    {"beam_rx_beam", of_beams<&BeamRows::rx_beam>},
+    {"beam_gain_db", of_beams<&BeamRows::gain_db>},
     {"transmitter_position_m", [](const wavetracer_frame& frame) { return view(frame.transmitter_position_m); }},
     {"receiver_position_m", [](const wavetracer_frame& frame) { return view(frame.receiver_position_m); }},
 };

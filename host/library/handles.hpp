@@ -32,6 +32,13 @@ struct LinkColumns {
       missed_power_share;
 };
 
+// Fields at every carrier, one row per path; empty where there is only one.
+struct CarrierColumns {
+  size_t carriers = 0;
+  std::vector<std::complex<double>> a;  // packed: ports that are there
+  std::vector<double> gain_db, doppler_hz;
+};
+
 }  // namespace wavetracer::c_api
 
 struct wavetracer_frame {
@@ -41,6 +48,7 @@ struct wavetracer_frame {
   std::vector<std::complex<double>> a;                                  // packed: ports that are there
   std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;  // file coordinates
   wavetracer::c_api::LinkColumns links;
+  wavetracer::c_api::CarrierColumns carriers;
 };
 
 namespace wavetracer::c_api {

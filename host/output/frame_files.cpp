@@ -25,6 +25,9 @@ void FrameFiles::add(const FrameResult& frame) {
     limited.paths = select_rows(frame.paths, written);
     limited.waypoints = frame.waypoints;
     limited.cache_entries = frame.cache_entries;
+    limited.carriers = select_rows(frame.carriers, written);
+    limited.responses = frame.responses;
+    limited.beams = frame.beams;
     append(limited);
   }
   links_.add(frame, written);

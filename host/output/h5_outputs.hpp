@@ -18,8 +18,9 @@ struct H5Output {
   std::span<const char* const> growing_groups;  // in the order of the file
 };
 
-// Those that runs of this configuration write: paths.h5, with output.waypoints waypoints.h5, with output.cache_entries
-// cache_entries.h5.
+// Those that runs of this configuration write: paths.h5; waypoints.h5 with output.waypoints; cache_entries.h5 with
+// output.cache_entries; responses.h5 with response.bandwidth_hz; beams.h5 with array.codebook; carriers.h5 with more
+// than one of radio.frequencies_hz.
 std::vector<H5Output> h5_outputs(const Config& config);
 
 }  // namespace wavetracer

@@ -66,6 +66,11 @@ struct Type<uint64_t> {
   static hid_t file() { return H5T_STD_U64LE; }
 };
 template <>
+struct Type<float> {
+  static hid_t memory() { return H5T_NATIVE_FLOAT; }
+  static hid_t file() { return H5T_IEEE_F32LE; }
+};
+template <>
 struct Type<double> {
   static hid_t memory() { return H5T_NATIVE_DOUBLE; }
   static hid_t file() { return H5T_IEEE_F64LE; }

@@ -3,6 +3,7 @@
 #include "output/links_csv.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -18,7 +19,8 @@ namespace {
 
 constexpr std::string_view header =
     "time_s,tx,rx,paths,path_gain_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
-    "missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share\n";
+    "missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share,tx_beam,rx_beam,"
+    "beam_gain_db\n";
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
@@ -37,6 +39,18 @@ std::vector<std::string> labels(const std::vector<RadioEnd>& ends) {
   return result;
 }
 
+// The pair of beams that has the largest gain, and the gain. beam: the first row that may be of the link, and then the
+// first one that may be of the next.
+std::string best_beams(const BeamRows& beams, const Link& link, size_t& beam) {
+  while (beam < beams.size() && Link{beams.tx[beam], beams.rx[beam]} < link) ++beam;
+  size_t best = beam;
+  const size_t first = beam;
+  for (; beam < beams.size() && Link{beams.tx[beam], beams.rx[beam]} == link; ++beam)
+    if (beams.gain_db[beam] > beams.gain_db[best]) best = beam;
+  if (beam == first || std::isinf(beams.gain_db[best])) return beam == first ? "nan,nan,nan" : "nan,nan,-inf";
+  return fmt::format("{},{},{}", beams.tx_beam[best], beams.rx_beam[best], beams.gain_db[best]);
+}
+
 }  // namespace
 
 LinksCsv::LinksCsv(const Run& run, const std::filesystem::path& path)
@@ -46,17 +60,18 @@ LinksCsv::LinksCsv(const Run& run, const std::filesystem::path& path)
 
 void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
   std::string text;
-  size_t row = 0;  // of the link's first path
+  size_t row = 0, beam = 0;  // of the link's first path and pair of beams
   for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links, radio_.frequency_hz)) {
     while (row < frame.paths.size() && Link{frame.paths.tx[row], frame.paths.rx[row]} < Link{link.tx, link.rx}) ++row;
     const LeftOutPaths gone = left_out(frame.paths, written, row, row + link.paths);
     row += link.paths;
+    const std::string best = best_beams(frame.beams, {link.tx, link.rx}, beam);
     const LinkBudget budget = link_budget(radio_, link.path_gain_db);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{}\n", frame.world.time_s,
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{},{}\n", frame.world.time_s,
                    tx_.at(link.tx), rx_.at(link.rx), link.paths, link.path_gain_db, link.narrowband_gain_db,
                    link.mean_delay_s, link.rms_delay_spread_s, link.doppler_spread_hz, link.los,
                    link.missed_power_share, budget.received_dbm, budget.snr_db, gone.paths,
-                   gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0);
+                   gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0, best);
   }
   file_.write(bytes(text));
 }

@@ -77,6 +77,14 @@ Paths select_rows(const Paths& paths, std::span<const uint8_t> written) {
   return out;
 }
 
+std::vector<CarrierFields> select_rows(const std::vector<CarrierFields>& carriers, std::span<const uint8_t> written) {
+  std::vector<CarrierFields> out;
+  for (const CarrierFields& fields : carriers)
+    out.push_back({fields.frequency_hz, selected(fields.a, written), selected(fields.gain_db, written),
+                   selected(fields.doppler_hz, written)});
+  return out;
+}
+
 LeftOutPaths left_out(const Paths& paths, std::span<const uint8_t> written, size_t first, size_t end) {
   LeftOutPaths out;
   for (size_t row = first; row < end; ++row) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 #include "wavetracer/config.hpp"
-#include "wavetracer/paths.hpp"
+#include "wavetracer/frame_result.hpp"
 
 namespace wavetracer {
 
@@ -24,6 +24,7 @@ std::vector<uint8_t> written_rows(const Paths& paths, const OutputConfig& output
 
 // These rows, in their order, with their vertices.
 Paths select_rows(const Paths& paths, std::span<const uint8_t> written);
+std::vector<CarrierFields> select_rows(const std::vector<CarrierFields>& carriers, std::span<const uint8_t> written);
 
 // Rows first to end - 1 that are not written.
 LeftOutPaths left_out(const Paths& paths, std::span<const uint8_t> written, size_t first, size_t end);

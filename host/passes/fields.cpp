@@ -69,4 +69,10 @@ Paths Fields::read(uint32_t frame, const device::wt_row_totals& totals) {
   return paths;
 }
 
+CarrierFields Fields::read_carrier(const device::wt_row_totals& totals) {
+  CarrierFields out;
+  if (totals.rows > 0) fill_carrier(out, rows_.read(0, totals.rows, host_rows_, "fields"), ports_);
+  return out;
+}
+
 }  // namespace wavetracer

@@ -8,7 +8,7 @@
 #include "passes/tuning.hpp"
 #include "radio/field_tables.hpp"
 #include "radio/path_columns.hpp"
-#include "wavetracer/paths.hpp"
+#include "wavetracer/frame_result.hpp"
 
 namespace wavetracer {
 
@@ -24,6 +24,8 @@ class Fields {
                   const device::wt_row_totals& totals);
   // The rows that were computed last, on the host.
   Paths read(uint32_t frame, const device::wt_row_totals& totals);
+  // What differs of them at the carrier of these tables; its frequency is for the caller to say.
+  CarrierFields read_carrier(const device::wt_row_totals& totals);
 
  private:
   gpu::Context& context_;

@@ -27,6 +27,14 @@ void resize_vertices(Paths& paths, size_t vertices) {
   paths.vertex_instance.resize(vertices);
 }
 
+std::array<std::complex<double>, 4> port_matrix(const device::wt_path_row& from, Ports ports) {
+  std::array<std::complex<double>, 4> a{};
+  for (uint32_t r = 0; r < ports.rx; ++r)
+    for (uint32_t t = 0; t < ports.tx; ++t)
+      a[r * ports.tx + t] = {from.a[2 * (2 * r + t)], from.a[2 * (2 * r + t) + 1]};
+  return a;
+}
+
 void take_row(Paths& paths, size_t row, const device::wt_path_row& from) {
   paths.tx[row] = from.tx;
   paths.rx[row] = from.rx;
@@ -39,9 +47,7 @@ void take_row(Paths& paths, size_t row, const device::wt_path_row& from) {
   paths.aod_phi_rad[row] = from.aod_phi;
   paths.aoa_theta_rad[row] = from.aoa_theta;
   paths.aoa_phi_rad[row] = from.aoa_phi;
-  for (uint32_t r = 0; r < paths.rx_ports; ++r)
-    for (uint32_t t = 0; t < paths.tx_ports; ++t)
-      paths.a[row][r * paths.tx_ports + t] = {from.a[2 * (2 * r + t)], from.a[2 * (2 * r + t) + 1]};
+  paths.a[row] = port_matrix(from, {paths.tx_ports, paths.rx_ports});
 }
 
 void take_vertex(Paths& paths, uint64_t at, const device::wt_vertex_row& from) {
@@ -73,6 +79,17 @@ void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
   });
   tbb::parallel_for(tbb::blocked_range<size_t>(0, vertices.size(), 1024), [&](const tbb::blocked_range<size_t>& range) {
     for (size_t at = range.begin(); at < range.end(); ++at) take_vertex(paths, at, vertices[at]);
+  });
+}
+
+void fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports) {
+  fields.a.resize(rows.size());
+  fields.gain_db.resize(rows.size());
+  fields.doppler_hz.resize(rows.size());
+  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t row) {
+    fields.a[row] = port_matrix(rows[row], ports);
+    fields.gain_db[row] = rows[row].gain_db;
+    fields.doppler_hz[row] = rows[row].doppler_hz;
   });
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "wavetracer/device/field_records.h"
-#include "wavetracer/paths.hpp"
+#include "wavetracer/frame_result.hpp"
 
 namespace wavetracer {
 
@@ -18,7 +18,9 @@ Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports);
 // Fills paths of these sizes. rows: in their order; vertices: of all rows, one after the other.
 void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
                   std::span<const device::wt_vertex_row> vertices);
-// Both.
+// Of the same rows at another carrier, what differs there.
+void fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports);
+// Both of the first two.
 Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
                  uint32_t frame, Ports ports);
 

@@ -1,6 +1,7 @@
 // The passes in their order; nothing is read between them but the numbers of rows.
 #include "simulation/finished_paths.hpp"
 
+#include "radio/carriers.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
@@ -10,12 +11,18 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
       distinct_(context, world.receiver_of_transmitter(), world.transmitter_of_receiver()),
       sort_(context),
       scan_(context),
-      fields_(context, make_field_tables(scene, config, world.models(), world.instances()), config.trace.diffraction,
-              scene.origin_m) {}
+      carriers_hz_(carriers_hz(config.radio)) {
+  for (const double carrier_hz : carriers_hz_) {
+    Config at_carrier = config;
+    at_carrier.radio.frequency_hz = carrier_hz;
+    fields_.emplace_back(context, make_field_tables(scene, at_carrier, world.models(), world.instances()),
+                         config.trace.diffraction, scene.origin_m);
+  }
+}
 
 Paths FinishedPaths::operator()(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
                                 const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
-                                LeftOut& left_out, FrameAccount& account) {
+                                LeftOut& left_out, std::vector<CarrierFields>* carriers, FrameAccount& account) {
   const uint32_t places = distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links,
                                          visible);  // distinct
   device::wt_row_totals totals{};
@@ -27,11 +34,20 @@ Paths FinishedPaths::operator()(uint32_t frame, const DeviceScene& scene, Diffra
   if (totals.rows > 0) {
     scan_.prefix(distinct_.rows().counts, places, "distinct");         // scan
     scan_.prefix(distinct_.rows().vertex_counts, places, "distinct");  // scan
-    fields_(scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_, distinct_.rows(),
-            totals);  // fields
   }
+  const auto compute = [&](Fields& fields) {
+    if (totals.rows > 0)
+      fields(scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_, distinct_.rows(),
+             totals);  // fields
+  };
+  for (size_t i = 1; carriers && i < fields_.size(); ++i) {
+    compute(fields_[i]);
+    carriers->push_back(fields_[i].read_carrier(totals));
+    carriers->back().frequency_hz = carriers_hz_[i];
+  }
+  compute(fields_[0]);
   account.device_done();
-  return fields_.read(frame, totals);
+  return fields_[0].read(frame, totals);
 }
 
 void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible) {

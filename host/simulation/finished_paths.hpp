@@ -17,21 +17,23 @@ namespace wavetracer {
 
 class FinishedPaths {
  public:
-  // config: with all ends of the world, and the features that are on.
+  // config: with all ends of the world, and the features that are on. Throws ConfigError.
   FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world);
 
   // visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose paths are wanted,
-  // where they are not all that ends.links has. left_out: gets paths that radio/fields.hpp does not count.
+  // where they are not all that ends.links has. left_out: gets paths that radio/fields.hpp does not count. carriers:
+  // gets the fields of radio.frequencies_hz but the first; may be nullptr.
   Paths operator()(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
                    const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, LeftOut& left_out,
-                   FrameAccount& account);
+                   std::vector<CarrierFields>* carriers, FrameAccount& account);
 
  private:
   gpu::Context& context_;
   Distinct distinct_;
   Sort sort_;
   Scan scan_;
-  Fields fields_;
+  std::vector<Fields> fields_;  // of each carrier, which share nothing but the rows
+  std::vector<double> carriers_hz_;
 };
 
 // Paths that were found elsewhere as visible ones, instead of those that the list has.

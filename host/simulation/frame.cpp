@@ -97,7 +97,8 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   account.end_stage("paths");
 
   LeftOut left_out;
-  out.paths = finished_paths(task.frame, out.world, ends, block ? &block->own : nullptr, left_out, account);
+  out.paths =
+      finished_paths(task.frame, out.world, ends, block ? &block->own : nullptr, left_out, &out.carriers, account);
   if (block) out.world.links = block->own;
   if (spheres || s_.cache) out.paths.quarters.clear();  // what they find, no smaller launch tells of
   if (found.rays > 0) out.missed = missed_counts(out.paths, 0, out.paths.size());
@@ -106,6 +107,10 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (searches) ++warm_frames_;
   if (!task.compiling) account.left_out(left_out, task.transmitter_name, task.receiver_name);
   account.end_stage("columns");
+  if (s_.elements.on() && !task.compiling) {
+    s_.elements(out);
+    account.end_stage("elements");
+  }
   return account.close();
 }
 
@@ -118,16 +123,18 @@ Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, con
   account.result.counts = counts;
   account.end_stage("paths");
   LeftOut left_out;
-  Paths out = finished_paths(task.frame, world, ends, nullptr, left_out, account);
+  Paths out = finished_paths(task.frame, world, ends, nullptr, left_out, nullptr, account);
   account.end_stage("columns");
   return out;
 }
 
 // distinct to fields (finished_paths.cpp)
 Paths FrameLoop::finished_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends,
-                                const std::vector<Link>* own, LeftOut& left_out, FrameAccount& account) {
+                                const std::vector<Link>* own, LeftOut& left_out, std::vector<CarrierFields>* carriers,
+                                FrameAccount& account) {
   DiffractedPaths* edges = s_.exact_paths.diffraction ? &*s_.exact_paths.diffraction : nullptr;
-  return s_.finish(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, left_out, account);
+  return s_.finish(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, left_out, carriers,
+                   account);
 }
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.

@@ -38,7 +38,7 @@ class FrameLoop {
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   void receive_paths(const RadioEnds& ends, FrameAccount& account);
   Paths finished_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
-                       LeftOut& left_out, FrameAccount& account);
+                       LeftOut& left_out, std::vector<CarrierFields>* carriers, FrameAccount& account);
   Paths known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;

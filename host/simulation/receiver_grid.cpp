@@ -102,7 +102,8 @@ std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scen
             .position_m = {shape.x_m + ix * shape.step_m, shape.y_m + iy * shape.step_m, zero_m + grid.height_m},
             .antenna = grid.antenna,
             .polarization = grid.polarization,
-            .orientation_deg = grid.orientation_deg};
+            .orientation_deg = grid.orientation_deg,
+            .array = grid.array};
         if (!taken.insert(end.name).second)
           throw ConfigError(
               fmt::format("[[receiver_grid]] \"{}\": a radio end of the name \"{}\" exists already: "

@@ -1,6 +1,7 @@
 // Members that need more than a constructor are made by functions, in the order of setup.hpp.
 #include "simulation/setup.hpp"
 
+#include "radio/carriers.hpp"
 #include "radio/opacity.hpp"
 #include "scene/load.hpp"
 #include "simulation/feature_choice.hpp"
@@ -41,15 +42,23 @@ std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
   return out;
 }
 
+std::vector<bool> opaque_at_all_carriers(const Setup& s) {
+  std::vector<bool> out;
+  for (const double carrier_hz : carriers_hz(s.config.radio)) {
+    const auto opaque = opaque_surfaces(s.scene, s.world.models(), s.world.instances(), carrier_hz);
+    if (out.empty()) out.assign(opaque.size(), true);
+    for (size_t i = 0; i < out.size(); ++i) out[i] = out[i] && opaque[i];
+  }
+  return out;
+}
+
 std::optional<InstancePlacement> make_placement(Setup& s) {
   std::optional<InstancePlacement> out;
   if (!s.world.instances().empty()) {
     out.emplace(s.context, s.world.models(), s.world.instances(), s.device_scene);
     out->place(s.device_scene, s.world.state(0).instances);
   }
-  if (s.trace.transmission)
-    mark_opaque(s.device_scene,
-                opaque_surfaces(s.scene, s.world.models(), s.world.instances(), s.config.radio.frequency_hz));
+  if (s.trace.transmission) mark_opaque(s.device_scene, opaque_at_all_carriers(s));
   return out;
 }
 
@@ -130,6 +139,7 @@ Setup::Setup(const Config& asked, const std::string& device_text)
       cache(make_cache(*this)),
       discovery(context, device_scene, trace, discovery_options(*this)),
       exact_paths(context, device_scene, scene, world, trace, origins, reuse),
-      finish(context, scene, with_trace(config, trace), world) {}
+      finish(context, scene, with_trace(config, trace), world),
+      elements(config, scene, world) {}
 
 }  // namespace wavetracer

@@ -5,6 +5,7 @@
 
 #include "base/stopwatch.hpp"
 #include "simulation/discovery.hpp"
+#include "simulation/element_outputs.hpp"
 #include "simulation/exact_paths.hpp"
 #include "simulation/finished_paths.hpp"
 #include "simulation/frame_watch.hpp"
@@ -55,6 +56,7 @@ struct Setup {
   Discovery discovery;
   ExactPaths exact_paths;
   FinishedPaths finish;
+  ElementOutputs elements;
 };
 
 }  // namespace wavetracer

@@ -7,6 +7,7 @@
 
 #include "simulation/frame.hpp"
 #include "simulation/missing_paths.hpp"
+#include "wavetracer/arrays.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/live.hpp"
 
@@ -142,5 +143,8 @@ LiveFrame Simulation::run_between(const LiveTraffic& traffic, double time_s) {
 
 const std::vector<LiveType>& Simulation::live_types() const { return state_->setup.world.live_types(); }
 const LiveBounds& Simulation::live_bounds() const { return state_->setup.world.live_bounds(); }
+
+ElementModel::ElementModel(const Simulation& simulation)
+    : ElementModel(simulation.config(), simulation.scene(), simulation.models(), simulation.instances()) {}
 
 }  // namespace wavetracer

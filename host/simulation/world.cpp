@@ -146,7 +146,8 @@ void World::State::add_mounted(EndsOfRole& role, uint32_t track, const MountConf
                        .antenna = mount.antenna,
                        .polarization = mount.polarization,
                        .orientation_deg = mount.orientation_deg,
-                       .velocity_m_s = {velocity_m_s.x, velocity_m_s.y, velocity_m_s.z}});
+                       .velocity_m_s = {velocity_m_s.x, velocity_m_s.y, velocity_m_s.z},
+                       .array = mount.array});
 }
 
 void World::State::add_mounts(const std::vector<MountConfig>& mounts, const glm::dvec3& origin_m) {

@@ -34,8 +34,13 @@ struct SceneConfig {
   std::string streets;                                // a SUMO network, for pictures only
 };
 
+// How a wave passes the elements of an array, see wavetracer/arrays.hpp.
+using WavefrontShape = Choice<"spherical", "plane">;
+
 struct RadioConfig {
   double frequency_hz = 5.9e9;
+  std::vector<double> frequencies_hz = {};  // several carriers, the first of which is frequency_hz; empty: that alone
+  WavefrontShape wavefront = "spherical";
   // The link budget; not given: no received power, no signal-to-noise ratio.
   std::optional<double> transmit_power_dbm, bandwidth_hz;
   double noise_figure_db = 0;
@@ -52,6 +57,26 @@ struct RadioEnd {  // [[transmitter]] or [[receiver]]
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
   std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; for Doppler shifts only: the position does not change
+  std::string array = {};                          // an [[array]]; empty: one element
+};
+
+// The codebooks that are built in (else: a file).
+using NamedCodebook = Choice<"none", "dft">;
+
+struct ArrayConfig {  // [[array]]: where the elements of ends are
+  std::string name;
+  uint32_t rows = 1, columns = 1;  // a panel: rows along z, columns along y of the antenna's axes
+  double vertical_spacing_wavelengths = 0.5, horizontal_spacing_wavelengths = 0.5;  // at radio.frequency_hz
+  std::optional<double> vertical_spacing_m = {}, horizontal_spacing_m = {};         // instead
+  std::vector<std::array<double, 3>> positions_m = {};  // instead of a panel: of elements, in the antenna's axes
+  std::string codebook = "none";                        // a NamedCodebook, or a codebook file
+};
+
+struct ResponseConfig {                     // [response]: the channel at subcarriers, for all pairs of elements
+  std::optional<double> bandwidth_hz = {};  // not given: no responses
+  uint32_t subcarriers = 64;                // bandwidth_hz / subcarriers apart
+  uint32_t times = 1;                       // within a frame, from its own time on
+  double time_step_s = 1e-3;
 };
 
 using HeightAbove = Choice<"zero", "ground">;
@@ -65,6 +90,7 @@ struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the m
   std::string antenna = "isotropic";
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};
+  std::string array = {};
 };
 
 // [trajectories]: how vehicles move. Give either file or generate, or [[track]] tables, or nothing: no vehicles.
@@ -104,6 +130,7 @@ struct MountConfig {     // [[mount]]: an antenna on vehicles
   std::string antenna = "isotropic";
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // in the vehicle's axes
+  std::string array = {};
 };
 
 struct LinksConfig {  // [links]: which pairs are computed
@@ -227,6 +254,7 @@ struct Config {
   std::vector<MaterialConfig> materials;
   std::vector<RadioEnd> transmitters, receivers;
   std::vector<ReceiverGridConfig> receiver_grids;
+  std::vector<ArrayConfig> arrays;
   TrajectoriesConfig trajectories;
   std::vector<TrackConfig> tracks;
   std::vector<VehicleTypeConfig> vehicle_types;
@@ -239,6 +267,7 @@ struct Config {
   OrderConfig order;
   LaunchConfig launch;
   CacheConfig cache;
+  ResponseConfig response;
   OutputConfig output;
 };
 

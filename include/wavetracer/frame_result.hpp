@@ -1,5 +1,7 @@
 // The result of a frame: its paths and waypoints, the world that they belong to, counts, seconds and warnings.
 #pragma once
+#include <array>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -64,10 +66,36 @@ struct MissingLinks {
   bool empty() const { return links + in_grids == 0; }
 };
 
+// The paths of a frame at another carrier: what differs from row to row of FrameResult::paths.
+struct CarrierFields {
+  double frequency_hz = 0;
+  std::vector<std::array<std::complex<double>, 4>> a;
+  std::vector<double> gain_db, doppler_hz;
+};
+
+// The channel of every link of a frame, in their order, at response_times_s() and response_frequencies_hz().
+struct Responses {
+  uint32_t times = 0, frequencies = 0;  // 0: there are none
+  // Link i has rows row_offset[i] to row_offset[i + 1] - 1, [time][rx antenna][tx antenna], see wavetracer/arrays.hpp.
+  std::vector<uint64_t> row_offset{0};
+  std::vector<std::complex<float>> h;  // [row][frequency]
+};
+
+// Gains of links through the beams of codebooks: rows of the links between ends of which one has a codebook, sorted by
+// link, then by beam; a side without one has one beam, number 0, which is its first element.
+struct BeamRows {
+  std::vector<uint32_t> tx, rx, tx_beam, rx_beam;
+  std::vector<double> gain_db;
+  size_t size() const { return gain_db.size(); }
+};
+
 struct FrameResult {
   uint32_t frame = 0;
   WorldState world;
   Paths paths;
+  std::vector<CarrierFields> carriers;  // of radio.frequencies_hz, but the first
+  Responses responses;                  // with response.bandwidth_hz
+  BeamRows beams;                       // with array.codebook
   FrameCounts counts;
   MissedCounts missed;   // frames = 0 with a ray cache or trace.reception = "sphere", and where no rays were launched
   LateCounts late;       // of a frame that launches rays after others that did not, with trace.discover_every_s

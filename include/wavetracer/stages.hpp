@@ -41,7 +41,7 @@ inline constexpr auto frame_stages = std::to_array<FrameStage>({
     {"wedge_sight", FramePart::paths},   {"wedge_join", FramePart::paths},   {"wedge_pairs", FramePart::paths},
     {"wedge_solve", FramePart::paths},   {"scatter", FramePart::paths},      {"paths", FramePart::paths},
     {"distinct", FramePart::paths},      {"fields", FramePart::fields},      {"columns", FramePart::fields},
-    {"transfer", FramePart::transfer},
+    {"elements", FramePart::fields},     {"transfer", FramePart::transfer},
 });
 
 constexpr const FrameStage* find_frame_stage(std::string_view name) {

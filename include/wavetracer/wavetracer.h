@@ -111,7 +111,8 @@ enum wavetracer_type {
   WAVETRACER_UINT32 = 2,
   WAVETRACER_UINT64 = 3,
   WAVETRACER_FLOAT64 = 4,
-  WAVETRACER_COMPLEX128 = 5 /* two doubles, real and imaginary part */
+  WAVETRACER_COMPLEX128 = 5, /* two doubles, real and imaginary part */
+  WAVETRACER_COMPLEX64 = 6   /* two floats, real and imaginary part */
 };
 
 typedef struct wavetracer_column {
@@ -147,11 +148,49 @@ typedef struct wavetracer_column {
      link_doppler_spread_hz
      link_missed_power_share                                 float64    of links.csv: power that was missed, estimated,
                                                              against that which arrives; NaN where that is not known
+   With several of radio.frequencies_hz one row per path, else none:
+     carrier_a                                               complex128 x carriers x rx ports x tx ports, row major: a
+                                                             at each carrier
+     carrier_gain_db, carrier_doppler_hz                     float64 x carriers
+   With response.bandwidth_hz, else no rows; of link i the rows response_offset[i] to response_offset[i + 1] - 1, which
+   are [time][rx antenna][tx antenna] (antenna: element * ports + port):
+     response                                                complex64 x frequencies
+     response_offset                                         uint64     one row more than there are links
+   With array.codebook one row per link and pair of beams, of links of which an end has a codebook, else none:
+     beam_tx, beam_rx, beam_tx_beam, beam_rx_beam            uint32     ends, and their beams
+     beam_gain_db                                            float64    of the sum of powers through both beams
    One row an end; NaN while it is absent:
      transmitter_position_m, receiver_position_m             float64 x 3, file coordinates
    Returns 1; 0 with an error of code USAGE where there is no such column. */
 int wavetracer_frame_column(const wavetracer_frame* self, const char* name, wavetracer_column* column,
                             wavetracer_error** error);
+
+/* The elements of the arrays of ends ([[array]]); 1 of an end without one, 0 where self is null or the index is too
+   large. */
+size_t wavetracer_transmitter_elements(const wavetracer_simulation* self, size_t index);
+size_t wavetracer_receiver_elements(const wavetracer_simulation* self, size_t index);
+/* Where they are: 3 doubles each, metres from the position of the end, in the axes of its antenna. count: of the
+   doubles that there is room for. Return 1, or 0 with an error of code USAGE. */
+int wavetracer_transmitter_element_positions(const wavetracer_simulation* self, size_t index, double* positions_m,
+                                             size_t count, wavetracer_error** error);
+int wavetracer_receiver_element_positions(const wavetracer_simulation* self, size_t index, double* positions_m,
+                                          size_t count, wavetracer_error** error);
+
+/* Row `row` of the paths between all pairs of antennas, [rx antenna][tx antenna], an antenna being element * ports +
+   port: coefficients as the column a, without the carrier phase of the path's own delay_s. carrier: 0, or the place of
+   another one in radio.frequencies_hz. coefficients: pairs of doubles, real and imaginary part; count: of the pairs
+   that there is room for, which must be rx elements x rx ports x tx elements x tx ports. Returns 1, or 0 with an error
+   of code USAGE. */
+int wavetracer_element_coefficients(const wavetracer_simulation* self, const wavetracer_frame* frame, size_t row,
+                                    uint32_t carrier, double* coefficients, size_t count, wavetracer_error** error);
+
+/* The channel of a link, [time][rx antenna][tx antenna][frequency], pairs of doubles:
+   h(f, t) = sum over its paths of a exp(-j 2 pi f delay) exp(j 2 pi doppler t), with the delays between elements.
+   frequencies_hz: absolute; times_s: from that of the frame on; carrier: whose coefficients these are; count: of the
+   pairs that there is room for. Returns 1, or 0 with an error of code USAGE. */
+int wavetracer_response(const wavetracer_simulation* self, const wavetracer_frame* frame, uint32_t tx, uint32_t rx,
+                        uint32_t carrier, const double* frequencies_hz, size_t frequency_count, const double* times_s,
+                        size_t time_count, double* h, size_t count, wavetracer_error** error);
 
 /* Names of all columns, 0 to wavetracer_column_count() - 1; null beyond. */
 size_t wavetracer_column_count(void);

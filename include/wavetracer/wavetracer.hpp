@@ -11,6 +11,7 @@
 // Threads: only one thread at a time may use a Simulation; several may run in different threads. What they
 // return is plain data. Only one thread of the process at a time may call write_outputs().
 #pragma once
+#include "wavetracer/arrays.hpp"
 #include "wavetracer/cache_entries.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/config_file.hpp"

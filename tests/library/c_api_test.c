@@ -181,6 +181,58 @@ static void check_observer(void) {
   wavetracer_close(simulation);
 }
 
+/* Two elements 10 cm apart across the line of sight, and the receiver's one: lengths by Pythagoras. */
+static void check_arrays(void) {
+  const char* const sets[] = {"transmitter.0.array=two", "radio.frequencies_hz=[5.9e9, 60e9]",
+                              "response.bandwidth_hz=1e6", "response.subcarriers=4"};
+  char text[1024];
+  snprintf(text, sizeof text, "%s%s", config,
+           "[[array]]\nname = \"two\"\npositions_m = [[0, -0.05, 0], [0, 0.05, 0.02]]\n");
+  wavetracer_error* error = NULL;
+  wavetracer_simulation* simulation = wavetracer_open(text, NULL, sets, 4, NULL, &error);
+  if (!simulation) {
+    ++failures;
+    fprintf(stderr, "%s\n", wavetracer_error_message(error));
+    return;
+  }
+  CHECK(wavetracer_transmitter_elements(simulation, 0) == 2 && wavetracer_transmitter_elements(simulation, 1) == 0);
+  CHECK(wavetracer_receiver_elements(simulation, 1) == 1 && wavetracer_receiver_elements(NULL, 0) == 0);
+  double places[6], a[4], h[16];
+  CHECK(wavetracer_transmitter_element_positions(simulation, 0, places, 6, &error) == 1 && error == NULL);
+  CHECK(places[1] == -0.05 && places[4] == 0.05 && places[5] == 0.02);
+  CHECK(wavetracer_transmitter_element_positions(simulation, 0, places, 5, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "room for 5 values, but 6 are needed");
+  CHECK(wavetracer_receiver_element_positions(simulation, 2, places, 6, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no end 2, only 2");
+  wavetracer_frame* frame = wavetracer_run_frame(simulation, 0, &error);
+  CHECK(frame != NULL);
+  const double centre_m = sqrt(30 * 30 + 4 * 4), length_m = sqrt(30 * 30 + 0.05 * 0.05 + 4.02 * 4.02);
+  for (uint32_t carrier = 0; carrier < 2; ++carrier) {
+    const double f = carrier ? 60e9 : 5.9e9;
+    CHECK(wavetracer_element_coefficients(simulation, frame, 0, carrier, a, 2, &error) == 1 && error == NULL);
+    const double turned = atan2(a[3], a[2]), wanted = -2 * pi * f * (length_m - centre_m) / speed_of_light_m_s;
+    const double friis = speed_of_light_m_s / f / (4 * pi * length_m);
+    CHECK(fabs(remainder(turned - wanted, 2 * pi)) < 1e-6);
+    CHECK(fabs(hypot(a[2], a[3]) / friis - 1) < 1e-9);
+    const double frequencies_hz[] = {f - 1e6, f}, times_s[] = {0};
+    CHECK(wavetracer_response(simulation, frame, 0, 0, carrier, frequencies_hz, 2, times_s, 1, h, 4, &error) == 1);
+    CHECK(fabs(remainder(atan2(h[7], h[6]) + 2 * pi * f * length_m / speed_of_light_m_s, 2 * pi)) < 1e-5);
+  }
+  CHECK(wavetracer_element_coefficients(simulation, frame, 0, 2, a, 2, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no carrier 2, only 2");
+  CHECK(wavetracer_element_coefficients(simulation, frame, 9, 0, a, 2, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no path 9");
+  CHECK(wavetracer_response(simulation, frame, 0, 7, 0, places, 1, places, 1, h, 16, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no link from transmitter 0 to receiver 7");
+  wavetracer_column responses, carriers;
+  CHECK(wavetracer_frame_column(frame, "response", &responses, NULL) == 1);
+  CHECK(responses.rows == 2 + 4 && responses.width == 8 && responses.type == WAVETRACER_COMPLEX64);
+  CHECK(wavetracer_frame_column(frame, "carrier_a", &carriers, NULL) == 1);
+  CHECK(carriers.rows == 2 && carriers.width == 4 && carriers.type == WAVETRACER_COMPLEX128);
+  wavetracer_frame_free(frame);
+  wavetracer_close(simulation);
+}
+
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   wavetracer_error* error = NULL;
@@ -219,6 +271,7 @@ int main(int argc, char** argv) {
   check_frame(frame); /* frames outlive their simulation */
   wavetracer_frame_free(frame);
   wavetracer_close(other);
+  check_arrays();
   printf("%d failures\n", failures);
   return failures == 0 ? 0 : 1;
 }

@@ -1,0 +1,29 @@
+// What the beams of two ends make of the paths between them.
+#pragma once
+#include <map>
+#include <memory>
+
+#include "radio/codebook.hpp"
+#include "wavetracer/arrays.hpp"
+
+namespace wavetracer {
+
+class Beams {
+ public:
+  // Reads each codebook once. Throws ConfigError or InputError.
+  explicit Beams(const Config& config);
+
+  // Rows of links of which an end has a codebook, see BeamRows. gain_db: the power of all paths through both beams,
+  // added up without their phases, as path_gain_db in links.csv: 10 log10 of the sum over paths and pairs of ports of
+  // |w_rx a w_tx|^2; -inf where nothing arrives.
+  BeamRows gains(const ElementModel& model, const FrameResult& frame) const;
+
+ private:
+  // By name of the array, each once; of each end, or null.
+  std::map<std::string, Codebook> codebooks_;
+  std::vector<const Codebook*> transmitters_, receivers_;
+
+  void find(const Config& config, const std::vector<RadioEnd>& ends, std::vector<const Codebook*>& out);
+};
+
+}  // namespace wavetracer

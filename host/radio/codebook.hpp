@@ -1,0 +1,34 @@
+// Beams of arrays: the weights by which the signals of elements are added up.
+// Weights of a beam have powers that add up to 1. A beam points in one direction whether it sends or receives: what two
+// beams make of a channel is the sum over elements of w_rx h w_tx, without a conjugate.
+#pragma once
+#include <complex>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "wavetracer/config.hpp"
+
+namespace wavetracer {
+
+struct Codebook {
+  uint32_t beams = 0, elements = 0;
+  std::vector<std::complex<double>> weights;  // [beam][element]
+};
+
+// Beam column * rows + row of a panel, column < columns and row < rows, points to where the wave arrives with
+// cos(angle to +y) = column / (columns d_y) and cos(angle to +z) = row / (rows d_z), spacings d in wavelengths; by
+// whole periods 1 / d less where that is beyond what is visible.
+Codebook dft_codebook(uint32_t rows, uint32_t columns);
+
+// A CSV file with the header beam,element,re,im and a row per weight, in any order; blank lines and lines that start
+// with # are skipped. Throws InputError that names file and line.
+Codebook load_codebook(const std::string& file, uint32_t elements);
+
+// That of the end's array; no beams where it has none. Throws ConfigError or InputError.
+Codebook codebook_of(const Config& config, const RadioEnd& end);
+
+// Whether any array has a codebook.
+bool has_beams(const Config& config);
+
+}  // namespace wavetracer

@@ -1,0 +1,206 @@
+// Coefficients and responses between elements: pair by pair, so that every sum is made in the order of the paths,
+// whichever core makes it.
+#include "radio/element_responses.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "radio/carriers.hpp"
+#include "radio/element_link.hpp"
+#include "radio/frequency_axis.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+using Complex = std::complex<double>;
+using PortMatrix = std::array<Complex, 4>;
+
+constexpr size_t pairs_at_once = 32;
+
+// The coefficients of paths at a carrier, and by how much Doppler shifts are larger there.
+struct CarrierRows {
+  const std::vector<PortMatrix>& a;
+  double doppler_scale;
+};
+
+CarrierRows rows_at(const FrameResult& frame, std::span<const double> carriers_hz, uint32_t carrier) {
+  if (carrier == 0) return {frame.paths.a, 1};
+  return {frame.carriers.at(carrier - 1).a, carriers_hz[carrier] / carriers_hz[0]};
+}
+
+// All that a link's response needs of one path.
+struct ResponsePath {
+  PathOfElements elements;
+  PortMatrix a;
+  double doppler_hz;
+};
+
+// Sums the paths of one pair of elements.
+class PairResponse {
+ public:
+  PairResponse(const Paths& paths, const ElementLink& link, const FrequencyAxis& axis, std::span<const double> times_s)
+      : paths_(paths),
+        link_(link),
+        axis_(axis),
+        times_s_(times_s),
+        phase_(2 * axis.size()),
+        sum_(2 * axis.size() * times_s.size() * link.rx_ports() * link.tx_ports()) {}
+
+  void sum(const std::vector<ResponsePath>& all, size_t rx_element, size_t tx_element) {
+    std::fill(sum_.begin(), sum_.end(), 0.0);
+    const size_t count = axis_.size();
+    double *const phase_re = phase_.data(), *const phase_im = phase_re + count;
+    for (const ResponsePath& path : all) {
+      const ElementPair pair = path.elements.between(rx_element, tx_element);
+      axis_.phases(pair.delay_s, phase_re, phase_im);
+      double* to = sum_.data();
+      for (const double time_s : times_s_) {
+        const double turns = path.doppler_hz * time_s;
+        const Complex moved = std::polar(pair.amplitude, 2 * std::numbers::pi * (turns - std::floor(turns)));
+        for (uint32_t p = 0; p < link_.rx_ports(); ++p)
+          for (uint32_t q = 0; q < link_.tx_ports(); ++q, to += 2 * count) {
+            const Complex a = path.a[p * paths_.tx_ports + q];
+            const double re = a.real() * moved.real() - a.imag() * moved.imag(),
+                         im = a.real() * moved.imag() + a.imag() * moved.real();
+            for (size_t k = 0; k < count; ++k) to[k] += re * phase_re[k] - im * phase_im[k];
+            for (size_t k = 0; k < count; ++k) to[count + k] += re * phase_im[k] + im * phase_re[k];
+          }
+      }
+    }
+  }
+
+  // out(time, rx antenna, tx antenna, frequency, value)
+  template <class Out>
+  void give(size_t rx_element, size_t tx_element, const Out& out) const {
+    const double* from = sum_.data();
+    const size_t count = axis_.size();
+    for (size_t time = 0; time < times_s_.size(); ++time)
+      for (uint32_t p = 0; p < link_.rx_ports(); ++p)
+        for (uint32_t q = 0; q < link_.tx_ports(); ++q, from += 2 * count)
+          for (size_t k = 0; k < count; ++k)
+            out(time, rx_element * link_.rx_ports() + p, tx_element * link_.tx_ports() + q, k,
+                Complex(from[k], from[count + k]));
+  }
+
+ private:
+  const Paths& paths_;
+  const ElementLink& link_;
+  const FrequencyAxis& axis_;
+  std::span<const double> times_s_;
+  std::vector<double> phase_, sum_;
+};
+
+std::vector<ResponsePath> paths_of(const ElementLink& link, const FrameResult& frame, const CarrierRows& rows) {
+  std::vector<ResponsePath> out;
+  for (size_t row = link.first_row(); row < link.end_row(); ++row)
+    out.push_back({link.path(row), rows.a.at(row), frame.paths.doppler_hz[row] * rows.doppler_scale});
+  return out;
+}
+
+// out: as of PairResponse::give.
+template <class Out>
+void respond(const ElementLink& link, const FrameResult& frame, const CarrierRows& rows, const FrequencyAxis& axis,
+             std::span<const double> times_s, const Out& out) {
+  const std::vector<ResponsePath> all = paths_of(link, frame, rows);
+  const size_t pairs = size_t{link.rx_elements()} * link.tx_elements();
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, pairs, pairs_at_once), [&](const tbb::blocked_range<size_t>& range) {
+    PairResponse response(frame.paths, link, axis, times_s);
+    for (size_t pair = range.begin(); pair < range.end(); ++pair) {
+      const size_t rx_element = pair / link.tx_elements(), tx_element = pair % link.tx_elements();
+      response.sum(all, rx_element, tx_element);
+      response.give(rx_element, tx_element, out);
+    }
+  });
+}
+
+constexpr uint64_t most_response_bytes = uint64_t{1} << 35;  // of a frame
+
+// The rows of each link, which are none yet.
+Responses empty_responses(const ElementModel& model, const FrameResult& frame, size_t times, size_t frequencies) {
+  Responses out{static_cast<uint32_t>(times), static_cast<uint32_t>(frequencies), {0}, {}};
+  for (const Link& link : frame.world.links)
+    out.row_offset.push_back(out.row_offset.back() +
+                             times * model.rx_antennas(link.rx) * uint64_t{model.tx_antennas(link.tx)});
+  const uint64_t row_bytes = frequencies * sizeof out.h[0];
+  if (out.row_offset.back() > most_response_bytes / row_bytes)
+    throw RuntimeError(fmt::format(
+        "the responses of frame {} have {} rows (time, receiving antenna, transmitting antenna) of {} frequencies, "
+        "more "
+        "than {} GiB: lower response.subcarriers, response.times or the number of links (links.max_distance_m)",
+        frame.frame, out.row_offset.back(), frequencies, most_response_bytes >> 30));
+  out.h.resize(out.row_offset.back() * frequencies);
+  return out;
+}
+
+}  // namespace
+
+ElementPaths ElementModel::element_paths(const FrameResult& frame, size_t row) const {
+  const ElementLink link(*this, frame, {frame.paths.tx.at(row), frame.paths.rx.at(row)});
+  const PathOfElements path = link.path(row);
+  ElementPaths out{link.rx_elements(), link.tx_elements(), {}, {}};
+  for (size_t r = 0; r < link.rx_elements(); ++r)
+    for (size_t t = 0; t < link.tx_elements(); ++t) {
+      const ElementPair pair = path.between(r, t);
+      out.delay_s.push_back(pair.delay_s);
+      out.amplitude.push_back(pair.amplitude);
+    }
+  return out;
+}
+
+std::vector<Complex> ElementModel::coefficients(const FrameResult& frame, size_t row, uint32_t carrier) const {
+  const ElementPaths pairs = element_paths(frame, row);
+  const uint32_t rx_ports = this->rx_ports(frame.paths.rx[row]), tx_ports = this->tx_ports(frame.paths.tx[row]);
+  const PortMatrix& a = rows_at(frame, carriers_hz_, carrier).a.at(row);
+  const size_t columns = size_t{pairs.tx_elements} * tx_ports;
+  std::vector<Complex> out(size_t{pairs.rx_elements} * rx_ports * columns);
+  for (size_t pair = 0; pair < pairs.delay_s.size(); ++pair) {
+    const double turns = carriers_hz_.at(carrier) * (pairs.delay_s[pair] - frame.paths.delay_s[row]);
+    const Complex moved = std::polar(pairs.amplitude[pair], -2 * std::numbers::pi * (turns - std::floor(turns)));
+    const size_t r = pair / pairs.tx_elements * rx_ports, t = pair % pairs.tx_elements * tx_ports;
+    for (uint32_t p = 0; p < rx_ports; ++p)
+      for (uint32_t q = 0; q < tx_ports; ++q) out[(r + p) * columns + t + q] = a[p * frame.paths.tx_ports + q] * moved;
+  }
+  return out;
+}
+
+std::vector<Complex> ElementModel::response(const FrameResult& frame, Link link, std::span<const double> frequencies_hz,
+                                            std::span<const double> times_s, uint32_t carrier) const {
+  const ElementLink elements(*this, frame, link);
+  const size_t rx = rx_antennas(link.rx), tx = tx_antennas(link.tx), count = frequencies_hz.size();
+  std::vector<Complex> out(times_s.size() * rx * tx * count);
+  respond(elements, frame, rows_at(frame, carriers_hz_, carrier), FrequencyAxis(frequencies_hz), times_s,
+          [&](size_t time, size_t r, size_t t, size_t k, const Complex& h) {
+            out[((time * rx + r) * tx + t) * count + k] = h;
+          });
+  return out;
+}
+
+Responses make_responses(const ElementModel& model, const Config& config, const FrameResult& frame) {
+  const std::vector<double> frequencies_hz = response_frequencies_hz(config), times_s = response_times_s(config),
+                            carriers = carriers_hz(config.radio);
+  if (frequencies_hz.empty()) return {};
+  Responses out = empty_responses(model, frame, times_s.size(), frequencies_hz.size());
+  const size_t subcarriers = frequencies_hz.size() / carriers.size();
+  tbb::parallel_for(size_t{0}, frame.world.links.size(), [&](size_t i) {
+    const Link link = frame.world.links[i];
+    const ElementLink elements(model, frame, link);
+    const size_t rx = model.rx_antennas(link.rx), tx = model.tx_antennas(link.tx);
+    for (uint32_t carrier = 0; carrier < carriers.size(); ++carrier) {
+      const std::span<const double> of_carrier(frequencies_hz.data() + carrier * subcarriers, subcarriers);
+      const FrequencyAxis axis(of_carrier);
+      std::complex<float>* const h = out.h.data() + out.row_offset[i] * frequencies_hz.size() + carrier * subcarriers;
+      respond(elements, frame, rows_at(frame, carriers, carrier), axis, times_s,
+              [&](size_t time, size_t r, size_t t, size_t k, const Complex& value) {
+                h[((time * rx + r) * tx + t) * frequencies_hz.size() + k] = std::complex<float>(value);
+              });
+    }
+  });
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,96 @@
+// Lengths by unfolding: about an edge, both sides of a path turn into one plane without a change of length (Fermat).
+#include "radio/unfolded_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace wavetracer {
+namespace {
+
+constexpr double shortest_m = 1e-9;  // so that elements in one place have a finite amplitude
+
+double distance(const glm::dvec3& p, const glm::dvec3& q) { return std::max(glm::length(p - q), shortest_m); }
+
+PathSpread over_point(const Bend& bend, const glm::dvec3& from, const glm::dvec3& to) {
+  const double before = distance(from, bend.point), after = distance(bend.point, to);
+  return {before + after, 1 / (before * after)};
+}
+
+// A point in cylindrical coordinates about an edge.
+struct AboutEdge {
+  double along, away;
+  AboutEdge(const Bend& edge, const glm::dvec3& p)
+      : along(glm::dot(p - edge.point, edge.along)),
+        away(std::max(glm::length(p - edge.point - along * edge.along), shortest_m)) {}
+};
+
+// 1 / (before after sin b sqrt(1 / before + 1 / after)) of wt_edge_spreading, by distances from the line.
+PathSpread over_edge(const Bend& edge, const glm::dvec3& from, const glm::dvec3& to) {
+  const AboutEdge a(edge, from), b(edge, to);
+  const double length = std::hypot(a.away + b.away, a.along - b.along);
+  return {length, 1 / std::sqrt(a.away * b.away * length)};
+}
+
+// The length over points of two edges at s and t along them, with its first and second derivatives.
+struct TwoEdges {
+  double length, product, s, t, ss, st, tt;
+
+  TwoEdges(const std::array<Bend, 2>& edges, const glm::dvec3& from, const glm::dvec3& to, const glm::dvec2& at) {
+    const glm::dvec3 p = edges[0].point + at.x * edges[0].along, q = edges[1].point + at.y * edges[1].along;
+    const double a = distance(from, p), b = distance(p, q), c = distance(q, to);
+    const glm::dvec3 u = (p - from) / a, v = (q - p) / b, w = (to - q) / c;
+    const double us = glm::dot(u, edges[0].along), vs = glm::dot(v, edges[0].along), vt = glm::dot(v, edges[1].along),
+                 wt = glm::dot(w, edges[1].along);
+    length = a + b + c;
+    product = a * b * c;
+    s = us - vs;
+    t = vt - wt;
+    ss = (1 - us * us) / a + (1 - vs * vs) / b;
+    tt = (1 - vt * vt) / b + (1 - wt * wt) / c;
+    st = (vs * vt - glm::dot(edges[0].along, edges[1].along)) / b;
+  }
+  double determinant() const { return ss * tt - st * st; }
+};
+
+// The length is convex in both places, and where the path was solved for is near: a few steps.
+PathSpread over_edges(const std::array<Bend, 2>& edges, const glm::dvec3& from, const glm::dvec3& to) {
+  constexpr int most_steps = 30;
+  glm::dvec2 at(0);
+  TwoEdges now(edges, from, to, at);
+  for (int step = 0; step < most_steps; ++step) {
+    const double determinant = now.determinant();
+    if (!(determinant > 0)) break;
+    glm::dvec2 move(-(now.tt * now.s - now.st * now.t) / determinant, -(now.ss * now.t - now.st * now.s) / determinant);
+    // What a step gains, by the quadratic form: half of it is left over by rounding.
+    if (-(now.s * move.x + now.t * move.y) < 1e-13 * now.length * 1e-3) break;
+    TwoEdges next(edges, from, to, at + move);
+    for (int half = 0; half < most_steps && next.length > now.length; ++half) {
+      move *= 0.5;
+      next = TwoEdges(edges, from, to, at + move);
+    }
+    if (!(next.length < now.length)) break;
+    at += move;
+    now = next;
+  }
+  return {now.length, 1 / (now.product * std::sqrt(std::max(now.determinant(), 1e-300)))};
+}
+
+}  // namespace
+
+Isometry mirrored(const Isometry& image, const glm::dvec3& normal, const glm::dvec3& point) {
+  const glm::dmat3 mirror = glm::dmat3(1.0) - 2.0 * glm::outerProduct(normal, normal);
+  return {mirror * image.turn, mirror * image.shift + 2 * glm::dot(normal, point) * normal};
+}
+
+PathSpread UnfoldedPath::between(const glm::dvec3& sent_image, const glm::dvec3& heard_image) const {
+  if (count == 0) {
+    const double length = distance(sent_image, heard_image);
+    return {length, 1 / length};
+  }
+  if (!bends[0].edge()) return over_point(bends[0], sent_image, heard_image);
+  return count == 1 ? over_edge(bends[0], sent_image, heard_image) : over_edges(bends, sent_image, heard_image);
+}
+
+}  // namespace wavetracer
