@@ -184,6 +184,15 @@ int wavetracer_receiver_element_positions(const wavetracer_simulation* self, siz
 int wavetracer_element_coefficients(const wavetracer_simulation* self, const wavetracer_frame* frame, size_t row,
                                     uint32_t carrier, double* coefficients, size_t count, wavetracer_error** error);
 
+/* Rows rows[0] to rows[row_count - 1] of the paths between all pairs of elements, [row][rx element][tx element]: delays
+   in seconds, and the amplitudes by which they spread there over those between the centres. A coefficient between two
+   elements is a amplitude exp(-j 2 pi f (delay - delay_s)) at its carrier f, of every pair of ports. rx_elements,
+   tx_elements: that there is room for; where an end has fewer, amplitudes are 0. Returns 1, or 0 with an error of code
+   USAGE. */
+int wavetracer_element_paths(const wavetracer_simulation* self, const wavetracer_frame* frame, const size_t* rows,
+                             size_t row_count, size_t rx_elements, size_t tx_elements, double* delay_s,
+                             double* amplitude, wavetracer_error** error);
+
 /* The channel of a link, [time][rx antenna][tx antenna][frequency], pairs of doubles:
    h(f, t) = sum over its paths of a exp(-j 2 pi f delay) exp(j 2 pi doppler t), with the delays between elements.
    frequencies_hz: absolute; times_s: from that of the frame on; carrier: whose coefficients these are; count: of the

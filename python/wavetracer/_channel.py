@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -73,11 +74,26 @@ def _delays(paths: Paths, places: dense, normalize_delays: bool) -> Array:
     return delay
 
 
-def _turned(paths: Paths, delay: Array, time_s: ArrayLike | None) -> Array:
-    """Baseband coefficients (path, rx port, tx port, time)."""
-    times = _times(time_s)
-    phase = turns(-paths.frequency_hz * delay)[:, None] * turns(np.outer(paths.doppler_hz, times))
-    return np.asarray(paths.a[..., None] * phase[:, None, None, :])
+class Antennas:
+    """Coefficients and delays of paths between antennas: ports, and the elements of arrays where there are any."""
+
+    def __init__(self, paths: Paths, places: dense, normalize_delays: bool):
+        self.delay = _delays(paths, places, normalize_delays)  # between the centres, (path,)
+        self.a = paths.a * turns(-paths.frequency_hz * self.delay)[:, None, None]  # (path, rx antenna, tx antenna)
+        self.later: Array | None = None  # by how much a path is longer between antennas, seconds; of the same shape
+        if paths._elements is None:
+            return
+        delay, amplitude = paths.elements()
+        later = delay - paths.delay_s[:, None, None]
+        moved = amplitude * turns(-paths.frequency_hz * later)
+        rx, tx = self.a.shape[1:]
+        # Antenna port * elements + element, as Sionna RT counts.
+        self.a = np.einsum("npq,nrt->nprqt", self.a, moved).reshape(len(moved), rx * moved.shape[1], tx * moved.shape[2])
+        self.later = np.tile(later, (1, rx, tx))
+
+    def at(self, paths: Paths, time_s: ArrayLike | None) -> Array:
+        """(path, rx antenna, tx antenna, time): phases turn with the Doppler shifts."""
+        return np.asarray(self.a[..., None] * turns(np.outer(paths.doppler_hz, _times(time_s)))[:, None, None, :])
 
 
 def _reversed(h: Array, wanted: bool) -> Array:
@@ -93,21 +109,30 @@ def _normalized(h: Array, energy: Array) -> Array:
 
 def cir(paths: Paths, time_s: ArrayLike | None, normalize_delays: bool, reverse: bool) -> tuple[Array, Array]:
     places = dense(paths)
-    delay = _delays(paths, places, normalize_delays)
-    turned = _turned(paths, delay, time_s)
-    a, tau = places.of_ports(turned, turned.shape[3:]), places.of_links(delay, -1)
+    antennas = Antennas(paths, places, normalize_delays)
+    turned = antennas.at(paths, time_s)
+    a, tau = places.of_ports(turned, turned.shape[3:]), places.of_links(antennas.delay, -1)
     return _reversed(a, reverse), tau.transpose(1, 0, 2) if reverse else tau
 
 
-def _summed(paths: Paths, places: dense, turned: Array, weights: Any, count: int, what: str) -> Array:
-    """(rx, rx port, tx, tx port, time, count): the coefficients of each link times weights(rows of it) (path, count)."""
+def _summed(places: dense, antennas: Antennas, turned: Array, weights: Callable[[Array, Array], Array], values: Array,
+            what: str) -> Array:
+    """(rx, rx antenna, tx, tx antenna, time, value): the sum over the paths of each link of coefficients times
+    weights(delays, values), which add an axis for values to the delays."""
     rx, tx, _ = places.shape
-    ports_and_times = turned.shape[1:]
-    out = zeros((rx, ports_and_times[0], tx, *ports_and_times[1:], count), what)
+    shape = turned.shape[1:]
+    out = zeros((rx, shape[0], tx, *shape[1:], len(values)), what)
     for begin, end in zip(places.begin, places.end):
-        rows = turned[begin:end].reshape(end - begin, -1)
-        h = (rows.T @ weights(slice(begin, end))).reshape(*ports_and_times, count)
-        out[places.rx[begin], :, places.tx[begin]] = h
+        rows, delay = turned[begin:end], antennas.delay[begin:end]
+        into = out[places.rx[begin], :, places.tx[begin]]
+        if antennas.later is None:
+            into[...] = (rows.reshape(end - begin, -1).T @ weights(delay, values)).reshape(*shape, len(values))
+            continue
+        between = delay[:, None, None] + antennas.later[begin:end]
+        step = max(1, 2**22 // between.size)  # values at a time: the weights take 64 MB
+        for first in range(0, len(values), step):
+            w = weights(between, values[first:first + step])
+            into[..., first:first + step] = np.einsum("nrtk,nrtv->rtkv", rows, w)
     return out
 
 
@@ -117,9 +142,9 @@ def cfr(paths: Paths, frequencies_hz: ArrayLike, time_s: ArrayLike | None, norma
     if frequencies.ndim != 1 or not np.isfinite(frequencies).all():
         raise ConfigError("frequencies_hz: give hertz relative to the carrier, a number or one row of numbers")
     places = dense(paths)
-    delay = _delays(paths, places, normalize_delays)
-    h = _summed(paths, places, _turned(paths, delay, time_s), lambda rows: turns(-np.outer(delay[rows], frequencies)),
-                len(frequencies), "the frequency response")
+    antennas = Antennas(paths, places, normalize_delays)
+    h = _summed(places, antennas, antennas.at(paths, time_s), lambda delay, f: turns(-delay[..., None] * f), frequencies,
+                "the frequency response")
     if normalize:
         h = _normalized(h, (np.abs(h) ** 2).mean(axis=(1, 3, 4, 5)))
     return _reversed(h, reverse)
@@ -132,11 +157,11 @@ def taps(paths: Paths, bandwidth_hz: float, numbers: tuple[int, int], time_s: Ar
         raise ConfigError(f"bandwidth_hz is {bandwidth_hz}: give a number of hertz above 0")
     if count < 1:
         raise ConfigError(f"count is {count}: give at least one tap")
-    number = np.arange(first, first + count)
     places = dense(paths)
-    delay = _delays(paths, places, normalize_delays)
-    h = _summed(paths, places, _turned(paths, delay, time_s),
-                lambda rows: np.sinc(number - bandwidth_hz * delay[rows, None]), count, "the taps")
+    antennas = Antennas(paths, places, normalize_delays)
+    h = _summed(places, antennas, antennas.at(paths, time_s),
+                lambda delay, number: np.sinc(number - bandwidth_hz * delay[..., None]),
+                np.arange(first, first + count, dtype=float), "the taps")
     if normalize:
         h = _normalized(h, (np.abs(h) ** 2).sum(axis=-1).mean(axis=(1, 3, 4)))
     return _reversed(h, reverse)

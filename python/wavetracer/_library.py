@@ -13,6 +13,7 @@ from .errors import RunError, error_of
 
 SONAME = "libwavetracer.so.0.2"
 Handle, Text = ctypes.c_void_p, ctypes.c_char_p
+Doubles, Sizes = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_size_t)
 Observer = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_uint64, ctypes.c_uint64)
 
 
@@ -52,6 +53,12 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("frame_rx_ports", ctypes.c_uint32, [Handle]), ("frame_tx_ports", ctypes.c_uint32, [Handle]),
     ("frame_counts", Counts, [Handle]), ("frame_missed", Missed, [Handle]), ("frame_warnings", Text, [Handle]),
     ("frame_column", ctypes.c_int, [Handle, Text, ctypes.POINTER(Column), _ERROR]),
+    ("transmitter_elements", ctypes.c_size_t, [Handle, ctypes.c_size_t]),
+    ("receiver_elements", ctypes.c_size_t, [Handle, ctypes.c_size_t]),
+    ("transmitter_element_positions", ctypes.c_int, [Handle, ctypes.c_size_t, Doubles, ctypes.c_size_t, _ERROR]),
+    ("receiver_element_positions", ctypes.c_int, [Handle, ctypes.c_size_t, Doubles, ctypes.c_size_t, _ERROR]),
+    ("element_paths", ctypes.c_int, [Handle, Handle, Sizes, ctypes.c_size_t, ctypes.c_size_t, ctypes.c_size_t, Doubles,
+                                     Doubles, _ERROR]),
     ("column_count", ctypes.c_size_t, []), ("column_name", Text, [ctypes.c_size_t]),
     ("write", ctypes.c_int, [Handle, Text, ctypes.POINTER(Handle), ctypes.c_size_t, _ERROR]))
 

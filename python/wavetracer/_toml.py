@@ -21,7 +21,7 @@ def _string(text: str) -> str:
 def _key(name: object) -> str:
     if not isinstance(name, str):
         raise ConfigError(f"configuration: a key is a text, not {name!r}")
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _string(name)
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+(\.[A-Za-z0-9_-]+)*", name) else _string(name)
 
 
 def _float(value: float) -> str:
@@ -59,7 +59,8 @@ def _rows(table: Mapping[str, Any], where: str) -> str:
 
 def document(config: Mapping[str, Any]) -> str:
     """A configuration as TOML text; a value of None is a key that is not given."""
-    plain = {key: value for key, value in config.items() if not isinstance(value, Mapping) and not _is_tables(value)}
+    plain = {key: value for key, value in config.items() if not isinstance(value, Mapping) and not _is_tables(value)
+             and not (isinstance(value, list) and not value)}
     out = _rows(plain, "") if plain else ""
     for key, value in config.items():
         if isinstance(value, Mapping):

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import weakref
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,11 @@ from .errors import ConfigError
 from .paths import Ends, Links, Paths
 
 Array = NDArray[Any]
-_TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex128}
+_TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex128, 6: np.complex64}
+
+
+# Delays and amplitudes of rows of a frame between all pairs of elements; see Simulation._between_elements.
+Elements = Callable[[int, Array, tuple[int, int]], tuple[Array, Array]]
 
 
 class _Columns:
@@ -41,9 +46,9 @@ class Frame:
     """The results of one frame: `paths`, `links`, `counts`, `missed`, `warnings`. frame["delay_s"] is any column of
     wavetracer.h. A frame may outlive its simulation."""
 
-    def __init__(self, handle: int, ends: Ends):
+    def __init__(self, handle: int, ends: Ends, elements: Elements | None = None):
         self._columns = _Columns(handle)
-        self._ends = ends
+        self._ends, self._elements = ends, elements
         self.number: int = library.wavetracer_frame_number(handle)
         self.time_s: float = library.wavetracer_frame_time_s(handle)
         self.counts: Counts = library.wavetracer_frame_counts(handle)
@@ -64,7 +69,9 @@ class Frame:
     @property
     def paths(self) -> Paths:
         """All paths of the frame; their columns are views of the library's memory."""
-        return Paths(self._columns, self._ends, links=self.links)
+        elements = self._elements
+        between = None if elements is None else lambda rows, shape: elements(self._columns.handle, rows, shape)
+        return Paths(self._columns, self._ends, links=self.links, elements=between)
 
     @property
     def links(self) -> Links:

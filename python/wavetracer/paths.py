@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[Any]
+# Delays and amplitudes of rows of a frame between all pairs of elements, for (rx elements, tx elements).
+Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 Chosen = Union[str, int, Iterable[Union[str, int]], None]
 
 # What a path is called, the most special of its interactions deciding, and the bits of its interactions that say so.
@@ -31,6 +33,8 @@ class Ends:
     transmitters: tuple[str, ...]
     receivers: tuple[str, ...]
     frequency_hz: float
+    tx_elements: tuple[int, ...] = ()  # of the array of each; empty: one each
+    rx_elements: tuple[int, ...] = ()
 
 
 def _places(names: Sequence[str], wanted: Chosen, what: str) -> list[int]:
@@ -103,8 +107,9 @@ class Paths:
     """
 
     def __init__(self, column: Callable[[str], Array], ends: Ends, places: tuple[list[int], list[int]] | None = None,
-                 links: Links | None = None):
+                 links: Links | None = None, elements: Between | None = None, rows: Array | None = None):
         self._column, self._ends, self._links = column, ends, links
+        self._elements, self._rows = elements, rows  # rows: where these paths are in their frame, None: all of it
         self._tx, self._rx = places or (list(range(len(ends.transmitters))), list(range(len(ends.receivers))))
 
     # --- columns ---
@@ -254,7 +259,9 @@ class Paths:
                 if word not in KINDS:
                     raise ConfigError(f"there are no paths of kind {word!r}, only of {', '.join(KINDS)}")
             mask &= np.isin(self.kind, kinds)
-        chosen = Paths(_figures.rows_of(self._column, np.flatnonzero(mask)), self._ends, places)
+        rows = np.flatnonzero(mask)
+        chosen = Paths(_figures.rows_of(self._column, rows), self._ends, places, elements=self._elements,
+                       rows=rows if self._rows is None else self._rows[rows])
         if self._links is not None:
             values = {name: self._links[name] for name in self._links.columns}
             wanted = np.isin(values["tx"], places[0]) & np.isin(values["rx"], places[1])
@@ -266,15 +273,29 @@ class Paths:
 
     # --- channels ---
 
+    def elements(self) -> tuple[Array, Array]:
+        """Each path between all pairs of elements of the arrays of its ends: delays, in seconds, and the amplitudes by
+        which it spreads there over those between the centres. Each of shape (paths, rx elements, tx elements); where an
+        end has fewer elements than others, amplitudes are 0."""
+        shape = tuple(max((counts[i] for i in chosen), default=1) if counts else 1
+                      for counts, chosen in ((self._ends.rx_elements, self._rx), (self._ends.tx_elements, self._tx)))
+        if self._elements is None:
+            return np.array(self.delay_s)[:, None, None], np.ones((len(self), 1, 1))
+        rows = np.arange(len(self)) if self._rows is None else self._rows
+        return self._elements(rows, (shape[0], shape[1]))
+
     def cir(self, time_s: ArrayLike | None = None, *, normalize_delays: bool = True,
             reverse_direction: bool = False) -> tuple[Array, Array]:
         """The baseband impulse response, in the shapes and conventions of sionna.rt.Paths.cir.
 
         time_s: times within the frame, seconds from its instant, for which the phases turn with the Doppler shifts;
-        None is the instant itself, one time. normalize_delays: the first path of each link arrives at 0, for the phases
-        as well. reverse_direction: transmitters and receivers change places.
+        None is the instant itself, one time. normalize_delays: the first path of each link (between the centres of arrays)
+        arrives at 0, for the phases as well. reverse_direction: transmitters and receivers change places.
 
-        Returns a, complex128 of shape (rx, rx ports, tx, tx ports, paths, times), a exp(-j 2 pi f tau + j 2 pi fd t)
+        Antennas of an end are its ports times the elements of its array: antenna port * elements + element, the order of
+        Sionna RT. Between elements, phases are those of the way between them; tau is that between the centres.
+
+        Returns a, complex128 of shape (rx, rx antennas, tx, tx antennas, paths, times), a exp(-j 2 pi f tau + j 2 pi fd t)
         at the carrier f, 0 where a link has fewer paths; and tau, float64 of shape (rx, tx, paths), seconds, -1 there.
         """
         return _channel.cir(self, time_s, normalize_delays, reverse_direction)
@@ -282,9 +303,9 @@ class Paths:
     def cfr(self, frequencies_hz: ArrayLike, time_s: ArrayLike | None = None, *, normalize_delays: bool = True,
             normalize: bool = False, reverse_direction: bool = False) -> Array:
         """The frequency response, in the shapes and conventions of sionna.rt.Paths.cfr: complex128 of shape
-        (rx, rx ports, tx, tx ports, times, frequencies).
+        (rx, rx antennas, tx, tx antennas, times, frequencies).
 
-        frequencies_hz: relative to the carrier. normalize: the mean energy of each link over ports, times and
+        frequencies_hz: relative to the carrier. Between the elements of arrays, delays are exact at every frequency. normalize: the mean energy of each link over ports, times and
         frequencies becomes 1. The other arguments are those of cir().
         """
         return _channel.cfr(self, frequencies_hz, time_s, normalize_delays, normalize, reverse_direction)
@@ -292,7 +313,7 @@ class Paths:
     def taps(self, bandwidth_hz: float, count: int, *, first: int = 0, time_s: ArrayLike | None = None,
              normalize_delays: bool = True, normalize: bool = False, reverse_direction: bool = False) -> Array:
         """The taps of a channel of this bandwidth, sampled at it with a sinc filter, in the shapes and conventions of
-        sionna.rt.Paths.taps: complex128 of shape (rx, rx ports, tx, tx ports, times, count).
+        sionna.rt.Paths.taps: complex128 of shape (rx, rx antennas, tx, tx antennas, times, count).
 
         count taps from tap number `first` on (l_min; first + count - 1 is l_max). normalize: the energy of all taps of
         each link, averaged over ports and times, becomes 1. The other arguments are those of cir().

@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 from collections.abc import Iterator
 from types import TracebackType
 from typing import Any, Union
@@ -14,9 +15,15 @@ from numpy.typing import NDArray
 
 from .errors import ConfigError, InputError
 from .paths import Ends, Links, Paths
+from .responses import Responses
 
 Array = NDArray[Any]
 Folder = Union[str, "os.PathLike[str]"]
+
+
+def _not_saved(rows: Array, shape: tuple[int, int]) -> tuple[Array, Array]:
+    raise ConfigError("a saved run has paths between the centres of arrays: take frame.response(tx, rx), which "
+                      "response.bandwidth_hz writes, or compute the frame with wavetracer.Simulation(run.config)")
 
 
 class SavedFrame:
@@ -63,7 +70,18 @@ class SavedFrame:
     @property
     def paths(self) -> Paths:
         """The paths of this frame that the file has: limits of [output] may have left some out."""
-        return Paths(self.__getitem__, self._run._ends, links=self.links)
+        return Paths(self.__getitem__, self._run._ends, links=self.links, elements=self._run._elements)
+
+    def response(self, tx: str | int = 0, rx: str | int = 0) -> Array:
+        """The channel of a link as [response] asked for it, complex64 of shape (rx antennas, tx antennas, times,
+        frequencies), with absolute delays and phases; run.responses has the axes. tx, rx: names, or places in the lists
+        of all."""
+        of = [names.index(end) if isinstance(end, str) and end in names else end
+              for end, names in ((tx, self._run.transmitters), (rx, self._run.receivers))]
+        for end, what in zip(of, ("transmitter", "receiver")):
+            if isinstance(end, str):
+                raise ConfigError(f"there is no {what} {end!r}")
+        return self._run.responses.of(self.number, int(of[0]), int(of[1]))
 
     @property
     def links(self) -> Links:
@@ -112,6 +130,8 @@ class Run:
         self.transmitters, self.receivers = list(self._ends.transmitters), list(self._ends.receivers)
         self.frequency_hz = self._ends.frequency_hz
         self._table: dict[str, Array] | None = None
+        self._responses: Responses | None = None
+        self._elements = _not_saved if re.search(r"^\[\[array\]\]", self.config, re.M) else None
 
     def _group(self, name: str) -> Any:
         return self._file[name]
@@ -126,6 +146,15 @@ class Run:
     def close(self) -> None:
         """Closes paths.h5; columns that were read stay."""
         self._file.close()
+        if self._responses is not None:
+            self._responses.close()
+
+    @property
+    def responses(self) -> Responses:
+        """responses.h5, with its axes `frequencies_hz` and `times_s`; run[3].response(tx, rx) is a channel of it."""
+        if self._responses is None:
+            self._responses = Responses(self.folder)
+        return self._responses
 
     def __len__(self) -> int:
         return len(self.times_s)

@@ -8,14 +8,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import TracebackType
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import _progress, _toml
-from ._library import Observer, Text, call, library, text
+from ._library import Doubles, Observer, Sizes, Text, call, library, text
 from .errors import ConfigError, InputError
 from .frame import Frame, handles
 from .paths import Ends
 from .runs import Run
 
 _NOBODY = Observer()
+Array = NDArray[Any]
 
 
 def read_config(config: str | os.PathLike[str] | Mapping[str, Any], folder: str | os.PathLike[str] | None
@@ -66,7 +70,11 @@ class Simulation:
         self.warnings: list[str] = text(library.wavetracer_warnings(handle)).splitlines()
         self.times_s: list[float] = [library.wavetracer_time_s(handle, i)
                                      for i in range(library.wavetracer_frame_count(handle))]
-        self._ends = Ends(tuple(self.transmitters), tuple(self.receivers), self.frequency_hz)
+        tx_elements = [library.wavetracer_transmitter_elements(handle, i) for i in range(len(self.transmitters))]
+        rx_elements = [library.wavetracer_receiver_elements(handle, i) for i in range(len(self.receivers))]
+        self._arrays = max(tx_elements + rx_elements, default=1) > 1
+        self._ends = Ends(tuple(self.transmitters), tuple(self.receivers), self.frequency_hz, tuple(tx_elements),
+                          tuple(rx_elements))
 
     def __enter__(self) -> Simulation:
         return self
@@ -104,7 +112,8 @@ class Simulation:
             observer = Observer(lambda _, stage, done, total: int(watch(stage.decode(), done, total)))
             library.wavetracer_observe(self._handle, observer, None)
             try:
-                return Frame(call(library.wavetracer_run_frame, self._handle, number), self._ends)
+                return Frame(call(library.wavetracer_run_frame, self._handle, number), self._ends,
+                             self._between_elements if self._arrays else None)
             finally:
                 library.wavetracer_observe(self._handle, _NOBODY, None)
 
@@ -131,6 +140,29 @@ class Simulation:
         """Computes frames, all of them or some, writes them into a folder, and opens it. All of them are in memory at
         a time: for drives that are larger than that, use the command `wavetracer run`."""
         return self.write(folder, list(self.frames(numbers, progress=progress)))
+
+    def element_positions_m(self, name: str) -> Array:
+        """Where the elements of a transmitter's or receiver's [[array]] are: metres from its position in the axes of its
+        antenna (boresight +x), shape (elements, 3)."""
+        for side, names, counts in (("transmitter", self.transmitters, self._ends.tx_elements),
+                                    ("receiver", self.receivers, self._ends.rx_elements)):
+            if name in names:
+                out = np.zeros((counts[names.index(name)], 3))
+                call(getattr(library, f"wavetracer_{side}_element_positions"), self._handle, names.index(name),
+                     out.ctypes.data_as(Doubles), out.size)
+                return out
+        raise ConfigError(f"there is no transmitter or receiver {name!r}")
+
+    def _between_elements(self, frame: int, rows: Array, shape: tuple[int, int]) -> tuple[Array, Array]:
+        """Delays (s) and amplitudes of these rows of a frame between all pairs of elements, each of shape
+        (rows, rx elements, tx elements); amplitudes are 0 where an end has fewer elements than shape says."""
+        if self._handle is None:
+            raise ConfigError("the simulation was closed: what paths are between the elements of arrays is computed by it")
+        wanted = np.ascontiguousarray(rows, np.uintp)
+        delay_s, amplitude = np.zeros((2, len(wanted), *shape))
+        call(library.wavetracer_element_paths, self._handle, frame, wanted.ctypes.data_as(Sizes), len(wanted), *shape,
+             delay_s.ctypes.data_as(Doubles), amplitude.ctypes.data_as(Doubles))
+        return delay_s, amplitude
 
     def forget(self) -> None:
         """The next frame is cold: it reuses nothing of earlier ones."""

@@ -45,21 +45,26 @@ def _slants_deg(patterns: list[Any], directions: tuple[tuple[float, float], ...]
 
 
 def _antenna(array: Any, side: str) -> dict[str, Any]:
-    """The keys `antenna` and `polarization` of an array of one element, whose pattern is one of Sionna RT's own."""
+    """The keys `antenna`, `polarization` and `array` of an array whose pattern is one of Sionna RT's own."""
     if array is None:
         raise ConfigError(f"scene.{side}_array is not set: give the scene a sionna.rt.PlanarArray")
-    if array.array_size > 1:
-        raise ConfigError(f"scene.{side}_array has {array.array_size} elements, and from_sionna takes arrays of one: "
-                          "give every element a place of its own, or set num_rows = num_cols = 1")
+    named = {"array": side + "_array"} if array.array_size > 1 else {}
     pattern = array.antenna_pattern
     try:
         # The model of polarisation "tr38901_1" turns by other angles in other directions, ours (and "tr38901_2") do not.
         (slants,) = _slants_deg(pattern.patterns, ((1.5, 0.1), (1.0, 0.7)))
-        return {"antenna": _PATTERNS[pattern.v_pattern.__name__], "polarization": _POLARIZATIONS[slants]}
+        return {"antenna": _PATTERNS[pattern.v_pattern.__name__], "polarization": _POLARIZATIONS[slants], **named}
     except (KeyError, ValueError, AttributeError):
         raise ConfigError(f"scene.{side}_array has a pattern or polarisation that is not one of Sionna RT's own (iso, "
                           "dipole, hw_dipole, tr38901; V, H, VH, cross): write it as a pattern file and name it with "
                           "the key antenna (docs/configuration.md)") from None
+
+
+def _elements(scene: Any) -> list[dict[str, Any]]:
+    """The tables [[array]] of arrays of several elements, which keep their places and their order."""
+    wavelength_m = _numbers(scene.wavelength)[0]
+    return [{"name": side + "_array", "positions_m": np.array(array.positions(wavelength_m)).T.astype(float).tolist()}
+            for side, array in (("tx", scene.tx_array), ("rx", scene.rx_array)) if array.array_size > 1]
 
 
 def _ends(devices: Mapping[str, Any], antenna: dict[str, Any]) -> list[dict[str, Any]]:
@@ -106,8 +111,10 @@ def sionna_config(scene: Any, folder: str | os.PathLike[str]) -> dict[str, Any]:
     """Writes the scene's meshes into a folder, and returns the configuration of it as a dict, whose paths start there.
 
     Carried over: meshes as they are, materials with their values at the scene's frequency, transmitters and receivers
-    with positions, orientations and velocities, the arrays' pattern and polarisation. Depth, and which interactions are
-    computed, are arguments of Sionna RT's solver and not part of its scene: set [trace] for them.
+    with positions, orientations and velocities, the arrays' pattern, polarisation and elements. Depth, and which interactions are
+    computed, are arguments of Sionna RT's solver and not part of its scene: set [trace] for them. Its synthetic arrays are
+    radio.wavefront = "plane"; "spherical", the default here, computes the way between every two elements. The ports of
+    polarisation "cross" are +45 and -45 degrees here, -45 and +45 there.
     """
     where = pathlib.Path(folder)
     where.mkdir(parents=True, exist_ok=True)
@@ -118,7 +125,7 @@ def sionna_config(scene: Any, folder: str | os.PathLike[str]) -> dict[str, Any]:
     return {"scene": {"file": "scene.xml"}, "radio": {"frequency_hz": _numbers(scene.frequency)[0]},
             "material": [_material(name, material) for name, material in materials.items()],
             "transmitter": _ends(scene.transmitters, _antenna(scene.tx_array, "tx")),
-            "receiver": _ends(scene.receivers, _antenna(scene.rx_array, "rx"))}
+            "receiver": _ends(scene.receivers, _antenna(scene.rx_array, "rx")), "array": _elements(scene)}
 
 
 def from_sionna(scene: Any, *, folder: str | os.PathLike[str] | None = None, device: str | int | None = None,

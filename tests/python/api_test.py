@@ -248,6 +248,51 @@ def check_progress(simulation):
     assert len(simulation.run_frame(0)) > 1
 
 
+def check_arrays(folder):
+    """Line of sight between a panel and a pair: every channel by the distance of its elements, with a wave of length
+    c / f; the order of antennas is port * elements + element. Responses of the saved run are the same."""
+    config = {"scene": {"generate": "--blocks 2"}, "trace": {"max_depth": 0},
+              "array": [{"name": "panel", "rows": 2, "columns": 3, "vertical_spacing_m": 0.5, "horizontal_spacing_m": 0.4},
+                        {"name": "pair", "positions_m": [[0, -0.1, 0], [0, 0.1, 0.05]]}],
+              "transmitter": [{"name": "t", "position_m": [0, 0, 6], "array": "panel"}],
+              "receiver": [{"name": "one", "position_m": [20, 1, 6], "polarization": "VH"},
+                           {"name": "two", "position_m": [12, -2, 4], "array": "pair"}],
+              "response": {"bandwidth_hz": 40e6, "subcarriers": 16, "times": 2, "time_step_s": 1e-3}}
+    simulation = wavetracer.Simulation(config)
+    frame = simulation.run_frame()
+    places = {name: simulation.element_positions_m(name) for name in ("t", "one", "two")}
+    assert [len(place) for place in places.values()] == [6, 1, 2] and places["one"].tolist() == [[0, 0, 0]]
+    raises(2, "no transmitter or receiver 'x'", simulation.element_positions_m, "x")
+    frequencies = np.linspace(-20e6, 20e6, 5)
+    h = frame.paths.cfr(frequencies, normalize_delays=False)
+    assert h.shape == (2, 4, 1, 6, 1, 5)  # two ports of the one, two elements of the other
+    for r, name in enumerate(("one", "two")):
+        ends = np.array(config["receiver"][r]["position_m"]) + places[name], np.array([0, 0, 6]) + places["t"]
+        d = np.linalg.norm(ends[0][:, None] - ends[1], axis=2)
+        wanted = 299792458 / 5.9e9 / (4 * np.pi * d[..., None]) * np.exp(
+            -2j * np.pi * ((5.9e9 + frequencies) * d[..., None] / 299792458 % 1))
+        assert np.abs(h[r, :len(d), 0, :, 0] - wanted).max() < 1e-9 * np.abs(wanted).max()
+    # The receiver "two" has one port: its second half, and the port H of "one" in this line of sight, are nothing.
+    assert not h[1, 2:].any() and np.abs(h[0, 2:]).max() < 1e-9 * np.abs(h[0, 0]).max()
+    only = frame.paths.select(rx="two")
+    assert only.cfr(0).shape == (1, 4, 1, 6, 1, 1) and only.cir()[0].shape == (1, 4, 1, 6, 1, 1)
+    assert np.allclose(only.cir(normalize_delays=False)[0][..., 0, 0], h[1:, ..., 0, 2], rtol=1e-9, atol=0)
+    delay, amplitude = only.elements()
+    assert delay.shape == amplitude.shape == (1, 2, 6) and np.allclose(delay[0] * 299792458, d, rtol=1e-12)
+    run = simulation.write(folder / "arrays", [frame])
+    axis, saved = run.responses.frequencies_hz - 5.9e9, run[0].response("t", "two")
+    assert saved.shape == (2, 6, 2, 16) and run.responses.times_s.tolist() == [0, 1e-3]
+    fresh = frame.paths.cfr(axis, run.responses.times_s, normalize_delays=False)[1, :2, 0]
+    assert np.abs(saved - fresh).max() < 1e-6 * np.abs(fresh).max()
+    assert run[0].response(0, 0).shape == (2, 6, 2, 16)
+    raises(2, "no receiver 'three'", run[0].response, "t", "three")
+    raises(2, "no link from transmitter 0 to receiver 7", run[0].response, 0, 7)
+    raises(2, "centres of arrays", run[0].paths.cfr, 0)
+    assert frame["response"].dtype == np.complex64
+    simulation.close()
+    raises(2, "was closed", frame.paths.cfr, 0)
+
+
 def main():
     folder = sys.argv[1]
     shutil.rmtree(folder, ignore_errors=True)
@@ -277,6 +322,8 @@ def main():
         check_progress(simulation)
     raises(2, "was closed", simulation.run_frame, 0)
     check_configs(pathlib.Path(folder))
+    check_arrays(pathlib.Path(folder))
+    raises(2, "no response.bandwidth_hz", lambda: wavetracer.open(folder).responses)
     # A sphere catches no exact paths: nothing is known of what it missed.
     with wavetracer.Simulation(DRIVE, trace={"reception": "sphere"}) as simulation:
         assert (unknown := simulation.run_frame(0)).missed is None
