@@ -6,6 +6,7 @@
 #include <memory>
 #include "gpu/gpu.hpp"
 #include "library/handles.hpp"
+#include "radio/carriers.hpp"
 #include "radio/links.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/output.hpp"
@@ -161,8 +162,12 @@ const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_
 const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index) {
   return self ? name_of(self->simulation.config().receivers, index) : nullptr;
 }
-double wavetracer_frequency_hz(const wavetracer_simulation* self) {
-  return self ? self->simulation.config().radio.frequency_hz : std::numeric_limits<double>::quiet_NaN();
+size_t wavetracer_carrier_count(const wavetracer_simulation* self) {
+  return self ? carriers_hz(self->simulation.config().radio).size() : 0;
+}
+double wavetracer_carrier_hz(const wavetracer_simulation* self, size_t index) {
+  return index < wavetracer_carrier_count(self) ? carriers_hz(self->simulation.config().radio)[index]
+                                                : std::numeric_limits<double>::quiet_NaN();
 }
 const char* wavetracer_device_name(const wavetracer_simulation* self) {
   return self ? self->simulation.device().name.c_str() : nullptr;

@@ -60,7 +60,9 @@ size_t wavetracer_transmitter_count(const wavetracer_simulation* self);
 size_t wavetracer_receiver_count(const wavetracer_simulation* self);
 const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_t index); /* of a mount: VEHICLE/NAME */
 const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index);
-double wavetracer_frequency_hz(const wavetracer_simulation* self); /* the carrier */
+/* The carrier, and those of radio.frequencies_hz after it. */
+size_t wavetracer_carrier_count(const wavetracer_simulation* self);
+double wavetracer_carrier_hz(const wavetracer_simulation* self, size_t index);
 const char* wavetracer_device_name(const wavetracer_simulation* self);
 const char* wavetracer_config_text(const wavetracer_simulation* self); /* every key with its value, TOML */
 const char* wavetracer_warnings(const wavetracer_simulation* self);    /* one per line; "" if there are none */

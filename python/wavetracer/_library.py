@@ -46,7 +46,7 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("frame_count", ctypes.c_uint32, [Handle]), ("time_s", ctypes.c_double, [Handle, ctypes.c_uint32]),
     ("transmitter_count", ctypes.c_size_t, [Handle]), ("receiver_count", ctypes.c_size_t, [Handle]),
     ("transmitter_name", Text, [Handle, ctypes.c_size_t]), ("receiver_name", Text, [Handle, ctypes.c_size_t]),
-    ("frequency_hz", ctypes.c_double, [Handle]), ("device_name", Text, [Handle]), ("config_text", Text, [Handle]),
+    ("carrier_count", ctypes.c_size_t, [Handle]), ("carrier_hz", ctypes.c_double, [Handle, ctypes.c_size_t]), ("device_name", Text, [Handle]), ("config_text", Text, [Handle]),
     ("warnings", Text, [Handle]), ("run_frame", Handle, [Handle, ctypes.c_uint32, _ERROR]),
     ("frame_free", None, [Handle]), ("forget", None, [Handle]), ("observe", None, [Handle, Observer, Handle]),
     ("frame_number", ctypes.c_uint32, [Handle]), ("frame_time_s", ctypes.c_double, [Handle]),

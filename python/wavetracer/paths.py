@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import fnmatch
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
@@ -35,6 +35,7 @@ class Ends:
     frequency_hz: float
     tx_elements: tuple[int, ...] = ()  # of the array of each; empty: one each
     rx_elements: tuple[int, ...] = ()
+    carriers_hz: tuple[float, ...] = ()
 
 
 def _places(names: Sequence[str], wanted: Chosen, what: str) -> list[int]:
@@ -270,6 +271,30 @@ class Paths:
                 values |= _figures.of_links(chosen, values["tx"], values["rx"])
             chosen._links = Links(values, self._ends)
         return chosen
+
+    def at_carrier(self, index: int) -> Paths:
+        """The same paths at another of the run's carriers: 0 is radio.frequency_hz, others are those of
+        radio.frequencies_hz in their order. Coefficients, gains, Doppler shifts, links and channels are those there."""
+        if not 0 <= index < max(1, len(self._ends.carriers_hz)):
+            raise ConfigError(f"there is no carrier {index}; there are {len(self._ends.carriers_hz)}: "
+                              f"{', '.join(f'{f:g} Hz' for f in self._ends.carriers_hz)}")
+        if index == 0:
+            return self
+        names = {"a": "carrier_a", "gain_db": "carrier_gain_db", "doppler_hz": "carrier_doppler_hz"}
+
+        def column(name: str) -> Array:
+            if name not in names:
+                return self._column(name)
+            whole = self._column(names[name])
+            chosen = whole.reshape(len(whole), len(self._ends.carriers_hz), *(self.a.shape[1:] if name == "a" else ()))
+            return chosen[:, index]
+
+        ends = replace(self._ends, frequency_hz=self._ends.carriers_hz[index], carriers_hz=())
+        there = Paths(column, ends, (self._tx, self._rx), elements=self._elements, rows=self._rows)
+        if self._links is not None:
+            values = {name: self._links[name] for name in Links.columns}
+            there._links = Links(values | _figures.of_links(there, values["tx"], values["rx"]), ends)
+        return there
 
     # --- channels ---
 

@@ -64,7 +64,9 @@ class Simulation:
                                         for i in range(library.wavetracer_transmitter_count(handle))]
         self.receivers: list[str] = [text(library.wavetracer_receiver_name(handle, i))
                                      for i in range(library.wavetracer_receiver_count(handle))]
-        self.frequency_hz: float = library.wavetracer_frequency_hz(handle)
+        self.carriers_hz: list[float] = [library.wavetracer_carrier_hz(handle, i)
+                                         for i in range(library.wavetracer_carrier_count(handle))]
+        self.frequency_hz = self.carriers_hz[0]
         self.device: str = text(library.wavetracer_device_name(handle))
         self.config: str = text(library.wavetracer_config_text(handle))
         self.warnings: list[str] = text(library.wavetracer_warnings(handle)).splitlines()
@@ -74,7 +76,7 @@ class Simulation:
         rx_elements = [library.wavetracer_receiver_elements(handle, i) for i in range(len(self.receivers))]
         self._arrays = max(tx_elements + rx_elements, default=1) > 1
         self._ends = Ends(tuple(self.transmitters), tuple(self.receivers), self.frequency_hz, tuple(tx_elements),
-                          tuple(rx_elements))
+                          tuple(rx_elements), tuple(self.carriers_hz))
 
     def __enter__(self) -> Simulation:
         return self

@@ -195,6 +195,8 @@ static void check_arrays(void) {
     fprintf(stderr, "%s\n", wavetracer_error_message(error));
     return;
   }
+  CHECK(wavetracer_carrier_count(simulation) == 2 && wavetracer_carrier_hz(simulation, 1) == 28e9);
+  CHECK(wavetracer_carrier_count(NULL) == 0 && isnan(wavetracer_carrier_hz(NULL, 0)));
   CHECK(wavetracer_transmitter_elements(simulation, 0) == 2 && wavetracer_transmitter_elements(simulation, 1) == 0);
   CHECK(wavetracer_receiver_elements(simulation, 1) == 1 && wavetracer_receiver_elements(NULL, 0) == 0);
   double places[6], a[4], h[16];
@@ -268,7 +270,7 @@ int main(int argc, char** argv) {
   check_columns(frame);
   check_write(simulation, frame, argv[1]);
   check_observer();
-  CHECK(wavetracer_frequency_hz(simulation) == 5.9e9 && isnan(wavetracer_frequency_hz(NULL)));
+  CHECK(wavetracer_carrier_hz(simulation, 0) == 5.9e9 && isnan(wavetracer_carrier_hz(simulation, 1)));
   CHECK(strstr(wavetracer_devices(NULL), wavetracer_device_name(simulation)) != NULL);
   const char* const sets[] = {"trace.rays=2000"};
   wavetracer_simulation* other = wavetracer_open(config, NULL, sets, 1, NULL, NULL);

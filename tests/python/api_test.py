@@ -293,6 +293,25 @@ def check_arrays(folder):
     raises(2, "was closed", frame.paths.cfr, 0)
 
 
+def check_carriers():
+    """A second carrier is what a simulation at that frequency alone finds."""
+    config = {"scene": {"generate": "--seed 1 --blocks 2"}, "trace": {"max_depth": 2, "rays": 5000},
+              "transmitter": [{"name": "t", "position_m": [0, 0, 6], "velocity_m_s": [9, 0, 0]}],
+              "receiver": [{"name": "r", "position_m": [40, 3, 2], "polarization": "VH"}]}
+    both = wavetracer.Simulation(config, radio={"frequencies_hz": [5.9e9, 28e9]})
+    alone = wavetracer.Simulation(config, radio={"frequency_hz": 28e9})
+    assert both.carriers_hz == [5.9e9, 28e9] and alone.carriers_hz == [28e9] and both.frequency_hz == 5.9e9
+    paths, wanted = both.run_frame().paths, alone.run_frame().paths
+    there = paths.at_carrier(1)
+    assert paths.at_carrier(0) is paths and there.frequency_hz == 28e9 and len(there) == len(wanted) > 2
+    for name in ("a", "gain_db", "doppler_hz", "delay_s"):
+        assert np.array_equal(getattr(there, name), getattr(wanted, name)), name
+    assert np.array_equal(there.select(kind="reflected").cfr([0, 1e6]), wanted.select(kind="reflected").cfr([0, 1e6]))
+    for name in ("path_gain_db", "narrowband_gain_db", "doppler_spread_hz"):
+        np.testing.assert_allclose(there.links[name], wanted.links[name], rtol=1e-9)
+    raises(2, "no carrier 2; there are 2: 5.9e+09 Hz", paths.at_carrier, 2)
+
+
 def main():
     folder = sys.argv[1]
     shutil.rmtree(folder, ignore_errors=True)
@@ -323,6 +342,7 @@ def main():
     raises(2, "was closed", simulation.run_frame, 0)
     check_configs(pathlib.Path(folder))
     check_arrays(pathlib.Path(folder))
+    check_carriers()
     raises(2, "no response.bandwidth_hz", lambda: wavetracer.open(folder).responses)
     # A sphere catches no exact paths: nothing is known of what it missed.
     with wavetracer.Simulation(DRIVE, trace={"reception": "sphere"}) as simulation:
