@@ -181,6 +181,21 @@ static void check_observer(void) {
   wavetracer_close(simulation);
 }
 
+/* Delays and amplitudes between elements, of the paths in another order and with room to spare. */
+static void check_element_paths(const wavetracer_simulation* simulation, const wavetracer_frame* frame, double length_m,
+                                double centre_m) {
+  wavetracer_error* error = NULL;
+  const size_t rows[] = {1, 0}, none[] = {7};
+  double delay_s[2 * 2 * 3], amplitude[2 * 2 * 3];
+  CHECK(wavetracer_element_paths(simulation, frame, rows, 2, 2, 3, delay_s, amplitude, &error) == 1 && error == NULL);
+  CHECK(fabs(delay_s[7] - length_m / speed_of_light_m_s) < 1e-18 && fabs(amplitude[7] - centre_m / length_m) < 1e-12);
+  CHECK(amplitude[8] == 0 && amplitude[9] == 0); /* the third element of the transmitter, the second of the receiver */
+  CHECK(wavetracer_element_paths(simulation, frame, rows, 2, 1, 1, delay_s, amplitude, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "room for 1 values, but 2 are needed");
+  CHECK(wavetracer_element_paths(simulation, frame, none, 1, 2, 3, delay_s, amplitude, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no path 7");
+}
+
 /* Two elements 10 cm apart across the line of sight, and the receiver's one: lengths by Pythagoras. */
 static void check_arrays(void) {
   const char* const sets[] = {"transmitter.0.array=two", "radio.frequencies_hz=[5.9e9, 28e9]",
@@ -220,15 +235,7 @@ static void check_arrays(void) {
     CHECK(wavetracer_response(simulation, frame, 0, 0, carrier, frequencies_hz, 2, times_s, 1, h, 4, &error) == 1);
     CHECK(fabs(remainder(atan2(h[7], h[6]) + 2 * pi * f * length_m / speed_of_light_m_s, 2 * pi)) < 1e-5);
   }
-  const size_t rows[] = {1, 0}, none[] = {7};
-  double delay_s[2 * 2 * 3], amplitude[2 * 2 * 3];
-  CHECK(wavetracer_element_paths(simulation, frame, rows, 2, 2, 3, delay_s, amplitude, &error) == 1 && error == NULL);
-  CHECK(fabs(delay_s[7] - length_m / speed_of_light_m_s) < 1e-18 && fabs(amplitude[7] - centre_m / length_m) < 1e-12);
-  CHECK(amplitude[8] == 0 && amplitude[9] == 0); /* the third element of the transmitter, the second of the receiver */
-  CHECK(wavetracer_element_paths(simulation, frame, rows, 2, 1, 1, delay_s, amplitude, &error) == 0);
-  check_error(error, WAVETRACER_USAGE, "room for 1 values, but 2 are needed");
-  CHECK(wavetracer_element_paths(simulation, frame, none, 1, 2, 3, delay_s, amplitude, &error) == 0);
-  check_error(error, WAVETRACER_USAGE, "no path 7");
+  check_element_paths(simulation, frame, length_m, centre_m);
   CHECK(wavetracer_element_coefficients(simulation, frame, 0, 2, a, 2, &error) == 0);
   check_error(error, WAVETRACER_USAGE, "no carrier 2, only 2");
   CHECK(wavetracer_element_coefficients(simulation, frame, 9, 0, a, 2, &error) == 0);
