@@ -34,7 +34,7 @@ TEST_CASE("every key of an array and of [response] is read, and its defaults are
   CHECK(c.response.subcarriers == 128);
   CHECK(c.response.times == 14);
   CHECK(c.response.time_step_s == 7e-5);
-  CHECK(c.radio.wavefront == "plane");
+  CHECK(c.radio.wavefront.word() == "plane");
   const Config again = parse_config(resolved_config(c), "/data/a.toml");
   CHECK(resolved_config(again) == resolved_config(c));
   CHECK(again.arrays[1].positions_m == c.arrays[1].positions_m);

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 #include "output/sample_run.hpp"
+#include "wavetracer/arrays.hpp"
 
 namespace wavetracer {
 
