@@ -12,23 +12,28 @@ docs/python.md is its guide, docs/from-sionna.md is for those who know Sionna RT
 """
 from __future__ import annotations
 
+import os as _os
 import pathlib as _pathlib
 
-from . import _library
 from ._library import Counts, columns, devices, version
 from .errors import ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
 from .frame import Frame
 from .paths import Links, Paths
+from .responses import Responses
 from .runs import Run, SavedFrame
-from .runs import open_run as open  # noqa: A004
 from .sionna import from_sionna
 from .simulation import Simulation
 from .view import Page, view
 
 __all__ = ["ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopped", "InputError", "Links", "Page",
-           "Paths", "Run", "RunError", "SavedFrame", "Simulation", "columns", "configs", "devices", "from_sionna",
-           "open", "version", "view"]
+           "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "columns", "configs", "devices",
+           "from_sionna", "version", "view"]
 __version__ = version()
+
+
+def open(folder: str | _os.PathLike[str]) -> Run:  # not in __all__: `import *` keeps Python's own
+    """Opens the folder that `wavetracer run` or Simulation.write() has written."""
+    return Run(folder)
 
 
 def _find_configs() -> _pathlib.Path:

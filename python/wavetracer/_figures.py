@@ -49,9 +49,9 @@ def rows_of(column: Callable[[str], Array], rows: Array) -> Callable[[str], Arra
 
 
 def of_links(paths: Paths, tx: Array, rx: Array) -> dict[str, Array]:
-    """The figures of the links (tx[i], rx[i]) from these paths alone. What rays have missed is not known of a part."""
-    link = {(int(t), int(r)): i for i, (t, r) in enumerate(zip(tx, rx))}
-    row = np.array([link[int(t), int(r)] for t, r in zip(paths.tx, paths.rx)], np.intp)
+    """The figures of the links (tx[i], rx[i]), sorted and each once, from these paths alone, each of which is of one of
+    them. What rays have missed is not known of a part."""
+    row = np.searchsorted(tx.astype(np.int64) << 32 | rx, paths.tx.astype(np.int64) << 32 | paths.rx)
     count = len(tx)
     power = (np.abs(paths.a) ** 2).sum(axis=(1, 2))
     total = np.bincount(row, power, count)

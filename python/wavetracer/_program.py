@@ -35,8 +35,8 @@ def find() -> str:
 
 def call(*arguments: str | os.PathLike[str]) -> str:
     """Runs a command of the program, and returns what it prints. Raises what it fails with, in its own words."""
-    done: subprocess.CompletedProcess[str] = subprocess.run([find(), *(os.fspath(each) for each in arguments)], env=os.environ | environment(), check=False,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    command = [find(), *(os.fspath(each) for each in arguments)]
+    done = subprocess.run(command, env=os.environ | environment(), check=False, capture_output=True, text=True)
     if done.returncode != 0:
         raise error_of(done.returncode, done.stderr.strip().removeprefix("wavetracer: "))
     return done.stdout

@@ -26,7 +26,8 @@ class _Columns:
 
     def __init__(self, handle: int):
         self.handle = handle
-        self.rx_ports, self.tx_ports = library.wavetracer_frame_rx_ports(handle), library.wavetracer_frame_tx_ports(handle)
+        self.rx_ports: int = library.wavetracer_frame_rx_ports(handle)
+        self.tx_ports: int = library.wavetracer_frame_tx_ports(handle)
         weakref.finalize(self, library.wavetracer_frame_free, handle)
 
     def __call__(self, name: str) -> Array:

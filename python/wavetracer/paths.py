@@ -314,14 +314,15 @@ class Paths:
         """The baseband impulse response, in the shapes and conventions of sionna.rt.Paths.cir.
 
         time_s: times within the frame, seconds from its instant, for which the phases turn with the Doppler shifts;
-        None is the instant itself, one time. normalize_delays: the first path of each link (between the centres of arrays)
-        arrives at 0, for the phases as well. reverse_direction: transmitters and receivers change places.
+        None is the instant itself, one time. normalize_delays: the first path of each link (between the centres of
+        arrays) arrives at 0, for the phases as well. reverse_direction: transmitters and receivers change places.
 
-        Antennas of an end are its ports times the elements of its array: antenna port * elements + element, the order of
-        Sionna RT. Between elements, phases are those of the way between them; tau is that between the centres.
+        Antennas of an end are its ports times the elements of its array: antenna port * elements + element, the order
+        of Sionna RT. Between elements, phases are those of the way between them; tau is that between the centres.
 
-        Returns a, complex128 of shape (rx, rx antennas, tx, tx antennas, paths, times), a exp(-j 2 pi f tau + j 2 pi fd t)
-        at the carrier f, 0 where a link has fewer paths; and tau, float64 of shape (rx, tx, paths), seconds, -1 there.
+        Returns a, complex128 of shape (rx, rx antennas, tx, tx antennas, paths, times),
+        a exp(-j 2 pi f tau + j 2 pi fd t) at the carrier f, 0 where a link has fewer paths; and tau, float64 of shape
+        (rx, tx, paths), seconds, -1 there.
         """
         return _channel.cir(self, time_s, normalize_delays, reverse_direction)
 
@@ -330,8 +331,8 @@ class Paths:
         """The frequency response, in the shapes and conventions of sionna.rt.Paths.cfr: complex128 of shape
         (rx, rx antennas, tx, tx antennas, times, frequencies).
 
-        frequencies_hz: relative to the carrier. Between the elements of arrays, delays are exact at every frequency. normalize: the mean energy of each link over ports, times and
-        frequencies becomes 1. The other arguments are those of cir().
+        frequencies_hz: relative to the carrier. Between the elements of arrays, delays are exact at every frequency.
+        normalize: the mean energy of each link over antennas, times and frequencies becomes 1. The other arguments are those of cir().
         """
         return _channel.cfr(self, frequencies_hz, time_s, normalize_delays, normalize, reverse_direction)
 
@@ -355,7 +356,8 @@ class Paths:
                  "doppler_hz")
         return pandas.DataFrame({"tx": np.asarray(self._ends.transmitters, object)[self.tx],
                                  "rx": np.asarray(self._ends.receivers, object)[self.rx], "kind": self.kind,
-                                 "a": np.array(self.a[:, 0, 0]), **{name: np.array(self._column(name)) for name in names}})
+                                 "a": np.array(self.a[:, 0, 0]),
+                                 **{name: np.array(self._column(name)) for name in names}})
 
     def to_xarray(self) -> xarray.Dataset:
         """A Dataset of dimensions rx, rx_port, tx, tx_port, path: `a` (without the carrier phase), `delay_s`,

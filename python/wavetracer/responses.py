@@ -25,7 +25,8 @@ class Responses:
             self._file = h5py.File(self.name)
             self.frequencies_hz: Array = np.asarray(self._read("frequencies/frequency_hz"))
             self.times_s: Array = np.asarray(self._read("times/time_s"))
-            self._links = np.stack([self._read("links/" + name) for name in ("frame", "tx", "rx")], axis=1).astype(np.int64)
+            links = [self._read("links/" + name).astype(np.int64) for name in ("frame", "tx", "rx")]
+            self._links = np.stack(links, axis=1)
             self._offset = self._read("links/row_offset").astype(np.int64)
             self._shapes = [(np.diff(self._read(f"{side}/first_element").astype(np.int64)),
                              self._read(f"{side}/ports").astype(np.int64)) for side in ("receivers", "transmitters")]
@@ -47,7 +48,8 @@ class Responses:
         rows = slice(int(self._offset[found[0]]), int(self._offset[found[0] + 1]))
         h = self._file["responses/h_re"][rows] + np.complex64(1j) * self._file["responses/h_im"][rows]
         (rx_elements, rx_ports), (tx_elements, tx_ports) = self._shapes
-        shape = (len(self.times_s), rx_elements[rx], rx_ports[rx], tx_elements[tx], tx_ports[tx], len(self.frequencies_hz))
+        shape = (len(self.times_s), rx_elements[rx], rx_ports[rx], tx_elements[tx], tx_ports[tx],
+                 len(self.frequencies_hz))
         # In the file an antenna is element * ports + port.
         turned = h.reshape(shape).transpose(2, 1, 4, 3, 0, 5)
         return np.asarray(turned.reshape(shape[1] * shape[2], shape[3] * shape[4], shape[0], shape[5]))

@@ -114,7 +114,8 @@ class Run:
         if not name.exists():
             unfinished = " The run is not complete: `wavetracer run --resume` continues it." \
                 if (self.folder / "shards").exists() else ""
-            raise InputError(f"{name}: there is no such file; give the folder that `wavetracer run` has written.{unfinished}")
+            raise InputError(f"{name}: there is no such file; give the folder that `wavetracer run` has written."
+                             + unfinished)
         try:
             self._file = h5py.File(name)
             if self._file.attrs.get("format") != "wavetracer paths":
@@ -206,8 +207,3 @@ class Run:
     def _links_of(self, frame: int) -> Links:
         rows = self.links["frame"] == frame
         return Links({name: self.links[name][rows] for name in Links.columns}, self._ends)
-
-
-def open_run(folder: Folder) -> Run:
-    """Opens the folder that `wavetracer run` or Simulation.write() has written."""
-    return Run(folder)

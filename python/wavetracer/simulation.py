@@ -159,7 +159,7 @@ class Simulation:
         """Delays (s) and amplitudes of these rows of a frame between all pairs of elements, each of shape
         (rows, rx elements, tx elements); amplitudes are 0 where an end has fewer elements than shape says."""
         if self._handle is None:
-            raise ConfigError("the simulation was closed: what paths are between the elements of arrays is computed by it")
+            raise ConfigError("the simulation was closed: it computes what paths are between the elements of arrays")
         wanted = np.ascontiguousarray(rows, np.uintp)
         delay_s, amplitude = np.zeros((2, len(wanted), *shape))
         call(library.wavetracer_element_paths, self._handle, frame, wanted.ctypes.data_as(Sizes), len(wanted), *shape,

@@ -51,7 +51,7 @@ def _antenna(array: Any, side: str) -> dict[str, Any]:
     named = {"array": side + "_array"} if array.array_size > 1 else {}
     pattern = array.antenna_pattern
     try:
-        # The model of polarisation "tr38901_1" turns by other angles in other directions, ours (and "tr38901_2") do not.
+        # The model of polarisation "tr38901_1" turns by other angles in other directions; ours and "tr38901_2" do not.
         (slants,) = _slants_deg(pattern.patterns, ((1.5, 0.1), (1.0, 0.7)))
         return {"antenna": _PATTERNS[pattern.v_pattern.__name__], "polarization": _POLARIZATIONS[slants], **named}
     except (KeyError, ValueError, AttributeError):
@@ -111,10 +111,11 @@ def sionna_config(scene: Any, folder: str | os.PathLike[str]) -> dict[str, Any]:
     """Writes the scene's meshes into a folder, and returns the configuration of it as a dict, whose paths start there.
 
     Carried over: meshes as they are, materials with their values at the scene's frequency, transmitters and receivers
-    with positions, orientations and velocities, the arrays' pattern, polarisation and elements. Depth, and which interactions are
-    computed, are arguments of Sionna RT's solver and not part of its scene: set [trace] for them. Its synthetic arrays are
-    radio.wavefront = "plane"; "spherical", the default here, computes the way between every two elements. The ports of
-    polarisation "cross" are +45 and -45 degrees here, -45 and +45 there.
+    with positions, orientations and velocities, the arrays' pattern, polarisation and elements.
+
+    Depth, and which interactions are computed, are arguments of Sionna RT's solver and not part of its scene: set
+    [trace] for them. Its synthetic arrays are radio.wavefront = "plane"; "spherical", the default here, computes the
+    way between every two elements. The ports of polarisation "cross" are +45 and -45 degrees here, -45 and +45 there.
     """
     where = pathlib.Path(folder)
     where.mkdir(parents=True, exist_ok=True)
