@@ -5,40 +5,39 @@
     coverage_2km.py --device H200 --rays 1000000
     coverage_2km.py --side 200 --step 10     # a small one, to try
 
-The city is generated. Every cell has every path of up to `--depth` interactions, of which one may be a diffraction. The
+The configuration is coverage_2km.toml beside this file. Every cell has every path of up to `--depth` interactions, of which one may be a diffraction. The
 error is measured against the same map with ten times the rays, of the transmitter and of the cells: the share of cells
 that hear less than 0.1 dB right, or nothing where the other map hears something. The last line is JSON.
 """
 import argparse
 import json
 import math
+import pathlib
 import sys
 import time
 
 import numpy as np
 import wavetracer as wt
 
+CONFIGURATION = pathlib.Path(__file__).resolve().with_name("coverage_2km.toml")
 WRONG_DB = 0.1
 
 
-def configuration(options, times):
-    half = options.side / 2
-    blocks = max(2, math.ceil(options.side / 100))
-    return {
-        "scene": {"generate": f"--seed 1 --blocks {blocks}x{blocks}"},
-        "radio": {"frequency_hz": 5.9e9},
-        "trace": {"rays": options.rays * times, "max_depth": options.depth, "diffraction": True,
-                  "diffraction_rays": options.cell_rays * times},
-        "transmitter": [{"name": "rsu", "position_m": [8.0, 8.0, options.height]}],
-        "receiver_grid": [{"name": "street", "x_min_m": -half, "x_max_m": half, "y_min_m": -half, "y_max_m": half,
-                           "step_m": options.step, "height_m": 1.5}]}
+def keys(options, times):
+    """What is set over the configuration. A smaller map has a smaller city."""
+    half, blocks = options.side / 2, max(2, math.ceil(options.side / 100))
+    grid = {"x_min_m": -half, "x_max_m": half, "y_min_m": -half, "y_max_m": half, "step_m": options.step}
+    return {"scene.generate": f"--seed 1 --blocks {blocks}x{blocks}",
+            "trace": {"rays": options.rays * times, "max_depth": options.depth,
+                      "diffraction_rays": options.cell_rays * times},
+            **{f"receiver_grid.0.{key}": value for key, value in grid.items()}}
 
 
 def solve(options, times=1):
     """The path gain of every cell, shape (cells,), and the seconds of loading, of the first frame, and of a second one,
     for which the kernels and buffers are there."""
     start = time.perf_counter()
-    with wt.Simulation(configuration(options, times), device=options.device) as simulation:
+    with wt.Simulation(CONFIGURATION, device=options.device, **keys(options, times)) as simulation:
         ready = time.perf_counter()
         frame = simulation.run_frame()
         first = time.perf_counter()
@@ -60,15 +59,15 @@ def main():
     parser.add_argument("--rays", type=int, default=1_000_000, help="of the transmitter")
     parser.add_argument("--cell-rays", type=int, default=1000, help="of each cell, which look for the edges around it")
     parser.add_argument("--depth", type=int, default=3, help="interactions of a path")
-    parser.add_argument("--height", type=float, default=30, help="of the transmitter, metres")
     parser.add_argument("--device", help="part of its name")
     parser.add_argument("--no-reference", action="store_true", help="do not measure the error")
     options = parser.parse_args()
     gain_db, told = solve(options)
     heard = int(np.isfinite(gain_db).sum())
     told |= {"cells": len(gain_db), "heard": heard, "options": vars(options)}
-    print(f"{len(gain_db):,} cells, {heard:,} of them hear {told['paths']:,} paths; {told['seconds']['frame']:.2f} s a map, "
-          f"{told['seconds']['first_frame']:.2f} s the first one, on {told['device']}", file=sys.stderr, flush=True)
+    seconds = told["seconds"]
+    print(f"{len(gain_db):,} cells, {heard:,} of them hear {told['paths']:,} paths; {seconds['frame']:.2f} s a map, "
+          f"{seconds['first_frame']:.2f} s the first one, on {told['device']}", file=sys.stderr, flush=True)
     if not options.no_reference:
         reference_db, other = solve(options, 10)
         known = np.isfinite(reference_db)
@@ -76,8 +75,9 @@ def main():
         told["error"] = {"share_of_cells_off_by_0.1_db": float((off_db > WRONG_DB).mean()),
                          "share_of_cells_lost": float(np.isinf(off_db).mean()),
                          "mean_off_db": float(off_db[np.isfinite(off_db)].mean()), "reference_paths": other["paths"]}
-        print(f"against ten times the rays: {told['error']['share_of_cells_off_by_0.1_db']:.2%} of the cells are off by more "
-              f"than {WRONG_DB} dB, {told['error']['share_of_cells_lost']:.2%} hear nothing", file=sys.stderr)
+        wrong, lost = told["error"]["share_of_cells_off_by_0.1_db"], told["error"]["share_of_cells_lost"]
+        print(f"against ten times the rays: {wrong:.2%} of the cells are off by more than {WRONG_DB} dB, {lost:.2%} hear "
+              "nothing", file=sys.stderr)
     print(json.dumps(told))
 
 

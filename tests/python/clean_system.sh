@@ -22,7 +22,7 @@ fail() {
 }
 for program in cc ld clinfo; do ! inside sh -c "command -v $program" >/dev/null || fail "$program is there: this system is not bare"; done
 [ ! -d "$root/etc/OpenCL" ] || fail "OpenCL drivers are there: this system is not bare"
-rm -rf "$root/home/user/venv" "$root/home/user/out"
+rm -rf "$root/home/user/venv" "$root/home/user/out" "$root/home/user/.cache"
 mkdir -p "$root/wheel"
 rm -f "$root"/wheel/*
 cp "$wheel" "$root/wheel/"
@@ -35,6 +35,7 @@ printf 'installed in %s s, %s in the environment\n' "$(($(date +%s) - start))" "
 inside wavetracer --version | head -n 1 | grep '^wavetracer [0-9]' || fail "--version"
 inside wavetracer devices | grep '^\*.* CPU ' || fail "devices: no CPU device is chosen"
 inside sh -c 'cd && wavetracer init --minimal >my.toml && wavetracer run -c my.toml -o out/mine' || fail "the first configuration"
+rm -rf "$root/home/user/.cache"
 start=$(date +%s)
 inside sh -c 'cd && exec python3 -' <<'PYTHON' || fail "the demo in Python"
 import wavetracer as wt
@@ -46,7 +47,7 @@ assert len(run) == 11 and len(run[3].paths) > 100
 assert run[3].paths.select(tx="rsu").cfr([-5e6, 0, 5e6]).shape == (20, 1, 1, 1, 1, 3)
 wt.view(run).save("demo.html")
 PYTHON
-printf 'the demo from Python, kernels compiled anew: %s s\n' "$(($(date +%s) - start))"
+printf 'the demo and its page from Python, kernels compiled anew: %s s\n' "$(($(date +%s) - start))"
 inside sh -c 'cd && wavetracer view out/demo -o view.html && wavetracer convert out/demo -o demo.npz --frames 1 &&
   wavetracer convert out/demo -o demo.kml --projection "+proj=tmerc +lat_0=48.137 +lon_0=11.575 +ellps=WGS84 +units=m"' >/dev/null || fail "view and convert"
 for file in demo.html view.html demo.npz demo.kml; do [ -s "$root/home/user/$file" ] || fail "no $file"; done
