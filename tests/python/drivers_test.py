@@ -12,7 +12,7 @@ import tempfile
 from unittest import mock
 
 try:
-    import wavetracer  # noqa: F401
+    import wavetracer._library  # noqa: F401
 except ModuleNotFoundError as missing:
     if missing.name != "numpy":
         raise

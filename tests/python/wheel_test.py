@@ -53,6 +53,14 @@ where = run(python, "-c", "import wavetracer; print(wavetracer.__file__, wavetra
 assert where == [str(next(environment.glob("lib/python3*/site-packages/wavetracer/__init__.py"))), version], where
 assert run("wavetracer", "--version").startswith(f"wavetracer {version}\n")
 assert run(python, "-m", "wavetracer", "--version").startswith(f"wavetracer {version}\n")
+# The command does not wait for NumPy; all that the package offers is there, and nothing that it does not have.
+run(python, "-c", "import sys, wavetracer, wavetracer._program; assert 'numpy' not in sys.modules")
+run(python, "-c", """
+import wavetracer
+from wavetracer import *
+assert all(getattr(wavetracer, name) is not None for name in dir(wavetracer)) and open is not wavetracer.open
+assert Simulation is wavetracer.Simulation and callable(view) and not hasattr(wavetracer, "nothing")
+""")
 # What the loader takes from outside of the wheel is of every Linux.
 own = next(environment.glob("lib/python3*/site-packages"))
 for file in (own / "wavetracer/bin/wavetracer", own / "wavetracer/lib/libwavetracer.so"):
@@ -73,6 +81,7 @@ simulation = wt.Simulation({"scene": {"generate": "--blocks 2"}}, trace={"rays":
 frame: wt.Frame = simulation.run_frame(0)
 h: "numpy.ndarray" = frame.paths.select(tx="t", kind=["reflected"]).cfr([0.0, 1e6])
 run: wt.Run = wt.open("out")
+version: str = wt.__version__
 """)
 run(python, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", folder / "mypy", folder / "typed.py",
     source / "python/wavetracer", env=clean | {"MYPYPATH": str(source / "python")})
