@@ -15,10 +15,9 @@ from __future__ import annotations
 import importlib as _importlib
 import os as _os
 import pathlib as _pathlib
-from typing import TYPE_CHECKING as _TYPE_CHECKING
-from typing import Any as _Any
+import typing as _typing
 
-if _TYPE_CHECKING:
+if _typing.TYPE_CHECKING:
     from ._library import Counts, columns, devices, version
     from ._page import Page, view
     from .errors import ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
@@ -36,7 +35,7 @@ __all__ = ["ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopp
            "from_sionna", "version", "view"]
 
 # Where names are from. They are imported when they are asked for: the command `wavetracer` needs no library of this
-# process, nor NumPy, and starts in a tenth of the time.
+# process, nor NumPy, and does not wait for them.
 _MODULES = {
     "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
     "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
@@ -45,8 +44,8 @@ _MODULES = {
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 
 
-if not _TYPE_CHECKING:  # a checker of types knows the names from above, and no others
-    def __getattr__(name: str) -> _Any:
+if not _typing.TYPE_CHECKING:  # a checker of types knows the names from above, and no others
+    def __getattr__(name: str) -> _typing.Any:
         if name == "__version__":
             return _importlib.import_module("._library", __name__).version()
         if name not in _MODULE_OF:
