@@ -22,7 +22,8 @@ if _typing.TYPE_CHECKING:
     from ._page import Page, view
     from .errors import ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
     from .frame import Frame
-    from .paths import Links, Paths
+    from .links import Links
+    from .paths import Paths
     from .responses import Responses
     from .runs import Run, SavedFrame
     from .simulation import Simulation
@@ -39,7 +40,7 @@ __all__ = ["ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopp
 _MODULES = {
     "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
     "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
-    "paths": ("Links", "Paths"), "responses": ("Responses",), "runs": ("Run", "SavedFrame"),
+    "links": ("Links",), "paths": ("Paths",), "responses": ("Responses",), "runs": ("Run", "SavedFrame"),
     "simulation": ("Simulation",), "sionna": ("from_sionna",)}
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ._library import Column, Counts, Handle, call, library
 from .errors import ConfigError
-from .paths import Ends, Links, Paths
+from .links import Ends, Links
+from .paths import Paths
 
 Array = NDArray[Any]
 _TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex128, 6: np.complex64}

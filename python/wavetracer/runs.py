@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import ConfigError, InputError
-from .paths import Ends, Links, Paths
+from .links import Ends, Links
+from .paths import Paths
 from .responses import Responses
 
 Array = NDArray[Any]

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from . import _progress, _toml
 from ._library import Doubles, Observer, Sizes, Text, call, library, text
-from .errors import ConfigError, InputError
+from .errors import ConfigError, FrameStopped, InputError
 from .frame import Frame, handles
-from .paths import Ends
+from .links import Ends
 from .runs import Run
 
 _NOBODY = Observer()
@@ -109,13 +109,26 @@ class Simulation:
             raise ConfigError("the simulation was closed: its device was given back")
         if not 0 <= number < 2**32:
             raise ConfigError(f"there is no frame {number}, only {len(self)} counted from 0")
+        failed: list[BaseException] = []
         with _progress.interruptible() as stopped:
             watch = _progress.watcher(bar, stopped)
-            observer = Observer(lambda _, stage, done, total: int(watch(stage.decode(), done, total)))
+
+            def observe(_: Any, stage: bytes, done: int, total: int) -> int:
+                try:
+                    return int(watch(stage.decode(), done, total))
+                except BaseException as error:  # cannot pass through the library
+                    failed.append(error)
+                    return 0
+
+            observer = Observer(observe)
             library.wavetracer_observe(self._handle, observer, None)
             try:
                 return Frame(call(library.wavetracer_run_frame, self._handle, number), self._ends,
                              self._between_elements if self._arrays else None)
+            except FrameStopped:
+                if failed:
+                    raise failed[0] from None
+                raise
             finally:
                 library.wavetracer_observe(self._handle, _NOBODY, None)
 

@@ -245,6 +245,16 @@ def check_progress(simulation):
     else:
         raise AssertionError("Ctrl-C was lost")
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    # So is a bar that fails.
+    class Broken(Bar):
+        def update(self, n):
+            raise ZeroDivisionError("in the bar")
+    try:
+        list(simulation.frames(progress=Broken))
+    except ZeroDivisionError:
+        assert Bar.made[-1].closed
+    else:
+        raise AssertionError("the bar's error was lost")
     assert len(simulation.run_frame(0)) > 1
 
 

@@ -11,7 +11,8 @@ try:
 except ImportError:
     sys.exit(77)
 import wavetracer
-from wavetracer.paths import Ends, Paths
+from wavetracer.links import Ends
+from wavetracer.paths import Paths
 
 CARRIER, TX, RX = 5.9e9, ("t0", "t1", "t2"), ("r0", "r1")
 PER_LINK = {(0, 0): 3, (0, 1): 1, (2, 1): 5}  # (tx, rx): paths; t1 reaches nobody
