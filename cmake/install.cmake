@@ -28,3 +28,16 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples/ DESTINATION ${CMAKE_INSTALL
   PATTERN __pycache__ EXCLUDE)
 file(GLOB documents CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.md)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${documents} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# The Python package, where Debian's Python looks for packages below /usr; elsewhere it goes into PYTHONPATH.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/wavetracer DESTINATION lib/python3/dist-packages
+  PATTERN __pycache__ EXCLUDE)
+# The parts of the wheel that are not Python; pyproject.toml asks for this component alone.
+install(TARGETS wavetracer RUNTIME DESTINATION wavetracer/bin COMPONENT wheel EXCLUDE_FROM_ALL)
+install(PROGRAMS $<TARGET_FILE:wavetracer_library> DESTINATION wavetracer/lib RENAME libwavetracer.so COMPONENT wheel EXCLUDE_FROM_ALL)
+find_file(WAVETRACER_PROJ_DATA proj.db PATHS /usr/share/proj /usr/local/share/proj)
+if(WAVETRACER_PROJ_DATA)
+  install(FILES ${WAVETRACER_PROJ_DATA} DESTINATION wavetracer/share/proj COMPONENT wheel EXCLUDE_FROM_ALL)
+endif()
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/configs DESTINATION wavetracer/share COMPONENT wheel EXCLUDE_FROM_ALL
+  PATTERN *.fcd.xml EXCLUDE PATTERN out EXCLUDE)

@@ -19,7 +19,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # pocl-opencl-icd is the device where there is no GPU; gnuplot-nox draws what `plot` and `bench` ask for.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, gnuplot-nox")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, pkgconf, python3-numpy, sumo")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, pkgconf, python3-h5py, python3-numpy, sumo")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Traces every propagation path between antennas on vehicles and at the
 roadside through a city: reflected, diffracted, transmitted and scattered,
@@ -28,7 +28,7 @@ come from SUMO, CSV or built-in traffic; results go to HDF5 and CSV.
 
 Runs on any OpenCL device, also on the CPU with PoCL. This package holds the
 program, the shared library with its headers for C and C++, and a Python
-module.")
+package.")
 # CPack 3.25 calls ldconfig in scripts of its own; Debian wants the trigger.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/triggers)
 set(CPACK_STRIP_FILES ON)

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include "gpu/gpu.hpp"
 #include "library/handles.hpp"
+#include "radio/carriers.hpp"
 #include "radio/links.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/output.hpp"
@@ -55,6 +57,13 @@ LinkColumns link_columns(const FrameResult& frame, double frequency_hz) {
     out.missed_power_share.push_back(link.missed_power_share);
   }
   return out;
+}
+
+std::string device_lines() {
+  std::vector<std::string> out;
+  for (const wavetracer::gpu::DeviceInfo& device : wavetracer::gpu::list_devices())
+    out.push_back(device.name + "\t" + device.platform + "\t" + (device.gpu ? "GPU" : device.cpu ? "CPU" : "other"));
+  return lines(out);
 }
 
 CarrierColumns carrier_columns(const FrameResult& frame) {
@@ -109,6 +118,14 @@ void wavetracer_error_free(wavetracer_error* error) {
 
 const char* wavetracer_version(void) { return WAVETRACER_VERSION; }
 
+const char* wavetracer_devices(wavetracer_error** error) {
+  thread_local std::string listed;
+  return guarded(error, static_cast<const char*>(nullptr), [&] {
+    listed = device_lines();
+    return listed.c_str();
+  });
+}
+
 wavetracer_simulation* wavetracer_open(const char* config, const char* folder, const char* const* sets,
                                        size_t set_count, const char* device, wavetracer_error** error) {
   return guarded(error, static_cast<wavetracer_simulation*>(nullptr), [&] {
@@ -145,6 +162,13 @@ const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_
 const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index) {
   return self ? name_of(self->simulation.config().receivers, index) : nullptr;
 }
+size_t wavetracer_carrier_count(const wavetracer_simulation* self) {
+  return self ? carriers_hz(self->simulation.config().radio).size() : 0;
+}
+double wavetracer_carrier_hz(const wavetracer_simulation* self, size_t index) {
+  return index < wavetracer_carrier_count(self) ? carriers_hz(self->simulation.config().radio)[index]
+                                                : std::numeric_limits<double>::quiet_NaN();
+}
 const char* wavetracer_device_name(const wavetracer_simulation* self) {
   return self ? self->simulation.device().name.c_str() : nullptr;
 }
@@ -172,6 +196,14 @@ wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t fra
   });
 }
 
+void wavetracer_observe(wavetracer_simulation* self, wavetracer_observer observer, void* user) {
+  if (!self) return;
+  if (!observer) return self->simulation.observe({});
+  self->simulation.observe([observer, user](const wavetracer::FrameProgress& progress) {
+    return observer(user, progress.stage.word().data(), progress.done, progress.total) != 0;
+  });
+}
+
 void wavetracer_frame_free(wavetracer_frame* self) { delete self; }
 
 void wavetracer_forget(wavetracer_simulation* self) {
@@ -179,6 +211,9 @@ void wavetracer_forget(wavetracer_simulation* self) {
 }
 
 uint32_t wavetracer_frame_number(const wavetracer_frame* self) { return self ? self->result.frame : 0; }
+double wavetracer_frame_time_s(const wavetracer_frame* self) {
+  return self ? self->result.world.time_s : std::numeric_limits<double>::quiet_NaN();
+}
 uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self) { return self ? self->result.paths.rx_ports : 0; }
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self) { return self ? self->result.paths.tx_ports : 0; }
 

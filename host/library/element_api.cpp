@@ -32,7 +32,13 @@ void copy_positions(const char* function, const Config& config, const std::vecto
     for (int axis = 0; axis < 3; ++axis) *to++ = p[axis];
 }
 
-// What the two functions about paths have in common: whose frame it is, and its carrier.
+void check_row(const char* function, const wavetracer_frame& frame, size_t row) {
+  if (row >= frame.result.paths.size())
+    throw ConfigError(std::string(function) + ": there is no path " + std::to_string(row) + ", only " +
+                      std::to_string(frame.result.paths.size()) + " counted from 0");
+}
+
+// What the functions about paths have in common: whose frame it is, and its carrier.
 ElementModel model_of(const char* function, const wavetracer_simulation& self, const wavetracer_frame& frame,
                       uint32_t carrier) {
   if (frame.owner != self.number) throw ConfigError(std::string(function) + ": the frame is of another simulation");
@@ -92,10 +98,34 @@ int wavetracer_element_coefficients(const wavetracer_simulation* self, const wav
     const char* const here = "wavetracer_element_coefficients";
     const wavetracer_frame& of = needed(frame, here, "frame");
     const auto model = model_of(here, needed(self, here, "self"), of, carrier);
-    if (row >= of.result.paths.size())
-      throw ConfigError(std::string(here) + ": there is no path " + std::to_string(row) + ", only " +
-                        std::to_string(of.result.paths.size()) + " counted from 0");
+    check_row(here, of, row);
     copy_values(here, model.coefficients(of.result, row, carrier), &needed(coefficients, here, "coefficients"), count);
+    return 1;
+  });
+}
+
+int wavetracer_element_paths(const wavetracer_simulation* self, const wavetracer_frame* frame, const size_t* rows,
+                             size_t row_count, size_t rx_elements, size_t tx_elements, double* delay_s,
+                             double* amplitude, wavetracer_error** error) {
+  return guarded(error, 0, [&] {
+    const char* const here = "wavetracer_element_paths";
+    const wavetracer_frame& of = needed(frame, here, "frame");
+    const auto model = model_of(here, needed(self, here, "self"), of, 0);
+    if (row_count == 0) return 1;
+    needed(rows, here, "rows"), needed(delay_s, here, "delay_s"), needed(amplitude, here, "amplitude");
+    for (size_t i = 0; i < row_count; ++i) {
+      check_row(here, of, rows[i]);
+      const wavetracer::ElementPaths pairs = model.element_paths(of.result, rows[i]);
+      check_room(here, rx_elements, pairs.rx_elements);
+      check_room(here, tx_elements, pairs.tx_elements);
+      for (size_t r = 0; r < rx_elements; ++r)
+        for (size_t t = 0; t < tx_elements; ++t) {
+          const bool there = r < pairs.rx_elements && t < pairs.tx_elements;
+          const size_t from = r * pairs.tx_elements + t, to = (i * rx_elements + r) * tx_elements + t;
+          delay_s[to] = there ? pairs.delay_s[from] : of.result.paths.delay_s[rows[i]];
+          amplitude[to] = there ? pairs.amplitude[from] : 0;
+        }
+    }
     return 1;
   });
 }

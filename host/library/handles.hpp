@@ -65,6 +65,8 @@ Result guarded(::wavetracer_error** error, Result failed, const Body& body) noex
     return body();
   } catch (const Error& e) {
     report(error, e.code(), e.what());
+  } catch (const FrameStopped& e) {
+    report(error, ExitCode::interrupted, e.what());
   } catch (const std::bad_alloc&) {
     report_out_of_memory(error);
   } catch (const std::exception& e) {

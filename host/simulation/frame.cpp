@@ -98,7 +98,7 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (searches) ++warm_frames_;
   if (!task.compiling) account.left_out(left_out, task.transmitter_name, task.receiver_name);
   account.end_stage("columns");
-  if (s_.elements.on() && !task.compiling) {
+  if (s_.elements.on() && !task.compiling && !task.receivers) {
     s_.elements(out);
     account.end_stage("elements");
   }

@@ -25,10 +25,11 @@ typedef struct wavetracer_error wavetracer_error;
 /* Codes of errors: those that the program exits with. */
 enum wavetracer_code {
   WAVETRACER_OK = 0,
-  WAVETRACER_RUNTIME = 1, /* out of memory, a full disk, an exceeded limit */
-  WAVETRACER_USAGE = 2,   /* a configuration or an argument that is wrong */
-  WAVETRACER_INPUT = 3,   /* a scene, antenna or trajectory file that is wrong */
-  WAVETRACER_DEVICE = 4   /* no OpenCL device, no memory on it, a kernel that does not build */
+  WAVETRACER_RUNTIME = 1,  /* out of memory, a full disk, an exceeded limit */
+  WAVETRACER_USAGE = 2,    /* a configuration or an argument that is wrong */
+  WAVETRACER_INPUT = 3,    /* a scene, antenna or trajectory file that is wrong */
+  WAVETRACER_DEVICE = 4,   /* no OpenCL device, no memory on it, a kernel that does not build */
+  WAVETRACER_STOPPED = 130 /* an observer gave the frame up */
 };
 
 /* For null: WAVETRACER_OK and "". The text lives as long as the error; it may have several lines. */
@@ -38,6 +39,11 @@ void wavetracer_error_free(wavetracer_error* error);
 
 /* The version of the library, such as "0.2.0"; the text lives forever. */
 const char* wavetracer_version(void);
+
+/* One line per OpenCL device, in the order of their index: name, tab, platform, tab, "GPU", "CPU" or "other". Lives
+   until the next call of this function in the same thread. "" if there is none, null with an error where they cannot be
+   listed. */
+const char* wavetracer_devices(wavetracer_error** error);
 
 /* Loads the scene of a configuration and compiles the kernels.
    config: TOML text, as in the files of `wavetracer run`. folder: where its relative paths start; null: the current
@@ -54,6 +60,9 @@ size_t wavetracer_transmitter_count(const wavetracer_simulation* self);
 size_t wavetracer_receiver_count(const wavetracer_simulation* self);
 const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_t index); /* of a mount: VEHICLE/NAME */
 const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index);
+/* The carrier, and those of radio.frequencies_hz after it. */
+size_t wavetracer_carrier_count(const wavetracer_simulation* self);
+double wavetracer_carrier_hz(const wavetracer_simulation* self, size_t index);
 const char* wavetracer_device_name(const wavetracer_simulation* self);
 const char* wavetracer_config_text(const wavetracer_simulation* self); /* every key with its value, TOML */
 const char* wavetracer_warnings(const wavetracer_simulation* self);    /* one per line; "" if there are none */
@@ -63,6 +72,13 @@ const char* wavetracer_warnings(const wavetracer_simulation* self);    /* one pe
 wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t frame, wavetracer_error** error);
 void wavetracer_frame_free(wavetracer_frame* self);
 void wavetracer_forget(wavetracer_simulation* self);
+
+/* Who watches the frames that follow; a null observer: nobody. It is called in the thread of wavetracer_run_frame,
+   between batches of rays (stage "rays": launched, of how many) and between the steps of the exact solution ("paths").
+   If it returns 0, the frame is given up with an error of code STOPPED; the simulation can go on with any frame, the
+   next one cold. user is handed to it as it is. */
+typedef int (*wavetracer_observer)(void* user, const char* stage, uint64_t done, uint64_t total);
+void wavetracer_observe(wavetracer_simulation* self, wavetracer_observer observer, void* user);
 
 /* Counts of a frame. */
 typedef struct wavetracer_counts {
@@ -84,6 +100,7 @@ typedef struct wavetracer_missed {
 
 /* 0 of null. */
 uint32_t wavetracer_frame_number(const wavetracer_frame* self);
+double wavetracer_frame_time_s(const wavetracer_frame* self);     /* NaN of null */
 uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 if any receiver has two */
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
 wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 of null */
@@ -168,6 +185,15 @@ int wavetracer_receiver_element_positions(const wavetracer_simulation* self, siz
    of code USAGE. */
 int wavetracer_element_coefficients(const wavetracer_simulation* self, const wavetracer_frame* frame, size_t row,
                                     uint32_t carrier, double* coefficients, size_t count, wavetracer_error** error);
+
+/* Rows rows[0] to rows[row_count - 1] of the paths between all pairs of elements, [row][rx element][tx element]: delays
+   in seconds, and the amplitudes by which they spread there over those between the centres. A coefficient between two
+   elements is a amplitude exp(-j 2 pi f (delay - delay_s)) at its carrier f, of every pair of ports. rx_elements,
+   tx_elements: that there is room for; where an end has fewer, amplitudes are 0. Returns 1, or 0 with an error of code
+   USAGE. */
+int wavetracer_element_paths(const wavetracer_simulation* self, const wavetracer_frame* frame, const size_t* rows,
+                             size_t row_count, size_t rx_elements, size_t tx_elements, double* delay_s,
+                             double* amplitude, wavetracer_error** error);
 
 /* The channel of a link, [time][rx antenna][tx antenna][frequency], pairs of doubles:
    h(f, t) = sum over its paths of a exp(-j 2 pi f delay) exp(j 2 pi doppler t), with the delays between elements.

@@ -1,6 +1,7 @@
 """Runs the commands of a document as a reader would: every ```sh and ```python block, in the order of the page.
 
-    run_document.py DOCUMENT --program WAVETRACER --configs FOLDER --examples FOLDER --shared-object FILE --work FOLDER
+    run_document.py DOCUMENT --program WAVETRACER --configs FOLDER --examples FOLDER --package FOLDER --shared-object FILE
+                    --work FOLDER
 
 The folder of work is made anew and holds what the reader has: the configurations, the examples, and the maps of his own
 that the text speaks of (tests/documents/files). A command that cannot run in a test is in not_run.txt with a reason;
@@ -71,7 +72,9 @@ def prepare(options):
         shutil.copy(file, work)
     environment = dict(os.environ)
     environment["PATH"] = f"{work / 'bin'}:{environment['PATH']}"
-    environment["PYTHONPATH"] = str(work / "docs/examples/python")
+    environment["PYTHONPATH"] = options.package
+    environment["PYTHONDONTWRITEBYTECODE"] = "1"
+    environment["WAVETRACER_PROGRAM"] = options.program
     environment["WAVETRACER_LIBRARY"] = options.shared_object
     environment["SUMO_HOME"] = environment.get("SUMO_HOME", "/usr/share/sumo")
     # The drive of his own that a reader has.
@@ -146,7 +149,7 @@ def misspelt(text, environment, work):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("document")
-    for name in ("program", "configs", "examples", "shared-object", "work"):
+    for name in ("program", "configs", "examples", "package", "shared-object", "work"):
         parser.add_argument("--" + name, required=True)
     options = parser.parse_args()
     document = pathlib.Path(options.document)

@@ -64,6 +64,24 @@ foreach(file sumo/scene/city.xml sumo/town.sumocfg sumo/live.toml scenes/room/ro
   endif()
 endforeach()
 
+# Python, from where the package and the library were installed, and nowhere else.
+if(PYTHON)
+  set(ENV{PYTHONPATH} ${prefix}/lib/python3/dist-packages)
+  set(ENV{PYTHONDONTWRITEBYTECODE} 1)
+  step(${CMAKE_COMMAND} -E chdir ${WORK} ${PYTHON} -c "
+try:
+    import numpy
+except ImportError:
+    print('skipped')
+else:
+    import wavetracer as wt
+    simulation = wt.Simulation(wt.configs / 'city.toml', trace={'rays': 20000, 'max_depth': 2})
+    assert str(wt.configs).startswith('${prefix}/share'), wt.configs
+    print(wt.__version__, simulation.run_frame(), open('/proc/self/maps').read().count('${library_folder}/libwavetracer.so') > 0)
+")
+  expect("^(skipped|${VERSION} .*: [1-9][0-9,]* paths of .* True)")
+endif()
+
 # What the library shows: functions of wavetracer, of C and C++, and nothing of what it is made of.
 file(GLOB library ${library_folder}/libwavetracer.so)
 step(nm --dynamic --defined-only --demangle --format=posix ${library})

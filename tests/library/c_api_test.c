@@ -146,6 +146,56 @@ static void check_write(const wavetracer_simulation* simulation, const wavetrace
   CHECK(exists(folder, "paths.h5") && exists(folder, "links.csv") && exists(folder, "summary.json"));
 }
 
+/* Notes what it is told, and gives the frame up at the first step where it is asked to. */
+struct watched {
+  int calls, go_on, rays, paths;
+};
+
+static int watch(void* user, const char* stage, uint64_t done, uint64_t total) {
+  struct watched* noted = user;
+  ++noted->calls;
+  noted->rays |= strcmp(stage, "rays") == 0;
+  noted->paths |= strcmp(stage, "paths") == 0;
+  CHECK(done <= total);
+  return noted->go_on;
+}
+
+static void check_observer(void) {
+  wavetracer_error* error = NULL;
+  const char* const sets[] = {"trace.max_depth=1"};
+  wavetracer_simulation* simulation = wavetracer_open(config, NULL, sets, 1, NULL, NULL);
+  struct watched noted = {0, 1, 0, 0};
+  wavetracer_observe(NULL, watch, &noted);
+  wavetracer_observe(simulation, watch, &noted);
+  wavetracer_frame* frame = wavetracer_run_frame(simulation, 0, &error);
+  CHECK(frame != NULL && noted.calls > 1 && noted.rays && noted.paths);
+  CHECK(wavetracer_frame_time_s(frame) == 0 && isnan(wavetracer_frame_time_s(NULL)));
+  wavetracer_frame_free(frame);
+  noted.calls = noted.go_on = 0;
+  CHECK(wavetracer_run_frame(simulation, 0, &error) == NULL && noted.calls == 1);
+  check_error(error, WAVETRACER_STOPPED, "given up");
+  wavetracer_observe(simulation, NULL, NULL);
+  frame = wavetracer_run_frame(simulation, 0, &error);
+  CHECK(frame != NULL && noted.calls == 1);
+  wavetracer_frame_free(frame);
+  wavetracer_close(simulation);
+}
+
+/* Delays and amplitudes between elements, of the paths in another order and with room to spare. */
+static void check_element_paths(const wavetracer_simulation* simulation, const wavetracer_frame* frame, double length_m,
+                                double centre_m) {
+  wavetracer_error* error = NULL;
+  const size_t rows[] = {1, 0}, none[] = {7};
+  double delay_s[2 * 2 * 3], amplitude[2 * 2 * 3];
+  CHECK(wavetracer_element_paths(simulation, frame, rows, 2, 2, 3, delay_s, amplitude, &error) == 1 && error == NULL);
+  CHECK(fabs(delay_s[7] - length_m / speed_of_light_m_s) < 1e-18 && fabs(amplitude[7] - centre_m / length_m) < 1e-12);
+  CHECK(amplitude[8] == 0 && amplitude[9] == 0); /* the third element of the transmitter, the second of the receiver */
+  CHECK(wavetracer_element_paths(simulation, frame, rows, 2, 1, 1, delay_s, amplitude, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "room for 1 values, but 2 are needed");
+  CHECK(wavetracer_element_paths(simulation, frame, none, 1, 2, 3, delay_s, amplitude, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "no path 7");
+}
+
 /* Two elements 10 cm apart across the line of sight, and the receiver's one: lengths by Pythagoras. */
 static void check_arrays(void) {
   const char* const sets[] = {"transmitter.0.array=two", "radio.frequencies_hz=[5.9e9, 28e9]",
@@ -160,6 +210,8 @@ static void check_arrays(void) {
     fprintf(stderr, "%s\n", wavetracer_error_message(error));
     return;
   }
+  CHECK(wavetracer_carrier_count(simulation) == 2 && wavetracer_carrier_hz(simulation, 1) == 28e9);
+  CHECK(wavetracer_carrier_count(NULL) == 0 && isnan(wavetracer_carrier_hz(NULL, 0)));
   CHECK(wavetracer_transmitter_elements(simulation, 0) == 2 && wavetracer_transmitter_elements(simulation, 1) == 0);
   CHECK(wavetracer_receiver_elements(simulation, 1) == 1 && wavetracer_receiver_elements(NULL, 0) == 0);
   double places[6], a[4], h[16];
@@ -183,6 +235,7 @@ static void check_arrays(void) {
     CHECK(wavetracer_response(simulation, frame, 0, 0, carrier, frequencies_hz, 2, times_s, 1, h, 4, &error) == 1);
     CHECK(fabs(remainder(atan2(h[7], h[6]) + 2 * pi * f * length_m / speed_of_light_m_s, 2 * pi)) < 1e-5);
   }
+  check_element_paths(simulation, frame, length_m, centre_m);
   CHECK(wavetracer_element_coefficients(simulation, frame, 0, 2, a, 2, &error) == 0);
   check_error(error, WAVETRACER_USAGE, "no carrier 2, only 2");
   CHECK(wavetracer_element_coefficients(simulation, frame, 9, 0, a, 2, &error) == 0);
@@ -223,6 +276,9 @@ int main(int argc, char** argv) {
   check_frame(frame);
   check_columns(frame);
   check_write(simulation, frame, argv[1]);
+  check_observer();
+  CHECK(wavetracer_carrier_hz(simulation, 0) == 5.9e9 && isnan(wavetracer_carrier_hz(simulation, 1)));
+  CHECK(strstr(wavetracer_devices(NULL), wavetracer_device_name(simulation)) != NULL);
   const char* const sets[] = {"trace.rays=2000"};
   wavetracer_simulation* other = wavetracer_open(config, NULL, sets, 1, NULL, NULL);
   CHECK(other != NULL);

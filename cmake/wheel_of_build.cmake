@@ -1,0 +1,6 @@
+# The wheel of a build folder that is complete: pip's build copies from there, and compiles nothing.
+add_custom_target(wavetracer)
+add_custom_target(wavetracer_library)
+get_filename_component(build ${WAVETRACER_BUILD} ABSOLUTE BASE_DIR ${CMAKE_SOURCE_DIR})
+install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} --install ${build} --component wheel --prefix \${CMAKE_INSTALL_PREFIX}
+                        COMMAND_ERROR_IS_FATAL ANY)" COMPONENT wheel)

@@ -1,0 +1,77 @@
+"""Radio channels between moving vehicles by ray tracing on OpenCL.
+
+    import wavetracer as wt
+
+    simulation = wt.Simulation(wt.configs / "demo.toml", trace={"rays": 100_000})
+    run = simulation.run("out/demo")
+    paths = run[0].paths.select(tx="rsu")
+    h = paths.cfr([-5e6, 0, 5e6])          # (rx, rx antennas, tx, tx antennas, times, frequencies)
+    wt.view(run)
+
+docs/python.md is its guide, docs/from-sionna.md is for those who know Sionna RT.
+"""
+from __future__ import annotations
+
+import importlib as _importlib
+import os as _os
+import pathlib as _pathlib
+import typing as _typing
+
+if _typing.TYPE_CHECKING:
+    from ._library import Counts, columns, devices, version
+    from ._page import Page, view
+    from .errors import ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
+    from .frame import Frame
+    from .links import Links
+    from .paths import Paths
+    from .responses import Responses
+    from .runs import Run, SavedFrame
+    from .simulation import Simulation
+    from .sionna import from_sionna
+
+    __version__: str
+
+__all__ = ["ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopped", "InputError", "Links", "Page",
+           "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "columns", "configs", "devices",
+           "from_sionna", "version", "view"]
+
+# Where names are from. They are imported when they are asked for: the command `wavetracer` needs no library of this
+# process, nor NumPy, and does not wait for them.
+_MODULES = {
+    "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
+    "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
+    "links": ("Links",), "paths": ("Paths",), "responses": ("Responses",), "runs": ("Run", "SavedFrame"),
+    "simulation": ("Simulation",), "sionna": ("from_sionna",)}
+_MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
+
+
+if not _typing.TYPE_CHECKING:  # a checker of types knows the names from above, and no others
+    def __getattr__(name: str) -> _typing.Any:
+        if name == "__version__":
+            return _importlib.import_module("._library", __name__).version()
+        if name not in _MODULE_OF:
+            raise AttributeError(f"module 'wavetracer' has no attribute {name!r}")
+        globals()[name] = value = getattr(_importlib.import_module("." + _MODULE_OF[name], __name__), name)
+        return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "open", "__version__"])
+
+
+def open(folder: str | _os.PathLike[str]) -> Run:  # not in __all__: `import *` keeps Python's own
+    """Opens the folder that `wavetracer run` or Simulation.write() has written."""
+    from .runs import Run
+
+    return Run(folder)
+
+
+def _find_configs() -> _pathlib.Path:
+    here = _pathlib.Path(__file__).resolve()
+    places = [here.parent / "share/configs", *(folder / "share/wavetracer/configs" for folder in here.parents[3:5]),
+              *(folder / "configs" for folder in here.parents[2:3])]
+    return next((place for place in places if (place / "demo.toml").exists()), places[0])
+
+
+configs: _pathlib.Path = _find_configs()
+"""The folder of the configurations that come with the package: configs / "demo.toml" and others."""

@@ -1,0 +1,114 @@
+"""The results of one frame, as the library has just computed them."""
+from __future__ import annotations
+
+import ctypes
+import weakref
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._library import Column, Counts, Handle, call, library
+from .errors import ConfigError
+from .links import Ends, Links
+from .paths import Paths
+
+Array = NDArray[Any]
+_TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex128, 6: np.complex64}
+
+
+# Delays and amplitudes of rows of a frame between all pairs of elements; see Simulation._between_elements.
+Elements = Callable[[int, Array, tuple[int, int]], tuple[Array, Array]]
+
+
+class _Columns:
+    """The columns of wavetracer.h by their names: views of the library's memory, which they keep."""
+
+    def __init__(self, handle: int):
+        self.handle = handle
+        self.rx_ports: int = library.wavetracer_frame_rx_ports(handle)
+        self.tx_ports: int = library.wavetracer_frame_tx_ports(handle)
+        weakref.finalize(self, library.wavetracer_frame_free, handle)
+
+    def __call__(self, name: str) -> Array:
+        column = Column()
+        call(library.wavetracer_frame_column, self.handle, name.encode(), ctypes.byref(column))
+        dtype: np.dtype[Any] = np.dtype(_TYPES[column.type])
+        memory: Any = (ctypes.c_uint8 * (column.rows * column.width * dtype.itemsize)).from_address(column.data)
+        memory.columns = self  # the view keeps its memory, and that keeps the frame
+        values = np.frombuffer(memory, dtype)
+        values.flags.writeable = False
+        if name == "a":
+            return values.reshape(column.rows, self.rx_ports, self.tx_ports)
+        return values if column.width == 1 else values.reshape(column.rows, column.width)
+
+
+class Frame:
+    """The results of one frame: `paths`, `links`, `counts`, `missed`, `warnings`. frame["delay_s"] is any column of
+    wavetracer.h. A frame may outlive its simulation."""
+
+    def __init__(self, handle: int, ends: Ends, elements: Elements | None = None):
+        self._columns = _Columns(handle)
+        self._ends, self._elements = ends, elements
+        self.number: int = library.wavetracer_frame_number(handle)
+        self.time_s: float = library.wavetracer_frame_time_s(handle)
+        self.counts: Counts = library.wavetracer_frame_counts(handle)
+        self.warnings: list[str] = library.wavetracer_frame_warnings(handle).decode().splitlines()
+
+    @property
+    def _handle(self) -> Any:
+        return Handle(self._columns.handle)
+
+    def __len__(self) -> int:
+        """The number of paths."""
+        return int(self.counts.paths)
+
+    def __getitem__(self, name: str) -> Array:
+        """A column of wavetracer.h, read-only, without a copy; wavetracer.columns() lists them."""
+        return self._columns(name)
+
+    @property
+    def paths(self) -> Paths:
+        """All paths of the frame; their columns are views of the library's memory."""
+        elements = self._elements
+        between = None if elements is None else lambda rows, shape: elements(self._columns.handle, rows, shape)
+        return Paths(self._columns, self._ends, links=self.links, elements=between)
+
+    @property
+    def links(self) -> Links:
+        """One row per link that was asked for, with a path or without."""
+        pairs = self["link"]
+        values = {"tx": pairs[:, 0], "rx": pairs[:, 1], "paths": self["link_paths"], "los": self["link_los"] != 0}
+        values |= {name: self["link_" + name] for name in Links.columns[4:]}
+        return Links(values, self._ends)
+
+    @property
+    def transmitter_position_m(self) -> Array:
+        """Shape (transmitters, 3), metres in the coordinates of the scene file; NaN while one is absent."""
+        return self["transmitter_position_m"]
+
+    @property
+    def receiver_position_m(self) -> Array:
+        """Shape (receivers, 3), metres in the coordinates of the scene file; NaN while one is absent."""
+        return self["receiver_position_m"]
+
+    @property
+    def missed(self) -> dict[str, dict[str, float]] | None:
+        """What the rays of the frame may have missed: missed["paths"] and missed["power_share"], each with "estimate",
+        and "low" to "high", where the truth is in 95 cases of 100. None where that is not known."""
+        of = library.wavetracer_frame_missed(self._handle)
+        if np.isnan(of.paths):
+            return None
+        return {what: {"estimate": getattr(of, what), "low": getattr(of, what + "_low"),
+                       "high": getattr(of, what + "_high")} for what in ("paths", "power_share")}
+
+    def __repr__(self) -> str:
+        return f"<wavetracer.Frame {self.number} at {self.time_s:g} s: {len(self):,} paths of {len(self.links):,} links>"
+
+
+def handles(frames: list[Frame]) -> Any:
+    """The frames as an array of the library's."""
+    if not all(isinstance(frame, Frame) for frame in frames):
+        raise ConfigError("write: give frames that this simulation has computed, in a list")
+    return (Handle * len(frames))(*(frame._columns.handle for frame in frames))
