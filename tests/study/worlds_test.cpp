@@ -103,6 +103,21 @@ TEST_CASE("a standing transmitter is driven as its velocity says, else at 50 km/
   }
 }
 
+TEST_CASE("of stations the first is driven, all of them listen where they stand, and no other sends") {
+  const Config standing = parse_config(blocks + car +
+                                           "[[station]]\nname = \"rsu\"\nposition_m = [0, -50, 6]\n[[station]]\nname = "
+                                           "\"far\"\nposition_m = [0, 90, 6]\n",
+                                       "a.toml");
+  const Config config = driven(standing, 10);
+  CHECK_NOTHROW(parse_config(resolved_config(config), "resolved.toml"));
+  const World world(config, load_scene(config));
+  REQUIRE(world.transmitters().size() == 1);
+  CHECK(world.transmitters()[0].name == "rsu/rsu");
+  std::vector<std::string> names;
+  for (const RadioEnd& end : world.receivers()) names.push_back(end.name);
+  CHECK(names == std::vector<std::string>{"car", "rsu", "far"});
+}
+
 TEST_CASE("worlds that move: the file's own vehicles, traffic in the built-in city, else a driven transmitter") {
   const std::string vehicles =
       "[[mount]]\nname = \"roof\"\n[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -3, 0], [1, 20, -3, 0]]\n";
