@@ -45,7 +45,7 @@ MissedRange missed_paths(const std::array<double, 4>& found) {
 }
 
 // Rows are counted in parts of so many, whose sums do not depend on the number of cores.
-constexpr size_t block = 4096;
+constexpr size_t rows_of_part = 4096;
 
 MissedCounts counts_of_rows(const Paths& paths, size_t first, size_t end) {
   MissedCounts out;
@@ -82,10 +82,10 @@ void add(MissedCounts& sum, const MissedCounts& more) {
 
 MissedCounts missed_counts(const Paths& paths, size_t first, size_t end) {
   if (paths.quarters.size() != paths.size()) return {};
-  std::vector<MissedCounts> parts((end - first) / block + 1);
+  std::vector<MissedCounts> parts((end - first) / rows_of_part + 1);
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) {
-    const size_t begin = first + i * block;
-    parts[i] = counts_of_rows(paths, begin, std::min(begin + block, end));
+    const size_t begin = first + i * rows_of_part;
+    parts[i] = counts_of_rows(paths, begin, std::min(begin + rows_of_part, end));
   });
   MissedCounts out;
   for (const MissedCounts& part : parts) add_part(out, part);

@@ -53,8 +53,12 @@ TEST_CASE("receivers are cut into ranges that hold each of them once") {
 TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
   const SceneFile file(two_boxes());
   Config config = map_of(file);
+  config.radio.frequencies_hz = {config.radio.frequency_hz, 2 * config.radio.frequency_hz};
+  config.response = {.bandwidth_hz = 20e6};
   const FrameResult whole = run(config);
   REQUIRE(whole.paths.size() > 500);
+  REQUIRE(whole.carriers.size() == 1);
+  REQUIRE(whole.responses.h.size() > 100);
   for (const uint32_t batch : {1u, 10u, 37u}) {
     CAPTURE(batch);
     config.trace.batch_receivers = batch;
@@ -71,6 +75,10 @@ TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
     CHECK(least == most);  // at the end of the last batch
     CHECK(identical(found.paths, whole.paths));
     CHECK(found.paths.quarters == whole.paths.quarters);
+    CHECK(found.carriers.at(0).a == whole.carriers[0].a);
+    CHECK(found.carriers[0].frequency_hz == whole.carriers[0].frequency_hz);
+    CHECK(found.responses.row_offset == whole.responses.row_offset);
+    CHECK(found.responses.h == whole.responses.h);
     CHECK(found.world.links == whole.world.links);
     CHECK(found.missed.paths == whole.missed.paths);
     CHECK(found.counts.paths == whole.counts.paths);
