@@ -79,7 +79,9 @@ void run_case(const Place& place, size_t receivers, bool diffraction, const Opti
                   .unit = "ms",
                   .better = Better::lower,
                   .baseline = variants[baseline].name,
-                  .baseline_value = 1e3 * turns[baseline].median_s};
+                  .baseline_value = 1e3 * turns[baseline].median_s,
+                  .error = 0,
+                  .detail = ""};
     const FrameResult& frame = turns[i].result;
     if (i == 2 || i == 5) result.error = rms_error(frame.responses, turns[i - 1].result.responses);
     const auto elements = frame.seconds.find("elements");

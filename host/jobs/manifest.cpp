@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include "base/read_text.hpp"
 #include "output/cache_json.hpp"
+#include "output/h5_outputs.hpp"
 #include "output/json_count.hpp"
 #include "wavetracer/error.hpp"
 
@@ -33,7 +34,8 @@ void check_outputs(const Shard& whole) {
 
 void check_files(const Shard& shard) {
   const std::string stem = unit_name(shard.unit) + ".";
-  if (shard.files.size() < 2 || shard.files.size() > 3) refuse("the names of its files are not those of a shard");
+  if (shard.files.size() < 2 || shard.files.size() > most_h5_outputs + 1)
+    refuse("the names of its files are not those of a shard");
   for (const ShardFile& file : shard.files)
     if (!file.name.starts_with(stem) || file.name.find('/') != std::string::npos)
       refuse("\"" + file.name + "\" does not belong to this shard");

@@ -11,6 +11,26 @@
 
 namespace wavetracer::live {
 
+namespace {
+
+// Without what answers have no room for, which would be computed for nobody.
+Config answered(Config config, const Log& log) {
+  const auto drop = [&log](const char* key, const char* file) {
+    log(fmt::format("warning: {} is left out: answers have paths and links, not what {} has", key, file));
+  };
+  if (config.response.bandwidth_hz) drop("response.bandwidth_hz", "responses.h5");
+  config.response.bandwidth_hz.reset();
+  for (ArrayConfig& array : config.arrays) {
+    if (array.codebook != "none") drop("array.codebook", "beams.h5");
+    array.codebook = "none";
+  }
+  if (config.radio.frequencies_hz.size() > 1) drop("radio.frequencies_hz but its first", "carriers.h5");
+  config.radio.frequencies_hz.clear();
+  return config;
+}
+
+}  // namespace
+
 void serve(const Config& config, const ServeOptions& options, const std::function<bool()>& stop, const Log& log,
            const std::function<void(const std::string&)>& ready) {
   if (config.live_vehicles.empty())
@@ -28,7 +48,7 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
   std::signal(SIGPIPE, SIG_IGN);
   const Listener listener(endpoint);
   log("loading the scene and compiling the kernels");
-  Simulation simulation(config, options.device);
+  Simulation simulation(answered(config, log), options.device);
   simulation.profile_every(profiled_frames);
   for (const std::string& warning : simulation.warnings()) log("warning: " + warning);
   simulation.run_frame(0);  // with nobody there: buffers are made, drivers finish compiling

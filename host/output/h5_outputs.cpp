@@ -10,7 +10,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr std::array<H5Output, 6> outputs{
+constexpr std::array<H5Output, most_h5_outputs> outputs{
     {{"paths.h5", ".h5", encode_head_h5, append_frame_h5, growing_groups},
      {"waypoints.h5", ".waypoints.h5", encode_waypoints_head_h5, append_waypoints_h5, growing_waypoint_groups},
      {"cache_entries.h5", ".cache_entries.h5", encode_cache_entries_head_h5, append_cache_entries_h5,

@@ -18,6 +18,8 @@ struct H5Output {
   std::span<const char* const> growing_groups;  // in the order of the file
 };
 
+inline constexpr size_t most_h5_outputs = 6;  // that there are
+
 // Those that runs of this configuration write: paths.h5; waypoints.h5 with output.waypoints; cache_entries.h5 with
 // output.cache_entries; responses.h5 with response.bandwidth_hz; beams.h5 with array.codebook; carriers.h5 with more
 // than one of radio.frequencies_hz.

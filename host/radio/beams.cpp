@@ -5,11 +5,10 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "radio/element_link.hpp"
 #include "radio/path_power.hpp"
+#include "radio/unit_phases.hpp"
 
 namespace wavetracer {
 namespace {
@@ -31,16 +30,15 @@ Codebook first_element(uint32_t elements) {
 std::vector<Complex> through_beams(const PathOfElements& path, double carrier_hz, double delay_s, const Codebook& sent,
                                    const Codebook& heard) {
   std::vector<Complex> by_sent(size_t{sent.beams} * heard.elements);
-  std::vector<Complex> row(sent.elements);
+  std::vector<double> late_s(sent.elements), amplitude(sent.elements), re(sent.elements), im(sent.elements);
   for (uint32_t r = 0; r < heard.elements; ++r) {
-    for (uint32_t t = 0; t < sent.elements; ++t) {
-      const ElementPair pair = path.between(r, t);
-      row[t] = std::polar(pair.amplitude,
-                          -2 * std::numbers::pi * std::remainder(carrier_hz * (pair.delay_s - delay_s), 1.0));
-    }
+    path.between(r, 0, sent.elements, late_s.data(), amplitude.data());
+    for (double& late : late_s) late = carrier_hz * (late - delay_s);
+    unit_phases(late_s.data(), sent.elements, re.data(), im.data());
     for (uint32_t beam = 0; beam < sent.beams; ++beam) {
       Complex sum = 0;
-      for (uint32_t t = 0; t < sent.elements; ++t) sum += times(row[t], sent.weights[size_t{beam} * sent.elements + t]);
+      for (uint32_t t = 0; t < sent.elements; ++t)
+        sum += times({amplitude[t] * re[t], amplitude[t] * im[t]}, sent.weights[size_t{beam} * sent.elements + t]);
       by_sent[size_t{beam} * heard.elements + r] = sum;
     }
   }

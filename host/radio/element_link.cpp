@@ -25,9 +25,26 @@ std::vector<glm::dvec3> turned(const std::vector<glm::dvec3>& positions_m, const
 }  // namespace
 
 ElementPair PathOfElements::between(size_t rx_element, size_t tx_element) const {
-  if (plane_) return {delay_s_ - (sent_m_[tx_element] + heard_m_[rx_element]) / speed_of_light_m_s, 1};
-  const PathSpread spread = path_.between(sent_at_[tx_element], heard_at_[rx_element]);
-  return {delay_s_ + (spread.length_m - centre_.length_m) / speed_of_light_m_s, spread.amplitude / centre_.amplitude};
+  ElementPair out{};
+  between(rx_element, tx_element, 1, &out.delay_s, &out.amplitude);
+  return out;
+}
+
+void PathOfElements::between(size_t rx_element, size_t first, size_t count, double* delay_s, double* amplitude) const {
+  if (plane_) {
+    const double heard_m = heard_m_[rx_element];
+    for (size_t i = 0; i < count; ++i) {
+      delay_s[i] = delay_s_ - (sent_m_[first + i] + heard_m) / speed_of_light_m_s;
+      amplitude[i] = 1;
+    }
+    return;
+  }
+  path_.between(sent_at_, first, count, heard_at_[rx_element], delay_s, amplitude);
+  const double by_centre = 1 / centre_.amplitude;
+  for (size_t i = 0; i < count; ++i) {
+    delay_s[i] = delay_s_ + (delay_s[i] - centre_.length_m) / speed_of_light_m_s;
+    amplitude[i] *= by_centre;
+  }
 }
 
 ElementLink::ElementLink(const ElementModel& model, const FrameResult& frame, Link link)
@@ -99,14 +116,9 @@ PathOfElements ElementLink::path(size_t row) const {
     out.heard_m_ = nearer(heard_m_, direction_of(paths.aoa_theta_rad[row], paths.aoa_phi_rad[row]));
     return out;
   }
-  const auto images = [](const Isometry& image, const glm::dvec3& centre, const std::vector<glm::dvec3>& elements) {
-    std::vector<glm::dvec3> points;
-    for (const glm::dvec3& p : elements) points.push_back(image(centre + p));
-    return points;
-  };
   out.path_ = unfolded(row);
-  out.sent_at_ = images(out.path_.sent, tx_m_, sent_m_);
-  out.heard_at_ = images(out.path_.heard, rx_m_, heard_m_);
+  for (const glm::dvec3& p : sent_m_) out.sent_at_.add(out.path_.coordinates(out.path_.sent(tx_m_ + p)));
+  for (const glm::dvec3& p : heard_m_) out.heard_at_.push_back(out.path_.coordinates(out.path_.heard(rx_m_ + p)));
   out.centre_ = out.path_.between(out.path_.sent(tx_m_), out.path_.heard(rx_m_));
   return out;
 }

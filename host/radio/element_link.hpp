@@ -18,13 +18,16 @@ struct ElementPair {
 class PathOfElements {
  public:
   ElementPair between(size_t rx_element, size_t tx_element) const;
+  // The same of transmitting elements first to first + count - 1.
+  void between(size_t rx_element, size_t first, size_t count, double* delay_s, double* amplitude) const;
 
  private:
   friend class ElementLink;
   double delay_s_ = 0;  // between the centres
   bool plane_ = false;
-  std::vector<double> sent_m_, heard_m_;        // plane: by how much elements are nearer than the centres
-  std::vector<glm::dvec3> sent_at_, heard_at_;  // spherical: images of elements
+  std::vector<double> sent_m_, heard_m_;  // plane: by how much elements are nearer than the centres
+  PointColumns sent_at_;                  // spherical: images of elements, in the path's coordinates
+  std::vector<glm::dvec3> heard_at_;
   UnfoldedPath path_;
   PathSpread centre_{1, 1};
 };

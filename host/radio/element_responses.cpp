@@ -5,13 +5,15 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "radio/carriers.hpp"
 #include "radio/element_link.hpp"
-#include "radio/frequency_axis.hpp"
+#include "radio/response_sum.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -19,8 +21,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using PortMatrix = std::array<Complex, 4>;
-
-constexpr size_t pairs_at_once = 32;
 
 // The coefficients of paths at a carrier, and by how much Doppler shifts are larger there.
 struct CarrierRows {
@@ -36,85 +36,50 @@ CarrierRows rows_at(const FrameResult& frame, std::span<const double> carriers_h
 // All that a link's response needs of one path.
 struct ResponsePath {
   PathOfElements elements;
-  PortMatrix a;
-  double doppler_hz;
+  std::vector<Complex> a;  // (time, rx port, tx port), turned by the Doppler shift
 };
 
-// Sums the paths of one pair of elements.
-class PairResponse {
- public:
-  PairResponse(const Paths& paths, const ElementLink& link, const FrequencyAxis& axis, std::span<const double> times_s)
-      : paths_(paths),
-        link_(link),
-        axis_(axis),
-        times_s_(times_s),
-        phase_(2 * axis.size()),
-        sum_(2 * axis.size() * times_s.size() * link.rx_ports() * link.tx_ports()) {}
-
-  void sum(const std::vector<ResponsePath>& all, size_t rx_element, size_t tx_element) {
-    std::fill(sum_.begin(), sum_.end(), 0.0);
-    const size_t count = axis_.size();
-    double *const phase_re = phase_.data(), *const phase_im = phase_re + count;
-    for (const ResponsePath& path : all) {
-      const ElementPair pair = path.elements.between(rx_element, tx_element);
-      axis_.phases(pair.delay_s, phase_re, phase_im);
-      double* to = sum_.data();
-      for (const double time_s : times_s_) {
-        const double turns = path.doppler_hz * time_s;
-        const Complex moved = std::polar(pair.amplitude, 2 * std::numbers::pi * (turns - std::floor(turns)));
-        for (uint32_t p = 0; p < link_.rx_ports(); ++p)
-          for (uint32_t q = 0; q < link_.tx_ports(); ++q, to += 2 * count) {
-            const Complex a = path.a[p * paths_.tx_ports + q];
-            const double re = a.real() * moved.real() - a.imag() * moved.imag(),
-                         im = a.real() * moved.imag() + a.imag() * moved.real();
-            for (size_t k = 0; k < count; ++k) to[k] += re * phase_re[k] - im * phase_im[k];
-            for (size_t k = 0; k < count; ++k) to[count + k] += re * phase_im[k] + im * phase_re[k];
-          }
-      }
+std::vector<ResponsePath> paths_of(const ElementLink& link, const FrameResult& frame, const CarrierRows& rows,
+                                   std::span<const double> times_s) {
+  std::vector<ResponsePath> out(link.end_row() - link.first_row());
+  tbb::parallel_for(size_t{0}, out.size(), [&](size_t i) {
+    const size_t row = link.first_row() + i;
+    out[i].elements = link.path(row);
+    for (const double time_s : times_s) {
+      const double turns = frame.paths.doppler_hz[row] * rows.doppler_scale * time_s;
+      const Complex moved = std::polar(1.0, 2 * std::numbers::pi * (turns - std::floor(turns)));
+      for (uint32_t p = 0; p < link.rx_ports(); ++p)
+        for (uint32_t q = 0; q < link.tx_ports(); ++q)
+          out[i].a.push_back(rows.a.at(row)[p * frame.paths.tx_ports + q] * moved);
     }
-  }
-
-  // out(time, rx antenna, tx antenna, frequency, value)
-  template <class Out>
-  void give(size_t rx_element, size_t tx_element, const Out& out) const {
-    const double* from = sum_.data();
-    const size_t count = axis_.size();
-    for (size_t time = 0; time < times_s_.size(); ++time)
-      for (uint32_t p = 0; p < link_.rx_ports(); ++p)
-        for (uint32_t q = 0; q < link_.tx_ports(); ++q, from += 2 * count)
-          for (size_t k = 0; k < count; ++k)
-            out(time, rx_element * link_.rx_ports() + p, tx_element * link_.tx_ports() + q, k,
-                Complex(from[k], from[count + k]));
-  }
-
- private:
-  const Paths& paths_;
-  const ElementLink& link_;
-  const FrequencyAxis& axis_;
-  std::span<const double> times_s_;
-  std::vector<double> phase_, sum_;
-};
-
-std::vector<ResponsePath> paths_of(const ElementLink& link, const FrameResult& frame, const CarrierRows& rows) {
-  std::vector<ResponsePath> out;
-  for (size_t row = link.first_row(); row < link.end_row(); ++row)
-    out.push_back({link.path(row), rows.a.at(row), frame.paths.doppler_hz[row] * rows.doppler_scale});
+  });
   return out;
 }
 
-// out: as of PairResponse::give.
+// Blocks of pairs: one receiving element and some transmitting ones. out(time, rx antenna, tx antenna, frequency,
+// value)
 template <class Out>
 void respond(const ElementLink& link, const FrameResult& frame, const CarrierRows& rows, const FrequencyAxis& axis,
              std::span<const double> times_s, const Out& out) {
-  const std::vector<ResponsePath> all = paths_of(link, frame, rows);
-  const size_t pairs = size_t{link.rx_elements()} * link.tx_elements();
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, pairs, pairs_at_once), [&](const tbb::blocked_range<size_t>& range) {
-    PairResponse response(frame.paths, link, axis, times_s);
-    for (size_t pair = range.begin(); pair < range.end(); ++pair) {
-      const size_t rx_element = pair / link.tx_elements(), tx_element = pair % link.tx_elements();
-      response.sum(all, rx_element, tx_element);
-      response.give(rx_element, tx_element, out);
+  const std::vector<ResponsePath> paths = paths_of(link, frame, rows, times_s);
+  const size_t rx_ports = link.rx_ports(), tx_ports = link.tx_ports(),
+               coefficients = times_s.size() * rx_ports * tx_ports;
+  const size_t at_once = ResponseSum::pairs_at_once(axis, coefficients),
+               blocks = (link.tx_elements() + at_once - 1) / at_once;
+  tbb::parallel_for(size_t{0}, blocks * link.rx_elements(), [&](size_t block) {
+    const size_t r = block / blocks, first = block % blocks * at_once;
+    const size_t count = std::min(at_once, link.tx_elements() - first);
+    std::array<double, ResponseSum::most_pairs> delay_s, amplitude;
+    ResponseSum sum(axis, coefficients);
+    for (const ResponsePath& path : paths) {
+      path.elements.between(r, first, count, delay_s.data(), amplitude.data());
+      sum.add(delay_s.data(), amplitude.data(), count, path.a);
     }
+    for (size_t c = 0; c < coefficients; ++c)
+      for (size_t i = 0; i < count; ++i)
+        for (size_t k = 0; k < axis.frequencies_hz.size(); ++k)
+          out(c / (rx_ports * tx_ports), r * rx_ports + c / tx_ports % rx_ports, (first + i) * tx_ports + c % tx_ports,
+              k, sum.value(c, i, k));
   });
 }
 

@@ -13,26 +13,6 @@ constexpr double shortest_m = 1e-9;  // so that elements in one place have a fin
 
 double distance(const glm::dvec3& p, const glm::dvec3& q) { return std::max(glm::length(p - q), shortest_m); }
 
-PathSpread over_point(const Bend& bend, const glm::dvec3& from, const glm::dvec3& to) {
-  const double before = distance(from, bend.point), after = distance(bend.point, to);
-  return {before + after, 1 / (before * after)};
-}
-
-// A point in cylindrical coordinates about an edge.
-struct AboutEdge {
-  double along, away;
-  AboutEdge(const Bend& edge, const glm::dvec3& p)
-      : along(glm::dot(p - edge.point, edge.along)),
-        away(std::max(glm::length(p - edge.point - along * edge.along), shortest_m)) {}
-};
-
-// 1 / (before after sin b sqrt(1 / before + 1 / after)) of wt_edge_spreading, by distances from the line.
-PathSpread over_edge(const Bend& edge, const glm::dvec3& from, const glm::dvec3& to) {
-  const AboutEdge a(edge, from), b(edge, to);
-  const double length = std::hypot(a.away + b.away, a.along - b.along);
-  return {length, 1 / std::sqrt(a.away * b.away * length)};
-}
-
 // The length over points of two edges at s and t along them, with its first and second derivatives.
 struct TwoEdges {
   double length, product, s, t, ss, st, tt;
@@ -84,13 +64,51 @@ Isometry mirrored(const Isometry& image, const glm::dvec3& normal, const glm::dv
   return {mirror * image.turn, mirror * image.shift + 2 * glm::dot(normal, point) * normal};
 }
 
-PathSpread UnfoldedPath::between(const glm::dvec3& sent_image, const glm::dvec3& heard_image) const {
+glm::dvec3 UnfoldedPath::coordinates(const glm::dvec3& image) const {
+  if (count != 1) return image;
+  const Bend& bend = bends[0];
+  if (!bend.edge()) return {distance(image, bend.point), 0, 0};
+  const double along = glm::dot(image - bend.point, bend.along);
+  return {along, distance(image, bend.point + along * bend.along), 0};
+}
+
+// The spreading over an edge is 1 / (before after sin b sqrt(1 / before + 1 / after)) of wt_edge_spreading, by
+// distances from its line.
+void UnfoldedPath::between(const PointColumns& from, size_t first, size_t points, const glm::dvec3& to,
+                           double* length_m, double* amplitude) const {
+  const double *const x = from.x.data() + first, *const y = from.y.data() + first, *const z = from.z.data() + first;
   if (count == 0) {
-    const double length = distance(sent_image, heard_image);
-    return {length, 1 / length};
+    for (size_t i = 0; i < points; ++i) {
+      const double dx = x[i] - to.x, dy = y[i] - to.y, dz = z[i] - to.z;
+      length_m[i] = std::max(std::sqrt(dx * dx + dy * dy + dz * dz), shortest_m);
+      amplitude[i] = 1 / length_m[i];
+    }
+  } else if (count == 1 && !bends[0].edge()) {
+    for (size_t i = 0; i < points; ++i) {
+      length_m[i] = x[i] + to.x;
+      amplitude[i] = 1 / (x[i] * to.x);
+    }
+  } else if (count == 1) {
+    for (size_t i = 0; i < points; ++i) {
+      const double along = x[i] - to.x, away = y[i] + to.y;
+      length_m[i] = std::sqrt(away * away + along * along);
+      amplitude[i] = 1 / std::sqrt(y[i] * to.y * length_m[i]);
+    }
+  } else {
+    for (size_t i = 0; i < points; ++i) {
+      const PathSpread spread = over_edges(bends, {x[i], y[i], z[i]}, to);
+      length_m[i] = spread.length_m;
+      amplitude[i] = spread.amplitude;
+    }
   }
-  if (!bends[0].edge()) return over_point(bends[0], sent_image, heard_image);
-  return count == 1 ? over_edge(bends[0], sent_image, heard_image) : over_edges(bends, sent_image, heard_image);
+}
+
+PathSpread UnfoldedPath::between(const glm::dvec3& sent_image, const glm::dvec3& heard_image) const {
+  PointColumns one;
+  one.add(coordinates(sent_image));
+  PathSpread out{};
+  between(one, 0, 1, coordinates(heard_image), &out.length_m, &out.amplitude);
+  return out;
 }
 
 }  // namespace wavetracer

@@ -68,3 +68,24 @@ TEST_CASE("outputs are written as the program writes them") {
   for (const auto& file : files) CHECK(std::filesystem::file_size(file) > 0);
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("elements of arrays: positions, coefficients and responses are exported") {
+  wavetracer::Config config = street(30);
+  config.arrays.resize(1);
+  config.arrays[0].name = "pair";
+  config.arrays[0].columns = 2;
+  config.transmitters[0].array = "pair";
+  config.trace.max_depth = 0;
+  config.response.bandwidth_hz = 1e6;
+  config.response.subcarriers = 2;
+  wavetracer::Simulation simulation(config);
+  const wavetracer::FrameResult frame = simulation.run_frame(0);
+  const wavetracer::ElementModel model(simulation);
+  CHECK(wavetracer::element_positions_m(simulation.config(), simulation.config().transmitters[0]).size() == 2);
+  CHECK(model.coefficients(frame, 0).size() == 2);
+  CHECK(model.element_paths(frame, 0).delay_s.size() == 2);
+  const auto h = model.response(frame, {0, 0}, wavetracer::response_frequencies_hz(simulation.config()),
+                                wavetracer::response_times_s(simulation.config()));
+  REQUIRE(h.size() == frame.responses.h.size());
+  CHECK(std::abs(h[3] - std::complex<double>(frame.responses.h[3])) < 1e-6 * std::abs(h[3]));
+}

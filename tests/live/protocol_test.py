@@ -245,6 +245,18 @@ def free_running():
     print(f"free-running: {answered} frames answered, {skipped} skipped")
 
 
+def nothing_for_nobody():
+    """What answers have no room for is not computed, and said."""
+    server = Server(sets=["response.bandwidth_hz=20e6", "radio.frequencies_hz=[5.9e9, 28e9]"])
+    with server.connect() as client:
+        client.hello()
+        expect(client.ask(frame(0, 0, POSES))["message"] == "channels", "with [response]")
+    expect(server.end() == 0, "the end of a server")
+    for key in ("response.bandwidth_hz", "radio.frequencies_hz"):
+        expect(any(f"{key}" in line and "is left out" in line for line in server.log), server.log)
+    print("responses and more carriers are left out, with a warning")
+
+
 def starts_again():
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "live.sock")
@@ -283,6 +295,7 @@ def main():
     two_clients()
     between_poses()
     free_running()
+    nothing_for_nobody()
     starts_again()
 
 

@@ -64,11 +64,13 @@ TEST_CASE("responses, beams and fields of more carriers are written as they are,
 
   const Reader carriers(written[3]);
   CHECK(carriers.numbers("/carriers/frequency_hz") == Values{f, 2 * f});
-  CHECK(carriers.shape("/paths/a_re") == Shape{5, 2, 2, 2});
+  const Shape shape = Reader(written[0]).shape("/paths/a_re");
+  CHECK(carriers.shape("/paths/a_re") == Shape{5, 2, shape[1], shape[2]});
+  const size_t ports = shape[1] * shape[2];
   const Values a = carriers.numbers("/paths/a_re"), shift = carriers.numbers("/paths/doppler_hz");
   for (size_t row = 0; row < 5; ++row) {
-    CHECK(a[8 * row + 4] == 0.5 * a[8 * row]);
-    CHECK(a[8 * row + 5] == a[8 * row + 1]);
+    CHECK(a.at(2 * ports * row + ports) == 0.5 * a[2 * ports * row]);
+    CHECK(a.at(2 * ports * row + ports + 1) == a[2 * ports * row + 1]);
     CHECK(shift[2 * row + 1] == 2 * shift[2 * row]);
   }
 }

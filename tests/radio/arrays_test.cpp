@@ -7,8 +7,9 @@
 
 #include "radio/array_world.hpp"
 #include "radio/element_responses.hpp"
-#include "radio/frequency_axis.hpp"
+#include "radio/response_sum.hpp"
 #include "radio/unfolded_path.hpp"
+#include "radio/unit_phases.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -164,24 +165,45 @@ TEST_CASE("a point that scatters stays where it is") {
   CHECK(spread.amplitude == near(1.0 / 60, 1e-15));
 }
 
-TEST_CASE("phases at many frequencies are those of each, evenly spaced or not") {
+TEST_CASE("phases of turns are those of the library's sine and cosine") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1e5, 1e5);
+  double worst = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double turns = i < 9 ? 0.125 * (i - 4) : any(random);
+    double re = 0, im = 0;
+    unit_phases(&turns, 1, &re, &im);
+    const double angle = -2 * std::numbers::pi * (turns - std::nearbyint(turns));
+    worst = std::max(worst, std::abs(Complex(re, im) - std::polar(1.0, angle)));
+  }
+  CHECK(worst < 5e-15);
+}
+
+TEST_CASE("sums at many frequencies are those of each, evenly spaced or not") {
   std::vector<double> frequencies;
   for (int k = 0; k < 1000; ++k) frequencies.push_back(carrier_hz + (k - 500) * 1e8 / 999);
-  const auto check = [&](double tolerance) {
-    std::vector<double> re(frequencies.size()), im(frequencies.size());
-    const double delay_s = 1.2345e-6;
-    FrequencyAxis(frequencies).phases(delay_s, re.data(), im.data());
+  const auto check = [&](bool even) {
+    const FrequencyAxis axis(frequencies);
+    CHECK((axis.step_hz != 0) == even);
+    const std::vector<double> delay_s{1.2345e-6, 3.3e-8, 7e-7}, amplitude{1, 0.5, 2};
+    const std::vector<Complex> coefficients{{1, 2}, {-0.5, 0.25}};
+    ResponseSum sum(axis, 2);
+    REQUIRE(ResponseSum::pairs_at_once(axis, 2) >= 3);
+    sum.add(delay_s.data(), amplitude.data(), 3, coefficients);
     double worst = 0;
-    for (size_t k = 0; k < frequencies.size(); ++k) {
-      const long double turns = static_cast<long double>(frequencies[k]) * delay_s;
-      const double angle = -2 * std::numbers::pi * static_cast<double>(turns - std::floor(turns));
-      worst = std::max(worst, std::abs(Complex(re[k], im[k]) - std::polar(1.0, angle)));
-    }
-    CHECK(worst < tolerance);
+    for (size_t pair = 0; pair < 3; ++pair)
+      for (size_t c = 0; c < 2; ++c)
+        for (size_t k = 0; k < frequencies.size(); ++k) {
+          const long double turns = static_cast<long double>(frequencies[k]) * delay_s[pair];
+          const double angle = -2 * std::numbers::pi * static_cast<double>(turns - std::floor(turns));
+          worst =
+              std::max(worst, std::abs(sum.value(c, pair, k) - coefficients[c] * std::polar(amplitude[pair], angle)));
+        }
+    CHECK(worst < 1e-10);
   };
-  check(1e-10);
+  check(true);
   frequencies[17] += 5;
-  check(1e-10);
+  check(false);
 }
 
 TEST_CASE("a response is the sum of the coefficients of its paths, each with the delay between its elements") {

@@ -1,0 +1,114 @@
+// Loops that compilers do several elements of at a time: real and imaginary parts apart, no branches inside.
+#include "radio/response_sum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "radio/unit_phases.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr size_t frequency_block = 16;
+using PairColumn = std::array<double, ResponseSum::most_pairs>;
+
+// Without the checks for infinities that operator* makes.
+std::complex<double> product(const std::complex<double>& a, const std::complex<double>& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+// sum += z * factor, of so many numbers.
+void add_product(const std::complex<double>& z, const double* factor_re, const double* factor_im, size_t count,
+                 double* __restrict sum_re, double* __restrict sum_im) {
+  const double re = z.real(), im = z.imag();
+  for (size_t i = 0; i < count; ++i) {
+    sum_re[i] += re * factor_re[i] - im * factor_im[i];
+    sum_im[i] += re * factor_im[i] + im * factor_re[i];
+  }
+}
+
+}  // namespace
+
+FrequencyAxis::FrequencyAxis(std::span<const double> frequencies) : frequencies_hz(frequencies) {
+  const size_t count = frequencies.size();
+  if (count < frequency_block) return;
+  const double first = frequencies.front(), step = (frequencies.back() - first) / static_cast<double>(count - 1);
+  bool even = step != 0;
+  for (size_t k = 0; k < count; ++k) {
+    const double error = std::abs(frequencies[k] - (first + static_cast<double>(k) * step));
+    even &= error <= 4 * std::numeric_limits<double>::epsilon() * std::abs(frequencies[k]);
+  }
+  if (even) step_hz = step;
+}
+
+ResponseSum::ResponseSum(const FrequencyAxis& axis, size_t coefficients)
+    : axis_(axis),
+      count_(axis.frequencies_hz.size()),
+      pairs_(pairs_at_once(axis, coefficients)),
+      re_(coefficients * count_ * pairs_),
+      im_(coefficients * count_ * pairs_) {}
+
+size_t ResponseSum::pairs_at_once(const FrequencyAxis& axis, size_t coefficients) {
+  constexpr size_t values = 16384;  // 256 KiB
+  return std::clamp<size_t>(values / std::max<size_t>(axis.frequencies_hz.size() * coefficients, 1), 1, most_pairs);
+}
+
+void ResponseSum::add(const double* delay_s, const double* amplitude, size_t pairs,
+                      std::span<const std::complex<double>> coefficients) {
+  if (axis_.step_hz != 0)
+    add_even(delay_s, amplitude, pairs, coefficients);
+  else
+    add_each(delay_s, amplitude, pairs, coefficients);
+}
+
+// Blocks of frequencies: the phases within a block are the same for all of them, and one factor leads to the next.
+void ResponseSum::add_even(const double* delay_s, const double* amplitude, size_t pairs,
+                           std::span<const std::complex<double>> coefficients) {
+  PairColumn turns, first_re, first_im, step_re, step_im;
+  const auto phases_at = [&](double frequency_hz, PairColumn& re, PairColumn& im) {
+    for (size_t i = 0; i < pairs; ++i) turns[i] = frequency_hz * delay_s[i];
+    unit_phases(turns.data(), pairs, re.data(), im.data());
+  };
+  phases_at(axis_.frequencies_hz.front(), first_re, first_im);
+  phases_at(axis_.step_hz, step_re, step_im);
+  for (size_t i = 0; i < pairs; ++i) {
+    std::array<double, frequency_block> within_re, within_im;
+    std::complex<double> along(1);
+    for (size_t j = 0; j < frequency_block; ++j) {
+      within_re[j] = along.real();
+      within_im[j] = along.imag();
+      along = product(along, {step_re[i], step_im[i]});
+    }
+    const std::complex<double> first(amplitude[i] * first_re[i], amplitude[i] * first_im[i]);
+    for (size_t c = 0; c < coefficients.size(); ++c) {
+      std::complex<double> base = product(coefficients[c], first);
+      const size_t at = place(c, i, 0);
+      for (size_t k = 0; k < count_; k += frequency_block) {
+        add_product(base, within_re.data(), within_im.data(), std::min(frequency_block, count_ - k), &re_[at + k],
+                    &im_[at + k]);
+        base = product(base, along);
+      }
+    }
+  }
+}
+
+void ResponseSum::add_each(const double* delay_s, const double* amplitude, size_t pairs,
+                           std::span<const std::complex<double>> coefficients) {
+  PairColumn turns, re, im;
+  for (size_t k = 0; k < count_; ++k) {
+    for (size_t i = 0; i < pairs; ++i) turns[i] = axis_.frequencies_hz[k] * delay_s[i];
+    unit_phases(turns.data(), pairs, re.data(), im.data());
+    for (size_t i = 0; i < pairs; ++i) {
+      re[i] *= amplitude[i];
+      im[i] *= amplitude[i];
+    }
+    for (size_t c = 0; c < coefficients.size(); ++c) {
+      const size_t at = place(c, 0, k);
+      add_product(coefficients[c], re.data(), im.data(), pairs, &re_[at], &im_[at]);
+    }
+  }
+}
+
+}  // namespace wavetracer
