@@ -113,9 +113,10 @@ void run_continuous(const Options& given, const std::string& command) {
   Config config = talking_vehicles(options);
   config.trace.max_depth = options.depth.front();
   config.trace.rays = *std::max_element(options.rays.begin(), options.rays.end());
-  measure_continuous(
-      fmt::format("munich, {} vehicles, depth {}: steps of 1 ms", options.vehicles, options.depth.front()), config,
-      options.device, command);
+  for (const double every_s : {0.1, 0.03})
+    measure_continuous(fmt::format("munich, {} vehicles, depth {}: steps of 1 ms{}", options.vehicles,
+                                   options.depth.front(), every_s == 0.1 ? "" : ", rays every 30 ms"),
+                       config, every_s, options.device, command);
 }
 
 void run_drive(const Options& options, const std::string& command) {

@@ -54,6 +54,7 @@ const Case cases[] = {
     {1, 1, 100'000, million, 10'000},
     {1, 1, 100'000, million, 100'000},
     {1, 1, million, million, 100'000},
+    {1, 100, 100'000, million, 3'000},
     {1, 100, 100'000, million, 10'000},
     {1, 100, 100'000, million, 100'000},
     {1, 100, million, million, 100'000},

@@ -14,16 +14,14 @@
 namespace wavetracer::bench {
 namespace {
 
-constexpr double discover_every_s = 0.1;
-
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace
 
-void measure_continuous(const std::string& name, const Config& config, const std::string& device,
-                        const std::string& command) {
+void measure_continuous(const std::string& name, const Config& config, double discover_every_s,
+                        const std::string& device, const std::string& command) {
   Simulation all(config, device);
   Config changed = config;
   changed.trace.discover_every_s = discover_every_s;

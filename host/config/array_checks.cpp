@@ -58,6 +58,7 @@ void check_arrays(const Config& config, std::vector<Contradiction>& out) {
   for (const ArrayConfig& array : config.arrays) names.push_back(array.name);
   check_references("transmitter", config.transmitters, names, out);
   check_references("receiver", config.receivers, names, out);
+  check_references("station", config.stations, names, out);
   check_references("receiver_grid", config.receiver_grids, names, out);
   check_references("mount", config.mounts, names, out);
   for (size_t i = 0; i < config.arrays.size(); ++i) check_panel(config.arrays[i], fmt::format("array.{}", i), out);

@@ -74,3 +74,12 @@ TEST_CASE("arrays that contradict themselves or are not there are refused where 
   check_contains(error_of(scene + ends + array + "codebook = \"dtf\"\n"), "did you mean \"dft\"?");
   check_contains(error_of(scene + ends + array + "vertical_spacing_m = 0\n"), "out of range");
 }
+
+TEST_CASE("a station has an array, which must be there") {
+  const std::string station = "[[station]]\nname = \"rsu\"\nposition_m = [1, 2, 5]\narray = \"panel\"\n";
+  const Config c = parse_config(scene + ends + station + "[[array]]\nname = \"panel\"\nrows = 2\n", "/data/a.toml");
+  CHECK(c.stations.at(0).array == "panel");
+  const std::string error = error_of(scene + ends + station + "[[array]]\nname = \"panels\"\nrows = 2\n");
+  check_contains(error, "station.array = \"panel\"");
+  check_contains(error, "there is no [[array]] of this name");
+}

@@ -78,7 +78,7 @@ TEST_CASE("0 and auto leave an optional unset, are written again, and are no num
       CHECK(after(field, "2") == (real ? "2.0" : "2"));
       CHECK(after(field, "\"never\"").find("must be") != std::string::npos);
     }
-  CHECK(keys == 12);
+  CHECK(keys == 13);
 }
 
 TEST_CASE("a configuration is echoed as it was given: mnemonics, 0 and auto") {

@@ -25,9 +25,10 @@ foreach(script glb_trimesh kml_check)  # the venv may come after CMake: sh looks
                                                     SKIP_RETURN_CODE 77 TIMEOUT 300)
 endforeach()
 
-# The examples of docs/formats.md, on the run that the other exports are tested with.
+# The examples of docs/formats.md, on the runs that the other exports are tested with.
 add_test(NAME convert_documentation COMMAND ${WAVETRACER_SH} -c
   "python='${CMAKE_BINARY_DIR}/consumers/bin/python3'; test -x \"$python\" || python='${WAVETRACER_PYTHON}'; \
    exec \"$python\" '${here}/vtk_glb_kml_docs.py' '$<TARGET_FILE:wavetracer>' '${CMAKE_BINARY_DIR}/tests/convert/drive' \
-   '${CMAKE_BINARY_DIR}/tests/convert/documentation'")
-set_tests_properties(convert_documentation PROPERTIES LABELS device FIXTURES_REQUIRED convert_drive TIMEOUT 300)
+   '${CMAKE_BINARY_DIR}/tests/convert/arrays' '${CMAKE_BINARY_DIR}/tests/convert/documentation'")
+set_tests_properties(convert_documentation PROPERTIES LABELS device FIXTURES_REQUIRED "convert_drive;convert_arrays"
+                     TIMEOUT 300)

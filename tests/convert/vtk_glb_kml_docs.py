@@ -1,5 +1,5 @@
 """Runs the examples of docs/formats.md as they stand there: the conversions, then every block of Python.
-Run as vtk_glb_kml_docs.py PROGRAM RUN OUTPUT; a block whose package is missing is skipped, and said so."""
+Run as vtk_glb_kml_docs.py PROGRAM RUN ARRAYS OUTPUT; a block whose package is missing is skipped, and said so."""
 import os
 import re
 import shlex
@@ -7,12 +7,13 @@ import shutil
 import subprocess
 import sys
 
-program, run, output = (os.path.abspath(path) for path in sys.argv[1:4])
+program, run, arrays, output = (os.path.abspath(path) for path in sys.argv[1:5])
 page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../docs/formats.md")
 blocks = re.findall(r"^```(\w+)\n(.*?)^```$", open(page, encoding="utf-8").read(), re.DOTALL | re.MULTILINE)
 shutil.rmtree(output, ignore_errors=True)
 os.makedirs(os.path.join(output, "out"))
 os.symlink(run, os.path.join(output, "out/demo"))
+os.symlink(arrays, os.path.join(output, "out/arrays"))
 
 done = failed = 0
 for kind, text in blocks:
@@ -25,7 +26,7 @@ for kind, text in blocks:
         continue
     assert kind == "python", kind
     result = subprocess.run([sys.executable, "-c", text], cwd=output, capture_output=True, text=True)
-    name = re.search(r'"(?:out/)?demo[^"]*"|"demo[^"]*"', text).group()
+    name = re.search(r'"(?:out/)?(?:demo|arrays)[^"]*"', text).group()
     if result.returncode == 0 and result.stdout:
         done += 1
     elif "ModuleNotFoundError" in result.stderr:
