@@ -34,6 +34,7 @@ import subprocess
 import sys
 import threading
 import uuid
+from typing import Any
 
 __all__ = ["DriveError", "Job", "cancel", "merge", "run", "submit", "submit_slurm"]
 
@@ -48,12 +49,12 @@ _MISSING = ("dask.distributed is not installed: install it with `pip install dis
 class DriveError(RuntimeError):
     """A part, or the merge, has failed for good. `code` is the program's exit code, or None if it gave none."""
 
-    def __init__(self, text, code=None):
+    def __init__(self, text: str, code: int | None = None) -> None:
         super().__init__(text, code)
         self.code = code
 
-    def __str__(self):
-        return self.args[0]
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -72,13 +73,13 @@ class Job:
     config: str
     output: str
     parts: int
-    sets: tuple = ()
+    sets: tuple[str, ...] = ()
     frames: str = ""
     device: str = ""
-    program: tuple = ("wavetracer",)
-    environment: tuple = ()
+    program: tuple[str, ...] = ("wavetracer",)
+    environment: tuple[tuple[str, str], ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.parts < 1:
             raise ValueError(f"parts = {self.parts}: a drive has at least one part")
         program = shlex.split(self.program) if isinstance(self.program, str) else self.program
@@ -97,7 +98,7 @@ class Job:
         """The folder of a part, which appears when the part is whole."""
         return self.folder / f"{index:05d}_of_{self.parts:05d}"
 
-    def part_command(self, index: int, folder) -> list[str]:
+    def part_command(self, index: int, folder: str | pathlib.Path) -> list[str]:
         command = [*self.program, "run", "-c", self.config, "-o", str(folder), "--shard", f"{index}/{self.parts}"]
         for text in self.sets:
             command += ["--set", text]
@@ -113,8 +114,8 @@ class Job:
 
 # --- on the workers --------------------------------------------------------------------------------------------------
 
-_running = collections.defaultdict(set)  # processes of this worker, by the token of what was submitted
-_stopped = set()                         # tokens of what was given up
+_running: dict[str, set[Any]] = collections.defaultdict(set)  # processes of this worker, by the token of what was submitted
+_stopped: set[str] = set()                   # tokens of what was given up
 _lock = threading.Lock()
 
 # The program ends with its worker, even if that is killed: a part that is tried again elsewhere should not be computed
@@ -125,7 +126,7 @@ _WITH_PARENT = ("import ctypes, os, sys\n"
                 "os.execvp(sys.argv[2], sys.argv[2:])\n")
 
 
-def _start(command, environment):
+def _start(command: list[str], environment: tuple[tuple[str, str], ...]) -> Any:
     words = list(command)
     if shutil.which(words[0]) is None:
         raise FileNotFoundError(f"{words[0]}: there is no such program on {socket.gethostname()}; install wavetracer "
@@ -136,10 +137,10 @@ def _start(command, environment):
                             text=True, errors="replace", env={**os.environ, **dict(environment)})
 
 
-def _call(job, token, command, what):
+def _call(job: Job, token: str, command: list[str], what: str) -> dict[str, Any] | None:
     """Runs a command of a job; its messages go to the log of the worker. Returns None where it went well, or
     {"error": text, "code": exit code} where trying again would change nothing; else raises DriveError."""
-    last = collections.deque(maxlen=20)
+    last: collections.deque[str] = collections.deque(maxlen=20)
     try:
         process = _start(command, job.environment)
     except FileNotFoundError as error:
@@ -169,7 +170,7 @@ def _call(job, token, command, what):
     raise DriveError(text, code)
 
 
-def compute_part(job: Job, index: int, token: str = "") -> dict:
+def compute_part(job: Job, index: int, token: str = "") -> dict[str, Any]:
     """Computes a part and returns {"folder": its folder}, or {"error": text, "code": exit code} where trying again would
     change nothing. Other failures raise DriveError. A part that is there already is not computed again.
 
@@ -194,12 +195,12 @@ def compute_part(job: Job, index: int, token: str = "") -> dict:
         shutil.rmtree(attempt, ignore_errors=True)
 
 
-def merge(job: Job, parts=(), keep_parts: bool = False, token: str = "") -> dict:
+def merge(job: Job, parts: Any = (), keep_parts: bool = False, token: str = "") -> dict[str, Any]:
     """Joins the parts of a job to its results and removes them; returns {"folder": the results} or {"error", "code"}.
     parts: what compute_part returned, of which the first error is handed on."""
     for part in parts:
         if "error" in part:
-            return part
+            return dict(part)
     failure = _call(job, token, job.merge_command(), "the merge")
     if failure:
         return failure
@@ -208,7 +209,7 @@ def merge(job: Job, parts=(), keep_parts: bool = False, token: str = "") -> dict
     return {"folder": job.output}
 
 
-def _stop(token):
+def _stop(token: str) -> None:
     """Ends what this worker computes of what was submitted under the token, now and from now on."""
     with _lock:
         _stopped.add(token)
@@ -218,7 +219,7 @@ def _stop(token):
 
 # --- on a Dask cluster -----------------------------------------------------------------------------------------------
 
-def _client(client):
+def _client(client: Any) -> Any:
     try:
         from dask import distributed
     except ImportError:
@@ -234,12 +235,12 @@ def _client(client):
     return client
 
 
-def _default_parts(client):
+def _default_parts(client: Any) -> Any:
     """Four parts for every thread of the cluster, so that it stays busy when parts take different times."""
     return 4 * max(1, sum(client.nthreads().values()))
 
 
-def submit(job: Job, *, client, retries: int = 2, keep_parts: bool = False, **options):
+def submit(job: Job, *, client: Any, retries: int = 2, keep_parts: bool = False, **options: Any) -> Any:
     """Submits a job without waiting. Returns (part futures, merge future), tasks of Dask named wavetracer-part and
     wavetracer-merge; each gives what compute_part and merge return.
 
@@ -253,7 +254,7 @@ def submit(job: Job, *, client, retries: int = 2, keep_parts: bool = False, **op
     return parts, whole
 
 
-def cancel(futures, *, client) -> None:
+def cancel(futures: Any, *, client: Any) -> None:
     """Gives up what submit() has returned: takes the tasks from the cluster and ends the processes that compute them."""
     futures = list(futures)
     client.cancel(futures, force=True)
@@ -261,7 +262,7 @@ def cancel(futures, *, client) -> None:
         client.run(_stop, token)
 
 
-def _result(future, job):
+def _result(future: Any, job: Job) -> Any:
     from dask import distributed
     try:
         return future.result()
@@ -273,9 +274,9 @@ def _result(future, job):
         raise DriveError(f"{future.key} was cancelled; the same call with {job.parts} parts goes on from there") from None
 
 
-def run(config, output, *, client=None, parts: int | None = None, sets=(), frames: str = "", device: str = "",
-        program="wavetracer", environment=(), retries: int = 2, keep_parts: bool = False, progress=None,
-        **options) -> pathlib.Path:
+def run(config: Any, output: Any, *, client: Any = None, parts: int | None = None, sets: Any = (), frames: str = "",
+        device: str = "", program: Any = "wavetracer", environment: Any = (), retries: int = 2, keep_parts: bool = False,
+        progress: Any = None, **options: Any) -> pathlib.Path:
     """Computes a drive on a Dask cluster and returns the folder of its results.
 
     config, output  the TOML file, and the folder of the results, as all workers see them
@@ -308,7 +309,7 @@ def run(config, output, *, client=None, parts: int | None = None, sets=(), frame
         raise
 
 
-def _wait(job, futures, progress):
+def _wait(job: Job, futures: Any, progress: Any) -> Any:
     from dask import distributed
     for done, future in enumerate(distributed.as_completed(futures), 1):
         outcome = _result(future, job)
@@ -321,7 +322,7 @@ def _wait(job, futures, progress):
 
 # --- on Slurm --------------------------------------------------------------------------------------------------------
 
-def slurm_commands(job: Job, sbatch=(), array: str = "") -> tuple[list[str], str, list[str], str]:
+def slurm_commands(job: Job, sbatch: Any = (), array: str = "") -> tuple[list[str], str, list[str], str]:
     """The two jobs of Slurm as (sbatch words, script): the array of parts, and the merge, whose --dependency is still to
     be added. array: the tasks to start, such as "3,7" for those that failed; empty: all."""
     part = shlex.join(job.part_command(0, "FOLDER")).replace(f"--shard 0/{job.parts}",
@@ -338,8 +339,9 @@ def slurm_commands(job: Job, sbatch=(), array: str = "") -> tuple[list[str], str
     return array_words, script, ["sbatch", "--parsable", "--job-name=wavetracer-merge"], whole
 
 
-def submit_slurm(config, output, *, parts: int, sets=(), frames: str = "", device: str = "", program="wavetracer",
-                 environment=(), sbatch=(), merge_sbatch=(), array: str = "") -> tuple[str, str]:
+def submit_slurm(config: Any, output: Any, *, parts: int, sets: Any = (), frames: str = "", device: str = "",
+                 program: Any = "wavetracer", environment: Any = (), sbatch: Any = (), merge_sbatch: Any = (),
+                 array: str = "") -> tuple[str, str]:
     """Submits a drive to Slurm: an array of `parts` tasks, and a job that merges when all have ended well. Returns both
     job numbers.
 
@@ -356,7 +358,7 @@ def submit_slurm(config, output, *, parts: int, sets=(), frames: str = "", devic
     return number, _sbatch([*merge_words, f"--dependency=afterok:{number}", *merge_sbatch], whole)
 
 
-def _sbatch(words, script):
+def _sbatch(words: list[str], script: str | None) -> str:
     try:
         done = subprocess.run(words, input=script, capture_output=True, text=True)
     except FileNotFoundError:
@@ -368,7 +370,7 @@ def _sbatch(words, script):
 
 # --- as a command ----------------------------------------------------------------------------------------------------
 
-def _arguments():
+def _arguments() -> Any:
     parser = argparse.ArgumentParser(prog="python -m wavetracer.distributed",
                                      description="Computes a drive on a Dask cluster, or submits it to Slurm.")
     where = parser.add_mutually_exclusive_group(required=True)
@@ -386,7 +388,7 @@ def _arguments():
     return parser
 
 
-def main(words=None) -> int:
+def main(words: list[str] | None = None) -> int:
     parser = _arguments()
     given = parser.parse_args(words)
     common = dict(sets=given.sets, frames=given.frames, device=given.device, program=given.program)
