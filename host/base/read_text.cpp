@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -16,8 +17,10 @@ namespace {
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& file, uint64_t most_bytes, const std::string& what_to_do) {
+std::optional<std::string> read_text_if_there(const std::filesystem::path& file, uint64_t most_bytes,
+                                              const std::string& what_to_do) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0 && errno == ENOENT) return std::nullopt;
   if (descriptor < 0) fail(file, std::strerror(errno), what_to_do);
   std::string text, block(size_t{1} << 16, '\0');
   ssize_t got = 0;
@@ -31,6 +34,12 @@ std::string read_text(const std::filesystem::path& file, uint64_t most_bytes, co
   if (error != 0) fail(file, std::strerror(error), what_to_do);
   if (text.size() > most_bytes) fail(file, "it is too large for what it should be", what_to_do);
   return text;
+}
+
+std::string read_text(const std::filesystem::path& file, uint64_t most_bytes, const std::string& what_to_do) {
+  std::optional<std::string> text = read_text_if_there(file, most_bytes, what_to_do);
+  if (!text) fail(file, std::strerror(ENOENT), what_to_do);
+  return *std::move(text);
 }
 
 }  // namespace wavetracer

@@ -191,10 +191,9 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
 }
 
 std::vector<Shard> read_manifest(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return {};
-  return decode_manifest(read_text(file, most_manifest_bytes, "check its permissions, or remove it and run again"),
-                         file.string());
+  const std::optional<std::string> text =
+      read_text_if_there(file, most_manifest_bytes, "check its permissions, or remove it and run again");
+  return text ? decode_manifest(*text, file.string()) : std::vector<Shard>();
 }
 
 std::vector<fs::path> manifests_in(const fs::path& folder) {

@@ -30,11 +30,10 @@ void write_merged_record(const fs::path& directory, const RunIdentity& run, cons
 
 std::optional<Shard> read_merged_record(const fs::path& directory) {
   const fs::path record = merged_record(directory);
-  std::error_code none;
-  if (!fs::exists(record, none)) return std::nullopt;
-  const std::vector<Shard> lines =
-      decode_manifest(read_text(record, most_merged_bytes, "check its permissions, or remove it and run again"),
-                      record.string(), ManifestOf::outputs);
+  const std::optional<std::string> text =
+      read_text_if_there(record, most_merged_bytes, "check its permissions, or remove it and run again");
+  if (!text) return std::nullopt;
+  const std::vector<Shard> lines = decode_manifest(*text, record.string(), ManifestOf::outputs);
   const auto is_there = [&](const ShardFile& file) { return has_length(directory / file.name, file.bytes); };
   if (lines.size() != 1 || !std::ranges::all_of(lines[0].files, is_there)) return std::nullopt;
   return lines[0];

@@ -65,10 +65,8 @@ class Team {
   fs::path job_file() const { return shards_.folder() / "job.json"; }
 
   nlohmann::json job() const {
-    std::error_code none;
-    if (!fs::exists(job_file(), none)) return nlohmann::json::object();
-    const std::string text = read_text(job_file(), 1 << 16, "remove it and run again");
-    nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    const std::optional<std::string> text = read_text_if_there(job_file(), 1 << 16, "remove it and run again");
+    nlohmann::json json = nlohmann::json::parse(text.value_or("{}"), nullptr, false);
     return json.is_object() ? json : nlohmann::json::object();
   }
   bool prepared() const { return job().value("job", nlohmann::json()) == ranks_.job; }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "radio/antenna.hpp"
 #include "radio/constants.hpp"
 #include "radio/world_records.hpp"
 #include "wavetracer/device/path_field.h"
