@@ -1,93 +1,141 @@
-// One row after the other, so memory holds two numbers per row and a sum per pair.
-// Columns are found by their names.
+// Blocks of rows on all cores, then one block after the other: memory holds two numbers per row and a sum per pair, and
+// what comes out does not depend on the number of cores. Columns are found by their names.
 #include "jobs/link_statistics.hpp"
 #include <fmt/format.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <map>
+#include <memory>
 #include <string_view>
 #include <unordered_map>
+#include "jobs/csv_records.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
 
-// The fields of an RFC 4180 record. A quoted field may hold line ends, so a record may take several lines.
-bool read_record(std::istream& file, std::vector<std::string>& fields) {
-  fields.assign(1, "");
-  bool quoted = false, any = false;
-  for (int c = file.get(); c != EOF; c = file.get()) {
-    any = true;
-    if (quoted) {
-      if (c != '"')
-        fields.back() += static_cast<char>(c);
-      else if (file.peek() == '"')
-        fields.back() += static_cast<char>(file.get());
-      else
-        quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == ',') {
-      fields.emplace_back();
-    } else if (c == '\n') {
-      return true;
-    } else {
-      fields.back() += static_cast<char>(c);
-    }
-  }
-  return any;
-}
+// A row of the file.
+struct LinkFields {
+  std::string_view tx, rx;
+  double paths, gain_db, delay_spread_s;
+  bool los;
+};
 
+// Of a pair of ends; tx and rx are those of its first row.
 struct Sum {
-  bool forwards = false, backwards = false;
   std::string tx, rx;
+  bool forwards = false, backwards = false;
   double power = 0, delay_spread_s = 0;
   uint64_t rows = 0, los_rows = 0;
+
+  void add(const Sum& other) {
+    if (tx.empty()) tx = other.tx, rx = other.rx;
+    const bool turned = tx != other.tx;
+    forwards |= turned ? other.backwards : other.forwards;
+    backwards |= turned ? other.forwards : other.backwards;
+    power += other.power;
+    delay_spread_s += other.delay_spread_s;
+    rows += other.rows;
+    los_rows += other.los_rows;
+  }
+};
+
+using GridOf = std::unordered_map<std::string, size_t>;  // of each receiver of a grid, the number of the grid
+
+// What some rows add up to.
+struct LinkSums {
+  uint64_t asked = 0, with_path = 0, los = 0;
+  std::vector<double> gains_db, delay_spreads_s;
+  std::unordered_map<std::string, Sum> pairs;       // by pair_name
+  std::unordered_map<std::string, double> best_db;  // of each receiver of a grid
+
+  // The names of both ends, the smaller first.
+  static void pair_name(std::string_view a, std::string_view b, std::string& name) {
+    name.assign(std::min(a, b)) += '\0';
+    name += std::max(a, b);
+  }
+
+  // names: room for names.
+  void add(const LinkFields& row, const GridOf& grid_of, std::string& names) {
+    ++asked;
+    names.assign(row.rx);
+    Sum* sum = nullptr;
+    double* best = nullptr;
+    if (grid_of.contains(names)) {
+      best = &best_db.try_emplace(names, -INFINITY).first->second;
+    } else {
+      pair_name(row.tx, row.rx, names);
+      sum = &pairs[names];
+      if (sum->tx.empty()) sum->tx = row.tx, sum->rx = row.rx;
+      (sum->tx == row.tx ? sum->forwards : sum->backwards) = true;
+    }
+    if (row.paths == 0) return;
+    ++with_path;
+    los += row.los;
+    if (!std::isfinite(row.gain_db)) return;
+    gains_db.push_back(row.gain_db);
+    if (std::isfinite(row.delay_spread_s)) delay_spreads_s.push_back(row.delay_spread_s);
+    if (best) *best = std::max(*best, row.gain_db);
+    if (!sum) return;
+    sum->power += std::pow(10, row.gain_db / 10);
+    sum->delay_spread_s += row.delay_spread_s;
+    ++sum->rows;
+    sum->los_rows += row.los;
+  }
+
+  // Those of the rows behind.
+  void add(const LinkSums& other) {
+    asked += other.asked;
+    with_path += other.with_path;
+    los += other.los;
+    gains_db.insert(gains_db.end(), other.gains_db.begin(), other.gains_db.end());
+    delay_spreads_s.insert(delay_spreads_s.end(), other.delay_spreads_s.begin(), other.delay_spreads_s.end());
+    for (const auto& [name, sum] : other.pairs) pairs[name].add(sum);
+    for (const auto& [name, db] : other.best_db) {
+      double& best = best_db.try_emplace(name, -INFINITY).first->second;
+      best = std::max(best, db);
+    }
+  }
 };
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, const Config& config) : path_(path), file_(path, std::ios::binary) {
-    for (const ReceiverGridConfig& grid : config.receiver_grids) grids_.push_back({grid.name, {}});
+  Reader(const std::filesystem::path& path, const Config& config) : path_(path), config_(config) {
     for (const RadioEnd& end : config.receivers)
-      for (size_t g = 0; g < grids_.size(); ++g)
-        if (grid_cell(grids_[g].name, end.name)) {
-          grid_of_[end.name] = g;
-          grids_[g].best_db[end.name] = -INFINITY;
-        }
+      for (size_t g = 0; g < config.receiver_grids.size(); ++g)
+        if (grid_cell(config.receiver_grids[g].name, end.name)) grid_of_[end.name] = g;
   }
 
   LinkStatistics read() {
-    std::vector<std::string> fields;
-    if (!read_record(file_, fields)) fail("it is empty");
-    header_ = fields;
-    const size_t tx = column("tx"), rx = column("rx"), paths = column("paths"), gain = column("path_gain_db"),
-                 spread = column("rms_delay_spread_s"), los = column("los");
-    while (read_record(file_, fields)) {
-      if (fields.size() != header_.size()) fail("its rows differ in length");
-      add(fields[tx], fields[rx], number(fields[paths]), number(fields[gain]), number(fields[spread]),
-          number(fields[los]) > 0);
-    }
-    finish();
-    return std::move(out_);
+    using Block = std::shared_ptr<std::string>;
+    using Sums = std::shared_ptr<LinkSums>;
+    CsvBlocks blocks(path_);
+    LinkSums all;
+    const auto next = tbb::make_filter<void, Block>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
+      const auto block = std::make_shared<std::string>();
+      if (!blocks.next(*block)) flow.stop();
+      if (header_.empty()) take_header(*block);
+      return block;
+    });
+    const auto sum = tbb::make_filter<Block, Sums>(tbb::filter_mode::parallel,
+                                                   [this](const Block& block) { return sums_of(*block); });
+    const auto add =
+        tbb::make_filter<Sums, void>(tbb::filter_mode::serial_in_order, [&all](const Sums& sums) { all.add(*sums); });
+    tbb::parallel_pipeline(2 * static_cast<size_t>(tbb::info::default_concurrency()), next & sum & add);
+    return statistics(std::move(all));
   }
 
  private:
-  struct Grid {
-    std::string name;
-    std::unordered_map<std::string, double> best_db;  // of each receiver
-  };
-  std::filesystem::path path_;
-  std::ifstream file_;
+  const std::filesystem::path& path_;
+  const Config& config_;
+  GridOf grid_of_;
   std::vector<std::string> header_;
-  std::vector<Grid> grids_;
-  std::unordered_map<std::string, size_t> grid_of_;
-  std::map<std::pair<std::string, std::string>, Sum> sums_;  // by the names of the ends, the smaller first
-  std::vector<double> gains_db_, spreads_s_;
-  LinkStatistics out_;
+  struct {
+    size_t tx, rx, paths, gain, spread, los;
+  } at_{};
 
   [[noreturn]] void fail(const std::string& why) const {
     throw RuntimeError(
@@ -105,52 +153,59 @@ class Reader {
     return value;
   }
 
-  void add(const std::string& tx, const std::string& rx, double paths, double gain_db, double spread_s, bool los) {
-    ++out_.asked;
-    const auto grid = grid_of_.find(rx);
-    Sum* sum = grid == grid_of_.end() ? &sums_[std::pair(std::min(tx, rx), std::max(tx, rx))] : nullptr;
-    if (sum) {
-      if (sum->tx.empty()) {
-        sum->tx = tx;
-        sum->rx = rx;
-      }
-      (sum->tx == tx ? sum->forwards : sum->backwards) = true;
-    }
-    if (paths == 0) return;
-    ++out_.with_path;
-    out_.los += los;
-    if (!std::isfinite(gain_db)) return;
-    gains_db_.push_back(gain_db);
-    if (std::isfinite(spread_s)) spreads_s_.push_back(spread_s);
-    if (sum) {
-      sum->power += std::pow(10, gain_db / 10);
-      sum->delay_spread_s += spread_s;
-      ++sum->rows;
-      sum->los_rows += los;
-    } else {
-      double& best = grids_[grid->second].best_db[rx];
-      best = std::max(best, gain_db);
-    }
+  // Off the first block.
+  void take_header(std::string& block) {
+    std::string_view text = block;
+    if (!take_record(text, header_)) fail("it is empty");
+    at_ = {column("tx"), column("rx"), column("paths"), column("path_gain_db"), column("rms_delay_spread_s"),
+           column("los")};
+    block.erase(0, block.size() - text.size());
   }
 
-  void finish() {
-    out_.gain_db = quantiles(std::move(gains_db_));
-    out_.delay_spread_s = quantiles(std::move(spreads_s_));
-    for (const auto& [names, sum] : sums_) {
-      if (sum.rows == 0) continue;
+  std::shared_ptr<LinkSums> sums_of(std::string_view block) const {
+    auto sums = std::make_shared<LinkSums>();
+    std::vector<std::string> fields;
+    std::string names;
+    while (take_record(block, fields)) {
+      if (fields.size() != header_.size()) fail("its rows differ in length");
+      sums->add({fields[at_.tx], fields[at_.rx], number(fields[at_.paths]), number(fields[at_.gain]),
+                 number(fields[at_.spread]), number(fields[at_.los]) > 0},
+                grid_of_, names);
+    }
+    return sums;
+  }
+
+  LinkStatistics statistics(LinkSums sums) const {
+    LinkStatistics out;
+    out.asked = sums.asked;
+    out.with_path = sums.with_path;
+    out.los = sums.los;
+    out.gain_db = quantiles(std::move(sums.gains_db));
+    out.delay_spread_s = quantiles(std::move(sums.delay_spreads_s));
+    std::vector<const std::pair<const std::string, Sum>*> pairs;
+    for (const auto& pair : sums.pairs)
+      if (pair.second.rows > 0) pairs.push_back(&pair);
+    std::ranges::sort(pairs, {}, [](const auto* pair) { return std::string_view(pair->first); });
+    for (const auto* pair : pairs) {
+      const Sum& sum = pair->second;
       const auto rows = static_cast<double>(sum.rows);
       const char* const arrow = sum.forwards && sum.backwards ? "<->" : "->";
-      out_.pairs.push_back({fmt::format("{} {} {}", sum.tx, arrow, sum.rx), 10 * std::log10(sum.power / rows),
-                            sum.delay_spread_s / rows, sum.rows, sum.los_rows});
+      out.pairs.push_back({fmt::format("{} {} {}", sum.tx, arrow, sum.rx), 10 * std::log10(sum.power / rows),
+                           sum.delay_spread_s / rows, sum.rows, sum.los_rows});
     }
-    std::ranges::stable_sort(out_.pairs, std::ranges::greater(), &PairSummary::mean_gain_db);
-    for (const Grid& grid : grids_) {
-      std::vector<double> covered;
-      for (const auto& [name, gain_db] : grid.best_db)
-        if (std::isfinite(gain_db)) covered.push_back(gain_db);
-      const uint64_t count = covered.size();
-      out_.grids.push_back({grid.name, grid.best_db.size(), count, quantiles(std::move(covered))});
+    std::ranges::stable_sort(out.pairs, std::ranges::greater(), &PairSummary::mean_gain_db);
+    for (const ReceiverGridConfig& grid : config_.receiver_grids) out.grids.push_back({grid.name, 0, 0, {}});
+    std::vector<std::vector<double>> covered(out.grids.size());
+    for (const auto& [receiver, grid] : grid_of_) {
+      ++out.grids[grid].cells;
+      const auto best = sums.best_db.find(receiver);
+      if (best != sums.best_db.end() && std::isfinite(best->second)) covered[grid].push_back(best->second);
     }
+    for (size_t g = 0; g < covered.size(); ++g) {
+      out.grids[g].covered = covered[g].size();
+      out.grids[g].gain_db = quantiles(std::move(covered[g]));
+    }
+    return out;
   }
 };
 

@@ -1,8 +1,11 @@
 // Frames follow each other; blocks share one frame, so its row is taken once and the paths it points to are added up.
+// What the disk does (sync) and the text of the links go beside the rest, which is bound by one thread of HDF5.
 #include "jobs/merge_outputs.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstring>
+#include <future>
+#include <utility>
 #include "output/limited_child.hpp"
 #include "output/links_csv.hpp"
 #include "output/merge_h5.hpp"
@@ -14,6 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using hdf5::File;
+
+// Work in a thread of its own; wait() throws what it threw.
+class Beside {
+ public:
+  template <typename Work>
+  explicit Beside(Work work) : done_(std::async(std::launch::async, std::move(work))) {}
+  void wait() { done_.get(); }
+
+ private:
+  std::future<void> done_;  // its destructor waits, too
+};
 
 // An output on its way: all that the HDF5 library does to it, before the rows are copied.
 struct Draft {
@@ -69,24 +83,31 @@ Pieces foreign_tables(const Draft& draft) {
 void merge_h5(const Draft& draft, Parts whose, Proof proof) {
   const Pieces pieces = whose == Parts::own ? draft.tables([](const fs::path&) {}) : foreign_tables(draft);
   write_rows(draft.parts, pieces, draft.file, draft.compression);
-  draft.file.sync();
+  Beside synced([&] { draft.file.sync(); });
   if (proof == Proof::rows) prove_rows(draft.parts, pieces, draft.file.temporary());
+  synced.wait();
+}
+
+void merge_links_csv(std::span<const fs::path> parts, Proof proof, PendingFile& file) {
+  join_links_csv(parts, file);
+  Beside synced([&] { file.sync(); });
+  if (proof == Proof::rows) prove_links_csv(parts, file.temporary());
+  synced.wait();
 }
 
 }  // namespace
 
 std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose, Proof proof,
                                        const fs::path& directory, const WriteHead& write_head) {
-  std::vector<PendingFile> files;
   const std::vector<H5Output> outputs = h5_outputs(config);
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    PendingFile& file = files.emplace_back(directory / outputs[i].name);
-    merge_h5({outputs[i], parts.files.at(i), parts.of_one_frame, write_head, file, config.output.compression}, whose,
-             proof);
-  }
-  join_links_csv(parts.files.at(outputs.size()), files.emplace_back(directory / "links.csv"));
-  files.back().sync();
-  if (proof == Proof::rows) prove_links_csv(parts.files.at(outputs.size()), files.back().temporary());
+  std::vector<PendingFile> files;
+  for (const H5Output& output : outputs) files.emplace_back(directory / output.name);
+  PendingFile& csv = files.emplace_back(directory / "links.csv");
+  Beside links([&] { merge_links_csv(parts.files.at(outputs.size()), proof, csv); });
+  for (size_t i = 0; i < outputs.size(); ++i)
+    merge_h5({outputs[i], parts.files.at(i), parts.of_one_frame, write_head, files[i], config.output.compression},
+             whose, proof);
+  links.wait();
   return files;
 }
 

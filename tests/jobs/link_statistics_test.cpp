@@ -53,6 +53,26 @@ TEST_CASE("links are counted, and each pair is there once, by its mean power") {
   CHECK(s.pairs[1].mean_gain_db == doctest::Approx(-100));
 }
 
+TEST_CASE("a file of many blocks has the statistics of its rows, with line ends in names") {
+  // Lines of 40 to 44 bytes: three blocks of 4 MiB and a bit. Every third row is of a name with quotes and a line end.
+  std::string text = header;
+  constexpr uint64_t rows = 330'000;
+  for (uint64_t i = 0; i < rows; ++i)
+    text +=
+        i % 3 == 0 ? "0,a,\"b \"\"\n,\",1,-80,-80,1e-6,2e-8,1\n" : "0,a,some name of a link,1,-90,-90,1e-6,4e-8,0\n";
+  REQUIRE(text.size() > (12 << 20));
+  const LinkStatistics s = read(text);
+  CHECK(s.asked == rows);
+  CHECK(s.los == rows / 3);
+  CHECK(s.gain_db.high == -80);
+  CHECK(s.gain_db.median == -90);
+  REQUIRE(s.pairs.size() == 2);
+  CHECK(s.pairs[0].name == "a -> b \"\n,");
+  CHECK(s.pairs[0].rows == rows / 3);
+  CHECK(s.pairs[0].mean_gain_db == doctest::Approx(-80));
+  CHECK(s.pairs[1].mean_delay_spread_s == doctest::Approx(4e-8));
+}
+
 TEST_CASE("cells of a grid count once, with their best transmitter, and are no pairs") {
   Config config;
   config.receiver_grids.emplace_back();
