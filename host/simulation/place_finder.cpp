@@ -8,16 +8,15 @@
 
 namespace wavetracer {
 
-bool PlaceFinder::has_degrees() {
-  if (!looked_ && !config_.scene.file.empty())
-    if (const auto reference = find_georeference(config_.scene.file); reference && !reference->projection.empty())
-      projection_.emplace(*reference);
-  looked_ = true;
-  return projection_.has_value();
+bool PlaceFinder::has_georeference() const {
+  return !config_.scene.file.empty() && !georeference_file(config_.scene.file).empty();
 }
 
 glm::dvec2 PlaceFinder::from_degrees(const glm::dvec2& longitude_latitude, const std::string& what) {
-  if (!has_degrees())
+  if (!projection_ && has_georeference())
+    if (const auto reference = find_georeference(config_.scene.file); reference && !reference->projection.empty())
+      projection_.emplace(*reference);
+  if (!projection_)
     throw ConfigError(
         fmt::format("{}: a position in degrees needs a georeference.json with the projection of the scene beside its "
                     "file{}; `wavetracer convert MAP -o FOLDER` writes one, and docs/formats.md has its form",

@@ -19,9 +19,10 @@ class PlaceFinder {
   // Both must outlive this.
   PlaceFinder(const Config& config, const Scene& scene) : config_(config), scene_(scene) {}
 
-  // Whether the scene has a georeference. Throws InputError where it is malformed.
-  bool has_degrees();
-  // (longitude, latitude) in degrees in file coordinates. what: what is placed, for messages. Throws ConfigError.
+  // Whether a georeference.json is beside the scene file; it is read when a place needs it.
+  bool has_georeference() const;
+  // (longitude, latitude) in degrees in file coordinates. what: what is placed, for messages. Throws ConfigError where
+  // there is no georeference, InputError where it is malformed.
   glm::dvec2 from_degrees(const glm::dvec2& longitude_latitude, const std::string& what);
   // The z of the ground at a place, both in file coordinates; empty where there is none.
   std::optional<double> ground_m(const glm::dvec2& place_m) { return ground()->height_m(place_m); }
@@ -32,7 +33,6 @@ class PlaceFinder {
  private:
   const Config& config_;
   const Scene& scene_;
-  bool looked_ = false;
   std::optional<Projection> projection_;
   std::shared_ptr<const Ground> ground_;
 };

@@ -30,7 +30,7 @@ Trajectories read(const TrajectoriesConfig& config, const VehicleModels& vehicle
   options.default_type = vehicles.default_type();
   options.above_ground = config.above == "ground";
   options.ground = ground_of(places);
-  if (places.has_degrees())
+  if (places.has_georeference())
     options.from_degrees = [&](const glm::dvec2& degrees) { return places.from_degrees(degrees, config.file); };
   return read_trajectories(config.file, options);
 }
