@@ -85,7 +85,7 @@ class Bench {
 
   Config with_rays(Config config, uint64_t rays) const {
     config.trace.directions = Directions::named(options_.directions);
-    config.trace.rays = rays;
+    config.trace.rays = rays > 0 ? std::optional(rays) : std::nullopt;  // 0: "auto"
     config.trace.recall = options_.recall;
     return config;
   }
@@ -186,9 +186,11 @@ int main(int argc, char** argv) {
   using namespace wavetracer;
   CLI::App app("What launches lose in twenty cases, what \"auto\" promises, and what `missed` says of it");
   bench::Options options;
+  std::vector<std::string> names = bench::study_case_names();
+  for (const std::string& hills : bench::hill_case_names()) names.push_back(hills);
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/");
-  app.add_option("--cases", options.cases, "some of the cases")->check(CLI::IsMember(bench::study_case_names()));
+  app.add_option("--cases", options.cases, "some of the cases")->check(CLI::IsMember(names));
   app.add_option("--rays", options.rays, "fixed numbers of rays per transmitter")
       ->check(CLI::Range(uint64_t{100}, uint64_t{2'000'000'000}));
   app.add_option("--truth-rays", options.truth_rays, "of each of two launches, \"horizon\" and \"hilbert\"")

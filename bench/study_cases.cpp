@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "box_scene.hpp"
@@ -117,6 +118,27 @@ BoxScene hill_scene() {
   return out;
 }
 
+// A wave of period 1 and height 1, likewise.
+double wave(double t) {
+  const double s = t - std::floor(t);
+  return 16 * s * s * (1 - s) * (1 - s);
+}
+
+// Hills of so many metres, some 200 m wide, with houses all over them; 0: the same houses on flat ground.
+std::function<BoxScene()> hills_scene(double height_m) {
+  return [=] {
+    const auto ground_m = [=](glm::dvec2 p) {
+      return height_m *
+             (0.7 * wave(p.x / 430 + 0.13) * wave(p.y / 510 + 0.4) + 0.3 * wave((p.x + 2 * p.y) / 620 + 0.3));
+    };
+    BoxScene out;
+    out.height_field(600, 39, ground_m);
+    for (int x = -250; x <= 250; x += 50)
+      for (int y = -250; y <= 250; y += 50) out.box({x, y, ground_m({x, y}) + 2}, {18, 14, 16});
+    return out;
+  };
+}
+
 Places hill(OpenPlaces& draw) {
   return Streets{.inner = 0.75, .transmitter_m = 2, .reach_m = 200, .near = 32, .far = 8}(draw);
 }
@@ -172,9 +194,14 @@ const std::vector<Recipe>& recipes() {
       {"room_screens", 5, shared_scene("box_two_screens"), room},
       {"park", 5, own("park", park_scene), park},
       {"bridge", 5, own("bridge", bridge_scene), bridge},
-      {"hill", 5, own("hill", hill_scene), hill}};
+      {"hill", 5, own("hill", hill_scene), hill},
+      {"hills_0", 5, own("hills_0", hills_scene(0)), hill},
+      {"hills_10", 5, own("hills_10", hills_scene(10)), hill},
+      {"hills_30", 5, own("hills_30", hills_scene(30)), hill},
+      {"hills_100", 5, own("hills_100", hills_scene(100)), hill}};
   return list;
 }
+constexpr size_t study_cases = 20;  // the rest is hills
 
 std::vector<RadioEnd> ends(const char* prefix, const std::vector<dvec3>& points) {
   std::vector<RadioEnd> out;
@@ -187,7 +214,13 @@ std::vector<RadioEnd> ends(const char* prefix, const std::vector<dvec3>& points)
 
 std::vector<std::string> study_case_names() {
   std::vector<std::string> out;
-  for (const Recipe& recipe : recipes()) out.push_back(recipe.name);
+  for (size_t i = 0; i < study_cases; ++i) out.push_back(recipes()[i].name);
+  return out;
+}
+
+std::vector<std::string> hill_case_names() {
+  std::vector<std::string> out;
+  for (size_t i = study_cases; i < recipes().size(); ++i) out.push_back(recipes()[i].name);
   return out;
 }
 
@@ -199,8 +232,10 @@ StudyCase study_case(const std::string& name, const fs::path& shared, const fs::
   out.config.radio.frequency_hz = 5.9e9;
   out.config.trace.max_depth = recipe->depth;
   const Scene scene = load_scene(out.config);
-  // Each case draws from its own stream, so that a case alone has the places that it has among all.
-  OpenPlaces draw(scene, seed * 1000 + static_cast<uint64_t>(recipe - recipes().begin()));
+  // Each case draws from its own stream, so that a case alone has the places that it has among all; hills have the
+  // same.
+  const auto stream = std::min<uint64_t>(static_cast<uint64_t>(recipe - recipes().begin()), study_cases);
+  OpenPlaces draw(scene, seed * 1000 + stream);
   const Places places = recipe->places(draw);
   out.config.transmitters = ends("tx", places.transmitters);
   out.config.receivers = ends("rx", places.receivers);

@@ -14,6 +14,10 @@ namespace wavetracer::bench {
 // Their names, in the order in which they are measured.
 std::vector<std::string> study_case_names();
 
+// The same houses at the same places on flat ground and on hills of 10, 30 and 100 m: what a terrain costs, and whether
+// launches find as much there. Measured where they are asked for.
+std::vector<std::string> hill_case_names();
+
 struct StudyCase {
   std::string name;
   Config config;  // standing ends, 5.9 GHz, the case's own depth

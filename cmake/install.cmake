@@ -4,6 +4,11 @@ include(CMakePackageConfigHelpers)
 install(TARGETS wavetracer RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS wavetracer_library EXPORT wavetracer_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
+# The module that reads maps by GDAL, which the program opens only when a map needs it.
+if(TARGET wavetracer_maps)
+  install(TARGETS wavetracer_maps LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/wavetracer)
+endif()
+
 # Those for kernels (device/) and between passes stay here.
 file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/include/wavetracer/*.h ${CMAKE_SOURCE_DIR}/include/wavetracer/*.hpp)
 list(FILTER headers EXCLUDE REGEX path_geometry.hpp)

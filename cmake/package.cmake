@@ -18,7 +18,11 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # pocl-opencl-icd is the device where there is no GPU; gnuplot-nox draws what `plot` and `bench` ask for.
+# The module for maps opens GDAL itself, so no dependence on it is found.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, gnuplot-nox")
+if(WAVETRACER_GDAL_NAME MATCHES "^libgdal\\.so\\.([0-9]+)$")
+  string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", libgdal${CMAKE_MATCH_1}")
+endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, pkgconf, python3-h5py, python3-numpy, sumo")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Traces every propagation path between antennas on vehicles and at the

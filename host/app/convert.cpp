@@ -136,13 +136,15 @@ void check_input(const fs::path& input) {
 }
 
 void import_map(const ConvertOptions& options) {
-  for (const auto& [flag, value] : {std::pair{"--frames", &options.frames}, {"--projection", &options.projection}})
-    if (!value->empty())
-      throw ConfigError(fmt::format("{}: this option is for runs, but {} is a map", flag, options.input));
+  if (!options.frames.empty())
+    throw ConfigError(fmt::format("--frames: this option is for runs, but {} is a map", options.input));
   if (!options.format.empty() && options.format != "mitsuba")
     throw ConfigError(fmt::format("--to {}: a map can only be converted to a scene (mitsuba)", options.format));
   ImportOptions import = options.import;
   import.output = options.output;
+  import.projection = options.projection;
+  if (!import.projection.empty() && !import.net.empty())
+    throw ConfigError("--projection and --net both say which coordinates the scene has: remove one of them");
   if (!options.traffic.empty()) import.traffic = extent_of_traffic(options);
   Progress progress;
   import.at = [&progress](uint64_t done, uint64_t total) { progress.bar("writing", done, total, "meshes");
@@ -159,14 +161,17 @@ void add_convert(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("convert", "Convert a run to the format of another program, or a city map to a scene");
   const auto options = std::make_shared<ConvertOptions>();
-  command->add_option("INPUT", options->input,
-                      "The folder of a run, its paths.h5, or a map (.osm, .osm.pbf, .poly.xml)");
+  command->add_option(
+      "INPUT", options->input,
+      "The folder of a run, its paths.h5, or a map (.osm, .osm.pbf, .poly.xml, or what GDAL opens: .gpkg, "
+      ".shp, .geojson, .fgb and many more)");
   command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
   command->add_option("-o,--output", options->output, "File or folder to write; which of them depends on the format");
   command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all frames if not given");
-  command->add_option(
-      "--projection", options->projection,
-      "For kml: PROJ string of the scene's coordinates, if there is no georeference.json that contains it");
+  command->add_option("--projection", options->projection,
+                      "PROJ string: for kml, of the scene's coordinates, if there is no georeference.json that "
+                      "contains it; for a map, of "
+                      "the coordinates that the scene shall have, instead of metres about its middle");
   command->add_flag("--list", options->list, "List the formats for --to");
   ImportOptions& import = options->import;
   const char* maps = "Maps";
@@ -176,6 +181,18 @@ void add_convert(CLI::App& program) {
   add("--net", import.net,
       "For OSM maps: the .net.xml that netconvert made from the map; the scene gets its coordinates");
   add("--traffic", options->traffic, "Trajectories (FCD, CSV) whose whole area the ground must cover too");
+  add("--layer", import.layer, "For maps that GDAL opens: the layer with the buildings; all layers if not given");
+  add("--height", import.height_field,
+      "For maps that GDAL opens: the field with heights of buildings in metres; \"height\" if there is one");
+  add("--levels", import.levels_field,
+      "For maps that GDAL opens: the field with numbers of storeys; \"levels\" if there is one");
+  add("--terrain", import.terrain,
+      "Heights of the ground in metres, a raster that GDAL opens (GeoTIFF and others): the ground follows it, and "
+      "houses "
+      "stand on it");
+  add("--terrain-error", import.terrain_error_m,
+      "The most by which the ground may miss a post of the terrain, in metres")
+      ->capture_default_str();
   add("--level-height", import.level_height_m, "Height of one storey of a building in metres")->capture_default_str();
   add("--default-height", import.default_height_m, "Height in metres of buildings without a height in the map")
       ->capture_default_str();

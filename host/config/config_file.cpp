@@ -278,6 +278,17 @@ class Parser {
     return node && node->is_table() ? place(node->source()) : Place{};
   }
 
+  void check_required(const Table& table, const Field& field, size_t i, const Place& where) {
+    const bool given = assignments_.contains(fmt::format("{}.{}.{}", table.name, i, field.name));
+    const bool other = replaced(table, field, config_, i);
+    if (given && other)
+      fail(place_of(fmt::format("{}.{}.{}", table.name, i, field.instead)),
+           fmt::format("[[{}]] has both {} and {}: remove one of them", table.name, field.name, field.instead));
+    if (!given && !other)
+      fail(where, fmt::format("[[{}]] has no {}: give it {}{}", table.name, field.name, accepted(field),
+                              field.instead.empty() ? "" : fmt::format(", or give {}", field.instead)));
+  }
+
   // What only the whole shows: keys that are missing, or that exclude each other.
   void check_whole() {
     for (const Table& table : tables()) {
@@ -285,9 +296,7 @@ class Parser {
       if (places == elements_.end()) continue;
       for (size_t i = 0; i < places->second.size(); ++i)
         for (const Field& field : table.fields)
-          if (field.required && !assignments_.contains(fmt::format("{}.{}.{}", table.name, i, field.name)))
-            fail({places->second[i], 0},
-                 fmt::format("[[{}]] has no {}: give it {}", table.name, field.name, accepted(field)));
+          if (field.required) check_required(table, field, i, {places->second[i], 0});
     }
     for (const Contradiction& found : contradictions(config_)) {
       Place where;

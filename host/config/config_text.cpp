@@ -35,7 +35,7 @@ std::string facts(const Field& field) {
   const std::string value = literal(field, field.slot(defaults, 0));
   std::string out = accepted(field);
   out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
-  out += field.required                                      ? "; required."
+  out += field.required                                      ? "; " + required_text(field) + "."
          : value.empty() || value == "\"\"" || value == "{}" ? "."
                                                              : "; default " + value + ".";
   return out;
@@ -86,7 +86,8 @@ std::string text_of(const Config& config, const Which& which) {
     out += (out.empty() ? "" : "\n") + header(table) + "\n";
     for (const Field& field : table.fields) {
       const std::string value = literal(field, field.slot(values, element));
-      if (!value.empty() && which(table, field)) out += field.name + " = " + value + "\n";
+      if (!value.empty() && which(table, field) && !replaced(table, field, values, element))
+        out += field.name + " = " + value + "\n";
     }
   };
   for (const Table& table : tables()) {

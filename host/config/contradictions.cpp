@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <set>
 
 #include "config/value_text.hpp"
@@ -212,6 +213,37 @@ void check_ends(const Config& config, Found& out) {
          "for vehicles"});
 }
 
+void check_degrees(const Config& config, Found& out) {
+  const auto check = [&](const std::string& key, double latitude, double longitude) {
+    if (std::abs(latitude) > 90 || std::abs(longitude) > 180)
+      out.push_back(
+          {{key},
+           fmt::format("latitude {} and longitude {} are no place on the earth: give the latitude first, from "
+                       "-90 to 90 degrees, then the longitude, from -180 to 180",
+                       latitude, longitude)});
+  };
+  const auto check_all = [&](const char* table, const std::vector<RadioEnd>& ends) {
+    for (size_t i = 0; i < ends.size(); ++i)
+      if (const auto& p = ends[i].position_wgs84)
+        check(fmt::format("{}.{}.position_wgs84", table, i), (*p)[0], (*p)[1]);
+  };
+  check_all("transmitter", config.transmitters);
+  check_all("receiver", config.receivers);
+  check_all("station", config.stations);
+  for (size_t i = 0; i < config.tracks.size(); ++i)
+    for (const auto& p : config.tracks[i].waypoints_wgs84)
+      check(fmt::format("track.{}.waypoints_wgs84", i), p[1], p[2]);
+}
+
+void check_times(const std::string& key, const std::vector<std::array<double, 4>>& waypoints, size_t track,
+                 Found& out) {
+  for (size_t k = 1; k < waypoints.size(); ++k)
+    if (!(waypoints[k][0] > waypoints[k - 1][0]))
+      out.push_back({{fmt::format("track.{}.{}", track, key)},
+                     fmt::format("track.{}[{}] is at {} s, but the waypoint before it is at {} s: times must increase",
+                                 key, k, waypoints[k][0], waypoints[k - 1][0])});
+}
+
 void check_trajectories(const Config& config, Found& out) {
   const TrajectoriesConfig& t = config.trajectories;
   if (!t.file.empty() && !t.generate.empty())
@@ -223,13 +255,8 @@ void check_trajectories(const Config& config, Found& out) {
                    "[[mount]] needs vehicles: give trajectories.file, trajectories.generate, a [[track]] or, for "
                    "`wavetracer serve`, a [[live_vehicle]]"});
   for (size_t i = 0; i < config.tracks.size(); ++i) {
-    const auto& waypoints = config.tracks[i].waypoints;
-    for (size_t k = 1; k < waypoints.size(); ++k)
-      if (!(waypoints[k][0] > waypoints[k - 1][0]))
-        out.push_back(
-            {{fmt::format("track.{}.waypoints", i)},
-             fmt::format("track.waypoints[{}] is at {} s, but the waypoint before it is at {} s: times must increase",
-                         k, waypoints[k][0], waypoints[k - 1][0])});
+    check_times("waypoints", config.tracks[i].waypoints, i, out);
+    check_times("waypoints_wgs84", config.tracks[i].waypoints_wgs84, i, out);
   }
   const TimeConfig& time = config.time;
   if (time.start_s && time.end_s && *time.end_s < *time.start_s)
@@ -264,6 +291,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_materials(config.materials, out);
   check_arrays(config, out);
   check_trajectories(config, out);
+  check_degrees(config, out);
   return out;
 }
 

@@ -23,10 +23,11 @@ struct ChoiceSlot {
   std::span<const std::string_view> words;
 };
 // Where the value of a field lives. The alternative held is the type of the field.
-using Slot = std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<uint32_t>*,
-                          std::optional<uint64_t>*, std::optional<double>*, std::array<double, 3>*, Aliases*,
-                          std::vector<double>*, std::vector<std::string>*, std::vector<std::array<double, 3>>*,
-                          std::vector<std::array<double, 4>>*, ChoiceSlot>;
+using Slot =
+    std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<uint32_t>*, std::optional<uint64_t>*,
+                 std::optional<double>*, std::array<double, 3>*, std::optional<std::array<double, 3>>*, Aliases*,
+                 std::vector<double>*, std::vector<std::string>*, std::vector<std::array<double, 3>>*,
+                 std::vector<std::array<double, 4>>*, ChoiceSlot>;
 
 // Numbers allowed, both ends included unless lower_open.
 struct Range {
@@ -51,6 +52,7 @@ struct Field {
   std::vector<std::string> choices = {};  // of a string; those of a Choice, and `none`, come by themselves
   Form form = Form::plain;
   bool required = false;
+  std::string instead = {};  // of a required field: the key that may be given in its place
   std::string doc = {};
   std::string example = {};  // TOML that `init` writes instead of the default: a comment, unless required or needed
   bool needed = false;       // not required, but the config of `init` would not run without its example
@@ -73,6 +75,10 @@ Config prototype();
 
 // The value of the field as TOML; empty for an optional number that is not set, unless the field has a word for that.
 std::string literal(const Field& field, const Slot& slot);
+// Whether the key that stands in the place of a required field is set.
+bool replaced(const Table& table, const Field& field, Config& config, size_t element);
+// "required", and the key that may stand in its place.
+std::string required_text(const Field& field);
 // What a field accepts, in words: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
 std::string accepted(const Field& field);
 

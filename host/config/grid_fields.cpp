@@ -48,8 +48,9 @@ Table receiver_grid_table() {
               {.name = "above",
                .slot = g(&ReceiverGridConfig::above),
                .doc = "What height_m is measured from. zero: height_m is the z coordinate in the scene file. ground: "
-                      "the lowest surface at that place, for hilly terrain; where there is no surface, the lowest "
-                      "point of the scene."},
+                      "the ground at that place, for hilly terrain; where there is none, the lowest point of the "
+                      "scene. The ground is what spans at least half of the scene, seen from above, or else the "
+                      "lowest surface."},
               antenna_field(g, &ReceiverGridConfig::antenna),
               polarization_field(g, &ReceiverGridConfig::polarization),
               array_field(g, &ReceiverGridConfig::array),

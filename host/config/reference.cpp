@@ -94,7 +94,7 @@ std::string markdown_reference() {
     for (const Field& field : table.fields) {
       const std::string value = default_of(field);
       out += fmt::format("| `{}` | {} | {} | {} |\n", field.name, cell(accepts(field)),
-                         field.required  ? "required"
+                         field.required  ? cell(required_text(field))
                          : value.empty() ? ""
                                          : cell("`" + value + "`"),
                          cell(field.doc));
@@ -113,7 +113,7 @@ std::string manual_page(std::string_view version) {
     for (const Field& field : table.fields) {
       const std::string value = default_of(field);
       out += fmt::format(".TP\n.B {}\n{}\n.br\n{}{}\n", roff(field.name), roff(field.doc), roff(accepts(field)),
-                         field.required  ? "; required."
+                         field.required  ? "; " + roff(required_text(field)) + "."
                          : value.empty() ? "."
                                          : "; default " + roff(value) + ".");
     }

@@ -1,6 +1,7 @@
 // Values of the field table as text: TOML literals, and in words what a field accepts.
 #include "config/value_text.hpp"
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include "config/field_table.hpp"
@@ -45,33 +46,46 @@ std::string literal(const Field& field, const Slot& slot) {
     for (const auto& element : elements) out += (out.size() > 1 ? ", " : "") + text(element);
     return out + "]";
   };
-  return std::visit(Overload{
-                        [](const std::string* s) { return toml_string(*s); },
-                        [](const bool* b) { return std::string(*b ? "true" : "false"); },
-                        [](const double* x) { return number_text(*x); },
-                        [&](const std::optional<double>* x) { return *x ? number_text(**x) : none("0.0"); },
-                        [](const ChoiceSlot& choice) { return toml_string(choice.words[choice.chosen->value]); },
-                        [&](const std::array<double, 3>* v) { return list(*v, number_text); },
-                        [&](const std::vector<std::string>* words) { return list(*words, toml_string); },
-                        [&](const std::vector<double>* numbers) { return list(*numbers, number_text); },
-                        [&]<size_t N>(const std::vector<std::array<double, N>>* rows) {
-                          return list(*rows, [&](const auto& row) { return list(row, number_text); });
-                        },
-                        [](const Aliases* aliases) {
-                          std::string out;
-                          for (const auto& [from, to] : *aliases)
-                            out +=
-                                fmt::format("{}{} = {}", out.empty() ? "{ " : ", ", toml_string(from), toml_string(to));
-                          return out.empty() ? "{}" : out + " }";
-                        },
-                        [&]<class T>(const T* i) {
-                          if constexpr (Number<T>::optional)
-                            return *i ? fmt::format("{}", **i) : none("0");
-                          else
-                            return fmt::format("{}", *i);
-                        },
-                    },
-                    slot);
+  return std::visit(
+      Overload{
+          [](const std::string* s) { return toml_string(*s); },
+          [](const bool* b) { return std::string(*b ? "true" : "false"); },
+          [](const double* x) { return number_text(*x); },
+          [&](const std::optional<double>* x) { return *x ? number_text(**x) : none("0.0"); },
+          [](const ChoiceSlot& choice) { return toml_string(choice.words[choice.chosen->value]); },
+          [&](const std::array<double, 3>* v) { return list(*v, number_text); },
+          [&](const std::optional<std::array<double, 3>>* v) { return *v ? list(**v, number_text) : std::string(); },
+          [&](const std::vector<std::string>* words) { return list(*words, toml_string); },
+          [&](const std::vector<double>* numbers) { return list(*numbers, number_text); },
+          [&]<size_t N>(const std::vector<std::array<double, N>>* rows) {
+            return list(*rows, [&](const auto& row) { return list(row, number_text); });
+          },
+          [](const Aliases* aliases) {
+            std::string out;
+            for (const auto& [from, to] : *aliases)
+              out += fmt::format("{}{} = {}", out.empty() ? "{ " : ", ", toml_string(from), toml_string(to));
+            return out.empty() ? "{}" : out + " }";
+          },
+          [&]<class T>(const T* i) {
+            if constexpr (Number<T>::optional)
+              return *i ? fmt::format("{}", **i) : none("0");
+            else
+              return fmt::format("{}", *i);
+          },
+      },
+      slot);
+}
+
+bool replaced(const Table& table, const Field& field, Config& config, size_t element) {
+  const auto other =
+      std::find_if(table.fields.begin(), table.fields.end(), [&](const Field& f) { return f.name == field.instead; });
+  if (field.instead.empty() || other == table.fields.end()) return false;
+  const std::string value = literal(*other, other->slot(config, element));
+  return !value.empty() && value != "[]";
+}
+
+std::string required_text(const Field& field) {
+  return field.instead.empty() ? "required" : "required, or `" + field.instead + "`";
 }
 
 std::string accepted(const Field& field) {
@@ -97,12 +111,13 @@ std::string accepted(const Field& field) {
           [&](const ChoiceSlot&) -> std::string { return "one of " + choices; },
           [&](const bool*) -> std::string { return "true or false"; },
           [&](const std::array<double, 3>*) -> std::string { return "three numbers" + unit; },
+          [&](const std::optional<std::array<double, 3>>*) -> std::string { return "three numbers" + unit; },
           [&](const Aliases*) -> std::string { return "a table of strings"; },
           [&](const std::vector<std::string>*) -> std::string { return "a string or an array of strings"; },
           [&](const std::vector<double>*) -> std::string { return range("an array of numbers"); },
           [&](const std::vector<std::array<double, 3>>*) -> std::string { return "an array of [x, y, z]" + unit; },
           [&](const std::vector<std::array<double, 4>>*) -> std::string {
-            return "an array of [time, x, y, z]" + unit;
+            return (field.name == "waypoints" ? "an array of [time, x, y, z]" : "an array of four numbers each") + unit;
           },
           [&]<class T>(const T*) -> std::string {
             return range(is_integer<T> ? "an integer" : "a number") + (choices.empty() ? "" : " or " + choices);

@@ -198,6 +198,9 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
             return std::string();
           },
           [&](std::array<double, 3>* to) { return assign_vector(field, key, *to, value, accepted(field)); },
+          [&](std::optional<std::array<double, 3>>* to) {
+            return assign_vector(field, key, to->emplace(), value, accepted(field));
+          },
           [&](std::vector<std::string>* to) { return assign_words(field, key, *to, value); },
           [&](std::vector<double>* to) { return assign_numbers(field, key, *to, value); },
           [&](std::vector<std::array<double, 3>>* to) {

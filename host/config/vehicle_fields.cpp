@@ -16,8 +16,10 @@ Table trajectories_table() {
               {.name = "file",
                .slot = t(&TrajectoriesConfig::file),
                .form = Form::input_file,
-               .doc = "Floating car data of SUMO (--fcd-output), or CSV with a header that names the columns time, id, "
-                      "x, y and optionally z, yaw, speed, type; plain or compressed with gzip."},
+               .doc = "Floating car data of SUMO (--fcd-output), a GPX track, or CSV with a header that names the "
+                      "columns time, id, x, y (or lat, lon in degrees) and optionally z, yaw, speed, type; plain or "
+                      "compressed with gzip. Positions in degrees need a georeference.json beside the scene file, and "
+                      "their heights are above the ground."},
               {.name = "generate",
                .slot = t(&TrajectoriesConfig::generate),
                .doc = "Generated traffic instead of a file, in the streets of the city that scene.generate makes: "
@@ -32,6 +34,11 @@ Table trajectories_table() {
                .slot = t(&TrajectoriesConfig::scale),
                .range = {0, 1e6, true},
                .doc = "Factor for the positions in trajectories.file only: SUMO's sizes and speeds are in metres."},
+              {.name = "above",
+               .slot = t(&TrajectoriesConfig::above),
+               .doc = "What z in trajectories.file is measured from. zero: the zero of the scene file. ground: the "
+                      "ground of the scene, so that vehicles of a flat network drive over hills; slopes in the file "
+                      "are then not used."},
               {.name = "persons",
                .slot = t(&TrajectoriesConfig::persons),
                .doc = "Read the persons of the file too, as person:ID. They can carry antennas but have no body."},
@@ -124,6 +131,10 @@ Table mount_table() {
                    .unit = "m",
                    .doc = "Position relative to the centre of the vehicle's footprint: ahead, left, up.",
                    .example = "[0.0, 0.0, 1.6]"},
+                  {.name = "above",
+                   .slot = m(&MountConfig::above),
+                   .doc = "What the third number of offset_m is measured from. zero: the footprint of the vehicle, "
+                          "along its own axes. ground: the ground of the scene below the antenna."},
                   antenna_field(m, &MountConfig::antenna),
                   polarization_field(m, &MountConfig::polarization),
                   array_field(m, &MountConfig::array),
@@ -199,9 +210,20 @@ Table track_table() {
                .slot = t(&TrackConfig::waypoints),
                .unit = "s, m, m, m",
                .required = true,
+               .instead = "waypoints_wgs84",
                .doc = "Each waypoint is [time, x, y, z], with increasing times, in the coordinates of the scene file; "
                       "the position is the centre of the footprint, on the ground.",
                .example = "[[0.0, -50.0, -3.0, 0.0], [5.0, 0.0, -3.0, 0.0]]"},
+              {.name = "waypoints_wgs84",
+               .slot = t(&TrackConfig::waypoints_wgs84),
+               .unit = "s, degrees, degrees, m",
+               .doc = "Instead of waypoints: each is [time, latitude, longitude, height above the ground] (WGS84); the "
+                      "vehicle follows the ground between them, too.",
+               .example = "[[0.0, 48.137, 11.575, 0.0], [5.0, 48.137, 11.576, 0.0]]"},
+              {.name = "above",
+               .slot = t(&TrackConfig::above),
+               .doc = "What the z of waypoints is measured from. zero: it is that of the scene file. ground: the "
+                      "ground of the scene, which the vehicle follows between waypoints, too."},
           },
       .append = append<&Config::tracks>,
       .count = count<&Config::tracks>,

@@ -8,9 +8,9 @@
 #include "convert/convert.hpp"
 #include "convert/kml_text.hpp"
 #include "convert/vtk_glb_kml.hpp"
-#include "imports/georeference.hpp"
 #include "output/path_kinds.hpp"
 #include "results/saved_world.hpp"
+#include "scene/georeference.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -22,7 +22,7 @@ constexpr size_t gain_classes = 12;  // of 5 dB
 constexpr double latest_s = 1e9;     // 31 years
 
 Georeference place_of(const SavedWorld& world, const ExportOptions& options) {
-  if (!options.projection.empty()) return {options.projection, {0, 0}, {}};
+  if (!options.projection.empty()) return {options.projection, {0, 0}, {}, {}};
   const std::string& scene = world.config.scene.file;
   if (const auto found = scene.empty() ? std::nullopt : find_georeference(scene)) return *found;
   throw InputError(fmt::format(
@@ -87,6 +87,10 @@ class KmlWriter {
   void put(const std::string& text) { file_.write(std::as_bytes(std::span(text))); }
   void put_styles();
   std::string coordinates(const glm::dvec3& p) const;
+  // Heights of scenes with a terrain are above sea level, those of others above their flat ground.
+  std::string altitude_mode() const {
+    return fmt::format("<altitudeMode>{}</altitudeMode>", place_.elevation_m ? "absolute" : "relativeToGround");
+  }
   std::string point(const glm::dvec3& p) const;
   std::string times(size_t row) const;
   void put_placemark(const std::string& name, const std::string& span, const std::string& style,
@@ -114,12 +118,11 @@ std::string KmlWriter::coordinates(const glm::dvec3& p) const {
         fmt::format("kml: x = {} m, y = {} m is not on the earth in \"{}\": is that the projection of the "
                     "scene's coordinates?",
                     p.x, p.y, place_.projection));
-  return fmt::format("{:.9f},{:.9f},{:.4f}", earth.x, earth.y, p.z);
+  return fmt::format("{:.9f},{:.9f},{:.4f}", earth.x, earth.y, p.z + place_.elevation_m.value_or(0));
 }
 
 std::string KmlWriter::point(const glm::dvec3& p) const {
-  return "<Point><altitudeMode>relativeToGround</altitudeMode><coordinates>" + coordinates(p) +
-         "</coordinates></Point>";
+  return "<Point>" + altitude_mode() + "<coordinates>" + coordinates(p) + "</coordinates></Point>";
 }
 
 // From a frame to the next one; the last is as long as the one before it. A single frame has no times.
@@ -190,10 +193,8 @@ void KmlWriter::put_vehicles(const SavedFrame& frame, const std::string& span) {
       std::string ring;
       for (const glm::dvec2& corner : {glm::dvec2(a.x, a.y), {b.x, a.y}, {b.x, b.y}, {a.x, b.y}, {a.x, a.y}})
         ring += coordinates(placed(pose, model, {corner.x, corner.y, b.z})) + " ";
-      geometry =
-          "<Polygon><extrude>1</extrude><altitudeMode>relativeToGround</altitudeMode><outerBoundaryIs><LinearRing>"
-          "<coordinates>" +
-          ring + "</coordinates></LinearRing></outerBoundaryIs></Polygon>";
+      geometry = "<Polygon><extrude>1</extrude>" + altitude_mode() + "<outerBoundaryIs><LinearRing><coordinates>" +
+                 ring + "</coordinates></LinearRing></outerBoundaryIs></Polygon>";
     }
     put_placemark(vehicle.id, span, "vehicle", data_of("type", vehicle.type), geometry);
   }
@@ -224,8 +225,7 @@ void KmlWriter::put_paths(const SavedFrame& frame, const std::string& span) {
                       data_of("delay_ns", fmt::format("{:.3f}", paths.delay_s[i] * 1e9)) +
                       data_of("doppler_hz", fmt::format("{:.3f}", paths.doppler_hz[i])) +
                       data_of("kind", std::string(path_kinds[path_kind(paths, i)].word)),
-                  "<LineString><altitudeMode>relativeToGround</altitudeMode><coordinates>" + line +
-                      "</coordinates></LineString>");
+                  "<LineString>" + altitude_mode() + "<coordinates>" + line + "</coordinates></LineString>");
   }
 }
 

@@ -13,6 +13,8 @@
 #include "imports/map.hpp"
 #include "imports/plan.hpp"
 #include "imports/scene_files.hpp"
+#include "imports/terrain.hpp"
+#include "imports/vector_map.hpp"
 #include "scene/materials.hpp"
 #include "wavetracer/error.hpp"
 
@@ -33,6 +35,9 @@ void check(const ImportOptions& options) {
     throw ConfigError(
         fmt::format("the margin of the ground (--margin) = {} m must be from 0 to 10000 m", options.margin_m));
   }
+  positive("the error of the terrain (--terrain-error)", options.terrain_error_m, 1000);
+  if (!options.terrain.empty() && !options.ground)
+    throw ConfigError("--terrain makes the ground that --no-ground leaves out: remove one of them");
   if (options.output.empty()) throw ConfigError("an import needs a folder to write to");
   for (const std::string& name : {options.ground_material, options.wall_material, options.roof_material}) {
     const auto& known = itu_materials();
@@ -45,14 +50,33 @@ void check(const ImportOptions& options) {
   }
 }
 
+bool is_osm_or_sumo(std::string_view begin) { return imports::is_osm(begin) || imports::is_sumo_polygons(begin); }
+
+void refuse_options_of_gdal(const std::string& name, const ImportOptions& options) {
+  for (const auto& [flag, value] :
+       {std::pair{"--layer", &options.layer}, {"--height", &options.height_field}, {"--levels", &options.levels_field}})
+    if (!value->empty())
+      throw ConfigError(
+          fmt::format("{}: {} is for maps with fields; this one has tags, whose heights are read anyway", name, flag));
+}
+
 imports::Map read_map(std::string_view content, const std::string& name, const ImportOptions& options) {
   const std::string_view begin = content.substr(0, first_bytes);
+  refuse_options_of_gdal(name, options);
   if (imports::is_osm(begin)) return imports::read_osm(content, name, options);
   if (imports::is_sumo_polygons(begin)) return imports::read_sumo_polygons(content, name);
   throw InputError(
       fmt::format("{}: this is neither an OpenStreetMap file (.osm, .osm.pbf) nor a file of SUMO polygons (.poly.xml); "
                   "unpack .gz and .bz2 first",
                   name));
+}
+
+std::string first_bytes_of(const std::filesystem::path& file) {
+  std::string begin(first_bytes, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<size_t>(in.gcount()));
+  return begin;
 }
 
 std::string total(const std::map<std::string, uint64_t>& counts) {
@@ -91,45 +115,57 @@ void write_reference(const std::filesystem::path& folder, const Georeference& ge
   }
 }
 
-}  // namespace
-
-bool is_import(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return false;
-  std::string begin(first_bytes, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<size_t>(in.gcount()));
-  return imports::is_osm(begin) || imports::is_sumo_polygons(begin);
-}
-
-ImportSummary import_city(const std::filesystem::path& file, const ImportOptions& options) {
-  return import_city(read_file(file), file.string(), options);
-}
-
-ImportSummary import_city(std::string_view content, const std::string& name, const ImportOptions& options) {
-  check(options);
-  const imports::Map map = read_map(content, name, options);
-  const imports::Plan plan = imports::plan_city(map, name, options);
+ImportSummary import_map(const imports::Map& map, const std::string& name, const ImportOptions& options) {
+  imports::Plan plan = imports::plan_city(map, name, options);
+  Georeference georeference = map.georeference;
+  georeference.offset_m += plan.offset_m;
   ImportSummary summary;
+  summary.warnings = map.warnings;
+  summary.ground = imports::ground_extent(plan, options);
+  std::optional<imports::Terrain> terrain;
+  if (!options.terrain.empty() && !plan.solids.empty()) {
+    terrain = imports::read_terrain(summary.ground, georeference, options);
+    imports::stand_on(*terrain->ground, plan);
+    summary.terrain = terrain->summary;
+    summary.warnings.insert(summary.warnings.end(), terrain->warnings.begin(), terrain->warnings.end());
+    georeference.elevation_m = 0;
+  }
   add_counts(summary, plan);
   if (plan.solids.empty()) {
     throw InputError(fmt::format("{}: contains no building that can be used{}{}", name,
                                  summary.left_out.empty() ? "" : "; left out:\n", total(summary.left_out)));
   }
-  const std::vector<imports::SceneMesh> meshes = imports::build_scene(plan, options);
+  const std::vector<imports::SceneMesh> meshes = imports::build_scene(plan, terrain ? &*terrain : nullptr, options);
   for (const imports::SceneMesh& mesh : meshes) summary.triangles += mesh.triangles.size();
-  Georeference georeference = map.georeference;
-  georeference.offset_m += plan.offset_m;
   summary.offset_m = plan.offset_m;
-  summary.ground = imports::ground_extent(plan, options);
   summary.attribution = georeference.attribution;
-  summary.warnings = map.warnings;
   write_reference(options.output, georeference);
   imports::write_scene(meshes, options, georeference.attribution);
   summary.scene = options.output / "city.xml";
   summary.net = options.net;
   return summary;
+}
+
+}  // namespace
+
+bool is_import(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  const std::string begin = first_bytes_of(file);
+  const std::string suffix = file.extension().string();
+  return is_osm_or_sumo(begin) || !(begin.empty() || begin.starts_with("\x89HDF") || suffix == ".h5" ||
+                                    suffix == ".xml" || suffix == ".toml" || file.filename() == "run.json");
+}
+
+ImportSummary import_city(const std::filesystem::path& file, const ImportOptions& options) {
+  if (is_osm_or_sumo(first_bytes_of(file))) return import_city(read_file(file), file.string(), options);
+  check(options);
+  return import_map(imports::read_vector_map(file.string(), options), file.string(), options);
+}
+
+ImportSummary import_city(std::string_view content, const std::string& name, const ImportOptions& options) {
+  check(options);
+  return import_map(read_map(content, name, options), name, options);
 }
 
 std::string describe(const ImportSummary& s) {
@@ -143,6 +179,12 @@ std::string describe(const ImportSummary& s) {
     out += fmt::format("ground     {:.0f} x {:.0f} m, from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})\n",
                        s.ground.upper_m.x - s.ground.lower_m.x, s.ground.upper_m.y - s.ground.lower_m.y,
                        s.ground.lower_m.x, s.ground.lower_m.y, s.ground.upper_m.x, s.ground.upper_m.y);
+  if (s.terrain)
+    out += fmt::format(
+        "terrain    {} triangles for {} posts, from {:.1f} to {:.1f} m; misses the posts by {:.3f} m at most, {:.3f} m "
+        "rms\n",
+        s.terrain->triangles, s.terrain->posts, s.terrain->lowest_m, s.terrain->highest_m, s.terrain->largest_error_m,
+        s.terrain->rms_error_m);
   if (!s.guessed.empty()) out += "assumed\n" + total(s.guessed);
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);
@@ -153,6 +195,8 @@ std::string describe(const ImportSummary& s) {
         "           [trajectories]\n           offset_m = [{:.0f}, {:.0f}, 0]  # from the map's coordinates\n",
         s.offset_m.x, s.offset_m.y);
   }
+  if (s.terrain)
+    out += "           [trajectories]\n           above = \"ground\"  # where the vehicles come from a flat network\n";
   return out;
 }
 

@@ -1,4 +1,5 @@
-// Cities of OpenStreetMap (.osm, .osm.pbf) and SUMO (.poly.xml) as scenes: extruded buildings on flat ground.
+// Cities of OpenStreetMap (.osm, .osm.pbf), SUMO (.poly.xml) and of maps that GDAL reads as scenes: extruded buildings
+// on ground that is flat or follows a raster.
 // Nothing is assumed of a file; what cannot be used is left out, counted and reported.
 #pragma once
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +38,14 @@ struct ImportOptions {
   // which are those of the vehicles; without it a transverse Mercator projection about the middle of the city.
   std::filesystem::path net;
   Extent traffic;  // where vehicles will be, in the coordinates of the network
+  // PROJ string of the coordinates that the scene shall have, instead of that Mercator projection; of a map that does
+  // not say where it is, the coordinates that it has.
+  std::string projection = {};
+  // Maps that GDAL reads only: the layer (empty: all of them), and its fields with heights in m and numbers of storeys.
+  std::string layer = {}, height_field = {}, levels_field = {};
+  // A raster of heights that the ground follows and houses stand on; empty: flat at z = 0.
+  std::filesystem::path terrain = {};
+  double terrain_error_m = 0.3;  // the most by which the ground may miss a post of the raster
   // How far it is: called before each mesh is written, which is what large maps take their time for. May be left out.
   std::function<void(uint64_t done, uint64_t total)> at = {};
 };
@@ -53,11 +63,17 @@ struct ImportSummary {
   Extent ground;                             // empty without one
   glm::dvec2 offset_m{0};   // scene = projected coordinates (OSM) or those of SUMO (.poly.xml, net) + this
   std::string attribution;  // to be shown with the data; empty where the source asks for none
+  struct Terrain {
+    uint64_t posts = 0, triangles = 0;            // of the raster in the area of the ground; of the ground
+    double largest_error_m = 0, rms_error_m = 0;  // of the ground at these posts
+    double lowest_m = 0, highest_m = 0;
+  };
+  std::optional<Terrain> terrain;
   std::vector<std::string> warnings;
 };
 
-// Whether the file is a map that import_city() reads: OSM XML, OSM PBF, or SUMO's polygons; by its first bytes. False
-// for folders and files that are not there.
+// Whether the file is a map that import_city() reads: OSM XML, OSM PBF, or SUMO's polygons, by its first bytes, or what
+// else is no run's HDF5 or JSON file. False for folders and files that are not there.
 bool is_import(const std::filesystem::path& file);
 
 // Writes OUTPUT/city.xml, OUTPUT/meshes/*.ply and OUTPUT/georeference.json, the scene file last.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "imports/building_tags.hpp"
-#include "imports/georeference.hpp"
 #include "imports/imports.hpp"
+#include "scene/georeference.hpp"
 
 namespace wavetracer::imports {
 

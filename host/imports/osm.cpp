@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <osmium/area/assembler.hpp>
 #include <osmium/index/map/sparse_mem_array.hpp>
 #include <osmium/io/pbf_input.hpp>
@@ -12,15 +11,14 @@
 #include <osmium/io/xml_input.hpp>
 #include <set>
 
-#include "base/file.hpp"
 #include "imports/map.hpp"
+#include "imports/projecting.hpp"
 #include "imports/rings.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::imports {
 namespace {
 
-constexpr double widest_map_deg = 2;  // 200 km: a slip, or a country, of which no scene can be made
 constexpr auto kept_tags = std::to_array<const char*>({"building", "building:part", "height", "min_height",
                                                        "building:levels", "building:min_level", "roof:levels",
                                                        "roof:shape", "building:material", "roof:material", "location"});
@@ -245,36 +243,6 @@ class OsmReader {
   std::vector<Entry> ways_, relations_;
 };
 
-template <class Visit>
-void each_point(Map& map, const Visit& visit) {
-  for (Footprint& footprint : map.footprints) {
-    for (glm::dvec2& p : footprint.outer) visit(p);
-    for (RingM& hole : footprint.holes) {
-      for (glm::dvec2& p : hole) visit(p);
-    }
-  }
-}
-
-// A transverse Mercator projection about the middle of the buildings: true to scale and angle, north is +y.
-Georeference local_projection(Map& map, const std::string& name) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  glm::dvec2 lower(infinity), upper(-infinity);
-  each_point(map, [&](const glm::dvec2& p) {
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
-  });
-  if (upper.x - lower.x > widest_map_deg || upper.y - lower.y > widest_map_deg) {
-    throw InputError(
-        fmt::format("{}: spans {:.1f} by {:.1f} degrees; extract a city from it: osmium extract -b "
-                    "WEST,SOUTH,EAST,NORTH {} -o city.osm.pbf",
-                    name, upper.x - lower.x, upper.y - lower.y, name));
-  }
-  return {fmt::format("+proj=tmerc +lat_0={:.6f} +lon_0={:.6f} +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs",
-                      (lower.y + upper.y) / 2, (lower.x + upper.x) / 2),
-          {0, 0},
-          {}};
-}
-
 }  // namespace
 
 bool is_osm(std::string_view first_bytes) {
@@ -285,23 +253,8 @@ bool is_osm(std::string_view first_bytes) {
 Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options) {
   Map map = OsmReader(content, name).read();
   if (map.footprints.empty()) return map;
-  if (options.net.empty()) {
-    map.georeference = local_projection(map, name);
-  } else {
-    const std::string net = read_file(options.net);
-    const auto location = sumo_location(net, options.net.string());
-    if (!location || location->georeference.projection.empty()) {
-      throw InputError(
-          fmt::format("{}: has no <location> with a projection; give the .net.xml that netconvert made of "
-                      "the same map",
-                      options.net.string()));
-    }
-    map.georeference = location->georeference;
-    map.network = location->boundary;
-  }
+  project(map, name, options, fmt::format("osmium extract -b WEST,SOUTH,EAST,NORTH {} -o city.osm.pbf", name));
   map.georeference.attribution = osm_attribution;
-  const Projection projection(map.georeference);
-  each_point(map, [&](glm::dvec2& p) { p = projection.scene(p); });
   return map;
 }
 

@@ -115,7 +115,8 @@ class Planner {
                               says_yes(footprint.tags, "building:part"),
                               std::move(polygon),
                               {},
-                              std::move(*shape)},
+                              std::move(*shape),
+                              {}},
                              &footprint.tags,
                              box});
     }
@@ -198,6 +199,7 @@ class Planner {
       if (!candidates_[i].gone && !candidates_[i].solid.part) index.add(candidates_[i].box, i);
     }
     index.sort();
+    std::vector<size_t> dropped;
     for (Candidate& part : candidates_) {
       if (part.gone || !part.solid.part) continue;
       const Point inside = point_inside(part.solid);
@@ -207,10 +209,13 @@ class Planner {
         for (const Ring& hole : outline.holes) {
           if (contains(hole, inside)) return;
         }
-        drop(candidates_[i], "outline whose parts are built instead");
+        part.solid.outline = outline.outer;
+        dropped.push_back(i);
       });
       if (!all) drop(part, too_many_around);
     }
+    for (const size_t i : dropped)
+      if (!candidates_[i].gone) drop(candidates_[i], "outline whose parts are built instead");
   }
   // The centroid of the largest triangle.
   static Point point_inside(const Solid& solid) {

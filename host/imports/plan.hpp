@@ -18,6 +18,8 @@ struct Solid {
   Polygon polygon;
   std::vector<Triangle> triangles;  // of the polygon
   Shape shape;
+  Ring outline = {};  // of the building that it is a part of; empty where there is none
+  double base_m = 0;  // the ground that it stands on
 };
 
 struct Plan {

@@ -56,7 +56,7 @@ std::string object_name(const Solid& solid) {
 std::vector<glm::dvec3> corners(const Solid& solid) {
   std::vector<glm::dvec3> out;
   const double bottom = solid.shape.bottom_m > 0 ? solid.shape.bottom_m : -foundation_m;
-  for (const double z : {bottom, solid.shape.top_m}) {
+  for (const double z : {solid.base_m + bottom, solid.base_m + solid.shape.top_m}) {
     const auto add = [&](const Ring& ring) {
       for (const Point& p : ring) {
         out.emplace_back(static_cast<double>(p.x) / grid_per_m, static_cast<double>(p.y) / grid_per_m, z);
@@ -68,7 +68,7 @@ std::vector<glm::dvec3> corners(const Solid& solid) {
   return out;
 }
 
-SceneMesh ground(const Extent& extent, const ImportOptions& options) {
+SceneMesh flat_ground(const Extent& extent, const ImportOptions& options) {
   const auto [x0, y0] = std::pair(extent.lower_m.x, extent.lower_m.y);
   const auto [x1, y1] = std::pair(extent.upper_m.x, extent.upper_m.y);
   return {"ground",
@@ -122,9 +122,12 @@ Extent ground_extent(const Plan& plan, const ImportOptions& options) {
   return out;
 }
 
-std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& options) {
+std::vector<SceneMesh> build_scene(const Plan& plan, const Terrain* terrain, const ImportOptions& options) {
   std::vector<SceneMesh> out;
-  if (const Extent extent = ground_extent(plan, options); !extent.empty()) out.push_back(ground(extent, options));
+  if (terrain)
+    out.push_back({"ground", "ground", options.ground_material, terrain->vertices, terrain->triangles});
+  else if (const Extent extent = ground_extent(plan, options); !extent.empty())
+    out.push_back(flat_ground(extent, options));
   for (const Solid& solid : plan.solids) {
     for (SceneMesh& mesh : extrude(solid)) out.push_back(std::move(mesh));
   }

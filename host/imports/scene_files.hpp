@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "imports/plan.hpp"
+#include "imports/terrain.hpp"
 #include "scene/raw_scene.hpp"
 
 namespace wavetracer::imports {
@@ -24,8 +25,8 @@ std::vector<SceneMesh> extrude(const Solid& solid);
 // The rectangle of the ground: all buildings, the network and the traffic, and the margin; empty without a ground.
 Extent ground_extent(const Plan& plan, const ImportOptions& options);
 
-// The ground first, if it is asked for, then all solids. Names of meshes are unique.
-std::vector<SceneMesh> build_scene(const Plan& plan, const ImportOptions& options);
+// The ground first, if it is asked for, flat or that of the terrain, then all solids. Names of meshes are unique.
+std::vector<SceneMesh> build_scene(const Plan& plan, const Terrain* terrain, const ImportOptions& options);
 
 // meshes/*.ply in the folder options.output, then city.xml, which names `attribution`. Throws RuntimeError.
 void write_scene(const std::vector<SceneMesh>& meshes, const ImportOptions& options, const std::string& attribution);

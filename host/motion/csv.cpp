@@ -21,7 +21,16 @@ constexpr std::array<std::string_view, 8> column_names = {"time", "id", "x", "y"
 constexpr size_t needed = 4;  // of the names
 constexpr size_t absent = ~size_t{0};
 constexpr std::string_view columns_advice =
-    "the first line must be a header with the columns time,id,x,y and optionally z,yaw,speed,type";
+    "the first line must be a header with the columns time,id,x,y and optionally z,yaw,speed,type; lat,lon (degrees) "
+    "may stand in the place of x,y";
+
+// What stands in x or y where the file is in degrees.
+struct DegreeName {
+  std::string_view name;
+  Column column;
+};
+constexpr auto degree_names =
+    std::to_array<DegreeName>({{"lon", x_column}, {"longitude", x_column}, {"lat", y_column}, {"latitude", y_column}});
 
 class Lines {
  public:
@@ -115,16 +124,25 @@ class CsvReader {
 
   void read_header(std::string_view content) {
     std::string unused;
+    size_t degrees = 0;
     for (size_t i = 0; i < cells_.size(); ++i) {
-      const auto name = std::find(column_names.begin(), column_names.end(), lower_case(cells_[i]));
-      if (name == column_names.end()) {
+      const std::string name = lower_case(cells_[i]);
+      const auto known = std::find(column_names.begin(), column_names.end(), name);
+      const auto degree = std::ranges::find(degree_names, name, &DegreeName::name);
+      if (known == column_names.end() && degree == degree_names.end()) {
         unused += fmt::format("{}'{}'", unused.empty() ? "" : ", ", cells_[i]);
         continue;
       }
-      size_t& column = column_[static_cast<size_t>(name - column_names.begin())];
-      if (column != absent) fail(fmt::format("the header has the column '{}' twice", *name));
+      degrees += degree != degree_names.end();
+      size_t& column = column_[known != column_names.end() ? static_cast<size_t>(known - column_names.begin())
+                                                           : static_cast<size_t>(degree->column)];
+      if (column != absent)
+        fail(fmt::format("the header has the column '{}' twice{}", name, degrees > 0 ? ", in metres or degrees" : ""));
       column = i;
     }
+    if (degrees == 1) fail("the header must have both lat and lon, which then stand in the place of x and y");
+    if (degrees > 0) tracks_.in_degrees();
+    in_degrees_ = degrees > 0;
     for (size_t i = 0; i < needed; ++i) {
       if (column_[i] != absent) continue;
       const bool semicolons = content.find(';') != content.npos;
@@ -158,6 +176,8 @@ class CsvReader {
     if (!has(id_column)) fail(fmt::format("column {} (id) is empty", column_[id_column] + 1));
     const double x = number(x_column), y = number(y_column);
     if (tracks_.off_network(x, y)) return;
+    if (in_degrees_ && (std::abs(x) > 180 || std::abs(y) > 90))
+      fail(fmt::format("latitude {} and longitude {} are no place on the earth", y, x));
     Sample sample;
     sample.time_s = number(time_column);
     sample.position_m = {x, y, column_[z_column] == absent ? 0 : number(z_column)};
@@ -172,6 +192,7 @@ class CsvReader {
   TrackBuilder tracks_;
   std::array<size_t, column_names.size()> column_;  // place of each of the names in a row
   size_t width_ = 0;                                // cells of a row
+  bool in_degrees_ = false;
   std::vector<std::string> cells_;
 };
 

@@ -1,20 +1,18 @@
-// FCD through expat, chunk by chunk (SUMO: "FCDOutput" of its documentation, fcd_file.xsd).
-// Assumes that exceptions must not cross expat, which is C: a callback keeps its own and stops the parser.
+// FCD as SUMO writes it ("FCDOutput" of its documentation, fcd_file.xsd).
+// Assumes that a file has one run, its timesteps in order.
 #include "motion/fcd.hpp"
 
-#include <expat.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <memory>
 #include <numbers>
 #include <set>
 
 #include "motion/input_text.hpp"
 #include "motion/track_builder.hpp"
 #include "motion/track_motion.hpp"
+#include "motion/xml_stream.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -26,19 +24,14 @@ constexpr std::string_view geo_advice =
     "the coordinates are longitude and latitude (--fcd-output.geo); run sumo without that option, so that it writes "
     "metres, or convert them to the scene's projection";
 
-class FcdReader {
+class FcdReader : private XmlStream {
  public:
   FcdReader(ByteStream& stream, const TrajectoryOptions& options)
-      : stream_(stream), options_(options), tracks_(stream.file(), options), parser_(XML_ParserCreate(nullptr)) {
-    if (!parser_) throw RuntimeError("not enough memory for an XML parser");
-    XML_SetUserData(parser_.get(), this);
-    XML_SetElementHandler(parser_.get(), &on_start, &on_end);
-    XML_SetCommentHandler(parser_.get(), &on_comment);
-  }
+      : XmlStream(stream, "an FCD output"), options_(options), tracks_(stream.file(), options) {}
 
   Trajectories read() {
-    for (std::string_view chunk = stream_.next(); !chunk.empty(); chunk = stream_.next()) parse(chunk, false);
-    parse({}, true);
+    parse_all(
+        "the file ends before </fcd-export>: let sumo finish, or cut off the last <timestep> and close the element");
     if (!has_timestep_) throw InputError(fmt::format("{}: the file has no <timestep>, so nothing would move", file()));
     refuse_degrees();
     if (skipped_ > 0) {
@@ -59,54 +52,10 @@ class FcdReader {
 
  private:
   enum class Level { document, root, timestep, vehicle };
-  using Attributes = const XML_Char**;
 
-  const std::string& file() const { return stream_.file(); }
-  uint64_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
-  [[noreturn]] void fail(std::string_view what) const { fail_at(file(), line(), what); }
+  void end(std::string_view) override { --depth_; }
 
-  void parse(std::string_view chunk, bool last) {
-    constexpr uint64_t longest = 1 << 20;  // expat reads an open tag or comment anew with every chunk
-    bytes_ += chunk.size();
-    if (XML_Parse(parser_.get(), chunk.data(), static_cast<int>(chunk.size()), last) == XML_STATUS_OK) {
-      const XML_Index begin = XML_GetCurrentByteIndex(parser_.get());  // of what is open
-      if (!last && begin >= 0 && bytes_ - static_cast<uint64_t>(begin) > longest) {
-        fail(fmt::format(
-            "a tag, an attribute or a comment of more than {} bytes begins here; this is not an FCD output", longest));
-      }
-      return;
-    }
-    if (error_) std::rethrow_exception(error_);
-    const XML_Error code = XML_GetErrorCode(parser_.get());
-    if (last) {
-      fail("the file ends before </fcd-export>: let sumo finish, or cut off the last <timestep> and close the element");
-    }
-    throw InputError(fmt::format("{}:{}:{}: not well-formed XML: {}", file(), line(),
-                                 XML_GetCurrentColumnNumber(parser_.get()) + 1, XML_ErrorString(code)));
-  }
-
-  template <class Function>
-  static void guarded(void* self, const Function& function) {
-    FcdReader& reader = *static_cast<FcdReader*>(self);
-    if (reader.error_) return;  // expat may go on for a few events after it was stopped
-    try {
-      function(reader);
-    } catch (...) {
-      reader.error_ = std::current_exception();
-      XML_StopParser(reader.parser_.get(), XML_FALSE);
-    }
-  }
-  static void on_start(void* self, const XML_Char* name, Attributes attributes) {
-    guarded(self, [&](FcdReader& reader) { reader.start(name, attributes); });
-  }
-  static void on_end(void* self, const XML_Char*) {
-    guarded(self, [](FcdReader& reader) { --reader.depth_; });
-  }
-  static void on_comment(void* self, const XML_Char* text) {
-    guarded(self, [&](FcdReader& reader) { reader.comment(text); });
-  }
-
-  void start(std::string_view name, Attributes attributes) {
+  void start(std::string_view name, Attributes attributes) override {
     switch (static_cast<Level>(std::min(depth_++, 3))) {
       case Level::document:
         if (name == "fcd-export") return;
@@ -130,7 +79,7 @@ class FcdReader {
   }
 
   // SUMO begins a file with its configuration in a comment, options at their defaults left out.
-  void comment(std::string_view text) const {
+  void comment(std::string_view text) override {
     constexpr std::string_view key = "<fcd-output.geo value=\"";
     const size_t at = text.find(key);
     if (at == text.npos) return;
@@ -140,13 +89,6 @@ class FcdReader {
     if (value == "true" || value == "1" || value == "yes" || value == "on" || value == "t" || value == "x") {
       fail(geo_advice);
     }
-  }
-
-  static const XML_Char* find(Attributes attributes, std::string_view name) {
-    for (; *attributes; attributes += 2) {
-      if (*attributes == name) return attributes[1];
-    }
-    return nullptr;
   }
 
   void start_timestep(Attributes attributes) {
@@ -237,17 +179,9 @@ class FcdReader {
     if (driven_m > 1 && moved < 1e-3 * driven_m) throw InputError(fmt::format("{}: {}", file(), geo_advice));
   }
 
-  struct FreeParser {
-    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
-  };
-
-  ByteStream& stream_;
   const TrajectoryOptions& options_;
   TrackBuilder tracks_;
-  std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
-  std::exception_ptr error_;  // thrown in a callback
-  uint64_t bytes_ = 0;        // given to the parser
-  int depth_ = 0;             // of open elements
+  int depth_ = 0;  // of open elements
   bool has_timestep_ = false;
   double time_s_ = 0;
   uint64_t timestep_line_ = 0;

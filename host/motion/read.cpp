@@ -7,6 +7,7 @@
 #include "motion/byte_stream.hpp"
 #include "motion/csv.hpp"
 #include "motion/fcd.hpp"
+#include "motion/gpx.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -19,9 +20,12 @@ Trajectories read_trajectories(const std::filesystem::path& path, const Trajecto
   const size_t first = start.find_first_not_of(passed_over);
   if (first == start.npos) {
     throw InputError(
-        fmt::format("{}: the file is empty; a trajectory file is the FCD output of SUMO or CSV", stream.file()));
+        fmt::format("{}: the file is empty; a trajectory file is the FCD output of SUMO, GPX or CSV", stream.file()));
   }
-  if (start[first] == '<') return read_fcd(stream, options);
+  if (start[first] == '<') {
+    const size_t gpx = start.find("<gpx");  // comments and instructions may come before
+    return gpx < start.find("<fcd-export") ? read_gpx(stream, options) : read_fcd(stream, options);
+  }
   if (start.substr(0, first).find_first_of("\xFF\xFE") != start.npos) {
     throw InputError(fmt::format("{}: this is a text file in UTF-16; save it as UTF-8", stream.file()));
   }

@@ -92,6 +92,39 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
   return index;
 }
 
+void TrackBuilder::in_degrees() {
+  degrees_ = true;
+  if (!options_.from_degrees)
+    throw InputError(
+        fmt::format("{}: positions are latitude and longitude, which need a georeference.json beside the scene file "
+                    "(docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one)",
+                    file_));
+  if (options_.scale != 1 || options_.offset_m != glm::dvec3(0))
+    throw ConfigError(
+        fmt::format("{}: positions are latitude and longitude, which the georeference of the scene places: remove "
+                    "trajectories.offset_m and trajectories.scale",
+                    file_));
+}
+
+// File coordinates to those of the scene; heights above the ground to z. A place without a ground below has the one of
+// the sample before.
+void TrackBuilder::place(Track& track) {
+  const bool on_ground = (degrees_ || options_.above_ground) && options_.ground;
+  double ground_m = 0;
+  for (Sample& s : track.samples) {
+    if (degrees_)
+      s.position_m = glm::dvec3(options_.from_degrees(glm::dvec2(s.position_m)), s.position_m.z);
+    else
+      s.position_m = options_.scale * s.position_m + options_.offset_m;
+    if (!on_ground) continue;
+    const std::optional<double> below_m = options_.ground(glm::dvec2(s.position_m));
+    off_ground_ += !below_m;
+    ground_m = below_m.value_or(ground_m);
+    s.position_m.z += ground_m;
+    s.pitch_rad = not_given;  // that of the ground
+  }
+}
+
 Trajectories TrackBuilder::finish(ReferencePoint reference) {
   if (out_.tracks.empty())
     throw InputError(fmt::format("{}: the file contains no vehicle, so nothing would move", file_));
@@ -99,7 +132,7 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
   std::vector<std::string> cut, without_heading;
   double first_cut_s = 0;
   for (Track& track : out_.tracks) {
-    for (Sample& s : track.samples) s.position_m = options_.scale * s.position_m + options_.offset_m;
+    place(track);
     if (const auto time_s = split_segments(track, out_.step_s, options_.max_speed_m_s)) {
       if (cut.empty()) first_cut_s = *time_s;
       cut.push_back(track.id);
@@ -118,6 +151,10 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
         "{}: {} samples have x or y = {:.0f}, which SUMO writes for a vehicle off the network: the vehicle is "
         "absent at these times",
         file_, off_network_, sumo_invalid));
+  }
+  if (off_ground_ > 0) {
+    warn(fmt::format("{}: {} samples are outside of the ground: their vehicles keep the height that they had before",
+                     file_, off_ground_));
   }
   if (changed_types_ > 0) {
     warn(fmt::format("{}: {} samples change the type of their vehicle, which keeps its first one", file_,

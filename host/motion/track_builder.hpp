@@ -34,6 +34,9 @@ class TrackBuilder {
     off_network_ += off;
     return off;
   }
+  // Positions are (longitude, latitude) in degrees and the height above the ground. Throws where the options have
+  // nothing to place them with.
+  void in_degrees();
   void warn(std::string message) { out_.warnings.push_back(std::move(message)); }
   // The samples so far, by first appearance in the file, in file coordinates.
   const std::vector<Track>& tracks() const { return out_.tracks; }
@@ -42,6 +45,7 @@ class TrackBuilder {
   Trajectories finish(ReferencePoint reference);
 
  private:
+  void place(Track& track);
   uint32_t type_index(std::string_view name, uint64_t line);
 
   struct Hash {
@@ -57,7 +61,8 @@ class TrackBuilder {
   std::vector<uint64_t> last_line_;  // of each track
   ByName<uint32_t> track_of_, type_of_;
   std::vector<std::string> unknown_types_;
-  uint64_t changed_types_ = 0, off_network_ = 0;
+  uint64_t changed_types_ = 0, off_network_ = 0, off_ground_ = 0;
+  bool degrees_ = false;
 };
 
 }  // namespace wavetracer

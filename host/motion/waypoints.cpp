@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <set>
 #include <string_view>
 
+#include "motion/pose.hpp"
 #include "motion/read.hpp"
 #include "motion/track_motion.hpp"
 #include "motion/vehicle_types.hpp"
@@ -14,7 +16,38 @@
 
 namespace wavetracer {
 
-Trajectories connect_waypoints(std::span<const WaypointTrack> tracks) {
+namespace {
+
+// Onto the ground: more samples, 2 m apart along the way, each at the height of the ground there.
+void lay_on_ground(Track& track, const GroundHeight& ground) {
+  constexpr double step_m = 2, most_pieces = 100000;
+  std::vector<Sample> samples;
+  double ground_m = 0;
+  const auto add = [&](double time_s) {
+    Sample s;
+    s.time_s = time_s;
+    s.position_m = pose_at(track, time_s)->position_m;
+    ground_m = ground(glm::dvec2(s.position_m)).value_or(ground_m);
+    s.position_m.z += ground_m;
+    samples.push_back(s);
+  };
+  for (size_t k = 0; k < track.samples.size(); ++k) {
+    const Sample& here = track.samples[k];
+    add(here.time_s);
+    if (k + 1 == track.samples.size()) break;
+    const Sample& next = track.samples[k + 1];
+    const double way_m = glm::distance(here.position_m, next.position_m);
+    const double pieces = std::clamp(std::ceil(way_m / step_m), 1.0, most_pieces);
+    for (double i = 1; i < pieces; ++i) add(here.time_s + (next.time_s - here.time_s) * i / pieces);
+  }
+  track.samples = std::move(samples);
+  complete_headings(track);
+  complete_velocities(track);
+}
+
+}  // namespace
+
+Trajectories connect_waypoints(std::span<const WaypointTrack> tracks, const GroundHeight& ground) {
   Trajectories out;
   std::set<std::string_view> ids;
   for (const WaypointTrack& from : tracks) {
@@ -48,6 +81,9 @@ Trajectories connect_waypoints(std::span<const WaypointTrack> tracks) {
   }
   if (out.tracks.empty()) return out;
   set_order(out);
+  for (const WaypointTrack& from : tracks)
+    if (from.above_ground && ground)
+      lay_on_ground(*std::ranges::find(out.tracks, from.id, &Track::id), ground);  // the step stays that of waypoints
   return out;
 }
 

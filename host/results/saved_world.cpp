@@ -2,10 +2,14 @@
 // Vehicles are matched by their id, because a run of a part of the frames lists the same vehicles.
 #include "results/saved_world.hpp"
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include "base/hash.hpp"
 #include "config/retired_keys.hpp"
 #include "imports/road_network.hpp"
+#include "scene/ground.hpp"
 #include "scene/load.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config_file.hpp"
@@ -21,6 +25,28 @@ void warn_changed(const SavedRun& run, std::vector<std::string>& warnings) {
     if (now && (now->bytes != input.bytes || now->hash != input.hash))
       warnings.push_back(fmt::format("{} ({}) has changed since the run; what is made of it is not what the run saw",
                                      input.file, input.name));
+  }
+}
+
+// Lanes of a flat network on the ground that vehicles drive on.
+void drape(std::vector<Street>& streets, const Scene& scene) {
+  constexpr double step_m = 5;
+  const Ground ground(scene);
+  for (Street& street : streets) {
+    std::vector<glm::dvec3> draped;
+    const auto add = [&](glm::dvec3 p) {
+      p.z += ground.height_m(glm::dvec2(p)).value_or(0);
+      draped.push_back(p);
+    };
+    for (size_t i = 0; i < street.centre_m.size(); ++i) {
+      const glm::dvec3& from = street.centre_m[i];
+      add(from);
+      if (i + 1 == street.centre_m.size()) break;
+      const glm::dvec3& to = street.centre_m[i + 1];
+      const double pieces = std::clamp(std::ceil(glm::distance(from, to) / step_m), 1.0, 10000.0);
+      for (double k = 1; k < pieces; ++k) add(glm::mix(from, to, k / pieces));
+    }
+    street.centre_m = std::move(draped);
   }
 }
 
@@ -46,7 +72,10 @@ SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
   Config config = out.config;
   config.trace.diffraction = config.trace.diffraction || with_wedges;
   if (!attempt("the scene cannot be shown", [&] { out.scene = load_scene(config); })) return out;
-  attempt("streets are not shown", [&] { out.streets = known_streets(out.config); });
+  attempt("streets are not shown", [&] {
+    out.streets = known_streets(out.config);
+    if (config.trajectories.above == "ground" && !out.streets.empty()) drape(out.streets, out.scene);
+  });
   if (run.instances().empty()) return out;
   attempt("vehicles are shown without their bodies", [&] {
     const World world(out.config, out.scene);

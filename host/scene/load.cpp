@@ -12,6 +12,7 @@
 #include "base/input_file.hpp"
 #include "scene/build_scene.hpp"
 #include "scene/city.hpp"
+#include "scene/georeference.hpp"
 #include "scene/mitsuba.hpp"
 #include "scene/model.hpp"
 #include "scene/ply.hpp"
@@ -114,7 +115,9 @@ Scene load_scene(const Config& config) {
 
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
                       const std::vector<MaterialConfig>& materials, double frequency_hz, EdgeSearch edges) {
-  return finish(read_raw(path), scene, materials, frequency_hz, edges);
+  RawScene raw = read_raw(path);
+  if (const std::filesystem::path place = georeference_file(path); !place.empty()) raw.files.push_back(place.string());
+  return finish(std::move(raw), scene, materials, frequency_hz, edges);
 }
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// The ground below all receivers of a grid is found triangle by triangle, each over the cells that it covers.
+// Receivers one by one, in the order of their names.
 // Assumes borders that are finite, as the configuration's fields are.
 #include "simulation/receiver_grid.hpp"
 
@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <glm/vec2.hpp>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -40,43 +39,13 @@ void check_count(const ReceiverGridConfig& grid, double receivers) {
                     grid.name, grid.step_m, receivers, max_grid_receivers));
 }
 
-// The lowest z at which a vertical line meets the triangle; nothing where it passes it by or the triangle is vertical.
-std::optional<double> height_at(const glm::dvec2& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const auto area = [](const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; };
-  const glm::dvec2 pa = glm::dvec2(a) - p, pb = glm::dvec2(b) - p, pc = glm::dvec2(c) - p;
-  const double wa = area(pb, pc), wb = area(pc, pa), wc = area(pa, pb), sum = wa + wb + wc;
-  const bool inside = (wa >= 0 && wb >= 0 && wc >= 0) || (wa <= 0 && wb <= 0 && wc <= 0);
-  if (!inside || sum == 0) return {};
-  return (wa * a.z + wb * b.z + wc * c.z) / sum;
-}
-
-// Lowest surface below each receiver, recentred z.
-std::vector<double> ground_m(const GridShape& shape, const Scene& scene) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> z_m(size_t{shape.columns} * shape.rows, none);
-  const glm::dvec2 first{shape.x_m - scene.origin_m.x, shape.y_m - scene.origin_m.y};
-  const auto cells = [&](double lower_m, double upper_m, double first_m, double count) {
-    const double from = std::clamp(std::ceil((lower_m - first_m) / shape.step_m), 0.0, count);
-    const double to = std::clamp(std::floor((upper_m - first_m) / shape.step_m) + 1, from, count);
-    return std::pair{static_cast<uint32_t>(from), static_cast<uint32_t>(to)};
-  };
-  for (const auto& corners : scene.triangles) {
-    const glm::dvec3 &a = scene.vertices[corners[0]], &b = scene.vertices[corners[1]], &c = scene.vertices[corners[2]];
-    const auto [left, right] = cells(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), first.x, shape.columns);
-    const auto [low, high] = cells(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), first.y, shape.rows);
-    for (uint32_t iy = low; iy < high; ++iy)
-      for (uint32_t ix = left; ix < right; ++ix)
-        if (const auto z = height_at(first + shape.step_m * glm::dvec2(ix, iy), a, b, c)) {
-          double& lowest = z_m[size_t{iy} * shape.columns + ix];
-          lowest = std::min(lowest, *z);
-        }
-  }
-  std::replace(z_m.begin(), z_m.end(), none, scene.lower.z);
-  return z_m;
-}
-
-std::vector<RadioEnd> joined(std::vector<RadioEnd> ends, const std::vector<RadioEnd>& more) {
+std::vector<RadioEnd> placed(std::vector<RadioEnd> ends, const std::vector<RadioEnd>& more, PlaceFinder& places) {
   ends.insert(ends.end(), more.begin(), more.end());
+  for (RadioEnd& end : ends) {
+    end.position_m = places.position_m(end);
+    end.position_wgs84.reset();
+    end.above = "zero";
+  }
   return ends;
 }
 
@@ -90,12 +59,12 @@ GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene) {
   return {static_cast<uint32_t>(x.count), static_cast<uint32_t>(y.count), x.first_m, y.first_m, grid.step_m};
 }
 
-std::vector<RadioEnd> standing_transmitters(const Config& config) {
-  return joined(config.transmitters, config.stations);
+std::vector<RadioEnd> standing_transmitters(const Config& config, PlaceFinder& places) {
+  return placed(config.transmitters, config.stations, places);
 }
 
-std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scene) {
-  std::vector<RadioEnd> out = joined(config.receivers, config.stations);
+std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scene, PlaceFinder& places) {
+  std::vector<RadioEnd> out = placed(config.receivers, config.stations, places);
   if (config.receiver_grids.empty()) return out;
   const size_t singles = out.size();
   std::set<std::string> taken;
@@ -104,17 +73,17 @@ std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scen
   for (const ReceiverGridConfig& grid : config.receiver_grids) {
     const GridShape shape = grid_shape(grid, scene);
     check_count(grid, static_cast<double>(out.size() - singles + uint64_t{shape.columns} * shape.rows));
-    const std::vector<double> ground = grid.above == "ground" ? ground_m(shape, scene) : std::vector<double>{};
     for (uint32_t iy = 0; iy < shape.rows; ++iy)
       for (uint32_t ix = 0; ix < shape.columns; ++ix) {
-        const double zero_m = ground.empty() ? 0 : scene.origin_m.z + ground[size_t{iy} * shape.columns + ix];
-        RadioEnd end{
-            .name = fmt::format("{}/{},{}", grid.name, ix, iy),
-            .position_m = {shape.x_m + ix * shape.step_m, shape.y_m + iy * shape.step_m, zero_m + grid.height_m},
-            .antenna = grid.antenna,
-            .polarization = grid.polarization,
-            .orientation_deg = grid.orientation_deg,
-            .array = grid.array};
+        const glm::dvec2 place_m{shape.x_m + ix * shape.step_m, shape.y_m + iy * shape.step_m};
+        const double zero_m =
+            grid.above == "ground" ? places.ground_m(place_m).value_or(scene.origin_m.z + scene.lower.z) : 0;
+        RadioEnd end{.name = fmt::format("{}/{},{}", grid.name, ix, iy),
+                     .position_m = {place_m.x, place_m.y, zero_m + grid.height_m},
+                     .antenna = grid.antenna,
+                     .polarization = grid.polarization,
+                     .orientation_deg = grid.orientation_deg,
+                     .array = grid.array};
         if (!taken.insert(end.name).second)
           throw ConfigError(
               fmt::format("[[receiver_grid]] \"{}\": a radio end of the name \"{}\" exists already: "

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/place_finder.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 
@@ -23,13 +24,13 @@ struct GridShape {
 // exchanged, and for more than max_grid_receivers.
 GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene);
 
-// All transmitters that stand: [[transmitter]], then [[station]].
-std::vector<RadioEnd> standing_transmitters(const Config& config);
+// All transmitters that stand: [[transmitter]], then [[station]]; their position_m is set, however it was given.
+std::vector<RadioEnd> standing_transmitters(const Config& config, PlaceFinder& places);
 
 // All receivers that stand: [[receiver]], then [[station]], then the cells of grids, in their order. Only the scene's
 // origin and extent are used, and its triangles where above = "ground". Throws ConfigError, also for a name that is
 // taken.
-std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scene);
+std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scene, PlaceFinder& places);
 
 struct GridCell {
   uint32_t ix = 0, iy = 0;

@@ -8,7 +8,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
+
+#include "scene/bodies.hpp"
 
 namespace wavetracer {
 namespace {
@@ -60,28 +61,11 @@ Surroundings::Index::Index(const Scene& scene) : triangles(scene) {
   for (uint32_t t = 0; t < boxes.size(); ++t) object_box[scene.triangle_object[t]].grow(boxes[t]);
 }
 
-// Triangles that share an edge are of one body: a forest of triangles, each pointing to a lower one.
 void Surroundings::Index::join_bodies(const Scene& scene) {
   const std::vector<SceneBox>& boxes = triangles.boxes();
-  std::vector<uint32_t> parent(boxes.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
-  for (const Edge& edge : scene.edges)
-    for (uint32_t k = 1; k < edge.face_count; ++k) {
-      const uint32_t a = root(scene.edge_faces[edge.first_face]), b = root(scene.edge_faces[edge.first_face + k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  body.resize(boxes.size());
+  body = bodies_of(scene);
   for (uint32_t t = 0; t < boxes.size(); ++t) {
-    const uint32_t first = root(t);
-    if (first == t) {
-      body[t] = static_cast<uint32_t>(body_box.size());
-      body_box.push_back(boxes[t]);
-    }
-    body[t] = body[first];
+    if (body[t] == body_box.size()) body_box.push_back(boxes[t]);
     body_box[body[t]].grow(boxes[t]);
   }
 }

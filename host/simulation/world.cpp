@@ -14,6 +14,7 @@
 #include "radio/antenna.hpp"
 #include "simulation/live_places.hpp"
 #include "simulation/name_pattern.hpp"
+#include "simulation/place_finder.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "simulation/world_links.hpp"
 #include "simulation/world_models.hpp"
@@ -57,6 +58,7 @@ struct MountedEnd {
   uint32_t track;
   glm::dvec3 offset_m;
   glm::dmat3 rotation;  // antenna axes to vehicle axes
+  bool above_ground;    // offset_m.z is the height above the ground
 };
 
 // All ends of one role: those that stand, then those on vehicles.
@@ -81,15 +83,20 @@ struct World::State {
   std::vector<uint32_t> receiver_of_transmitter, transmitter_of_receiver;
   double reach_m = 0;
   std::vector<std::string> warnings;
+  glm::dvec3 scene_origin_m{0};
+  double lowest_m = 0, highest_m = 0;    // z of the scene
+  std::shared_ptr<const Ground> ground;  // where an antenna of a vehicle stands above it
 
   void add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m);
   void add_instances(VehicleModels& vehicles, const Scene& scene);
   void add_mounts(const std::vector<MountConfig>& mounts, const glm::dvec3& origin_m);
   void add_mounted(EndsOfRole& role, uint32_t track, const MountConfig& mount, const glm::dvec3& origin_m);
+  glm::dvec3 mounted_position(const MountedEnd& end, const Pose& pose) const;
   EndState mounted_state(const MountedEnd& end, const VehicleState& vehicle) const;
   void set_links(const LinksConfig& config);
   void set_twins();
   void set_clock(const TimeConfig& config);
+  double from_ground_m(const MountedEnd& end) const;
   void set_reach(const glm::dvec3& origin_m);
   void warn_outside(const Scene& scene);
   WorldState state(double time_s, const std::vector<VehicleState>& vehicles) const;
@@ -127,8 +134,16 @@ void World::State::add_instances(VehicleModels& vehicles, const Scene& scene) {
   models = std::move(vehicles.models());
 }
 
+glm::dvec3 World::State::mounted_position(const MountedEnd& end, const Pose& pose) const {
+  if (!end.above_ground) return position_at(pose, end.offset_m);
+  glm::dvec3 out = position_at(pose, {end.offset_m.x, end.offset_m.y, 0});
+  const std::optional<double> below_m = ground->height_m(glm::dvec2(scene_origin_m + out));
+  out.z = (below_m ? *below_m - scene_origin_m.z : pose.position_m.z) + end.offset_m.z;
+  return out;
+}
+
 EndState World::State::mounted_state(const MountedEnd& end, const VehicleState& vehicle) const {
-  return {.position_m = position_at(vehicle.pose, end.offset_m),
+  return {.position_m = mounted_position(end, vehicle.pose),
           .rotation = glm::mat3_cast(vehicle.pose.orientation) * end.rotation,
           .velocity_m_s = velocity_at(vehicle.pose, end.offset_m),
           .instance = track_instance[end.track],
@@ -138,7 +153,8 @@ EndState World::State::mounted_state(const MountedEnd& end, const VehicleState& 
 // As it is where its vehicle first appears.
 void World::State::add_mounted(EndsOfRole& role, uint32_t track, const MountConfig& mount, const glm::dvec3& origin_m) {
   const Track& vehicle = trajectories.tracks[track];
-  role.mounted.push_back({track, vector_of(mount.offset_m), rotation_of(mount.orientation_deg)});
+  role.mounted.push_back(
+      {track, vector_of(mount.offset_m), rotation_of(mount.orientation_deg), mount.above == "ground"});
   const EndState first = mounted_state(role.mounted.back(), vehicle_at(vehicle, vehicle.samples.front().time_s));
   const glm::dvec3 position_m = origin_m + first.position_m, velocity_m_s = first.velocity_m_s;
   role.ends.push_back({.name = vehicle.id + "/" + mount.name,
@@ -186,11 +202,15 @@ void World::State::set_links(const LinksConfig& config) {
 
 // A transmitter and a receiver are one end where they stand in one place, or on one vehicle in one place.
 void World::State::set_twins() {
-  using PlaceKey = std::tuple<uint32_t, double, double, double>;
+  using PlaceKey = std::tuple<uint32_t, bool, double, double, double>;
   const auto place = [](const EndsOfRole& role, size_t i) {
     const bool stands = i < role.standing.size();
-    const glm::dvec3& p = stands ? role.standing[i].position_m : role.mounted[i - role.standing.size()].offset_m;
-    return PlaceKey{stands ? no_vehicle : role.mounted[i - role.standing.size()].track, p.x, p.y, p.z};
+    if (stands) {
+      const glm::dvec3& p = role.standing[i].position_m;
+      return PlaceKey{no_vehicle, false, p.x, p.y, p.z};
+    }
+    const MountedEnd& end = role.mounted[i - role.standing.size()];
+    return PlaceKey{end.track, end.above_ground, end.offset_m.x, end.offset_m.y, end.offset_m.z};
   };
   receiver_of_transmitter.assign(transmitters.ends.size(), no_end);
   transmitter_of_receiver.assign(receivers.ends.size(), no_end);
@@ -230,6 +250,15 @@ void World::State::set_clock(const TimeConfig& config) {
                     frames, range_in_words(config), first_s, last_s));
 }
 
+// How far the ground below an antenna may be from its vehicle.
+double World::State::from_ground_m(const MountedEnd& end) const {
+  if (!end.above_ground) return 0;
+  double out = 0;
+  for (const Sample& sample : trajectories.tracks[end.track].samples)
+    out = std::max({out, std::abs(sample.position_m.z - lowest_m), std::abs(sample.position_m.z - highest_m)});
+  return out;
+}
+
 void World::State::set_reach(const glm::dvec3& origin_m) {
   Reach reach(origin_m);
   std::vector<double> radius_m(trajectories.tracks.size(), 0);
@@ -237,7 +266,7 @@ void World::State::set_reach(const glm::dvec3& origin_m) {
     for (size_t i = 0; i < role->standing.size(); ++i)
       reach.add_end(fmt::format("{} \"{}\"", word, role->ends[i].name), role->standing[i].position_m);
     for (const MountedEnd& end : role->mounted)
-      radius_m[end.track] = std::max(radius_m[end.track], glm::length(end.offset_m));
+      radius_m[end.track] = std::max(radius_m[end.track], glm::length(end.offset_m) + from_ground_m(end));
   }
   for (size_t i = 0; i < instances.size(); ++i) {
     const Scene& model = models[instances[i].model];
@@ -270,12 +299,18 @@ World::World(const Config& config, const Scene& scene) : state_(std::make_unique
   State& s = *state_;
   VehicleModels vehicles(config);
   if (!config.live_vehicles.empty()) s.live.emplace(config, vehicles, scene);
-  s.trajectories = s.live ? s.live->tracks() : load_trajectories(config, vehicles);
+  PlaceFinder places(config, scene);
+  s.scene_origin_m = scene.origin_m;
+  s.lowest_m = scene.lower.z;
+  s.highest_m = scene.upper.z;
+  if (std::ranges::any_of(config.mounts, [](const MountConfig& m) { return m.above == "ground"; }))
+    s.ground = places.ground();
+  s.trajectories = s.live ? s.live->tracks() : load_trajectories(config, vehicles, places);
   for (Track& track : s.trajectories.tracks)
     for (Sample& sample : track.samples) sample.position_m -= scene.origin_m;
   s.warnings = s.trajectories.warnings;
-  s.add_standing(s.transmitters, standing_transmitters(config), scene.origin_m);
-  s.add_standing(s.receivers, standing_receivers(config, scene), scene.origin_m);
+  s.add_standing(s.transmitters, standing_transmitters(config, places), scene.origin_m);
+  s.add_standing(s.receivers, standing_receivers(config, scene, places), scene.origin_m);
   s.add_instances(vehicles, scene);
   s.add_mounts(config.mounts, scene.origin_m);
   s.set_links(config.links);

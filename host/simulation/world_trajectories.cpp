@@ -16,7 +16,11 @@
 namespace wavetracer {
 namespace {
 
-Trajectories read(const TrajectoriesConfig& config, const VehicleModels& vehicles) {
+GroundHeight ground_of(PlaceFinder& places) {
+  return [&places](const glm::dvec2& place_m) { return places.ground_m(place_m); };
+}
+
+Trajectories read(const TrajectoriesConfig& config, const VehicleModels& vehicles, PlaceFinder& places) {
   TrajectoryOptions options;
   options.offset_m = {config.offset_m[0], config.offset_m[1], config.offset_m[2]};
   options.scale = config.scale;
@@ -24,6 +28,10 @@ Trajectories read(const TrajectoriesConfig& config, const VehicleModels& vehicle
   options.containers = config.containers;
   options.types = vehicles.given_types();
   options.default_type = vehicles.default_type();
+  options.above_ground = config.above == "ground";
+  options.ground = ground_of(places);
+  if (places.has_georeference())
+    options.from_degrees = [&](const glm::dvec2& degrees) { return places.from_degrees(degrees, config.file); };
   return read_trajectories(config.file, options);
 }
 
@@ -37,7 +45,18 @@ Trajectories generate(const std::string& text, const VehicleModels& vehicles) {
   return out;
 }
 
-Trajectories connect(const std::vector<TrackConfig>& tracks, const VehicleModels& vehicles) {
+std::vector<Waypoint> waypoints_of(const TrackConfig& track, PlaceFinder& places) {
+  std::vector<Waypoint> out;
+  for (const auto& [time_s, x, y, z] : track.waypoints) out.push_back({time_s, {x, y, z}});
+  for (const auto& [time_s, latitude, longitude, height_m] : track.waypoints_wgs84) {
+    const glm::dvec2 place_m =
+        places.from_degrees({longitude, latitude}, fmt::format("[[track]] \"{}\", waypoints_wgs84", track.id));
+    out.push_back({time_s, {place_m.x, place_m.y, height_m}});
+  }
+  return out;
+}
+
+Trajectories connect(const std::vector<TrackConfig>& tracks, const VehicleModels& vehicles, PlaceFinder& places) {
   std::vector<WaypointTrack> out;
   for (const TrackConfig& track : tracks) {
     std::optional<VehicleType> type = vehicles.find_type(track.type);
@@ -47,10 +66,10 @@ Trajectories connect(const std::vector<TrackConfig>& tracks, const VehicleModels
                       "of SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
                       track.id, track.type));
     type->name = track.type;
-    WaypointTrack& to = out.emplace_back(WaypointTrack{track.id, *type, {}});
-    for (const auto& [time_s, x, y, z] : track.waypoints) to.waypoints.push_back({time_s, {x, y, z}});
+    const bool above_ground = track.above == "ground" || !track.waypoints_wgs84.empty();
+    out.push_back({track.id, *type, waypoints_of(track, places), above_ground});
   }
-  return connect_waypoints(out);
+  return connect_waypoints(out, ground_of(places));
 }
 
 // Waypoints lie farther apart than samples, so the step stays that of `to`, where it has one.
@@ -75,11 +94,11 @@ void join(Trajectories& to, Trajectories more) {
 
 }  // namespace
 
-Trajectories load_trajectories(const Config& config, const VehicleModels& vehicles) {
+Trajectories load_trajectories(const Config& config, const VehicleModels& vehicles, PlaceFinder& places) {
   Trajectories out;
-  if (!config.trajectories.file.empty()) out = read(config.trajectories, vehicles);
+  if (!config.trajectories.file.empty()) out = read(config.trajectories, vehicles, places);
   if (!config.trajectories.generate.empty()) out = generate(config.trajectories.generate, vehicles);
-  if (!config.tracks.empty()) join(out, connect(config.tracks, vehicles));
+  if (!config.tracks.empty()) join(out, connect(config.tracks, vehicles, places));
   return out;
 }
 

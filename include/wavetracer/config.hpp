@@ -54,6 +54,8 @@ struct RadioConfig {
 using NamedAntenna = Choice<"isotropic", "short-dipole", "dipole", "tr38901">;
 using Polarization = Choice<"V", "H", "VH", "cross">;
 
+using HeightAbove = Choice<"zero", "ground">;
+
 struct RadioEnd {  // [[transmitter]], [[receiver]] or [[station]]
   std::string name;
   std::array<double, 3> position_m{0, 0, 0};  // file coordinates
@@ -62,6 +64,9 @@ struct RadioEnd {  // [[transmitter]], [[receiver]] or [[station]]
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
   std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; for Doppler shifts only: the position does not change
   std::string array = {};                          // an [[array]]; empty: one element
+  // Instead of position_m: latitude and longitude in degrees, and the height above the ground in m.
+  std::optional<std::array<double, 3>> position_wgs84 = {};
+  HeightAbove above = "zero";  // what the height in position_m is measured from
 };
 
 // The codebooks that are built in (else: a file).
@@ -83,8 +88,6 @@ struct ResponseConfig {                     // [response]: the channel at subcar
   double time_step_s = 1e-3;
 };
 
-using HeightAbove = Choice<"zero", "ground">;
-
 struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the middles of square cells, for coverage
   std::string name;
   std::optional<double> x_min_m, x_max_m, y_min_m, y_max_m;  // file coordinates; not given: those of the scene
@@ -99,10 +102,11 @@ struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the m
 
 // [trajectories]: how vehicles move. Give either file or generate, or [[track]] tables, or nothing: no vehicles.
 struct TrajectoriesConfig {
-  std::string file;                         // SUMO FCD or CSV, plain or gzip
+  std::string file;                         // SUMO FCD, GPX or CSV, plain or gzip
   std::string generate;                     // arguments of `wavetracer scene city` about vehicles, instead of a file
   std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of `file` + this
   double scale = 1;                         // of positions in `file`
+  HeightAbove above = "zero";  // what heights in `file` are measured from; of a file in degrees always the ground
   bool persons = false, containers = false;
   std::string default_type;  // vehicle type of vehicles whose type is unknown; empty: such a vehicle is an error
 };
@@ -110,7 +114,9 @@ struct TrajectoriesConfig {
 struct TrackConfig {  // [[track]]: a vehicle on waypoints
   std::string id;
   std::string type = "passenger";
-  std::vector<std::array<double, 4>> waypoints;  // time_s, x, y, z; file coordinates of the scene
+  std::vector<std::array<double, 4>> waypoints;             // time_s, x, y, z; file coordinates of the scene
+  std::vector<std::array<double, 4>> waypoints_wgs84 = {};  // instead: time_s, latitude, longitude, m above the ground
+  HeightAbove above = "zero";                               // what the heights of waypoints are measured from
 };
 
 // The bodies of vehicles that are built in (else: a mesh file).
@@ -135,6 +141,7 @@ struct MountConfig {     // [[mount]]: an antenna on vehicles
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // in the vehicle's axes
   std::string array = {};
+  HeightAbove above = "zero";  // zero: offset_m[2] is above the vehicle's origin; ground: above the ground of the scene
 };
 
 struct LinksConfig {  // [links]: which pairs are computed

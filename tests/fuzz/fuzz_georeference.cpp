@@ -1,7 +1,7 @@
 // Fuzz target: georeference.json beside a scene, and the projection that it names there and back.
 #include <glm/vec2.hpp>
 #include "fuzz/fuzz.hpp"
-#include "imports/georeference.hpp"
+#include "scene/georeference.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;

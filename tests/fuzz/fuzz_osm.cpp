@@ -9,6 +9,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   return fuzz::accept_or_refuse([&] {
     const ImportOptions options;
     const imports::Map map = imports::read_osm(fuzz::text_of(data, size), "fuzz.osm", options);
-    imports::build_scene(imports::plan_city(map, "fuzz.osm", options), options);
+    imports::build_scene(imports::plan_city(map, "fuzz.osm", options), nullptr, options);
   });
 }

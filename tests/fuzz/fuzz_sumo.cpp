@@ -12,6 +12,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   return fuzz::accept_or_refuse([&] {
     const ImportOptions options;
     const imports::Map map = imports::read_sumo_polygons(text, "fuzz.poly.xml");
-    imports::build_scene(imports::plan_city(map, "fuzz.poly.xml", options), options);
+    imports::build_scene(imports::plan_city(map, "fuzz.poly.xml", options), nullptr, options);
   });
 }

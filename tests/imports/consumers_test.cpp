@@ -7,7 +7,7 @@
 
 #include "base/file.hpp"
 #include "imported.hpp"
-#include "imports/georeference.hpp"
+#include "scene/georeference.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

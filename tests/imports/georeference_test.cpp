@@ -1,5 +1,5 @@
 // Projections against coordinates that are known: the definition of UTM, lengths of a degree, a round trip.
-#include "imports/georeference.hpp"
+#include "scene/georeference.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "imported.hpp"
-#include "imports/georeference.hpp"
+#include "scene/georeference.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

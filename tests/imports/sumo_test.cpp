@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "imported.hpp"
-#include "imports/georeference.hpp"
+#include "scene/georeference.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;

@@ -39,12 +39,14 @@ ReceiverGridConfig grid_of(double x_min, double x_max, double y_min, double y_ma
 std::vector<RadioEnd> receivers_of(const ReceiverGridConfig& grid, const Scene& scene) {
   Config config;
   config.receiver_grids = {grid};
-  return standing_receivers(config, scene);
+  PlaceFinder places(config, scene);
+  return standing_receivers(config, scene, places);
 }
 
 std::string error_of(const Config& config, const Scene& scene) {
+  PlaceFinder places(config, scene);
   try {
-    standing_receivers(config, scene);
+    standing_receivers(config, scene, places);
   } catch (const ConfigError& e) {
     return e.what();
   }
@@ -147,7 +149,9 @@ TEST_CASE("a grid follows the stations, and takes none of their names") {
   config.stations.resize(1);
   config.stations[0].name = "rsu";
   config.receiver_grids = {grid_of(0, 2, 0, 1, 1)};
-  const std::vector<RadioEnd> ends = standing_receivers(config, box_scene());
+  const Scene scene = box_scene();
+  PlaceFinder places(config, scene);
+  const std::vector<RadioEnd> ends = standing_receivers(config, scene, places);
   REQUIRE(ends.size() == 3);
   CHECK(ends[0].name == "rsu");
   CHECK(ends[1].name == "g/0,0");

@@ -1,7 +1,7 @@
 // Projections by PROJ, and the JSON file beside a scene.
 // Assumes that projections come from files of strangers: only plain projections of PROJ, nothing that opens other
 // files.
-#include "imports/georeference.hpp"
+#include "scene/georeference.hpp"
 
 #include <fmt/format.h>
 #include <proj.h>
@@ -75,19 +75,26 @@ glm::dvec2 Projection::scene(const glm::dvec2& longitude_latitude) const {
 }
 
 void write_georeference(const std::filesystem::path& file, const Georeference& reference) {
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"about", "scene coordinate = coordinate of this PROJ projection + offset, in m"},
       {"projection", reference.projection},
       {"offset_m", {reference.offset_m.x, reference.offset_m.y}},
       {"attribution", reference.attribution},
   };
+  if (reference.elevation_m) json["elevation_m"] = *reference.elevation_m;
   write_file(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-std::optional<Georeference> find_georeference(const std::filesystem::path& scene_file) {
+std::filesystem::path georeference_file(const std::filesystem::path& scene_file) {
   const std::filesystem::path file = scene_file.parent_path() / file_name;
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return {};
+  return std::filesystem::is_regular_file(file, error) ? file : std::filesystem::path();
+}
+
+std::optional<Georeference> find_georeference(const std::filesystem::path& scene_file) {
+  const std::filesystem::path file = georeference_file(scene_file);
+  if (file.empty()) return {};
+  std::error_code error;
   if (std::filesystem::file_size(file, error) > largest_file || error) {
     throw InputError(fmt::format("{}: the file is too large for a georeference", file.string()));
   }
@@ -100,13 +107,19 @@ std::optional<Georeference> find_georeference(const std::filesystem::path& scene
   if (!json.is_object() || !json.contains("projection")) {
     throw InputError(fmt::format("{}: must be a JSON object with \"projection\" and \"offset_m\"", file.string()));
   }
-  Georeference out{text("projection"), {0, 0}, text("attribution")};
+  Georeference out{text("projection"), {0, 0}, text("attribution"), {}};
   if (json.contains("offset_m")) {
     const nlohmann::json& offset = json["offset_m"];
     if (!offset.is_array() || offset.size() != 2 || !offset[0].is_number() || !offset[1].is_number()) {
       throw InputError(fmt::format("{}: \"offset_m\" must be two numbers, in m", file.string()));
     }
     out.offset_m = {offset[0].get<double>(), offset[1].get<double>()};
+  }
+  if (json.contains("elevation_m")) {
+    if (!json["elevation_m"].is_number() || !(std::abs(json["elevation_m"].get<double>()) < 1e5))
+      throw InputError(
+          fmt::format("{}: \"elevation_m\" must be the height of z = 0 above sea level in m", file.string()));
+    out.elevation_m = json["elevation_m"].get<double>();
   }
   return out;
 }

@@ -1,0 +1,71 @@
+/* What the module wavetracer_maps.so offers, the one part of the program that knows GDAL: footprints of vector maps and
+   heights of rasters. Plain C, so that the program can load it at run time where it is there. Texts are UTF-8 and
+   belong to the module; they and all arrays last until the function or the callback that has them returns. */
+#ifndef WAVETRACER_IMPORTS_MAPS_INTERFACE_H
+#define WAVETRACER_IMPORTS_MAPS_INTERFACE_H
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { WT_MAPS_VERSION = 1, WT_MAPS_ERROR_SIZE = 2048 };
+
+/* A polygon of a feature. */
+struct wt_maps_polygon {
+  const char* layer;
+  int64_t feature;           /* its id in the layer */
+  size_t part;               /* of a feature of several polygons, from 0 */
+  size_t rings;              /* the outer one first, then its holes */
+  const size_t* ring_sizes;  /* points of each ring, the last of which repeats the first */
+  const double* xy;          /* of all rings: longitude and latitude in degrees (WGS84), or as they are in the file */
+  const char* const* values; /* of the fields that were asked for, in their order; NULL: not set */
+};
+
+struct wt_maps_query {
+  const char* layer;         /* NULL: all layers */
+  const char* const* fields; /* names, compared without regard to case */
+  size_t field_count;
+  size_t most_points; /* of a polygon; larger ones are counted, not handed over */
+};
+
+struct wt_maps_layers {
+  int in_degrees;       /* whether xy are degrees; 0: no layer says where on the earth it is */
+  uint64_t features;    /* that were read */
+  uint64_t no_polygons; /* features without a polygon */
+  uint64_t too_large;   /* polygons of more than most_points */
+  char driver[64];      /* the format, as GDAL calls it */
+  char fields[1024];    /* all fields of the layers, separated by ", " */
+  uint32_t found;       /* bit i: a layer has the field i of the query */
+};
+
+/* Calls visit for every polygon, until it does not return 0. 0: all was read; else `error` says why not. */
+int wt_maps_footprints(const char* file, const struct wt_maps_query* query,
+                       int (*visit)(void* user, const struct wt_maps_polygon* polygon), void* user,
+                       struct wt_maps_layers* layers, char error[WT_MAPS_ERROR_SIZE]);
+
+/* A part of a raster of heights. */
+struct wt_maps_raster {
+  size_t columns, rows;
+  const float* heights_m; /* row by row, from the first row of the file; NaN where the file has none */
+  int clipped;            /* whether places that were asked for are outside of the raster */
+  double full_columns, full_rows;
+  char driver[64];
+  void* handle;
+};
+
+/* The posts around places, `margin` posts more on all sides; in_degrees says what places are: longitude and latitude,
+   or coordinates of the raster. 0: found; else `error` says why not. */
+int wt_maps_open_raster(const char* file, int in_degrees, const double* places_xy, size_t places, size_t margin,
+                        size_t most_posts, struct wt_maps_raster* raster, char error[WT_MAPS_ERROR_SIZE]);
+/* Places (column, row) of posts as the places above, in place; of such that cannot be told NaN. */
+void wt_maps_places_of_posts(const struct wt_maps_raster* raster, double* column_row, size_t count);
+void wt_maps_close_raster(struct wt_maps_raster* raster);
+
+int wt_maps_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

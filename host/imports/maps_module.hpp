@@ -1,0 +1,21 @@
+// The module that reads maps by GDAL, opened when it is first needed: the program links no GDAL.
+// What it has opened stays until the program ends.
+#pragma once
+#include <string>
+
+#include "imports/maps_interface.h"
+
+namespace wavetracer::imports {
+
+struct MapsModule {
+  decltype(&wt_maps_footprints) footprints;
+  decltype(&wt_maps_open_raster) open_raster;
+  decltype(&wt_maps_places_of_posts) places_of_posts;
+  decltype(&wt_maps_close_raster) close_raster;
+};
+
+// needed_for: a file, for messages. Throws RuntimeError that says what to install where there is no module or no GDAL.
+// The variable WAVETRACER_MAPS_MODULE names another file of the module.
+const MapsModule& maps_module(const std::string& needed_for);
+
+}  // namespace wavetracer::imports

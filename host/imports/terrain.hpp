@@ -1,0 +1,31 @@
+// The ground as a raster of heights has it: a mesh in the coordinates of the scene, and its height at any place.
+#pragma once
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imports/imports.hpp"
+#include "imports/plan.hpp"
+#include "scene/georeference.hpp"
+#include "scene/ground.hpp"
+
+namespace wavetracer::imports {
+
+struct Terrain {
+  std::vector<glm::dvec3> vertices;
+  std::vector<Triangle> triangles;  // normals up
+  std::optional<Ground> ground;
+  ImportSummary::Terrain summary;
+  std::vector<std::string> warnings;
+};
+
+// Of options.terrain, for the area of the ground. Heights are those of the raster, in metres above its zero. Throws
+// InputError for the raster, RuntimeError where there is no GDAL.
+Terrain read_terrain(const Extent& area, const Georeference& georeference, const ImportOptions& options);
+
+// Sets Solid::base_m to the lowest ground along the outline of each solid, or of the building that it is a part of.
+// Those that reach beyond the terrain are left out and counted.
+void stand_on(const Ground& ground, Plan& plan);
+
+}  // namespace wavetracer::imports

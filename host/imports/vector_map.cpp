@@ -1,0 +1,159 @@
+// Footprints of GeoPackage, Shapefile, GeoJSON, FlatGeobuf and whatever else GDAL opens, by the module for maps.
+// Fields become the tags of OpenStreetMap that building_tags.hpp reads, so heights are made of them in one place.
+#include "imports/vector_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "imports/maps_module.hpp"
+#include "imports/projecting.hpp"
+#include "imports/rings.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::imports {
+namespace {
+
+constexpr const char* advice = "ogr2ogr -spat WEST SOUTH EAST NORTH city.gpkg MAP";
+
+// A field that may hold a tag; of several for one tag the first that is set counts.
+struct TagField {
+  std::string field;
+  const char* tag;
+};
+
+std::vector<TagField> tag_fields(const ImportOptions& options) {
+  std::vector<TagField> out;
+  const auto add = [&](const std::string& given, const char* tag, std::initializer_list<const char*> usual) {
+    if (!given.empty()) return out.push_back({given, tag});
+    for (const char* name : usual) out.push_back({name, tag});
+  };
+  const bool any = !options.height_field.empty() || !options.levels_field.empty();
+  if (!any || !options.height_field.empty()) add(options.height_field, "height", {"height"});
+  if (!any || !options.levels_field.empty())
+    add(options.levels_field, "building:levels", {"building:levels", "levels", "num_floors"});
+  add({}, "min_height", {"min_height"});
+  add({}, "building:material", {"building:material"});
+  add({}, "roof:material", {"roof:material"});
+  add({}, "name", {"name"});
+  return out;
+}
+
+class FootprintTaker {
+ public:
+  FootprintTaker(Map& map, const std::vector<TagField>& fields) : map_(map), fields_(fields) {}
+
+  void take(const wt_maps_polygon& polygon) {
+    if (layers_.empty() || layers_.back() != polygon.layer) layers_.emplace_back(polygon.layer);
+    Footprint out;
+    out.id = fmt::format("feature_{}", polygon.feature);
+    if (layers_.size() > 1) out.id = fmt::format("layer_{}_{}", layers_.size(), out.id);
+    if (polygon.part > 0) out.id += fmt::format("_{}", polygon.part + 1);
+    const double* xy = polygon.xy;
+    for (size_t ring = 0; ring < polygon.rings; ++ring) {
+      RingM& to = ring == 0 ? out.outer : out.holes.emplace_back();
+      for (size_t i = 0; i < polygon.ring_sizes[ring]; ++i, xy += 2) {
+        if (!std::isfinite(xy[0]) || !std::isfinite(xy[1]))
+          return void(++map_.left_out["outside of the area of its coordinate system"]);
+        to.push_back({xy[0], xy[1]});
+      }
+    }
+    for (size_t k = 0; k < fields_.size(); ++k)
+      if (polygon.values[k]) out.tags.try_emplace(fields_[k].tag, polygon.values[k]);
+    if (const auto name = out.tags.find("name"); name != out.tags.end()) {
+      out.name = name->second;
+      out.tags.erase(name);
+    }
+    map_.footprints.push_back(std::move(out));
+  }
+
+ private:
+  Map& map_;
+  const std::vector<TagField>& fields_;
+  std::vector<std::string> layers_;
+};
+
+struct TakerCall {
+  FootprintTaker taker;
+  std::exception_ptr problem;  // must not cross the module
+};
+
+int visit(void* user, const wt_maps_polygon* polygon) {
+  auto& call = *static_cast<TakerCall*>(user);
+  try {
+    call.taker.take(*polygon);
+    return 0;
+  } catch (...) {
+    call.problem = std::current_exception();
+    return 1;
+  }
+}
+
+void check_fields(const std::string& name, const std::vector<TagField>& fields, const wt_maps_layers& layers,
+                  const ImportOptions& options, Map& map) {
+  bool heights = false;
+  for (size_t k = 0; k < fields.size(); ++k) {
+    const bool found = (layers.found >> k & 1) != 0;
+    const bool of_height =
+        std::string_view(fields[k].tag) == "height" || std::string_view(fields[k].tag) == "building:levels";
+    heights = heights || (found && of_height);
+    if (!found && (fields[k].field == options.height_field || fields[k].field == options.levels_field))
+      throw InputError(fmt::format("{}: there is no field '{}'; fields are {}", name, fields[k].field,
+                                   *layers.fields ? layers.fields : "none"));
+  }
+  if (!heights)
+    map.warnings.push_back(
+        fmt::format("{}: no field gives heights, so all buildings are {:g} m high; name one of its fields with "
+                    "--height (metres) or "
+                    "--levels (storeys): {}",
+                    name, options.default_height_m, *layers.fields ? layers.fields : "it has none"));
+}
+
+// Coordinates of nowhere on the earth: as they are, but not degrees, which would make a city of a metre.
+void check_metres(Map& map, const std::string& name, const ImportOptions& options) {
+  bool small = !map.footprints.empty();
+  each_point(map, [&](const glm::dvec2& p) { small = small && std::abs(p.x) <= 180 && std::abs(p.y) <= 90; });
+  if (small)
+    throw InputError(
+        fmt::format("{}: does not name its coordinate system, and all coordinates are as small as degrees; if they are "
+                    "degrees, name it: ogr2ogr -a_srs EPSG:4326 named.gpkg {}",
+                    name, name));
+  if (!options.net.empty())
+    throw InputError(
+        fmt::format("{}: does not name its coordinate system, so it cannot be placed on the network of --net", name));
+  map.georeference.projection = options.projection;
+  if (options.projection.empty())
+    map.warnings.push_back(fmt::format(
+        "{}: does not name its coordinate system: its coordinates are taken as metres, and the scene has no "
+        "georeference; --projection names one",
+        name));
+}
+
+}  // namespace
+
+Map read_vector_map(const std::string& file, const ImportOptions& options) {
+  const MapsModule& module = maps_module(file);
+  const std::vector<TagField> fields = tag_fields(options);
+  std::vector<const char*> names;
+  for (const TagField& field : fields) names.push_back(field.field.c_str());
+  const wt_maps_query query{options.layer.empty() ? nullptr : options.layer.c_str(), names.data(), names.size(),
+                            max_corners + 1 + 100};
+  Map map;
+  TakerCall call{FootprintTaker(map, fields), {}};
+  wt_maps_layers layers{};
+  char error[WT_MAPS_ERROR_SIZE] = {};
+  const int failed = module.footprints(file.c_str(), &query, &visit, &call, &layers, error);
+  if (call.problem) std::rethrow_exception(call.problem);
+  if (failed != 0) throw InputError(fmt::format("{}: cannot be read as a map: {}", file, error));
+  check_fields(file, fields, layers, options, map);
+  if (layers.no_polygons > 0) map.left_out["feature without a polygon"] += layers.no_polygons;
+  if (layers.too_large > 0) map.left_out["more than 5000 corners"] += layers.too_large;
+  if (layers.in_degrees)
+    project(map, file, options, advice);
+  else
+    check_metres(map, file, options);
+  return map;
+}
+
+}  // namespace wavetracer::imports

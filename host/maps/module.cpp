@@ -1,0 +1,75 @@
+// GDAL set up for files of strangers: quiet, no network.
+// Assumes one thread, as the program converts one map at a time.
+#include "maps/module.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+
+#include <stdexcept>
+
+namespace wavetracer::maps {
+namespace {
+
+void set_up() {
+  static const bool once = [] {
+    CPLSetConfigOption(
+        "GDAL_SKIP",
+        "HTTP,WMS,WMTS,WCS,DAAS,EEDA,EEDAI,NGW,STACIT,STACTA,PLMOSAIC,OGCAPI,PostGISRaster,WFS,OAPIF,CSW,"
+        "PLScenes,Elastic,Carto,AmigoCloud,PostgreSQL,MySQL,MongoDBv3,ODBC,MSSQLSpatial");
+    CPLSetErrorHandler(CPLQuietErrorHandler);
+    GDALAllRegister();
+    return true;
+  }();
+  (void)once;
+}
+
+std::string last_error() {
+  const std::string text = CPLGetLastErrorMsg();
+  return text.empty() ? "GDAL does not say why" : text;
+}
+
+struct FreeSystem {
+  void operator()(OGRSpatialReferenceH system) const { OSRDestroySpatialReference(system); }
+};
+using System = std::unique_ptr<void, FreeSystem>;
+
+bool is_on_earth(OGRSpatialReferenceH system) {
+  // GeoPackage calls what nobody has named "Undefined geographic SRS".
+  const char* const name = system ? OSRGetName(system) : nullptr;
+  if (name && (STARTS_WITH_CI(name, "Undefined") || STARTS_WITH_CI(name, "Unknown"))) return false;
+  return system && (OSRIsProjected(system) || OSRIsGeographic(system) || OSRIsCompound(system));
+}
+
+// Axes as x, y on maps: longitude before latitude, whatever the authority says.
+Transformation between(OGRSpatialReferenceH system, bool to_earth) {
+  if (!is_on_earth(system)) return {};
+  const System own(OSRClone(system)), degrees(OSRNewSpatialReference(nullptr));
+  OSRSetAxisMappingStrategy(own.get(), OAMS_TRADITIONAL_GIS_ORDER);
+  if (OSRImportFromEPSG(degrees.get(), 4326) != OGRERR_NONE)
+    throw std::runtime_error("PROJ's database (proj.db, Debian's proj-data) was not found: " + last_error());
+  OSRSetAxisMappingStrategy(degrees.get(), OAMS_TRADITIONAL_GIS_ORDER);
+  CPLErrorReset();
+  Transformation out(to_earth ? OCTNewCoordinateTransformation(own.get(), degrees.get())
+                              : OCTNewCoordinateTransformation(degrees.get(), own.get()));
+  if (!out) throw std::runtime_error("its coordinate system cannot be converted to WGS84: " + last_error());
+  return out;
+}
+
+}  // namespace
+
+Dataset open(const char* file, unsigned kind) {
+  set_up();
+  CPLErrorReset();
+  Dataset out(GDALOpenEx(file, GDAL_OF_READONLY | kind | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
+  if (!out) throw std::runtime_error(last_error());
+  return out;
+}
+
+std::string driver_of(GDALDatasetH dataset) { return GDALGetDriverShortName(GDALGetDatasetDriver(dataset)); }
+
+Transformation to_degrees(OGRSpatialReferenceH system) { return between(system, true); }
+Transformation from_degrees(OGRSpatialReferenceH system) { return between(system, false); }
+
+}  // namespace wavetracer::maps
+
+WT_MAPS_PUBLIC int wt_maps_version(void) { return WT_MAPS_VERSION; }
