@@ -66,7 +66,7 @@ void add_counts(ImportSummary& summary, const imports::Plan& plan) {
   summary.lower_m = glm::dvec2(infinity);
   summary.upper_m = glm::dvec2(-infinity);
   for (const imports::Solid& solid : plan.solids) {
-    ++(solid.part ? summary.parts : summary.buildings);
+    ++(!solid.is_building() ? summary.vegetation : solid.part ? summary.parts : summary.buildings);
     summary.courtyards += solid.polygon.holes.size();
     for (const imports::Point& p : solid.polygon.outer) {
       const glm::dvec2 m(static_cast<double>(p.x) / imports::grid_per_m,
@@ -143,6 +143,7 @@ std::string describe(const ImportSummary& s) {
     out += fmt::format("ground     {:.0f} x {:.0f} m, from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})\n",
                        s.ground.upper_m.x - s.ground.lower_m.x, s.ground.upper_m.y - s.ground.lower_m.y,
                        s.ground.lower_m.x, s.ground.lower_m.y, s.ground.upper_m.x, s.ground.upper_m.y);
+  if (s.vegetation > 0) out += fmt::format("vegetation {} trees and woods, by docs/outdoors.md\n", s.vegetation);
   if (!s.guessed.empty()) out += "assumed\n" + total(s.guessed);
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);

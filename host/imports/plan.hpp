@@ -8,6 +8,7 @@
 #include "imports/building_tags.hpp"
 #include "imports/map.hpp"
 #include "imports/rings.hpp"
+#include "imports/vegetation_tags.hpp"
 #include "scene/raw_scene.hpp"
 
 namespace wavetracer::imports {
@@ -18,6 +19,7 @@ struct Solid {
   Polygon polygon;
   std::vector<Triangle> triangles;  // of the polygon
   Shape shape;
+  bool is_building() const { return !is_vegetation(shape.walls); }
 };
 
 struct Plan {
