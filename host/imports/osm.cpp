@@ -152,9 +152,13 @@ class OsmReader {
     std::vector<glm::dvec2> line_deg;
     for (const osmium::NodeRef& node : way.nodes())
       if (node.location().valid()) line_deg.emplace_back(node.lon(), node.lat());
+    const std::vector<glm::dvec2> trees = planted(line_deg);
+    if (trees.size() > most_trees_of_row || (row_trees_ += trees.size()) > most_trees_of_rows) {
+      ++map_.left_out["row of more than 1000 trees, or beyond 200,000 trees in rows"];
+      return;
+    }
     size_t count = 0;
-    for (const glm::dvec2& place_deg : planted(line_deg))
-      plant(place_deg, fmt::format("way_{}_{}", way.id(), ++count), way.tags());
+    for (const glm::dvec2& place_deg : trees) plant(place_deg, fmt::format("way_{}_{}", way.id(), ++count), way.tags());
   }
 
   void way(const osmium::Way& way) {
@@ -272,7 +276,7 @@ class OsmReader {
   const std::string& name_;
   bool is_pbf_, vegetation_;
   Map map_;
-  size_t nodes_ = 0;
+  size_t nodes_ = 0, row_trees_ = 0;
   size_t way_nodes_ = 0, member_nodes_ = 0;  // of the ways that are kept; of multipolygons so far, each time anew
   const osmium::area::AssemblerConfig assembler_config_{};
   osmium::index::map::SparseMemArray<osmium::unsigned_object_id_type, osmium::Location> locations_;

@@ -49,8 +49,9 @@ std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg) {
   for (size_t i = 1; i < line_deg.size(); ++i) {
     const glm::dvec2 piece_m = (line_deg[i] - line_deg[i - 1]) * metres_at(line_deg[i]);
     const double length_m = std::hypot(piece_m.x, piece_m.y);
-    for (; next_m < length_m; next_m += tree_distance_m)
+    for (; next_m < length_m && out.size() <= most_trees_of_row; next_m += tree_distance_m)
       out.push_back(line_deg[i - 1] + (line_deg[i] - line_deg[i - 1]) * (next_m / length_m));
+    if (out.size() > most_trees_of_row) break;
     next_m -= length_m;
   }
   return out;

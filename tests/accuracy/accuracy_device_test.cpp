@@ -224,7 +224,7 @@ TEST_CASE("inputs: the line of sight varies as 20 log of its length does, and on
   const double wanted = 2 * 1.6449 * 20 / std::log(10.0) * std::sqrt(2.0) / 100;
   CHECK(row.gain_db.high - row.gain_db.low == doctest::Approx(wanted).epsilon(0.12));
   CHECK(row.gain_share[0] > 0.99);
-  CHECK(row.gain_share[2] == 0);
+  CHECK(row.gain_share[2] < 1e-12);
   CHECK(row.gain_explained == doctest::Approx(1).epsilon(0.1));
   CHECK(row.delay_spread_ns.high == 0);
   CHECK(study.varied == std::array<bool, 4>{true, true, true, false});
@@ -251,7 +251,7 @@ TEST_CASE("inputs: permittivity gives the interval of runs with that permittivit
   const accuracy::InputStudy study = varied(file, {0, 0, 0.4, 0});
   REQUIRE(study.rows.size() == 1);
   const accuracy::InputInterval& got = study.rows[0].gain_db;
-  const auto [low, high] = std::minmax(gain(std::exp(-0.4 * 1.6449)), gain(std::exp(0.4 * 1.6449)));
+  const auto [low, high] = std::minmax({gain(std::exp(-0.4 * 1.6449)), gain(std::exp(0.4 * 1.6449))});
   CHECK(got.nominal == doctest::Approx(gain(1)).epsilon(1e-9));
   CHECK(std::abs(got.low - low) < 0.03 * (high - low));
   CHECK(std::abs(got.high - high) < 0.03 * (high - low));

@@ -264,3 +264,16 @@ TEST_CASE("trees, rows and woods are volumes of leaves where they are asked for,
   CHECK(found["vegetation"].first == 5);
   CHECK(std::abs(found["vegetation"].second - (16 * 1500 + 4 * 6 * 2.25 * 3.14159265)) < 30);
 }
+
+TEST_CASE("a row of trees across the country is left out, and says so") {
+  OsmText map;
+  map.way(rectangle(-40, -40, -20, -20), {{"building", "yes"}});
+  map.way({{0, 0}, {9000, 0}}, {{"natural", "tree_row"}}, false);
+  map.way({{0, 0}, {90, 0}}, {{"natural", "tree_row"}}, false);
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.vegetation = true;
+  const Imported town = import_text(map.text(), folder, options);
+  CHECK(town.summary.vegetation == 12);
+  CHECK(town.summary.left_out.at("row of more than 1000 trees, or beyond 200,000 trees in rows") == 1);
+}
