@@ -24,6 +24,17 @@ void roughen(Config& config) {
   }
 }
 
+// A grid of crowns around the first transmitter.
+void plant(Config& config) {
+  const std::array<double, 3> middle = config.transmitters.front().position_m;
+  for (int i = -10; i < 10; ++i)
+    for (int j = -10; j < 10; ++j) {
+      VegetationConfig& crown = config.vegetation.emplace_back();
+      crown.centre_m = {middle[0] + 8 * i, middle[1] + 8 * j, 6};
+      crown.size_m = {5, 5, 7};
+    }
+}
+
 void drive(Config& config, size_t vehicles, uint32_t frames) {
   config.time = {.start_s = 0, .end_s = (frames - 1) * step_s, .step_s = step_s};
   StreetTraffic traffic{.vehicles = vehicles, .duration_s = (frames - 1) * step_s};
@@ -78,6 +89,7 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
   });
   add("refined", [](Config& c) { c.trace.rays.reset(); });
   add("transmission", [](Config& c) { c.trace.transmission = true; });
+  add("vegetation", plant);
   add("scattering", [](Config& c) {
     roughen(c);
     c.transmitters.resize(1);

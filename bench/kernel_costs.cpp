@@ -86,6 +86,9 @@ double point_of_rows(N n) { return (n.depth() + 1) * 9; }
 double path_rows(N n) { return static_cast<double>(n.frame.counts.paths); }
 double row_bytes(N n) { return solved_bytes(n) + sizeof(wt_path_row) + n.depth() * sizeof(wt_vertex_row); }
 double field_operations(N n) { return 400 + n.depth() * 700; }  // two antennas; a slab and its change of basis
+// The root of the tree for every leg, and no volume.
+double vegetation_bytes(N n) { return solved_bytes(n) + sizeof(double); }
+double vegetation_operations(N n) { return (n.depth() + 1) * 2 * box_operations; }
 double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + word; }
 
 constexpr KernelCost costs[] = {
@@ -125,6 +128,8 @@ constexpr KernelCost costs[] = {
     {"compact/count_blocks", "refined", "rays", items_of<"refine/mark">, always<4>, nothing},
     {"compact/compact", "refined", "rays", items_of<"refine/mark">, always<4>, nothing},
 
+    {"vegetation/vegetation", "vegetation", "paths", items_of<"vegetation/vegetation">, vegetation_bytes,
+     vegetation_operations},
     {"transmissions/transmissions", "transmission", "legs", legs, leg_bytes, tree_operations},
     {"scatter/lit", "scattering", "sequences", items_of<"scatter/lit">, always<12>, always<20>, true},
     {"scatter/scatter", "scattering", "tiles of links", joined, scatter_bytes, nothing},

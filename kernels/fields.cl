@@ -15,17 +15,17 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
                    const global uint* surface_of_tile, const global double* area_of_tile,
                    const global wt_exact_instance* instances, const global wt_field_end* transmitters,
                    const global wt_field_end* receivers, const global wt_antenna* antennas,
-                   const global double* samples, global wt_path_row* out, global wt_vertex_row* out_vertices,
-                   wt_fields_arguments args) {
+                   const global double* samples, const global wt_foliage* foliages, const global double* lengths_inside,
+                   global wt_path_row* out, global wt_vertex_row* out_vertices, wt_fields_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count || rows[place] == WT_NO_ROW) return;
   if (first_row[place] >= args.row_capacity || first_vertex[place] + WT_MAX_DEPTH > args.vertex_capacity) return;
   const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
                              receiver_places, receiver_of, transmitter_of, args.max_depth};
-  const wt_field_world world = {surfaces,        materials_of,       materials,    wedges,
-                                surface_of_tile, area_of_tile,       instances,    transmitters,
-                                receivers,       antennas,           samples,      args.wavelength_m,
-                                args.seed,       args.transmissions, args.scatters};
+  const wt_field_world world = {
+      surfaces,      materials_of,       materials, wedges,         surface_of_tile,   area_of_tile, instances,
+      transmitters,  receivers,          antennas,  samples,        args.wavelength_m, args.seed,    args.transmissions,
+      args.scatters, args.foliage_count, foliages,  lengths_inside, args.air};
   const wt_ordered_rows ordered = {&list, rows, delays, args.row_count};
   wt_write_row(&world, &ordered, place, quarters[place], (double3)(args.origin[0], args.origin[1], args.origin[2]),
                first_vertex[place], out + first_row[place], out_vertices);

@@ -4,6 +4,7 @@
 #include <memory>
 #include "accuracy/advice.hpp"
 #include "accuracy/files.hpp"
+#include "accuracy/inputs.hpp"
 #include "accuracy/table.hpp"
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
@@ -19,10 +20,56 @@ namespace fs = std::filesystem;
 
 struct AccuracyOptions {
   accuracy::Request request;
+  accuracy::InputRequest inputs;
   std::string directory = "out/accuracy", rays;
+  bool varies = false;
 };
 
+void run_inputs(const AccuracyOptions& options, Invocation& invocation) {
+  accuracy::InputRequest request = options.inputs;
+  request.file = options.request.file;
+  request.sets = options.request.sets;
+  request.device = options.request.device;
+  request.frames = options.request.frames;
+  check_inputs(load_config(request.file, request.sets));
+  const fs::path folder = fs::absolute(options.directory).lexically_normal();
+  check_output_folder(folder);
+  catch_interrupts();
+  Progress progress;
+  const accuracy::InputStudy study = accuracy::study_inputs(request, study_host(progress));
+  if (study.stopped) {
+    invocation.code = ExitCode::interrupted;
+    progress.line(study.rows.empty() ? "interrupted before the first frame was complete; nothing was written"
+                                     : "interrupted; the written files have the frames that were complete");
+  }
+  if (study.rows.empty()) return;
+  const plots::Drawn drawn = plots::draw(accuracy::inputs_figure(study), plots::Format::svg, folder);
+  if (!drawn.problem.empty()) progress.line(drawn.problem);
+  std::cout << accuracy::inputs_text(study) << "written    ";
+  for (size_t i = 0; i < drawn.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << drawn.files[i].string();
+  std::cout << std::endl;
+}
+
+void add_input_options(CLI::App& command, AccuracyOptions& options) {
+  accuracy::InputRequest& inputs = options.inputs;
+  accuracy::InputErrors& errors = inputs.errors;
+  CLI::Option* const varies =
+      command.add_flag("--inputs", options.varies,
+                       "Vary positions, heights, materials and vehicles instead, and give each link an interval");
+  const auto number = [&](const char* name, auto& value, const char* words, double least, double most) {
+    command.add_option(name, value, words)->check(CLI::Range(least, most))->capture_default_str()->needs(varies);
+  };
+  number("--samples", inputs.samples, "With --inputs: samples of a Latin hypercube", 2, 1000000);
+  number("--seed", inputs.seed, "With --inputs: seed of the samples", 0, 1e18);
+  number("--discover-every", inputs.discover_every, "With --inputs: launch rays in every Nth sample", 1, 1000000);
+  number("--position", errors.position_m, "With --inputs: standard deviation of antennas along x and y, m", 0, 1000);
+  number("--height", errors.height_m, "With --inputs: standard deviation of the heights of antennas, m", 0, 1000);
+  number("--permittivity", errors.permittivity, "With --inputs: relative standard deviation of materials", 0, 3);
+  number("--vehicles", errors.vehicles_m, "With --inputs: standard deviation of vehicles along x and y, m", 0, 1000);
+}
+
 void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
+  if (options.varies) return run_inputs(options, invocation);
   accuracy::Request request = options.request;
   request.command_line = invocation.command_line;
   if (!options.rays.empty()) request.rays = study::parse_ray_range(options.rays);
@@ -73,6 +120,7 @@ void add_accuracy(CLI::App& program, Invocation& invocation) {
   command->add_option("--repeat", request.repeats, "Compute each frame N times and use the median time")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  add_input_options(*command, *options);
   command->callback([options, &invocation] { run_accuracy(*options, invocation); });
 }
 

@@ -201,6 +201,10 @@ void add_convert(CLI::App& program) {
   add("--wall-material", import.wall_material, "ITU material if the map does not name one")->capture_default_str();
   add("--roof-material", import.roof_material, "ITU material if the map does not name one")->capture_default_str();
   add("--ground-material", import.ground_material, "ITU material of the ground")->capture_default_str();
+  command
+      ->add_flag("--vegetation", import.vegetation,
+                 "For OSM maps: trees, rows of trees and woods as volumes that attenuate; Sionna RT does not know them")
+      ->group(maps);
   command->add_flag("!--no-ground", import.ground, "Write buildings only, without ground")->group(maps);
   command->callback([options] {
     if (options->list) return print_list();

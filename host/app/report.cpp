@@ -81,6 +81,7 @@ std::string feature_line(const Run& run) {
     if (kind.code == diffraction)
       features.emplace_back("double_diffraction", trace.diffraction && trace.max_diffractions > 1);
   }
+  for (const char* loss : {"vegetation", "air"}) features.emplace_back(loss, false);
   std::string on, off;
   for (const auto& [key, asked] : features) {
     const auto found = run.summary.features.find(key);

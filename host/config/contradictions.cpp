@@ -27,6 +27,24 @@ void check_scene(const SceneConfig& scene, Found& out) {
         {{"scene.generate", "scene.file"}, "scene.file and scene.generate exclude each other: remove one of them"});
 }
 
+// Ranges of the recommendations. fog: P.840 is Rayleigh scattering.
+void check_air(const Config& config, Found& out) {
+  std::vector<double> carriers = config.radio.frequencies_hz;
+  carriers.push_back(config.radio.frequency_hz);
+  const auto check = [&](bool on, const char* key, const char* recommendation, double from_hz, double to_hz) {
+    if (!on) return;
+    for (const double hz : carriers)
+      if (hz < from_hz || hz > to_hz)
+        out.push_back({{std::string("air.") + key, "radio.frequency_hz"},
+                       fmt::format("air.{}: ITU-R {} is known from {:g} to {:g} GHz, but a carrier is {:g} GHz: remove "
+                                   "air.{}",
+                                   key, recommendation, from_hz / 1e9, to_hz / 1e9, hz / 1e9, key)});
+  };
+  check(config.air.rain_mm_h > 0, "rain_mm_h", "P.838-3", 1e9, 1e12);
+  check(config.air.gases, "gases", "P.676-13", 1e9, 1e12);
+  check(config.air.fog_g_m3 > 0, "fog_g_m3", "P.840-8", 0, 200e9);
+}
+
 void check_launch(const Config& config, Found& out) {
   const uint32_t local = config.launch.local_size.value_or(1);
   if ((local & (local - 1)) != 0)
@@ -270,6 +288,7 @@ void check_trajectories(const Config& config, Found& out) {
 std::vector<Contradiction> contradictions(const Config& config) {
   Found out;
   check_scene(config.scene, out);
+  check_air(config, out);
   check_launch(config, out);
   check_rays(config, out);
   check_discoveries(config, out);

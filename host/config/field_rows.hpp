@@ -94,6 +94,10 @@ Table station_table();
 // Of grid_fields.cpp.
 Table receiver_grid_table();
 
+// Of outdoors_fields.cpp: the air and vegetation.
+Table air_table();
+Table vegetation_table();
+
 // Of vehicle_fields.cpp: what moves.
 Table trajectories_table();
 Table time_table();

@@ -246,6 +246,7 @@ const std::vector<Table>& tables() {
                    .range = {0, 100},
                    .doc = "The noise figure of each receiver: how far its noise is above k T B. 0 is a receiver "
                           "without noise of its own; 3GPP assumes 9 dB for vehicles."}}},
+      air_table(),
       trace_table(),
       order_table(),
       launch_table(),
@@ -254,6 +255,7 @@ const std::vector<Table>& tables() {
       response_table(),
       output_table(),
       material_table(),
+      vegetation_table(),
       transmitter_table(),
       receiver_table(),
       station_table(),

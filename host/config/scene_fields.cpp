@@ -186,6 +186,30 @@ Table material_table() {
                    .range = {0, 1},
                    .doc = "Share of the scattered power that is in the other (cross) polarisation.",
                    .example = "0.1"},
+                  {.name = "vegetation",
+                   .slot = m(&MaterialConfig::vegetation),
+                   .doc = "Leaves and twigs instead of a surface: closed meshes of this material are volumes that "
+                          "take power per metre inside, A_m (1 - exp(-g d / A_m)) dB on d metres (ITU-R P.833-10, "
+                          "equation 1). mixed, deciduous: the wood in which A_m was measured. The keys about "
+                          "permittivity, thickness and scattering do not apply.",
+                   .example = "\"mixed\""},
+                  {.name = "in_leaf",
+                   .slot = m(&MaterialConfig::in_leaf),
+                   .doc = "Only for vegetation: with leaves. Without them it takes a sixth less per metre."},
+                  {.name = "attenuation_db_m",
+                   .slot = m(&MaterialConfig::attenuation_db_m),
+                   .unit = "dB/m",
+                   .range = {0, 100},
+                   .doc = "Only for vegetation: g. Not given: 0.2 dB/m at 1 GHz, in proportion to the frequency (read "
+                          "off Figure 2 of ITU-R P.833-10, 30 MHz to 30 GHz).",
+                   .example = "1.0"},
+                  {.name = "max_attenuation_db",
+                   .slot = m(&MaterialConfig::max_attenuation_db),
+                   .unit = "dB",
+                   .range = {0, infinity},
+                   .doc = "Only for vegetation: A_m, the most that a path loses in this material; inf: no maximum. Not "
+                          "given: 1.37 f^0.42 (mixed) or 0.18 f^0.752 (deciduous), f in MHz.",
+                   .example = "30.0"},
               },
           .append = append<&Config::materials>,
           .count = count<&Config::materials>,

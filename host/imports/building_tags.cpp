@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 
+#include "imports/vegetation_tags.hpp"
+
 namespace wavetracer::imports {
 namespace {
 
@@ -145,6 +147,7 @@ std::string_view itu_material(std::string_view value) {
 std::optional<Shape> building_shape(const Tags& tags, const ImportOptions& options,
                                     std::map<std::string, uint64_t>& guessed,
                                     std::map<std::string, uint64_t>& left_out) {
+  if (says_yes(tags, "vegetation")) return vegetation_shape(tags, guessed);
   if (tag(tags, "location") == "underground") {
     ++left_out["underground"];
     return {};

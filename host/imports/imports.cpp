@@ -90,7 +90,7 @@ void add_counts(ImportSummary& summary, const imports::Plan& plan) {
   summary.lower_m = glm::dvec2(infinity);
   summary.upper_m = glm::dvec2(-infinity);
   for (const imports::Solid& solid : plan.solids) {
-    ++(solid.part ? summary.parts : summary.buildings);
+    ++(!solid.is_building() ? summary.vegetation : solid.part ? summary.parts : summary.buildings);
     summary.courtyards += solid.polygon.holes.size();
     for (const imports::Point& p : solid.polygon.outer) {
       const glm::dvec2 m(static_cast<double>(p.x) / imports::grid_per_m,
@@ -185,6 +185,7 @@ std::string describe(const ImportSummary& s) {
         "rms\n",
         s.terrain->triangles, s.terrain->posts, s.terrain->lowest_m, s.terrain->highest_m, s.terrain->largest_error_m,
         s.terrain->rms_error_m);
+  if (s.vegetation > 0) out += fmt::format("vegetation {} trees and woods, by docs/outdoors.md\n", s.vegetation);
   if (!s.guessed.empty()) out += "assumed\n" + total(s.guessed);
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);

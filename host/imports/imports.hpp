@@ -30,8 +30,9 @@ struct ImportOptions {
   std::filesystem::path output;  // folder; created
   double level_height_m = 3;     // of building:levels
   double default_height_m = 10;  // of buildings without height and levels
-  bool ground = true;    // a rectangle at z = 0 under all buildings, the road network (convBoundary) and the traffic
-  double margin_m = 50;  // ground beyond the outermost of them
+  bool ground = true;       // a rectangle at z = 0 under all buildings, the road network (convBoundary) and the traffic
+  bool vegetation = false;  // OpenStreetMap only: trees, rows of them and woods as volumes of leaves
+  double margin_m = 50;     // ground beyond the outermost of them
   std::string ground_material = "concrete";                            // ITU names
   std::string wall_material = "concrete", roof_material = "concrete";  // where the file does not say
   // OpenStreetMap only: the .net.xml that SUMO's netconvert made of the same map. The scene then has its coordinates,
@@ -55,6 +56,7 @@ struct ImportSummary {
   std::filesystem::path net;                 // of the options: scene.streets of a configuration
   uint64_t buildings = 0;                    // solids of whole buildings
   uint64_t parts = 0;                        // solids of building:part
+  uint64_t vegetation = 0;                   // trees and woods
   uint64_t courtyards = 0;                   // holes in either
   uint64_t triangles = 0;                    // the ground included
   std::map<std::string, uint64_t> left_out;  // reason -> how many

@@ -14,14 +14,15 @@
 #include "imports/map.hpp"
 #include "imports/projecting.hpp"
 #include "imports/rings.hpp"
+#include "imports/vegetation_tags.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::imports {
 namespace {
 
-constexpr auto kept_tags = std::to_array<const char*>({"building", "building:part", "height", "min_height",
-                                                       "building:levels", "building:min_level", "roof:levels",
-                                                       "roof:shape", "building:material", "roof:material", "location"});
+constexpr auto kept_tags = std::to_array<const char*>(
+    {"building", "building:part", "height", "min_height", "building:levels", "building:min_level", "roof:levels",
+     "roof:shape", "building:material", "roof:material", "location", "diameter_crown", "leaf_type"});
 
 // The assembler compares each edge with all others beside it: 10^6 corners would take days. As many corners as a
 // polygon may have (rings.hpp), and several rings in a multipolygon; each way in a few multipolygons.
@@ -32,20 +33,28 @@ bool is_yes(const osmium::TagList& tags, const char* key) {
   const char* const value = tags.get_value_by_key(key);
   return value && std::string_view(value) != "no";
 }
-// What stands in the way of waves besides buildings, in words; empty: nothing of this kind. No model of it is built.
+bool is_tree(const osmium::TagList& tags) { return tags.has_tag("natural", "tree"); }
+bool is_row(const osmium::TagList& tags) { return tags.has_tag("natural", "tree_row"); }
+bool is_wood(const osmium::TagList& tags) {
+  return tags.has_tag("natural", "wood") || tags.has_tag("landuse", "forest");
+}
+// What stands in the way of waves besides buildings, in words; empty: nothing of this kind. It is built if it is asked
+// for (ImportOptions::vegetation).
 std::string_view greenery(const osmium::TagList& tags) {
-  if (tags.has_tag("natural", "tree")) return "tree (natural=tree)";
-  if (tags.has_tag("natural", "tree_row")) return "row of trees (natural=tree_row)";
-  if (tags.has_tag("natural", "wood") || tags.has_tag("landuse", "forest"))
-    return "forest (landuse=forest, natural=wood)";
+  if (is_tree(tags)) return "tree (natural=tree)";
+  if (is_row(tags)) return "row of trees (natural=tree_row)";
+  if (is_wood(tags)) return "forest (landuse=forest, natural=wood)";
   return {};
 }
 bool is_building(const osmium::TagList& tags) { return is_yes(tags, "building") || is_yes(tags, "building:part"); }
 
 class OsmReader {
  public:
-  OsmReader(std::string_view content, const std::string& name)
-      : content_(content), name_(name), is_pbf_(!content.starts_with('<') && root_element(content).empty()) {}
+  OsmReader(std::string_view content, const std::string& name, bool vegetation)
+      : content_(content),
+        name_(name),
+        is_pbf_(!content.starts_with('<') && root_element(content).empty()),
+        vegetation_(vegetation) {}
 
   // Footprints in degrees (longitude, latitude): projected by the caller, who knows the middle only now.
   Map read() {
@@ -101,6 +110,8 @@ class OsmReader {
       throw InputError(fmt::format("{}: the file contains far more nodes than its size allows: it is damaged", name_));
     }
     count_greenery(node);
+    if (vegetation_ && node.visible() && node.location().valid() && is_tree(node.tags()))
+      plant({node.location().lon(), node.location().lat()}, fmt::format("node_{}", node.id()), node.tags());
     if (node.visible() && node.location().valid()) locations_.set(index_id(node.id()), node.location());
   }
 
@@ -118,14 +129,41 @@ class OsmReader {
   void count_greenery(const osmium::OSMObject& object) {
     if (!object.visible() || object.tags().empty()) return;
     check_tags(object);
+    if (vegetation_) return;
     if (const std::string_view kind = greenery(object.tags()); !kind.empty()) ++map_.left_out[std::string(kind)];
+  }
+
+  // Whether a closed way or a multipolygon with these tags is built.
+  bool is_area(const osmium::TagList& tags) const { return is_building(tags) || (vegetation_ && is_wood(tags)); }
+
+  // A tree, as the outline of its crown.
+  void plant(const glm::dvec2& place_deg, const std::string& id, const osmium::TagList& tags) {
+    Footprint footprint;
+    footprint.id = id;
+    set_tags(footprint, tags);
+    footprint.tags["vegetation"] = "tree";
+    footprint.outer = crown_ring(place_deg, tree_size(footprint.tags).crown_m);
+    map_.footprints.push_back(std::move(footprint));
+  }
+
+  void plant_row(const osmium::Way& way) {
+    std::vector<glm::dvec2> line_deg;
+    for (const osmium::NodeRef& node : way.nodes())
+      if (node.location().valid()) line_deg.emplace_back(node.lon(), node.lat());
+    const std::vector<glm::dvec2> trees = planted(line_deg);
+    if (trees.size() > most_trees_of_row || (row_trees_ += trees.size()) > most_trees_of_rows) {
+      ++map_.left_out["row of more than 1000 trees, or beyond 200,000 trees in rows"];
+      return;
+    }
+    size_t count = 0;
+    for (const glm::dvec2& place_deg : trees) plant(place_deg, fmt::format("way_{}_{}", way.id(), ++count), way.tags());
   }
 
   void way(const osmium::Way& way) {
     check_tags(way);
     count_greenery(way);
-    const bool building = is_building(way.tags());
-    if (!way.visible() || (!building && !member_ways_.contains(way.id()))) return;
+    const bool building = is_area(way.tags()), row = vegetation_ && is_row(way.tags());
+    if (!way.visible() || (!building && !row && !member_ways_.contains(way.id()))) return;
     if (building && (way.nodes().size() < 4 || !way.is_closed()) && !member_ways_.contains(way.id())) {
       ++map_.left_out["way that is not closed, as if clipped at the border of an extract"];
       return;
@@ -140,7 +178,7 @@ class OsmReader {
     check_tags(relation);
     count_greenery(relation);
     const char* const type = relation.tags().get_value_by_key("type");
-    if (!relation.visible() || !type || std::string_view(type) != "multipolygon" || !is_building(relation.tags())) {
+    if (!relation.visible() || !type || std::string_view(type) != "multipolygon" || !is_area(relation.tags())) {
       return;
     }
     for (const auto& member : relation.members()) {
@@ -156,7 +194,8 @@ class OsmReader {
   }
 
   void assemble(const osmium::Way& way) {
-    if (!is_building(way.tags()) || way.nodes().size() < 4 || !way.is_closed()) return;
+    if (vegetation_ && is_row(way.tags())) return plant_row(way);
+    if (!is_area(way.tags()) || way.nodes().size() < 4 || !way.is_closed()) return;
     if (way.nodes().size() > most_way_nodes) {
       ++map_.left_out[too_many_corners];
       return;
@@ -224,6 +263,7 @@ class OsmReader {
       if (const char* const value = tags.get_value_by_key(key)) footprint.tags[key] = value;
     }
     footprint.name = tags.get_value_by_key("name", "");
+    if (!is_building(tags) && is_wood(tags)) footprint.tags["vegetation"] = "wood";
   }
 
   static osmium::unsigned_object_id_type index_id(osmium::object_id_type id) {
@@ -232,9 +272,9 @@ class OsmReader {
 
   std::string_view content_;
   const std::string& name_;
-  bool is_pbf_;
+  bool is_pbf_, vegetation_;
   Map map_;
-  size_t nodes_ = 0;
+  size_t nodes_ = 0, row_trees_ = 0;
   size_t way_nodes_ = 0, member_nodes_ = 0;  // of the ways that are kept; of multipolygons so far, each time anew
   const osmium::area::AssemblerConfig assembler_config_{};
   osmium::index::map::SparseMemArray<osmium::unsigned_object_id_type, osmium::Location> locations_;
@@ -251,7 +291,7 @@ bool is_osm(std::string_view first_bytes) {
 }
 
 Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options) {
-  Map map = OsmReader(content, name).read();
+  Map map = OsmReader(content, name, options.vegetation).read();
   if (map.footprints.empty()) return map;
   project(map, name, options, fmt::format("osmium extract -b WEST,SOUTH,EAST,NORTH {} -o city.osm.pbf", name));
   map.georeference.attribution = osm_attribution;

@@ -126,7 +126,7 @@ class Planner {
   void drop_repeated_outlines() {
     std::map<Ring, size_t> seen;
     for (size_t i = 0; i < candidates_.size(); ++i) {
-      if (candidates_[i].solid.part) continue;  // parts may stand on one another
+      if (candidates_[i].solid.part || !candidates_[i].solid.is_building()) continue;  // parts may stand on one another
       const auto [entry, is_new] = seen.try_emplace(canonical(candidates_[i].solid.polygon.outer), i);
       if (is_new) continue;
       const auto courtyards = [this](size_t k) { return candidates_[k].solid.polygon.holes.size(); };
@@ -142,7 +142,8 @@ class Planner {
   void cut_courtyards() {
     BoxIndex index;
     for (size_t i = 0; i < candidates_.size(); ++i) {
-      if (!candidates_[i].gone && !candidates_[i].solid.part) index.add(candidates_[i].box, i);
+      if (!candidates_[i].gone && !candidates_[i].solid.part && candidates_[i].solid.is_building())
+        index.add(candidates_[i].box, i);
     }
     index.sort();
     std::vector<size_t> order(candidates_.size());
@@ -196,7 +197,8 @@ class Planner {
   void leave_outlines_to_parts() {
     BoxIndex index;
     for (size_t i = 0; i < candidates_.size(); ++i) {
-      if (!candidates_[i].gone && !candidates_[i].solid.part) index.add(candidates_[i].box, i);
+      if (!candidates_[i].gone && !candidates_[i].solid.part && candidates_[i].solid.is_building())
+        index.add(candidates_[i].box, i);
     }
     index.sort();
     std::vector<size_t> dropped;

@@ -8,6 +8,7 @@
 #include "imports/building_tags.hpp"
 #include "imports/map.hpp"
 #include "imports/rings.hpp"
+#include "imports/vegetation_tags.hpp"
 #include "scene/raw_scene.hpp"
 
 namespace wavetracer::imports {
@@ -20,6 +21,7 @@ struct Solid {
   Shape shape;
   Ring outline = {};  // of the building that it is a part of; empty where there is none
   double base_m = 0;  // the ground that it stands on
+  bool is_building() const { return !is_vegetation(shape.walls); }
 };
 
 struct Plan {

@@ -22,7 +22,9 @@ void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, gpu::HostMemory& h
 Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts, const glm::dvec3& origin_m)
     : context_(context),
       kernel_(context.kernel("fields", "fields",
-                             {{"WT_DIFFRACTS", diffracts ? "1" : "0"}, {"WT_SCATTERS", tables.scatters ? "1" : "0"}})),
+                             {{"WT_DIFFRACTS", diffracts ? "1" : "0"},
+                              {"WT_SCATTERS", tables.scatters ? "1" : "0"},
+                              {"WT_LOSSES", tables.loses() ? "1" : "0"}})),
       work_(tuning_of(context.info()).exact),
       transmitters_(tables.transmitters),
       ports_(tables.ports),
@@ -34,20 +36,24 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts,
                  .vertex_capacity = 0,
                  .max_depth = 0,
                  .transmissions = tables.transmissions,
-                 .scatters = tables.scatters},
+                 .scatters = tables.scatters,
+                 .air = tables.air,
+                 .foliage_count = static_cast<uint32_t>(tables.foliages.size()),
+                 .padding = 0},
       materials_(context.buffer(tables.materials, "materials")),
       materials_of_(context.buffer(tables.materials_of, "materials of surfaces")),
       surface_of_tile_(context.buffer(tables.surface_of_tile, "surfaces of tiles")),
       area_of_tile_(context.buffer(tables.area_of_tile, "areas of tiles")),
       samples_(context.buffer(tables.samples, "antenna patterns")),
-      antennas_(context.buffer(tables.antennas, "antennas")) {
+      antennas_(context.buffer(tables.antennas, "antennas")),
+      foliages_(context.buffer(tables.foliages, "kinds of vegetation")) {
   make_room(context_, rows_, host_rows_, 1 << 12, "path rows");
   make_room(context_, vertices_, host_vertices_, 1 << 14, "path vertex rows");
 }
 
 void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
-                        const WorldState& world, const SolvedList& visible, const Distinct& distinct,
-                        const RowList& rows, RowCounts most) {
+                        const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
+                        const Distinct& distinct, const RowList& rows, RowCounts most) {
   const std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
                                                         field_ends(world.receivers, transmitters_)};
   for (int side = 0; side < 2; ++side) {
@@ -64,7 +70,8 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
   kernel_(work_.range(rows.places), "fields", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
           ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.delays, rows.quarters,
           rows.counts, rows.vertex_counts, scene.exact_surfaces, materials_of_, materials_, wedges, surface_of_tile_,
-          area_of_tile_, scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, rows_, vertices_, arguments_);
+          area_of_tile_, scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, foliages_, lengths_inside,
+          rows_, vertices_, arguments_);
 }
 
 void Fields::begin_read(uint32_t frame, RowCounts expected) {

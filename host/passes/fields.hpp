@@ -22,10 +22,12 @@ class Fields {
   Fields(gpu::Context& context, const FieldTables& tables, bool diffracts, const glm::dvec3& origin_m);
 
   // Computes the rows. Their counts are scanned. wedges: placed in the frame, or nullptr where nothing diffracts.
-  // most: how many rows and vertices there may be.
+  // lengths_inside: of the visible paths, nullptr where there is no vegetation. most: how many rows and vertices there
+  // may be.
   void operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
-                  const WorldState& world, const SolvedList& visible, const Distinct& distinct, const RowList& rows,
-                  RowCounts most);
+                  const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
+                  const Distinct& distinct, const RowList& rows, RowCounts most);
+  void set_materials(const std::vector<device::wt_material>& materials) { materials_.write(materials, 0, "fields"); }
   // Begins to read the rows that were computed last, `expected` of them, and makes room for their columns while the
   // device works.
   void begin_read(uint32_t frame, RowCounts expected);
@@ -46,6 +48,7 @@ class Fields {
   gpu::Buffer<uint32_t> materials_of_, surface_of_tile_;
   gpu::Buffer<double> area_of_tile_, samples_;
   gpu::Buffer<device::wt_antenna> antennas_;
+  gpu::Buffer<device::wt_foliage> foliages_;
   gpu::Buffer<device::wt_field_end> ends_[2];  // transmitters, receivers
   gpu::Buffer<device::wt_path_row> rows_;
   gpu::Buffer<device::wt_vertex_row> vertices_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <complex>
 
+#include "radio/air.hpp"
 #include "radio/antenna.hpp"
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
@@ -72,6 +73,9 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
     tables.transmissions = std::min(config.trace.max_transmissions, config.trace.max_depth);
   add_materials(tables, scene, config, models, instances);
   add_antennas(tables, config);
+  tables.air = air_at(config.air, config.radio.frequency_hz);
+  tables.volumes = volume_table(scene);
+  tables.foliages = foliages_at(tables.volumes, scene, config.radio.frequency_hz);
   tables.scatters = config.trace.scattering;
   if (!tables.scatters) return tables;
   const TileTable tiles(scene, models, instances, config.trace.tile_m);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "radio/path_columns.hpp"
+#include "radio/vegetation_law.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/device/field_records.h"
 #include "wavetracer/scene.hpp"
@@ -26,6 +27,11 @@ struct FieldTables {
   uint64_t seed = 0;
   uint32_t transmissions = 0;  // the most of a path; 0: waves do not pass surfaces
   bool scatters = false;
+  VolumeTable volumes;                       // of vegetation
+  std::vector<device::wt_foliage> foliages;  // of its kinds
+  device::wt_air air{};
+  // Whether paths lose more than distance, surfaces and edges take.
+  bool loses() const { return air.loss_np_m > 0 || air.rains || !foliages.empty(); }
 };
 
 // config: its transmitters and receivers are all of the world's. Throws ConfigError or InputError for an antenna that

@@ -11,6 +11,7 @@
 #include "radio/constants.hpp"
 #include "radio/world_records.hpp"
 #include "wavetracer/device/path_field.h"
+#include "wavetracer/device/volumes.h"
 #include "wavetracer/error.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -110,6 +111,23 @@ OrderedRows ordered_rows(const device::wt_path_list& list, const device::wt_fiel
   return ordered;
 }
 
+// Metres that each path is inside of each kind of vegetation.
+std::vector<double> lengths_inside(const VolumeTable& table, const device::wt_path_list& list, size_t count) {
+  const size_t kinds = table.material.size();
+  std::vector<double> out(count * kinds);
+  tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+    const device::wt_path path = device::wt_path_of(&list, static_cast<uint32_t>(2 * i));
+    glm::dvec3 from = path.from;
+    for (uint32_t leg = 0; leg <= path.depth; ++leg) {
+      const glm::dvec3 to = leg < path.depth ? device::wt_vertex(&path, leg) : path.to;
+      for (const device::wt_volume& volume : table.volumes)
+        out[i * kinds + volume.kind] += device::wt_length_inside(&volume, table.triangles.data(), from, to);
+      from = to;
+    }
+  });
+  return out;
+}
+
 }  // namespace
 
 FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models,
@@ -131,11 +149,14 @@ FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const
 Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
                           LeftOut* left_out) const {
   const SolvedRows solved = solved_rows(geometry, state);
+  const device::wt_path_list list = solved.list();
   const auto surfaces = surface_records(scene_, models_, instances_, state);
   auto wedges = wedge_records(scene_, models_, instances_);
   place_wedges(wedges, state);
   check_numbers(geometry, surfaces.size(), wedges.size(), tables_.surface_of_tile.size());
   const auto instances = instance_records(instances_, state);
+  const std::vector<double> inside =
+      tables_.foliages.empty() ? std::vector<double>{} : lengths_inside(tables_.volumes, list, geometry.size());
   const auto transmitters = field_ends(state.transmitters, 0);
   const auto receivers = field_ends(state.receivers, tables_.transmitters);
   const device::wt_field_world world{surfaces.data(),
@@ -152,8 +173,11 @@ Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const Wo
                                      tables_.wavelength_m,
                                      tables_.seed,
                                      tables_.transmissions,
-                                     tables_.scatters};
-  const device::wt_path_list list = solved.list();
+                                     tables_.scatters,
+                                     static_cast<uint32_t>(tables_.foliages.size()),
+                                     tables_.foliages.data(),
+                                     inside.data(),
+                                     tables_.air};
   LeftOut near;
   const OrderedRows ordered = ordered_rows(list, world, geometry.size(), near);
   if (left_out) *left_out = std::move(near);

@@ -11,6 +11,7 @@
 
 #include "scene/scene_wedges.hpp"
 #include "scene/topology.hpp"
+#include "scene/volumes.hpp"
 #include "scene/weld.hpp"
 #include "wavetracer/error.hpp"
 
@@ -31,9 +32,12 @@ struct Soup {
   std::vector<uint32_t> object;  // per triangle: index of its mesh
 };
 
-Soup gather(const RawScene& raw) {
+// Without meshes that are vegetation.
+Soup gather(const RawScene& raw, const ResolvedMaterials& resolved) {
+  const auto is_volume = [&](size_t m) { return resolved.materials[resolved.mesh_material[m]].vegetation.has_value(); };
   uint64_t corners = 0;
-  for (const RawMesh& mesh : raw.meshes) corners += mesh.triangles.size() * 3;
+  for (size_t m = 0; m < raw.meshes.size(); ++m)
+    if (!is_volume(m)) corners += raw.meshes[m].triangles.size() * 3;
   if (corners == 0) throw InputError(fmt::format("{}: the scene has no triangles", raw.file));
   if (corners >= none)
     throw InputError(
@@ -43,6 +47,7 @@ Soup gather(const RawScene& raw) {
   soup.object.reserve(corners / 3);
   std::vector<uint32_t> moved;  // mesh vertex -> soup vertex
   for (size_t m = 0; m < raw.meshes.size(); ++m) {
+    if (is_volume(m)) continue;
     const RawMesh& mesh = raw.meshes[m];
     moved.assign(mesh.vertices.size(), none);
     for (Triangle t : mesh.triangles) {
@@ -190,6 +195,24 @@ void compact_vertices(Scene& scene) {
   }
 }
 
+void gather_volumes(Scene& scene, const RawScene& raw, const ResolvedMaterials& resolved) {
+  for (size_t i = 0; i < raw.volumes.size(); ++i) {
+    scene.volumes.push_back(raw.volumes[i].volume);
+    scene.volumes.back().material = resolved.volume_material[i];
+  }
+  for (size_t m = 0; m < raw.meshes.size(); ++m) {
+    const uint32_t material = resolved.mesh_material[m];
+    if (!scene.materials[material].vegetation) continue;
+    const std::vector<Volume> parts = mesh_volumes(raw.meshes[m], material);
+    scene.volumes.insert(scene.volumes.end(), parts.begin(), parts.end());
+  }
+  for (Volume& volume : scene.volumes) {
+    volume.centre -= scene.origin_m;
+    for (auto& triangle : volume.triangles)
+      for (dvec3& corner : triangle) corner -= scene.origin_m;
+  }
+}
+
 }  // namespace
 
 Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch edges) {
@@ -198,11 +221,12 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch ed
   scene.files = raw.files;
   scene.report.warnings = raw.warnings;
   std::move(resolved.warnings.begin(), resolved.warnings.end(), std::back_inserter(scene.report.warnings));
-  scene.materials = std::move(resolved.materials);
   for (const RawMesh& mesh : raw.meshes) scene.objects.push_back(mesh.name);
 
-  Soup soup = gather(raw);
+  Soup soup = gather(raw, resolved);
+  scene.materials = std::move(resolved.materials);
   scene.origin_m = recentre(soup, raw.file);
+  gather_volumes(scene, raw, resolved);
   std::vector<uint32_t> triangle_material;
   weld_and_clean(scene, soup, resolved.mesh_material, triangle_material);
   if (scene.triangles.empty()) throw InputError(fmt::format("{}: all triangles of the scene are degenerate", raw.file));

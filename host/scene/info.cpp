@@ -80,6 +80,11 @@ std::string describe_scene(const Scene& scene) {
   const std::vector<MaterialUse> use = material_use(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
+    if (m.vegetation) {
+      const auto volumes = std::ranges::count(scene.volumes, static_cast<uint32_t>(i), &Volume::material);
+      out += fmt::format("  {:<20} vegetation; {} volumes\n", m.name, volumes);
+      continue;
+    }
     const std::string thickness = std::isinf(m.thickness_m) ? "half space" : fmt::format("{} m thick", m.thickness_m);
     out += fmt::format("  {:<20} {}, {}, {}; {} triangles, {} surfaces, {:.0f} m2\n", m.name, thickness, electrical(m),
                        range(m), use[i].triangles, use[i].surfaces, use[i].area_m2);

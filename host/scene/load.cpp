@@ -16,6 +16,7 @@
 #include "scene/mitsuba.hpp"
 #include "scene/model.hpp"
 #include "scene/ply.hpp"
+#include "scene/volumes.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -106,11 +107,9 @@ Scene load_scene(const Config& config) {
                           : "both scene.file and scene.generate are set: keep one");
   }
   const EdgeSearch edges = config.trace.diffraction ? EdgeSearch::of_scene : EdgeSearch::none;
-  if (!scene.generate.empty()) {
-    RawScene raw = generate_city(parse_city_options(scene.generate));
-    return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, edges);
-  }
-  return load_scene_file(scene.file, scene, config.materials, config.radio.frequency_hz, edges);
+  RawScene raw = scene.file.empty() ? generate_city(parse_city_options(scene.generate)) : read_raw(scene.file);
+  add_volumes(raw, config.vegetation);
+  return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, edges);
 }
 
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,

@@ -25,6 +25,13 @@ std::array<std::string, 3> spellings(std::string_view name) {
   return {std::string(name), std::string(bare), std::string(strip(bare, "itu_"))};
 }
 
+// Names of vegetation that need no [[material]].
+Woodland woodland_named(std::string_view name) {
+  if (name == "vegetation") return "mixed";
+  if (name == "deciduous_vegetation") return "deciduous";
+  return "none";
+}
+
 class Resolver {
  public:
   Resolver(const SceneConfig& scene, const std::vector<MaterialConfig>& overrides, double frequency_hz)
@@ -90,6 +97,12 @@ class Resolver {
     if (m.scattering_lobe && *m.scattering_lobe != std::floor(*m.scattering_lobe))
       fail("scattering_lobe must be an integer");
     if (m.thickness_m && !(*m.thickness_m > 0)) fail("thickness_m must be positive (inf: a half space)");
+    const bool surface = law || fixed || m.thickness_m || m.scattering || !m.library.empty();
+    if (m.vegetation != "none" && surface)
+      fail("vegetation is no surface, and has no permittivity, thickness, scattering or library: remove those keys");
+    const bool leaves = m.attenuation_db_m || m.max_attenuation_db || !m.in_leaf;
+    if (leaves && (surface || (m.vegetation == "none" && woodland_named(spellings(m.name)[2]) == "none")))
+      fail("attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or \"deciduous\"");
   }
 
   // "", or that the newest edition knows the name.
@@ -153,9 +166,26 @@ class Resolver {
     return law->material;
   }
 
+  // Leaves and twigs, if the name is theirs.
+  std::optional<Material> leaves(std::string_view name, const MaterialConfig* over) {
+    Woodland woodland = over ? over->vegetation : "none";
+    if (woodland == "none" && over && (gives_law(*over) || !over->library.empty())) return std::nullopt;
+    if (woodland == "none") woodland = woodland_named(spellings(name)[2]);
+    if (woodland == "none") return std::nullopt;
+    if (over) used_.insert("material " + over->name);
+    Material out{.name = spellings(over ? over->name : name)[2]};
+    out.vegetation = VegetationLaw{.deciduous = woodland == "deciduous"};
+    if (!over) return out;
+    out.vegetation->in_leaf = over->in_leaf;
+    out.vegetation->attenuation_db_m = over->attenuation_db_m;
+    out.vegetation->max_attenuation_db = over->max_attenuation_db;
+    return out;
+  }
+
   // What configuration and table say of a name.
   std::optional<Material> known(std::string_view name) {
     const MaterialConfig* over = override_of(name);
+    if (const auto vegetation = leaves(name, over)) return vegetation;
     const bool made_of = over && !over->library.empty();
     std::optional<Material> material = itu(spellings(made_of ? over->library : name)[2], over && gives_law(*over));
     if (over) {
@@ -204,6 +234,14 @@ class Resolver {
   std::set<std::string> used_, notes_;
 };
 
+// The place of a material in a list, to which it is added if it is new.
+uint32_t index_in(std::vector<Material>& materials, const Material& material) {
+  const auto same = std::find(materials.begin(), materials.end(), material);
+  const auto index = static_cast<uint32_t>(same - materials.begin());
+  if (same == materials.end()) materials.push_back(material);
+  return index;
+}
+
 }  // namespace
 
 ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scene,
@@ -223,11 +261,18 @@ ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scen
       const Material material =
           resolver.resolve(definition ? definition->name : scene.default_material, definition,
                            definition ? fmt::format("{}: mesh '{}'", mesh.where, mesh.name) : "scene.default_material");
-      const auto same = std::find(out.materials.begin(), out.materials.end(), material);
-      index = static_cast<uint32_t>(same - out.materials.begin());
-      if (same == out.materials.end()) out.materials.push_back(material);
+      index = index_in(out.materials, material);
     }
     out.mesh_material.push_back(index);
+  }
+  for (const RawVolume& volume : raw.volumes) {
+    const Material material = resolver.resolve(volume.material, nullptr, "[[vegetation]]");
+    if (!material.vegetation)
+      throw ConfigError(
+          fmt::format("[[vegetation]]: the material '{}' is not vegetation: give \"vegetation\", "
+                      "\"deciduous_vegetation\", or a [[material]] with the key vegetation",
+                      volume.material));
+    out.volume_material.push_back(index_in(out.materials, material));
   }
   out.warnings = resolver.warnings();
   return out;

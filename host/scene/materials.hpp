@@ -12,8 +12,9 @@
 namespace wavetracer {
 
 struct ResolvedMaterials {
-  std::vector<Material> materials;      // distinct, in order of first use
-  std::vector<uint32_t> mesh_material;  // RawScene::meshes -> materials
+  std::vector<Material> materials;             // distinct, in order of first use
+  std::vector<uint32_t> mesh_material;         // RawScene::meshes -> materials
+  std::vector<uint32_t> volume_material = {};  // RawScene::volumes -> materials
   std::vector<std::string> warnings;
 };
 
@@ -21,6 +22,7 @@ struct ResolvedMaterials {
 // material of that name. "mat-" and then "itu_" are stripped where the full name is not known. [[material]] of the
 // configuration overrides file and table, field by field. A material that its edition does not know at the frequency
 // keeps its range, which its evaluation will refuse, or loses it under scene.extrapolate_materials, with a warning.
+// "vegetation" and "deciduous_vegetation" are leaves and twigs (VegetationLaw), unless [[material]] says otherwise.
 // Throws InputError that names mesh, file and material.
 ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scene,
                                     const std::vector<MaterialConfig>& overrides, double frequency_hz);

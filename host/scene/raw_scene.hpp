@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "wavetracer/scene.hpp"
+
 namespace wavetracer {
 
 using Triangle = std::array<uint32_t, 3>;
@@ -30,11 +32,18 @@ struct RawMesh {
   uint32_t material = no_material;  // into RawScene::materials
 };
 
+// A volume of the configuration, in metres.
+struct RawVolume {
+  Volume volume;         // in the coordinates of the scene, without its material
+  std::string material;  // its name
+};
+
 struct RawScene {
   std::string file;
   std::vector<std::string> files;  // that were read, in that order: this one, and those that it names
   std::vector<RawMesh> meshes;
   std::vector<RawMaterial> materials;
+  std::vector<RawVolume> volumes;
   std::vector<std::string> warnings;
   bool y_up = false;  // what the format prescribes; scene.up overrides it
 };

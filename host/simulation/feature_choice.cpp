@@ -88,6 +88,10 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
                                        {trace.max_diffractions < 2, "trace.max_diffractions = 1"},
                                        {trace.max_depth < 2, "trace.max_depth = 1"}});
   out["instances"] = feature({{world.instances().empty(), "no vehicle has a body"}});
+  out["vegetation"] = feature({{scene.volumes.empty(), "the scene has no volume of vegetation"}});
+  const AirConfig& air = config.air;
+  out["air"] = feature({{!air.gases && air.fog_g_m3 == 0 && air.rain_mm_h == 0,
+                         "air.gases = false, air.fog_g_m3 = 0 and air.rain_mm_h = 0"}});
   return out;
 }
 

@@ -20,6 +20,7 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
       sort_(context),
       scan_(context),
       carriers_hz_(carriers_hz(config.radio)) {
+  if (!scene.volumes.empty()) vegetation_.emplace(context, volume_table(scene));
   for (const double carrier_hz : carriers_hz_) {
     Config at_carrier = config;
     at_carrier.radio.frequency_hz = carrier_hz;
@@ -43,10 +44,11 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     expected = counters.foresees() ? expected_rows(counters.last()) : most;
   }
   if (most.rows > 0) {
-    scan_.prefix(distinct_.rows().counts, places, "distinct");         // scan
-    scan_.prefix(distinct_.rows().vertex_counts, places, "distinct");  // scan
+    scan_.prefix(distinct_.rows().counts, places, "distinct");                                             // scan
+    scan_.prefix(distinct_.rows().vertex_counts, places, "distinct");                                      // scan
+    const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
-      fields_[i](scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, distinct_,
+      fields_[i](scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, inside, distinct_,
                  distinct_.rows(), most);  // fields
   }
   for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);

@@ -7,6 +7,7 @@
 #include "passes/fields.hpp"
 #include "passes/scan.hpp"
 #include "passes/sort.hpp"
+#include "passes/vegetation.hpp"
 #include "radio/fields.hpp"
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/frame_account.hpp"
@@ -26,6 +27,8 @@ class FinishedPaths {
   void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
              const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, bool carriers,
              Counters& counters);
+  // Other materials for the frames that follow, at the first carrier: as many as FieldTables has, in its order.
+  void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
   // The paths, once the device has finished, with the counters as it left them. left_out: gets paths that
   // radio/fields.hpp does not count. carriers: gets the fields that were started besides; may be nullptr.
   Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
@@ -35,7 +38,8 @@ class FinishedPaths {
   Distinct distinct_;
   Sort sort_;
   Scan scan_;
-  std::vector<Fields> fields_;  // of each carrier, which share nothing but the rows
+  std::optional<Vegetation> vegetation_;  // where the scene has any
+  std::vector<Fields> fields_;            // of each carrier, which share nothing but the rows
   std::vector<double> carriers_hz_;
 };
 

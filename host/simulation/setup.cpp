@@ -74,8 +74,9 @@ OrderChoice make_order(Setup& s) {
 bool receives_by_spheres(const Config& config) { return config.trace.reception == "sphere"; }
 
 // A sphere receives what this frame's rays meet.
-bool reuses(const Config& config, const World& world) {
-  return config.trace.reuse && !receives_by_spheres(config) && (world.frame_count() > 1 || world.live());
+bool reuses(const Config& config, const World& world, bool frames_follow) {
+  return config.trace.reuse && !receives_by_spheres(config) &&
+         (world.frame_count() > 1 || world.live() || frames_follow);
 }
 
 std::optional<LaunchSlopes> make_slopes(const Setup& s) {
@@ -117,7 +118,7 @@ Config with_trace(Config config, const TraceConfig& trace) {
 
 }  // namespace
 
-Setup::Setup(const Config& asked, const std::string& device_text)
+Setup::Setup(const Config& asked, const std::string& device_text, bool frames_follow)
     : context(device_text),
       device(summary_of(context.info())),
       scene(make_scene(*this, asked)),
@@ -133,7 +134,7 @@ Setup::Setup(const Config& asked, const std::string& device_text)
       launch_sides(scene, world.models(), world.instances()),
       order(make_order(*this)),
       order_summary(summary_of(order)),
-      reuse(reuses(config, world)),
+      reuse(reuses(config, world, frames_follow)),
       slopes(make_slopes(*this)),
       trails(make_trails(*this)),
       cache(make_cache(*this)),

@@ -23,8 +23,9 @@
 namespace wavetracer {
 
 struct Setup {
-  // As Simulation::Simulation.
-  Setup(const Config& asked, const std::string& device_text);
+  // As Simulation::Simulation. frames_follow: frames of poses of the caller's own follow each other, also where the
+  // world has one frame; then they reuse sequences if trace.reuse says so.
+  Setup(const Config& asked, const std::string& device_text, bool frames_follow = false);
   Setup(const Setup&) = delete;
   Setup& operator=(const Setup&) = delete;
 

@@ -106,6 +106,11 @@ const Scene& VehicleModels::mesh_of(const VehicleTypeConfig& row) {
     scene.default_material = row.material;
     mesh->second = load_scene_file(row.model, scene, config_.materials, config_.radio.frequency_hz,
                                    config_.trace.diffraction ? EdgeSearch::of_model : EdgeSearch::none);
+    if (!mesh->second.volumes.empty())
+      throw InputError(
+          fmt::format("{}: a mesh of this vehicle is vegetation, which only the static scene can have: give it another "
+                      "material ([scene.material_alias])",
+                      row.model));
   }
   return mesh->second;
 }

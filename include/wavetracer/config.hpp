@@ -11,8 +11,12 @@
 #include <vector>
 
 #include "wavetracer/choice.hpp"
+#include "wavetracer/outdoors_config.hpp"
 
 namespace wavetracer {
+
+// Whose measurements give the largest attenuation of vegetation, see VegetationLaw (wavetracer/scene.hpp).
+using Woodland = Choice<"none", "mixed", "deciduous">;
 
 struct MaterialConfig {  // [[material]]: overrides or adds a radio material by name
   std::string name;
@@ -21,6 +25,10 @@ struct MaterialConfig {  // [[material]]: overrides or adds a radio material by 
   std::optional<double> permittivity, conductivity_s_m;
   std::optional<double> thickness_m;                                          // infinity allowed: a half space
   std::optional<double> scattering, scattering_lobe, scattering_cross_polar;  // see Material
+  // Leaves and twigs instead of a surface, see VegetationLaw.
+  Woodland vegetation = "none";
+  bool in_leaf = true;
+  std::optional<double> attenuation_db_m, max_attenuation_db;
 };
 
 using UpAxis = Choice<"auto", "y", "z">;
@@ -263,6 +271,8 @@ struct Config {
   std::string text;  // all of it with --set applied, echoed into the outputs: echoed_config()
   SceneConfig scene;
   RadioConfig radio;
+  AirConfig air;
+  std::vector<VegetationConfig> vegetation;
   std::vector<MaterialConfig> materials;
   std::vector<RadioEnd> transmitters, receivers;
   std::vector<RadioEnd> stations;  // each of them is a transmitter and a receiver of one name

@@ -5,10 +5,21 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace wavetracer {
+
+// What leaves and twigs take of a wave on d metres inside: A = A_m (1 - exp(-g d / A_m)) dB (ITU-R P.833-10, equation
+// 1). Where g and A_m are not given they are the recommendation's, at the carrier (host/radio/vegetation_law.hpp).
+struct VegetationLaw {
+  bool deciduous = false;  // whose A_m: of a deciduous wood, or of a mixed one
+  bool in_leaf = true;
+  std::optional<double> attenuation_db_m = {};    // g
+  std::optional<double> max_attenuation_db = {};  // A_m; infinity: no maximum
+  bool operator==(const VegetationLaw&) const = default;
+};
 
 // A radio material before a frequency is chosen: eps' = a f^b, sigma = c f^d (S/m), f in GHz (ITU-R P.2040-3, Table 3).
 // A material of fixed permittivity and conductivity has b = d = 0 and a range of 0 to infinity.
@@ -18,9 +29,10 @@ struct Material {
   double min_ghz = 0, max_ghz = std::numeric_limits<double>::infinity();
   double thickness_m = 0.1;  // infinity: a half space
   // Diffuse scattering (V. Degli-Esposti et al., IEEE Trans. Antennas Propag. 55(1), 2007), with trace.scattering.
-  double scattering = 0;              // S: the share S^2 of the reflected power is scattered, 0 to 1
-  double scattering_lobe = 0;         // exponent of the directive lobe; 0: Lambertian
-  double scattering_cross_polar = 0;  // share of the scattered power in the other polarisation, 0 to 1
+  double scattering = 0;                         // S: the share S^2 of the reflected power is scattered, 0 to 1
+  double scattering_lobe = 0;                    // exponent of the directive lobe; 0: Lambertian
+  double scattering_cross_polar = 0;             // share of the scattered power in the other polarisation, 0 to 1
+  std::optional<VegetationLaw> vegetation = {};  // its meshes are volumes; then all else but the name is void
   bool operator==(const Material&) const = default;
 };
 
@@ -56,6 +68,16 @@ struct Wedge {
   std::array<uint32_t, 2> surface{0, 0};  // of face 0 and face 1, into Scene::surfaces; the same for a free edge
 };
 
+// A volume that waves pass, and that takes of them: vegetation.
+enum class VolumeShape : uint32_t { box, cylinder, spheroid, mesh };  // as WT_VOLUME_... of wavetracer/device/volumes.h
+struct Volume {
+  VolumeShape shape = VolumeShape::box;
+  glm::dvec3 centre{0}, half_size{0};  // of its box, turned by yaw_rad about z; an upright cylinder is elliptic
+  double yaw_rad = 0;
+  std::vector<std::array<glm::dvec3, 3>> triangles = {};  // of a mesh: closed, counter-clockwise seen from outside
+  uint32_t material = 0;                                  // into Scene::materials, where it has a VegetationLaw
+};
+
 // What was left out when the scene was loaded, and why; every count is reported to the user.
 struct LoadReport {
   uint64_t degenerate_triangles = 0;  // zero area, dropped
@@ -84,6 +106,7 @@ struct Scene {
   std::vector<uint32_t> edge_faces;
   std::vector<Wedge> wedges;  // includes free edges, whatever trace.free_edges says
   std::vector<Material> materials;
+  std::vector<Volume> volumes;       // no surfaces: rays do not see them
   std::vector<std::string> objects;  // mesh names
   glm::dvec3 lower{0}, upper{0};     // bounding box, recentred
   LoadReport report;

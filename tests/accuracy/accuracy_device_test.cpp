@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "accuracy/advice.hpp"
+#include "accuracy/inputs.hpp"
+#include "accuracy/latin_hypercube.hpp"
 #include "accuracy/study.hpp"
 #include "app/program.hpp"
 #include "simulation/run.hpp"
@@ -179,4 +181,111 @@ TEST_CASE("an interrupt leaves the settings that are complete") {
   CHECK(cut.rows[0].reference);
   for (const accuracy::Row& done : cut.rows) CHECK(done.error.reference_paths > 0);
   CHECK_FALSE(accuracy::recommendations(cut).empty());
+}
+
+TEST_CASE("a Latin hypercube draws once from every interval of every dimension, and is normal") {
+  const size_t samples = 100;
+  const auto rows = accuracy::normal_hypercube(samples, 3, 11);
+  REQUIRE(rows.size() == samples);
+  for (size_t dimension = 0; dimension < 3; ++dimension) {
+    std::vector<int> drawn(samples);
+    for (const std::vector<double>& row : rows)
+      ++drawn[static_cast<size_t>(0.5 * std::erfc(-row[dimension] / std::sqrt(2.0)) * samples)];
+    CHECK(std::ranges::count(drawn, 1) == samples);
+  }
+  CHECK(rows == accuracy::normal_hypercube(samples, 3, 11));
+  CHECK(rows != accuracy::normal_hypercube(samples, 3, 12));
+  CHECK(accuracy::normal_quantile(0.95) == doctest::Approx(1.6448536269514722).epsilon(1e-12));
+}
+
+namespace {
+
+accuracy::InputStudy varied(const std::string& file, accuracy::InputErrors errors) {
+  const accuracy::InputRequest request{
+      .file = file, .sets = {}, .device = "", .frames = 1, .samples = 200, .errors = errors};
+  return accuracy::study_inputs(request, {[](const std::string&) {}, [] { return false; }});
+}
+
+}  // namespace
+
+TEST_CASE("inputs: the line of sight varies as 20 log of its length does, and only by where its ends are") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene({Quad{{-900, -900, -400}, {2, 0, 0}, {0, 2, 0}}});
+  const std::string file = folder.file(
+      "los.toml", fmt::format("scene.file = \"{}\"\n[trace]\nmax_depth = 0\nrays = 10\n", scene.path().string()) +
+                      end("transmitter", "tx", {0, 0, 0}) + end("receiver", "rx", {100, 0, 0}));
+  const accuracy::InputStudy study = varied(file, {.position_m = 1});
+  REQUIRE(study.rows.size() == 1);
+  const accuracy::InputRow& row = study.rows[0];
+  CHECK(row.samples == 200);
+  CHECK(row.gain_db.nominal == doctest::Approx(run(load_config(file)).paths.gain_db[0]));
+  // Two ends with a standard deviation of 1 m along the line: 8.686 dB sqrt(2) / 100, 1.645 of it to either side.
+  const double wanted = 2 * 1.6449 * 20 / std::log(10.0) * std::sqrt(2.0) / 100;
+  CHECK(row.gain_db.high - row.gain_db.low == doctest::Approx(wanted).epsilon(0.12));
+  CHECK(row.gain_share[0] > 0.99);
+  CHECK(row.gain_share[2] < 1e-12);
+  CHECK(row.gain_explained == doctest::Approx(1).epsilon(0.1));
+  CHECK(row.delay_spread_ns.high == 0);
+  CHECK(study.varied == std::array<bool, 4>{true, true, true, false});
+}
+
+TEST_CASE("inputs: permittivity gives the interval of runs with that permittivity; nothing varied varies nothing") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene(std::vector<Part>{{{Quad{{-50, -50, 0}, {200, 0, 0}, {0, 100, 0}}}, "stone"}});
+  const auto text = [&](double permittivity) {
+    return fmt::format(
+               "scene.file = \"{}\"\n[trace]\nmax_depth = 1\nrays = 20000\n[[material]]\nname = \"stone\"\n"
+               "permittivity = {}\nthickness_m = inf\n",
+               scene.path().string(), permittivity) +
+           end("transmitter", "tx", {0, 0, 4}) + end("receiver", "rx", {40, 0, 5});
+  };
+  const auto gain = [&](double factor) {
+    const Paths paths = run(load_config(folder.file("at.toml", text(1 + 4 * factor)))).paths;
+    double sum = 0;
+    for (const double db : paths.gain_db) sum += std::pow(10, db / 10);
+    return 10 * std::log10(sum);
+  };
+  const std::string file = folder.file("ground.toml", text(5));
+  const accuracy::InputStudy study = varied(file, {0, 0, 0.4, 0});
+  REQUIRE(study.rows.size() == 1);
+  const accuracy::InputInterval& got = study.rows[0].gain_db;
+  const auto [low, high] = std::minmax({gain(std::exp(-0.4 * 1.6449)), gain(std::exp(0.4 * 1.6449))});
+  CHECK(got.nominal == doctest::Approx(gain(1)).epsilon(1e-9));
+  CHECK(std::abs(got.low - low) < 0.03 * (high - low));
+  CHECK(std::abs(got.high - high) < 0.03 * (high - low));
+  CHECK(study.rows[0].gain_share[2] == 1);
+  CHECK(study.frames_run == 400);
+  CHECK(study.frames_with_rays < 60);
+  CHECK(study.late.discoveries > 40);
+  CHECK(study.late.power == 0);
+  const accuracy::InputStudy still = varied(file, {0, 0, 0, 0});
+  CHECK(still.rows[0].gain_db.low == still.rows[0].gain_db.nominal);
+  CHECK(still.rows[0].gain_db.high == still.rows[0].gain_db.nominal);
+}
+
+TEST_CASE("the program writes intervals of a drive with vehicles, and refuses spheres") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = screen();
+  const std::string file =
+      folder.file("drive.toml",
+                  config_text(scene, "max_depth = 2\nrays = 3000\n", {rx}) +
+                      "[[track]]\nid = \"car\"\nwaypoints = [[0, 2, 6, 0], [1, 9, 6, 0]]\n[[mount]]\nname = \"roof\"\n"
+                      "role = \"receiver\"\noffset_m = [0, 0, 1.6]\n");
+  const std::string out = folder.path("out");
+  const Outcome done = run_program({"accuracy", "--inputs", "-c", file, "-o", out, "--samples", "6", "--frames", "2"});
+  CAPTURE(done.err);
+  REQUIRE(done.code == 0);
+  CHECK(contains(done.out, "shares        path gain: position "));
+  CHECK(contains(done.out, ", vehicles "));
+  const std::string csv = contents(out + "/inputs.csv");
+  CHECK(contains(csv, "gain_vehicles_share,gain_explained,spread_position_share"));
+  CHECK(std::ranges::count(csv, '\n') == 1 + 2 * 2);
+  CHECK(contains(contents(out + "/inputs.gp"), "inputs.csv"));
+  const Outcome spheres =
+      run_program({"accuracy", "--inputs", "-c", file, "-o", out, "--set", "trace.reception=\"sphere\""});
+  CHECK(spheres.code == 2);
+  CHECK(contains(spheres.err, "keeps no sequences"));
 }

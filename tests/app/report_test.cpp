@@ -44,6 +44,8 @@ TEST_CASE("the report names what was computed, and why not what was asked for be
   run.summary.features["diffraction"] = {true, {}};
   run.summary.features["double_diffraction"] = {true, {}};
   CHECK(contains(report(), "\nfeatures   reflection, diffraction, double diffraction\n"));
+  run.summary.features["air"] = {true, {}};
+  CHECK(contains(report(), "\nfeatures   reflection, diffraction, double diffraction, air\n"));
   sample.config.trace.reflection = false;
   run.summary.features = {{"reflection", {false, "trace.reflection = false"}}};
   CHECK(contains(report(), "\nfeatures   line of sight alone\n"));

@@ -7,7 +7,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;
   return fuzz::accept_or_refuse([&] {
-    const ImportOptions options;
+    ImportOptions options;
+    options.vegetation = size % 2 == 1;
     const imports::Map map = imports::read_osm(fuzz::text_of(data, size), "fuzz.osm", options);
     imports::build_scene(imports::plan_city(map, "fuzz.osm", options), nullptr, options);
   });

@@ -242,7 +242,22 @@ inline const std::vector<Record> records{
      {FIELD(wt_fields_arguments, origin), FIELD(wt_fields_arguments, wavelength_m), FIELD(wt_fields_arguments, seed),
       FIELD(wt_fields_arguments, row_count), FIELD(wt_fields_arguments, row_capacity),
       FIELD(wt_fields_arguments, vertex_capacity), FIELD(wt_fields_arguments, max_depth),
-      FIELD(wt_fields_arguments, transmissions), FIELD(wt_fields_arguments, scatters)}},
+      FIELD(wt_fields_arguments, transmissions), FIELD(wt_fields_arguments, scatters), FIELD(wt_fields_arguments, air),
+      FIELD(wt_fields_arguments, foliage_count), FIELD(wt_fields_arguments, padding)}},
+    {"wt_vegetation_arguments",
+     sizeof(wt_vegetation_arguments),
+     {FIELD(wt_vegetation_arguments, visible_count), FIELD(wt_vegetation_arguments, visible_counter),
+      FIELD(wt_vegetation_arguments, max_depth), FIELD(wt_vegetation_arguments, kinds)}},
+    {"wt_air",
+     sizeof(wt_air),
+     {FIELD(wt_air, loss_np_m), FIELD(wt_air, log_rain), FIELD(wt_air, rain_k), FIELD(wt_air, rain_k_alpha),
+      FIELD(wt_air, rains), FIELD(wt_air, padding)}},
+    {"wt_foliage", sizeof(wt_foliage), {FIELD(wt_foliage, loss_np_m), FIELD(wt_foliage, most_np)}},
+    {"wt_volume",
+     sizeof(wt_volume),
+     {FIELD(wt_volume, centre), FIELD(wt_volume, half_size), FIELD(wt_volume, cosine), FIELD(wt_volume, sine),
+      FIELD(wt_volume, shape), FIELD(wt_volume, kind), FIELD(wt_volume, first_triangle),
+      FIELD(wt_volume, triangle_count)}},
 };
 
 #undef FIELD

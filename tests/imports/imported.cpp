@@ -52,6 +52,12 @@ int OsmText::way(const Points& points, const TagList& tags, bool closed) {
   return next_++;
 }
 
+int OsmText::tree(double x, double y, const TagList& tags) {
+  nodes_ += fmt::format("<node id=\"{}\" version=\"1\" lat=\"{:.7f}\" lon=\"{:.7f}\">{}</node>\n", next_,
+                        latitude + y / north_radius / degree, longitude + x / east_radius / degree, tags_xml(tags));
+  return next_++;
+}
+
 int OsmText::relation(const std::vector<std::pair<int, std::string>>& ways, const TagList& tags) {
   std::string members;
   for (const auto& [id, role] : ways) members += fmt::format("<member type=\"way\" ref=\"{}\" role=\"{}\"/>", id, role);

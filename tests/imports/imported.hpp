@@ -21,6 +21,7 @@ Points rectangle(double x0, double y0, double x1, double y1);
 class OsmText {
  public:
   int way(const Points& points, const TagList& tags, bool closed = true);
+  int tree(double x, double y, const TagList& tags);
   int relation(const std::vector<std::pair<int, std::string>>& ways, const TagList& tags);
   std::string text(bool nodes_last = false) const;
 

@@ -3,8 +3,10 @@
 #ifndef WAVETRACER_DEVICE_ARGUMENTS_H
 #define WAVETRACER_DEVICE_ARGUMENTS_H
 #include "wavetracer/device/cache.h"
+#include "wavetracer/device/field_records.h"
 
 #ifndef __OPENCL_VERSION__
+using wavetracer::device::wt_air;
 using wavetracer::device::wt_cache_widths;
 #endif
 
@@ -160,7 +162,17 @@ typedef struct {
   wt_uint max_depth;
   wt_uint transmissions;
   wt_uint scatters;
+  wt_air air;
+  wt_uint foliage_count;  // kinds of vegetation
+  wt_uint padding;
 } wt_fields_arguments;
+
+typedef struct {
+  wt_uint visible_count;
+  wt_uint visible_counter;  // its word of wt_counters, or WT_NONE
+  wt_uint max_depth;
+  wt_uint kinds;  // of vegetation
+} wt_vegetation_arguments;
 
 // Of cache_lookup and cache_share. touch: not 0 where the use of an entry is noted.
 typedef struct {

@@ -17,6 +17,40 @@ typedef struct {
   wt_uint padding;
 } wt_material;
 
+// What the air takes of a wave at the carrier (host/radio/air.hpp).
+typedef struct {
+  double loss_np_m;  // of any wave: gases and fog
+  double log_rain;   // natural logarithm of the rain rate in mm/h
+  // Of ITU-R P.838-3, for horizontal and vertical waves: k in Np/m for amplitudes, and k alpha.
+  double rain_k[2];
+  double rain_k_alpha[2];
+  wt_uint rains;  // not 0: it does
+  wt_uint padding;
+} wt_air;
+
+// What vegetation takes of a wave at the carrier: most (1 - exp(-loss d / most)) on d metres; most < 0: loss d.
+typedef struct {
+  double loss_np_m, most_np;
+} wt_foliage;
+
+// As VolumeShape (wavetracer/scene.hpp) has them.
+#define WT_VOLUME_BOX 0u
+#define WT_VOLUME_CYLINDER 1u
+#define WT_VOLUME_SPHEROID 2u
+#define WT_VOLUME_MESH 3u
+
+#define WT_MOST_KINDS 8  // of vegetation in a scene
+
+// A volume of vegetation (device/volumes.h), recentred.
+typedef struct {
+  double centre[3];
+  double half_size[3];  // of its box, turned about z
+  double cosine, sine;  // of the turn
+  wt_uint shape;
+  wt_uint kind;  // of vegetation
+  wt_uint first_triangle, triangle_count;
+} wt_volume;
+
 // Patterns of antennas; the first four as NamedAntenna (wavetracer/config.hpp) has them.
 #define WT_PATTERN_ISOTROPIC 0u
 #define WT_PATTERN_SHORT_DIPOLE 1u

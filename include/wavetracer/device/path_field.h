@@ -4,6 +4,7 @@
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
+#include "wavetracer/device/losses.h"
 #include "wavetracer/device/path_edges.h"
 #include "wavetracer/device/scattering.h"
 
@@ -13,6 +14,9 @@
 #endif
 #ifndef WT_SCATTERS
 #define WT_SCATTERS 1
+#endif
+#ifndef WT_LOSSES
+#define WT_LOSSES 1
 #endif
 
 #ifndef __OPENCL_VERSION__
@@ -95,6 +99,9 @@ typedef struct {
 // Past vertex k, whatever the vertex does to the wave. Returns the leg before it.
 inline wt_walk_leg wt_pass(const wt_field_world* world, const wt_path* path, wt_uint k, wt_wave* wave) {
   const wt_walk_leg leg = wave->leg;
+#if WT_LOSSES
+  wt_rain_on(&world->air, &leg, &wave->transfer);
+#endif
   wave->leg = wt_next_leg(world, path, k, &leg);
   wave->since_m += leg.length_m;
   wave->speed += wt_closing_speed_at(world, wt_step(path, k), wave->leg.from, leg.direction, wave->leg.direction);
@@ -153,6 +160,11 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   }
 #else
   wt_pass_surfaces(world, &path, length_m, 0, &wave);
+#endif
+#if WT_LOSSES
+  wt_rain_on(&world->air, &wave.leg, &wave.transfer);
+  const double loss_np = wt_path_loss_np(world, ordered->rows[row] >> 1, length_m);
+  if (loss_np > 0.0) wave.spread *= wt_exp(-loss_np);
 #endif
   const wt_double3 arrival = -wave.leg.direction;
   const wt_basis arrival_basis = wt_spherical_basis(arrival);

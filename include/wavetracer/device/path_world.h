@@ -25,8 +25,12 @@ typedef struct {
   const WT_GLOBAL double* samples;  // of antennas' grids
   double wavelength_m;
   wt_ulong seed;
-  wt_uint transmissions;  // the most of a path
-  wt_uint scatters;       // not 0: mirrored waves lose what is scattered
+  wt_uint transmissions;                   // the most of a path
+  wt_uint scatters;                        // not 0: mirrored waves lose what is scattered
+  wt_uint foliage_count;                   // kinds of vegetation
+  const WT_GLOBAL wt_foliage* foliages;    // of each kind
+  const WT_GLOBAL double* lengths_inside;  // of solved paths, kind by kind (kernels/vegetation.cl)
+  wt_air air;
 } wt_field_world;
 
 // The rows of a frame in their order, for questions about the neighbours of one; places may have none (WT_NO_ROW).

@@ -1,0 +1,71 @@
+// Heights beyond 100 m and crowns beyond 50 m are slips of the pen.
+// Degrees become metres by a sphere: a crown may be off by half a percent of its size.
+#include "imports/vegetation_tags.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wavetracer::imports {
+namespace {
+
+constexpr double highest_tree_m = 100, widest_crown_m = 50, usual_tree_m = 10, usual_wood_m = 15;
+constexpr double m_per_degree = 111195;
+
+double length_or(const Tags& tags, std::string_view key, double most_m, double otherwise_m) {
+  const std::optional<double> value = parse_length_m(tag(tags, key));
+  return value && *value > 0 && *value <= most_m ? *value : otherwise_m;
+}
+
+// Metres of a degree of longitude and of latitude.
+glm::dvec2 metres_at(const glm::dvec2& place_deg) {
+  return {m_per_degree * std::max(std::cos(place_deg.y * std::numbers::pi / 180), 1e-3), m_per_degree};
+}
+
+}  // namespace
+
+bool is_vegetation(std::string_view material) { return material.ends_with("vegetation"); }
+
+TreeSize tree_size(const Tags& tags) {
+  const double height_m = length_or(tags, "height", highest_tree_m, usual_tree_m);
+  const double slender = tag(tags, "leaf_type") == "needleleaved" ? 1.0 / 3 : 0.5;
+  return {height_m, length_or(tags, "diameter_crown", widest_crown_m, slender * height_m)};
+}
+
+std::vector<glm::dvec2> crown_ring(const glm::dvec2& place_deg, double crown_m) {
+  constexpr int corners = 8;
+  constexpr double angle = 2 * std::numbers::pi / corners;
+  const double radius_m = 0.5 * crown_m * std::sqrt(angle / std::sin(angle));
+  const glm::dvec2 metres = metres_at(place_deg);
+  std::vector<glm::dvec2> out;
+  for (int i = 0; i < corners; ++i)
+    out.push_back(place_deg + radius_m * glm::dvec2(std::cos(i * angle), std::sin(i * angle)) / metres);
+  return out;
+}
+
+std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg) {
+  std::vector<glm::dvec2> out;
+  double next_m = 0;  // along the piece that follows
+  for (size_t i = 1; i < line_deg.size(); ++i) {
+    const glm::dvec2 piece_m = (line_deg[i] - line_deg[i - 1]) * metres_at(line_deg[i]);
+    const double length_m = std::hypot(piece_m.x, piece_m.y);
+    for (; next_m < length_m && out.size() <= most_trees_of_row; next_m += tree_distance_m)
+      out.push_back(line_deg[i - 1] + (line_deg[i] - line_deg[i - 1]) * (next_m / length_m));
+    if (out.size() > most_trees_of_row) break;
+    next_m -= length_m;
+  }
+  return out;
+}
+
+Shape vegetation_shape(const Tags& tags, std::map<std::string, uint64_t>& guessed) {
+  const bool tree = tag(tags, "vegetation") == "tree";
+  Shape shape;
+  shape.top_m = tree ? tree_size(tags).height_m : length_or(tags, "height", highest_tree_m, usual_wood_m);
+  shape.bottom_m = tree ? shape.top_m / 3 : 0;
+  if (!parse_length_m(tag(tags, "height")))
+    ++guessed[tree ? "tree without a height: 10 m used" : "wood without a height: 15 m used"];
+  shape.walls = shape.roof = tag(tags, "leaf_type") == "broadleaved" ? "deciduous_vegetation" : "vegetation";
+  return shape;
+}
+
+}  // namespace wavetracer::imports

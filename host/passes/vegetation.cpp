@@ -1,0 +1,59 @@
+// Host side of kernels/vegetation.cl.
+// One path per work-item; a tree over the boxes of volumes, which never move.
+#include "passes/vegetation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "accel/instance_tree.hpp"
+#include "wavetracer/device/arguments.h"
+
+namespace wavetracer {
+namespace {
+
+// In float32 and, by rounding outwards, around the volume.
+Box box_of(const device::wt_volume& volume) {
+  const double across[2] = {
+      std::abs(volume.cosine) * volume.half_size[0] + std::abs(volume.sine) * volume.half_size[1],
+      std::abs(volume.sine) * volume.half_size[0] + std::abs(volume.cosine) * volume.half_size[1]};
+  const double half[3] = {across[0], across[1], volume.half_size[2]};
+  Box out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lower[axis] = std::nextafter(static_cast<float>(volume.centre[axis] - half[axis]), -Box::kInfinity);
+    out.upper[axis] = std::nextafter(static_cast<float>(volume.centre[axis] + half[axis]), Box::kInfinity);
+  }
+  return out;
+}
+
+}  // namespace
+
+Vegetation::Vegetation(gpu::Context& context, const VolumeTable& table)
+    : context_(context),
+      kernel_(context.kernel("vegetation", "vegetation")),
+      work_(tuning_of(context.info()).exact),
+      kinds_(static_cast<uint32_t>(table.material.size())),
+      triangles_(context.buffer(table.triangles, "triangles of vegetation")) {
+  std::vector<Box> boxes;
+  for (const device::wt_volume& volume : table.volumes) boxes.push_back(box_of(volume));
+  const TopLevel tree = build_top_level(boxes);
+  std::vector<device::wt_volume> ordered;
+  for (const uint32_t volume : tree.order) ordered.push_back(table.volumes[volume]);
+  nodes_ = context.buffer(tree.nodes, "tree of vegetation");
+  volumes_ = context.buffer(ordered, "vegetation");
+}
+
+const gpu::Buffer<double>& Vegetation::operator()(const RadioEnds& ends, const SolvedList& visible,
+                                                  Counters& counters) {
+  const size_t lengths = size_t{visible.count} * kinds_;
+  if (lengths_.size() < lengths) lengths_ = context_.buffer<double>(lengths + lengths / 4, "lengths in vegetation");
+  if (lengths > 0)
+    kernel_(work_.range(visible.count), "vegetation", nodes_, volumes_, triangles_, ends.transmitters, ends.receivers,
+            visible.headers, visible.vertices, counters.buffer(), lengths_,
+            wt_vegetation_arguments{.visible_count = visible.count,
+                                    .visible_counter = visible.counter,
+                                    .max_depth = visible.max_depth,
+                                    .kinds = kinds_});
+  return lengths_;
+}
+
+}  // namespace wavetracer

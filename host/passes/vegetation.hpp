@@ -1,0 +1,29 @@
+// vegetation: how far visible paths go inside of each kind of vegetation of the scene.
+// Made where a scene has any. Rays and exact paths know nothing of it: leaves turn and stop no wave.
+#pragma once
+#include "passes/counters.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
+#include "radio/vegetation_law.hpp"
+#include "wavetracer/device/bvh.h"
+
+namespace wavetracer {
+
+class Vegetation {
+ public:
+  Vegetation(gpu::Context& context, const VolumeTable& table);
+  // Metres, kind by kind of one path after the other.
+  const gpu::Buffer<double>& operator()(const RadioEnds& ends, const SolvedList& visible, Counters& counters);
+
+ private:
+  gpu::Context& context_;
+  gpu::Kernel kernel_;
+  Work work_;
+  uint32_t kinds_;
+  gpu::Buffer<wt_bvh2_node> nodes_;
+  gpu::Buffer<device::wt_volume> volumes_;  // in the order of leaves
+  gpu::Buffer<double> triangles_, lengths_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,71 @@
+// Kinds of vegetation are the materials of volumes, in the order in which volumes have them first.
+// A_m: A_1 = 1.37 dB and alpha = 0.42 were measured in a mixed wood near St. Petersburg from 106 to 2118 MHz, 0.18 dB
+// and 0.752 in a deciduous one near Mulhouse from 900 to 1800 MHz; beyond, the law is carried on.
+#include "radio/vegetation_law.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+uint32_t kind_of(VolumeTable& table, uint32_t material) {
+  const auto found = std::ranges::find(table.material, material);
+  if (found != table.material.end()) return static_cast<uint32_t>(found - table.material.begin());
+  if (table.material.size() == WT_MOST_KINDS)
+    throw ConfigError(
+        fmt::format("the scene has more than {} materials of vegetation: give some of its volumes the same material "
+                    "(scene.material_alias)",
+                    WT_MOST_KINDS));
+  table.material.push_back(material);
+  return static_cast<uint32_t>(table.material.size() - 1);
+}
+
+}  // namespace
+
+VegetationLoss vegetation_loss(const VegetationLaw& law, double frequency_hz) {
+  const double ghz = frequency_hz / 1e9, leafless = 1 / 1.2;
+  const double most_db = law.deciduous ? 0.18 * std::pow(1000 * ghz, 0.752) : 1.37 * std::pow(1000 * ghz, 0.42);
+  return {law.attenuation_db_m.value_or(0.2 * ghz * (law.in_leaf ? 1 : leafless)),
+          law.max_attenuation_db.value_or(most_db)};
+}
+
+VolumeTable volume_table(const Scene& scene) {
+  VolumeTable out;
+  for (const Volume& volume : scene.volumes) {
+    device::wt_volume record{};
+    for (int axis = 0; axis < 3; ++axis) {
+      record.centre[axis] = volume.centre[axis];
+      record.half_size[axis] = volume.half_size[axis];
+    }
+    record.cosine = std::cos(volume.yaw_rad);
+    record.sine = std::sin(volume.yaw_rad);
+    record.shape = static_cast<uint32_t>(volume.shape);
+    record.kind = kind_of(out, volume.material);
+    record.first_triangle = static_cast<uint32_t>(out.triangles.size() / 9);
+    record.triangle_count = static_cast<uint32_t>(volume.triangles.size());
+    for (const auto& triangle : volume.triangles)
+      for (const glm::dvec3& corner : triangle)
+        out.triangles.insert(out.triangles.end(), {corner.x, corner.y, corner.z});
+    out.volumes.push_back(record);
+  }
+  return out;
+}
+
+std::vector<device::wt_foliage> foliages_at(const VolumeTable& table, const Scene& scene, double frequency_hz) {
+  std::vector<device::wt_foliage> out;
+  for (const uint32_t material : table.material) {
+    const VegetationLoss loss = vegetation_loss(*scene.materials[material].vegetation, frequency_hz);
+    const double np_of_db = std::numbers::ln10 / 20;
+    out.push_back({loss.db_m * np_of_db, std::isinf(loss.most_db) ? -1 : loss.most_db * np_of_db});
+  }
+  return out;
+}
+
+}  // namespace wavetracer

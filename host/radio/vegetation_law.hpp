@@ -1,0 +1,30 @@
+// What vegetation takes of waves (ITU-R P.833-10, section 2.1), and the volumes of a scene as fields and devices read
+// them. host/scene/volumes.hpp makes them.
+#pragma once
+#include <vector>
+
+#include "wavetracer/device/field_records.h"
+#include "wavetracer/scene.hpp"
+
+namespace wavetracer {
+
+// dB per metre, and the most that a path loses.
+struct VegetationLoss {
+  double db_m, most_db;
+};
+// Of what the law does not give: g is the line of Figure 2, 0.2 dB/m at 1 GHz and in proportion to the frequency (30
+// MHz to 30 GHz), a sixth less without leaves; A_m = A_1 f^alpha (equation 2).
+VegetationLoss vegetation_loss(const VegetationLaw& law, double frequency_hz);
+
+struct VolumeTable {
+  std::vector<device::wt_volume> volumes;
+  std::vector<double> triangles;   // of meshes, nine each
+  std::vector<uint32_t> material;  // of each kind: its index in Scene::materials
+};
+// Throws ConfigError for more than WT_MOST_KINDS kinds.
+VolumeTable volume_table(const Scene& scene);
+
+// Of each kind, at a carrier.
+std::vector<device::wt_foliage> foliages_at(const VolumeTable& table, const Scene& scene, double frequency_hz);
+
+}  // namespace wavetracer

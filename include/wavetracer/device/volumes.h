@@ -1,0 +1,125 @@
+// Volumes that waves pass, vegetation, and how much of a straight leg is inside of one.
+// In double, the same bits on every device. A mesh is closed and its triangles are counter-clockwise seen from outside.
+#ifndef WAVETRACER_DEVICE_VOLUMES_H
+#define WAVETRACER_DEVICE_VOLUMES_H
+#include "wavetracer/device/field_records.h"
+#include "wavetracer/device/vector.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+// Shares of a leg.
+typedef struct {
+  double first, last;
+} wt_share;
+
+// Where p + t q is between -1 and 1.
+inline wt_share wt_between_planes(wt_share share, double p, double q) {
+  if (q == 0.0) {
+    if (fabs(p) > 1.0) share.last = share.first;
+    return share;
+  }
+  const double a = (-1.0 - p) / q, b = (1.0 - p) / q;
+  share.first = fmax(share.first, fmin(a, b));
+  share.last = fmin(share.last, fmax(a, b));
+  return share;
+}
+
+// Where p + t q is in the unit ball. By the point that is nearest to its middle: far away nothing cancels.
+inline wt_share wt_in_ball(wt_share share, wt_double3 p, wt_double3 q) {
+  const double a = wt_dot3(q, q), middle = a > 0.0 ? -wt_dot3(p, q) / a : 0.0;
+  const wt_double3 nearest = p + q * middle;
+  const double left = 1.0 - wt_dot3(nearest, nearest);
+  if (!(left > 0.0)) {
+    share.last = share.first;
+    return share;
+  }
+  if (!(a > 0.0)) return share;
+  const double reach = sqrt(left / a);
+  share.first = fmax(share.first, middle - reach);
+  share.last = fmin(share.last, middle + reach);
+  return share;
+}
+
+inline double wt_axis(wt_double3 v, wt_uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
+
+// On which side of the edge from a to b, seen along the leg, is the leg? Where it meets the edge, as if it stood a
+// little to the side, which is the same side for the triangle beyond the edge: one of the two is met, never both.
+inline int wt_left_of(wt_double2 a, wt_double2 b, double area) {
+  if (area != 0.0) return area > 0.0;
+  if (a.y != b.y) return a.y > b.y;
+  return a.x < b.x;
+}
+
+// How much nearer than its end the leg leaves (or, negative, enters) a closed mesh by this triangle. Summed over all
+// triangles that is the length inside: what enters before the leg begins counts 0, what leaves after its end all of it.
+inline double wt_leaves_at(const WT_GLOBAL double* triangle, wt_double3 from, wt_double3 along, double length_m,
+                           wt_uint axis) {
+  const wt_uint right = (axis + 1u) % 3u, up = (axis + 2u) % 3u;
+  const double depth = wt_axis(along, axis);
+  const double shear_x = wt_axis(along, right) / depth, shear_y = wt_axis(along, up) / depth;
+  wt_double2 p[3];
+  double z[3];
+  for (int i = 0; i < 3; ++i) {
+    const wt_double3 corner = wt_vector(triangle + 3 * i) - from;
+    z[i] = wt_axis(corner, axis);
+    p[i] = WT_DOUBLE2(wt_axis(corner, right) - shear_x * z[i], wt_axis(corner, up) - shear_y * z[i]);
+  }
+  double area[3];
+  int left = 0;
+  for (int i = 0; i < 3; ++i) {
+    const wt_double2 a = p[(i + 1) % 3], b = p[(i + 2) % 3];
+    area[i] = a.x * b.y - a.y * b.x;
+    left += wt_left_of(a, b, area[i]);
+  }
+  if (left != 0 && left != 3) return 0.0;
+  const double whole = area[0] + area[1] + area[2];
+  if (whole == 0.0) return 0.0;
+  const double t = (area[0] * z[0] + area[1] * z[1] + area[2] * z[2]) / (whole * depth);
+  const double reached = fmin(fmax(t, 0.0), length_m);
+  return (left == 3) == (depth > 0.0) ? reached : -reached;
+}
+
+inline double wt_length_in_mesh(const WT_GLOBAL double* triangles, wt_uint count, wt_double3 from, wt_double3 along,
+                                double length_m) {
+  const double x = fabs(along.x), y = fabs(along.y), z = fabs(along.z);
+  const wt_uint axis = x > y && x > z ? 0u : y > z ? 1u : 2u;
+  double inside = 0.0;
+  for (wt_uint i = 0; i < count; ++i) inside += wt_leaves_at(triangles + 9 * (wt_ulong)i, from, along, length_m, axis);
+  return fmin(fmax(inside, 0.0), length_m);
+}
+
+// How much of the leg is inside of the volume, in metres. triangles: nine doubles each, of all meshes.
+inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_double3 from,
+                               wt_double3 to) {
+  const wt_double3 leg = to - from;
+  const double length_m = wt_length3(leg);
+  if (!(length_m > 0.0)) return 0.0;
+  if (volume->shape == WT_VOLUME_MESH)
+    return wt_length_in_mesh(triangles + 9 * (wt_ulong)volume->first_triangle, volume->triangle_count, from,
+                             leg / length_m, length_m);
+  const wt_double3 size = wt_vector(volume->half_size), away = from - wt_vector(volume->centre);
+  const double c = volume->cosine, s = volume->sine;
+  const wt_double3 p =
+      WT_DOUBLE3((c * away.x + s * away.y) / size.x, (c * away.y - s * away.x) / size.y, away.z / size.z);
+  const wt_double3 q = WT_DOUBLE3((c * leg.x + s * leg.y) / size.x, (c * leg.y - s * leg.x) / size.y, leg.z / size.z);
+  wt_share share = {0.0, 1.0};
+  if (volume->shape == WT_VOLUME_SPHEROID) {
+    share = wt_in_ball(share, p, q);
+  } else {
+    share = wt_between_planes(share, p.z, q.z);
+    if (volume->shape == WT_VOLUME_CYLINDER) {
+      share = wt_in_ball(share, WT_DOUBLE3(p.x, p.y, 0.0), WT_DOUBLE3(q.x, q.y, 0.0));
+    } else {
+      share = wt_between_planes(share, p.x, q.x);
+      share = wt_between_planes(share, p.y, q.y);
+    }
+  }
+  return share.last > share.first ? (share.last - share.first) * length_m : 0.0;
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif
