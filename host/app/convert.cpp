@@ -166,7 +166,7 @@ void add_convert(CLI::App& program) {
   command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all frames if not given");
   command->add_option(
       "--projection", options->projection,
-      "For kml: PROJ string of the scene's coordinates, if there is no georeference.json that contains it");
+      "For kml and osi: PROJ string of the scene's coordinates, if there is no georeference.json that contains it");
   command->add_flag("--list", options->list, "List the formats for --to");
   ImportOptions& import = options->import;
   const char* maps = "Maps";
