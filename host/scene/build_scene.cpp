@@ -203,6 +203,7 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch ed
 
   Soup soup = gather(raw);
   scene.origin_m = recentre(soup, raw.file);
+  for (const SceneNode& node : raw.nodes) scene.nodes.push_back({node.name, node.position_m - scene.origin_m});
   std::vector<uint32_t> triangle_material;
   weld_and_clean(scene, soup, resolved.mesh_material, triangle_material);
   if (scene.triangles.empty()) throw InputError(fmt::format("{}: all triangles of the scene are degenerate", raw.file));

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "wavetracer/scene.hpp"
+
 namespace wavetracer {
 
 using Triangle = std::array<uint32_t, 3>;
@@ -35,6 +37,7 @@ struct RawScene {
   std::vector<std::string> files;  // that were read, in that order: this one, and those that it names
   std::vector<RawMesh> meshes;
   std::vector<RawMaterial> materials;
+  std::vector<SceneNode> nodes;
   std::vector<std::string> warnings;
   bool y_up = false;  // what the format prescribes; scene.up overrides it
 };

@@ -56,6 +56,12 @@ struct Wedge {
   std::array<uint32_t, 2> surface{0, 0};  // of face 0 and face 1, into Scene::surfaces; the same for a free edge
 };
 
+// A point that the file gives a name, such as the place of an antenna.
+struct SceneNode {
+  std::string name;
+  glm::dvec3 position_m{0};
+};
+
 // What was left out when the scene was loaded, and why; every count is reported to the user.
 struct LoadReport {
   uint64_t degenerate_triangles = 0;  // zero area, dropped
@@ -85,6 +91,7 @@ struct Scene {
   std::vector<Wedge> wedges;  // includes free edges, whatever trace.free_edges says
   std::vector<Material> materials;
   std::vector<std::string> objects;  // mesh names
+  std::vector<SceneNode> nodes;      // of a glTF or OBJ file, or of a built-in vehicle; names may repeat
   glm::dvec3 lower{0}, upper{0};     // bounding box, recentred
   LoadReport report;
 };
