@@ -167,6 +167,8 @@ def main():
                                                                ("free edges", arguments.free_edges),
                                                                ("transmission", arguments.transmission)) if wanted]
     links = json.loads(arguments.links.read_text(encoding="utf-8"))
+    if arguments.paths:
+        arguments.paths.mkdir(parents=True, exist_ok=True)
     all_cases = arguments.large or mi.variant().startswith("cuda")
     solver = rt.PathSolver()
     results = []

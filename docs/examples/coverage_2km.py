@@ -5,21 +5,21 @@
     coverage_2km.py --device H200 --rays 1000000
     coverage_2km.py --side 200 --step 10     # a small one, to try
 
-The configuration is coverage_2km.toml beside this file. Every cell has every path of up to `--depth` interactions, of which one may be a diffraction. The
-error is measured against the same map with ten times the rays, of the transmitter and of the cells: the share of cells
-that hear less than 0.1 dB right, or nothing where the other map hears something. The last line is JSON.
+The configuration is configs/coverage_2km.toml, which comes with the package. Every cell has every path of up to `--depth`
+interactions, of which one may be a diffraction. The error is measured against the same map with ten times the rays, of
+the transmitter and of the cells: the share of cells that hear less than 0.1 dB right, or nothing where the other map
+hears something. The last line is JSON.
 """
 import argparse
 import json
 import math
-import pathlib
 import sys
 import time
 
 import numpy as np
 import wavetracer as wt
 
-CONFIGURATION = pathlib.Path(__file__).resolve().with_name("coverage_2km.toml")
+CONFIGURATION = wt.configs / "coverage_2km.toml"
 WRONG_DB = 0.1
 
 

@@ -9,6 +9,7 @@
 #include "imports/road_network.hpp"
 #include "radio/field_tables.hpp"
 #include "scene/load.hpp"
+#include "scene/materials.hpp"
 #include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/ray_cache.hpp"
@@ -38,6 +39,7 @@ std::vector<std::string> world_warnings(const Config& config) {
   check_run(config, scene, world);
   known_streets(config);
   std::vector<std::string> out = scene.report.warnings;
+  drop_used(out, world.models());
   for (const auto& more : {world.warnings(), place_warnings(config, Surroundings(scene), world)})
     out.insert(out.end(), more.begin(), more.end());
   return out;

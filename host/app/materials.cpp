@@ -8,6 +8,7 @@
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
 #include "scene/itu_materials.hpp"
+#include "scene/vehicle_materials.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -113,6 +114,26 @@ constexpr const char* foot = R"(
 So much may a law err that is carried on: by up to {:.1f} dB in reflection (`{}`), and by a factor of up to {:.0f} in loss (`{}`). The three kinds of ground are not known above 10 GHz in either edition, and metal not above 100 GHz.
 )";
 
+constexpr const char* vehicles = R"(
+## Vehicles and people
+Bodies of vehicles may name these besides; a `[[material]]` of the same name changes them, as it changes those above. They are slabs of the thickness given, `human_skin` is a half space. The reflection of `human_skin` at normal incidence is within 0.13 dB of that of its source's model.
+
+| material | known from | permittivity | conductivity, S/m | thickness, m | permittivity at 5.9 GHz | S/m at 5.9 GHz | reflected, dB | source |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- |
+)";
+
+std::string vehicle_row(const VehicleMaterial& material) {
+  constexpr double v2x_ghz = 5.9;
+  const Material& law = material.law;
+  std::string at = " | | ";
+  if (holds(law, v2x_ghz)) {
+    const std::complex<double> eta = permittivity_of(law, v2x_ghz);
+    at = fmt::format("{:.3g} | {:.3g} | {}", eta.real(), conductivity_of(law, v2x_ghz), decibels(reflected_db(eta)));
+  }
+  return fmt::format("| `{}` | {} | {} | {} | {:g} | {} | {} |\n", law.name, range_in_words(law), power(law.a, law.b),
+                     power(law.c, law.d), law.thickness_m, at, material.source);
+}
+
 }  // namespace
 
 std::string materials_page() {
@@ -126,7 +147,9 @@ std::string materials_page() {
     last = law.name;
     out += difference_row(law, d_band_ghz, most);
   }
-  return out + fmt::format(foot, most.reflected_db, most.reflected_of, most.loss_factor, most.loss_of);
+  out += fmt::format(foot, most.reflected_db, most.reflected_of, most.loss_factor, most.loss_of) + vehicles;
+  for (const VehicleMaterial& material : vehicle_materials()) out += vehicle_row(material);
+  return out;
 }
 
 std::string materials_table(ItuEdition edition, double frequency_hz) {
@@ -134,7 +157,9 @@ std::string materials_table(ItuEdition edition, double frequency_hz) {
   std::string out =
       fmt::format("{:<18} {:<18} {:>12} {:>14} {:>13} {:>10}  at {:g} GHz, ITU-R {}\n", "material", "known from",
                   "permittivity", "conduct., S/m", "reflected, dB", "dB/cm", ghz, edition.word());
-  for (const Material& law : itu_materials(edition)) {
+  std::vector<Material> laws = itu_materials(edition);
+  for (const VehicleMaterial& material : vehicle_materials()) laws.push_back(material.law);
+  for (const Material& law : laws) {
     out += fmt::format("{:<18} {:<18}", law.name, range_in_words(law));
     if (holds(law, ghz)) {
       const std::complex<double> eta = permittivity_of(law, ghz);

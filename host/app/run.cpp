@@ -38,7 +38,8 @@ struct RunOptions {
 };
 
 bool has_vehicles(const Config& config) {
-  return !config.trajectories.file.empty() || !config.trajectories.generate.empty() || !config.tracks.empty();
+  return !config.trajectories.file.empty() || !config.trajectories.generate.empty() || !config.tracks.empty() ||
+         !config.parked.empty();
 }
 
 // shared: by several processes, in parts that can be resumed even where there is one frame.

@@ -267,7 +267,8 @@ void check_trajectories(const Config& config, Found& out) {
   if (!t.file.empty() && !t.generate.empty())
     out.push_back({{"trajectories.generate", "trajectories.file"},
                    "trajectories.file and trajectories.generate exclude each other: remove one of them"});
-  if (t.file.empty() && t.generate.empty() && config.tracks.empty() && config.live_vehicles.empty() &&
+  const bool carried = std::ranges::any_of(config.parked, &ParkedConfig::mounts);
+  if (t.file.empty() && t.generate.empty() && config.tracks.empty() && config.live_vehicles.empty() && !carried &&
       !config.mounts.empty())
     out.push_back({{"mount.0"},
                    "[[mount]] needs vehicles: give trajectories.file, trajectories.generate, a [[track]] or, for "
@@ -276,6 +277,11 @@ void check_trajectories(const Config& config, Found& out) {
     check_times("waypoints", config.tracks[i].waypoints, i, out);
     check_times("waypoints_wgs84", config.tracks[i].waypoints_wgs84, i, out);
   }
+  for (size_t i = 0; i < config.parked.size(); ++i)
+    if (config.parked[i].places.empty() == config.parked[i].file.empty())
+      out.push_back({{fmt::format("parked.{}.places", i), fmt::format("parked.{}.file", i)},
+                     fmt::format("[[parked]] \"{}\" needs places or a file, {}", config.parked[i].name,
+                                 config.parked[i].places.empty() ? "and has neither" : "and not both")});
   const TimeConfig& time = config.time;
   if (time.start_s && time.end_s && *time.end_s < *time.start_s)
     out.push_back({{"time.start_s", "time.end_s"},
@@ -306,6 +312,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_names("mount", "name", config.mounts, &MountConfig::name, {}, out);
   check_names("vehicle_type", "name", config.vehicle_types, &VehicleTypeConfig::name, {}, out);
   check_names("track", "id", config.tracks, &TrackConfig::id, {}, out);
+  check_names("parked", "name", config.parked, &ParkedConfig::name, {}, out);
   check_names("array", "name", config.arrays, &ArrayConfig::name, {}, out);
   check_materials(config.materials, out);
   check_arrays(config, out);

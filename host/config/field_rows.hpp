@@ -105,5 +105,6 @@ Table links_table();
 Table mount_table();
 Table vehicle_type_table();
 Table track_table();
+Table parked_table();
 
 }  // namespace wavetracer::config

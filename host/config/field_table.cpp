@@ -264,6 +264,7 @@ const std::vector<Table>& tables() {
       mount_table(),
       vehicle_type_table(),
       track_table(),
+      parked_table(),
       live_vehicle_table(),
   });
   return all;

@@ -19,7 +19,7 @@ Table trajectories_table() {
                .doc = "Floating car data of SUMO (--fcd-output), a GPX track, or CSV with a header that names the "
                       "columns time, id, x, y (or lat, lon in degrees) and optionally z, yaw, speed, type; plain or "
                       "compressed with gzip. Positions in degrees need a georeference.json beside the scene file, and "
-                      "their heights are above the ground."},
+                      "their heights are above the ground. docs/scenarios.md lists the other formats."},
               {.name = "generate",
                .slot = t(&TrajectoriesConfig::generate),
                .doc = "Generated traffic instead of a file, in the streets of the city that scene.generate makes: "
@@ -41,7 +41,7 @@ Table trajectories_table() {
                       "are then not used."},
               {.name = "persons",
                .slot = t(&TrajectoriesConfig::persons),
-               .doc = "Read the persons of the file too, as person:ID. They can carry antennas but have no body."},
+               .doc = "Read the persons of the file too, as person:ID, with the body of a pedestrian."},
               {.name = "containers",
                .slot = t(&TrajectoriesConfig::containers),
                .doc = "Read the containers of the file too, as container:ID."},
@@ -129,12 +129,17 @@ Table mount_table() {
                   {.name = "offset_m",
                    .slot = m(&MountConfig::offset_m),
                    .unit = "m",
-                   .doc = "Position relative to the centre of the vehicle's footprint: ahead, left, up.",
+                   .doc = "Position relative to the centre of the vehicle's footprint, or to node: ahead, left, up.",
                    .example = "[0.0, 0.0, 1.6]"},
                   {.name = "above",
                    .slot = m(&MountConfig::above),
                    .doc = "What the third number of offset_m is measured from. zero: the footprint of the vehicle, "
                           "along its own axes. ground: the ground of the scene below the antenna."},
+                  {.name = "node",
+                   .slot = m(&MountConfig::node),
+                   .doc = "A named point of the vehicle's body from which offset_m counts: a node of its glTF or OBJ "
+                          "file; built-in bodies have roof_antenna, front_antenna and rear_antenna.",
+                   .example = "\"roof_antenna\""},
                   antenna_field(m, &MountConfig::antenna),
                   polarization_field(m, &MountConfig::polarization),
                   array_field(m, &MountConfig::array),
@@ -177,8 +182,8 @@ Table vehicle_type_table() {
                .choices = {NamedBody::words.begin(), NamedBody::words.end()},
                .form = Form::choice_or_file,
                .doc = "A built-in body, or a mesh file in metres (x ahead, z up, origin on the ground below the "
-                      "centre), which is stretched to the sizes that are given. auto: chosen by the name of the type, "
-                      "without a body for two-wheelers and persons. A vehicle without a body can carry antennas too."},
+                      "centre), which is stretched to the sizes that are given. auto: chosen by the name of the type; "
+                      "two-wheelers have a motorcycle with a rider. A vehicle without a body can carry antennas too."},
               size("length_m", &VehicleTypeConfig::length_m, "Length"),
               size("width_m", &VehicleTypeConfig::width_m, "Width"),
               size("height_m", &VehicleTypeConfig::height_m, "Height"),
@@ -189,6 +194,42 @@ Table vehicle_type_table() {
       .append = append<&Config::vehicle_types>,
       .count = count<&Config::vehicle_types>,
       .optional = true};
+}
+
+Table parked_table() {
+  const auto p = [](auto member) { return at(&Config::parked, member); };
+  return {.name = "parked",
+          .doc =
+              "Vehicles that stand in all frames, called NAME/0, NAME/1, ...; one table per group. They reflect and "
+              "block as others do.",
+          .fields =
+              {
+                  {.name = "name",
+                   .slot = p(&ParkedConfig::name),
+                   .required = true,
+                   .doc = "Unique among these tables.",
+                   .example = "\"kerb\""},
+                  {.name = "places",
+                   .slot = p(&ParkedConfig::places),
+                   .unit = "m, m, m, degrees",
+                   .doc = "Each place is [x, y, z, yaw] in the coordinates of the scene file: the centre of the "
+                          "footprint, on the ground, and the heading, counter-clockwise from +x.",
+                   .example = "[[-20.0, 4.2, 0.0, 180.0], [-26.0, 4.2, 0.0, 180.0]]"},
+                  {.name = "file",
+                   .slot = p(&ParkedConfig::file),
+                   .form = Form::input_file,
+                   .doc = "Instead of places: CSV with a header that names the columns x, y and optionally z, yaw, "
+                          "type, in the coordinates of the scene file."},
+                  {.name = "type",
+                   .slot = p(&ParkedConfig::type),
+                   .doc = "A [[vehicle_type]], or a vehicle class of SUMO; of places that name none."},
+                  {.name = "mounts",
+                   .slot = p(&ParkedConfig::mounts),
+                   .doc = "Whether [[mount]] puts antennas on them, too. Normally the radios of parked cars are off."},
+              },
+          .append = append<&Config::parked>,
+          .count = count<&Config::parked>,
+          .optional = true};
 }
 
 Table track_table() {

@@ -14,7 +14,8 @@ namespace wavetracer {
 struct ExportOptions {
   std::filesystem::path output;        // a file or a folder, by the format; its parent folder must exist
   size_t first_row = 0, last_row = 0;  // frames of the run, both included
-  std::string projection;  // kml: PROJ string of the scene's coordinates; empty: that of its georeference.json
+  std::string projection =
+      {};  // kml, osi: PROJ string of the scene's coordinates; empty: that of its georeference.json
   // How far it is: asked before each frame, with the number of those that are done, of all. May be left out.
   std::function<void(uint64_t done, uint64_t total)> at = {};
   // row: of the frame that is next.
@@ -43,6 +44,7 @@ Written export_ns3(const SavedRun& run, const ExportOptions& options, Warnings& 
 Written export_matlab(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
 Written export_vtk(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
 Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
+Written export_osi(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
 Written export_kml(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
 
 }  // namespace wavetracer

@@ -28,7 +28,10 @@ std::optional<SolvedFrame> solve_frame(Simulation& simulation, uint32_t frame, u
   const bool alone = simulation.frame_count() == 1 && repeats == 1 && !block;
   simulation.observe([alone, &progress](const FrameProgress& at) {
     const bool rays = at.stage == "rays";
-    if (alone)
+    if (alone && at.parts > 1) {  // each traces and solves: the batches are what one clock can count
+      progress.bar(fmt::format("batch {}", at.part + 1), at.part, at.parts, "batches");
+      progress.within(rays ? "tracing" : "solving paths");
+    } else if (alone)
       progress.bar(rays ? "tracing" : "solving paths", at.done, at.total, rays ? "rays" : "steps");
     else
       progress.within(rays ? fmt::format("{}% of its rays", 100 * at.done / std::max<uint64_t>(at.total, 1))

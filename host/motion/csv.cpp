@@ -1,5 +1,5 @@
-// CSV line by line: line ends LF or CRLF, a byte order mark, blank lines and comments are passed over.
-// Assumes that no line is longer than a megabyte: such a file is something else.
+// CSV row by row: a header tells which column is what.
+// Assumes nothing of the order of columns.
 #include "motion/csv.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "motion/csv_rows.hpp"
 #include "motion/input_text.hpp"
 #include "motion/track_builder.hpp"
 #include "wavetracer/error.hpp"
@@ -32,105 +33,32 @@ struct DegreeName {
 constexpr auto degree_names =
     std::to_array<DegreeName>({{"lon", x_column}, {"longitude", x_column}, {"lat", y_column}, {"latitude", y_column}});
 
-class Lines {
- public:
-  explicit Lines(ByteStream& stream) : stream_(stream) {}
-
-  // The next line without its end; false at the end of the file.
-  bool next(std::string& line) {
-    constexpr size_t longest = 1 << 20;
-    line.clear();
-    bool found = false;
-    while (!found) {
-      if (rest_.empty()) rest_ = stream_.next();
-      if (rest_.empty()) break;
-      const size_t end = rest_.find('\n');
-      found = end != rest_.npos;
-      line += rest_.substr(0, end);
-      rest_.remove_prefix(found ? end + 1 : rest_.size());
-      if (line.size() > longest) fail_at(stream_.file(), number_ + 1, "the line does not end; this is not a CSV file");
-    }
-    if (!found && line.empty()) return false;
-    if (++number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of UTF-8
-    if (line.ends_with('\r')) line.pop_back();
-    return true;
-  }
-  uint64_t number() const { return number_; }
-
- private:
-  ByteStream& stream_;
-  std::string_view rest_;
-  uint64_t number_ = 0;
-};
-
 class CsvReader {
  public:
-  CsvReader(ByteStream& stream, const TrajectoryOptions& options) : lines_(stream), tracks_(stream.file(), options) {
+  CsvReader(ByteStream& stream, const TrajectoryOptions& options) : rows_(stream), tracks_(stream.file(), options) {
     column_.fill(absent);
   }
 
   Trajectories read() {
-    std::string line;
-    bool has_header = false;
-    while (lines_.next(line)) {
-      const std::string_view content = trimmed(line);
-      if (content.empty() || content.front() == '#') continue;
-      split(content);
-      if (has_header) {
-        add_row();
-      } else {
-        read_header(content);
-        has_header = true;
-      }
-    }
-    if (!has_header) throw InputError(fmt::format("{}: the file is empty; {}", tracks_.file(), columns_advice));
+    if (!rows_.next()) throw InputError(fmt::format("{}: the file is empty; {}", tracks_.file(), columns_advice));
+    read_header();
+    while (rows_.next()) add_row();
     return tracks_.finish(ReferencePoint::centre);
   }
 
  private:
-  [[noreturn]] void fail(std::string_view what) const { fail_at(tracks_.file(), lines_.number(), what); }
+  [[noreturn]] void fail(std::string_view what) const { rows_.fail(what); }
+  const std::vector<std::string>& cells() const { return rows_.cells(); }
 
-  // A line into cells_, quotes removed.
-  void split(std::string_view line) {
-    cells_.clear();
-    size_t at = 0;
-    do {
-      std::string& cell = cells_.emplace_back();
-      const size_t start = std::min(line.find_first_not_of(" \t", at), line.size());
-      if (start < line.size() && line[start] == '"') {
-        at = quoted(line, start + 1, cell);
-      } else {
-        const size_t end = std::min(line.find(',', at), line.size());
-        cell = trimmed(line.substr(at, end - at));
-        at = end;
-      }
-    } while (at++ < line.size());
-  }
-
-  // A quoted cell whose text begins at `at`; returns the place of the comma after it, or the end of the line.
-  size_t quoted(std::string_view line, size_t at, std::string& cell) const {
-    for (;; ++at) {
-      const size_t quote = line.find('"', at);
-      if (quote == line.npos) fail(fmt::format("column {}: the quotes are not closed", cells_.size()));
-      cell += line.substr(at, quote - at);
-      at = quote + 1;
-      if (at == line.size() || line[at] != '"') break;
-      cell += '"';  // "" is a quote inside of quotes
-    }
-    const size_t end = std::min(line.find_first_not_of(" \t", at), line.size());
-    if (end < line.size() && line[end] != ',') fail(fmt::format("column {}: text after the quotes", cells_.size()));
-    return end;
-  }
-
-  void read_header(std::string_view content) {
+  void read_header() {
     std::string unused;
     size_t degrees = 0;
-    for (size_t i = 0; i < cells_.size(); ++i) {
-      const std::string name = lower_case(cells_[i]);
+    for (size_t i = 0; i < cells().size(); ++i) {
+      const std::string name = lower_case(cells()[i]);
       const auto known = std::find(column_names.begin(), column_names.end(), name);
       const auto degree = std::ranges::find(degree_names, name, &DegreeName::name);
       if (known == column_names.end() && degree == degree_names.end()) {
-        unused += fmt::format("{}'{}'", unused.empty() ? "" : ", ", cells_[i]);
+        unused += fmt::format("{}'{}'", unused.empty() ? "" : ", ", cells()[i]);
         continue;
       }
       degrees += degree != degree_names.end();
@@ -145,18 +73,18 @@ class CsvReader {
     in_degrees_ = degrees > 0;
     for (size_t i = 0; i < needed; ++i) {
       if (column_[i] != absent) continue;
-      const bool semicolons = content.find(';') != content.npos;
+      const bool semicolons = rows_.text().find(';') != std::string_view::npos;
       fail(fmt::format("the header has no column '{}'; {}{}", column_names[i], columns_advice,
                        semicolons ? "; they are separated by commas, not by semicolons" : ""));
     }
     if (!unused.empty()) {
-      tracks_.warn(fmt::format("{}:{}: the columns {} are not used", tracks_.file(), lines_.number(), unused));
+      tracks_.warn(fmt::format("{}:{}: the columns {} are not used", tracks_.file(), rows_.number(), unused));
     }
-    width_ = cells_.size();
+    width_ = cells().size();
   }
 
-  bool has(Column column) const { return column_[column] != absent && !cells_[column_[column]].empty(); }
-  const std::string& cell(Column column) const { return cells_[column_[column]]; }
+  bool has(Column column) const { return column_[column] != absent && !cells()[column_[column]].empty(); }
+  const std::string& cell(Column column) const { return cells()[column_[column]]; }
 
   double number(Column column) const {
     const std::optional<double> value = finite_number(cell(column));
@@ -169,9 +97,9 @@ class CsvReader {
   double optional_number(Column column) const { return has(column) ? number(column) : not_given; }
 
   void add_row() {
-    if (cells_.size() != width_) {
+    if (cells().size() != width_) {
       fail(fmt::format("the row has {} cells, the header {}; a decimal point is '.', and ids with commas need quotes",
-                       cells_.size(), width_));
+                       cells().size(), width_));
     }
     if (!has(id_column)) fail(fmt::format("column {} (id) is empty", column_[id_column] + 1));
     const double x = number(x_column), y = number(y_column);
@@ -185,15 +113,14 @@ class CsvReader {
     sample.speed_m_s = optional_number(speed_column);
     const std::string_view type = has(type_column) ? std::string_view(cell(type_column)) : "passenger";
     const std::string& id = cell(id_column);
-    tracks_.add(id, type, sample, lines_.number(), fmt::format("vehicle '{}'", id));
+    tracks_.add(id, type, sample, rows_.number(), fmt::format("vehicle '{}'", id));
   }
 
-  Lines lines_;
+  CsvRows rows_;
   TrackBuilder tracks_;
   std::array<size_t, column_names.size()> column_;  // place of each of the names in a row
   size_t width_ = 0;                                // cells of a row
   bool in_degrees_ = false;
-  std::vector<std::string> cells_;
 };
 
 }  // namespace

@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include "motion/byte_stream.hpp"
+#include "motion/carla.hpp"
 #include "motion/csv.hpp"
+#include "motion/esmini.hpp"
 #include "motion/fcd.hpp"
 #include "motion/gpx.hpp"
+#include "motion/osi.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -17,10 +20,13 @@ Trajectories read_trajectories(const std::filesystem::path& path, const Trajecto
   const std::string_view start = stream.peek();
   // Blanks, the byte order marks of UTF-8 and UTF-16, and the zero bytes of UTF-16, which expat reads.
   constexpr std::string_view passed_over(" \t\r\n\xEF\xBB\xBF\xFF\xFE\0", 10);
+  if (is_osi_trace(start)) return read_osi(stream, options);
   const size_t first = start.find_first_not_of(passed_over);
   if (first == start.npos) {
-    throw InputError(
-        fmt::format("{}: the file is empty; a trajectory file is the FCD output of SUMO, GPX or CSV", stream.file()));
+    throw InputError(fmt::format(
+        "{}: the file is empty; a trajectory file is the FCD output of SUMO, GPX, CSV, an OSI trace, or what "
+        "esmini or CARLA has recorded",
+        stream.file()));
   }
   if (start[first] == '<') {
     const size_t gpx = start.find("<gpx");  // comments and instructions may come before
@@ -29,6 +35,19 @@ Trajectories read_trajectories(const std::filesystem::path& path, const Trajecto
   if (start.substr(0, first).find_first_of("\xFF\xFE") != start.npos) {
     throw InputError(fmt::format("{}: this is a text file in UTF-16; save it as UTF-8", stream.file()));
   }
+  const std::string_view text = start.substr(first);
+  if (text.starts_with("\x89MCAP")) {
+    throw InputError(fmt::format(
+        "{}: this is an MCAP file; a binary trace of OSI (.osi) is read, which ASAM's osi-utilities make of it",
+        stream.file()));
+  }
+  if (text.starts_with("\xFD"
+                       "7zXZ")) {
+    throw InputError(fmt::format("{}: this file is packed by xz; unpack it, or pack it by gzip", stream.file()));
+  }
+  if (is_esmini_log(text)) return read_esmini_log(stream, options);
+  if (is_carla_recording(text)) return read_carla(stream, options);
+  if (is_esmini_recording(text)) return read_esmini_recording(stream, options);
   return read_csv(stream, options);
 }
 

@@ -1,4 +1,4 @@
-// Trajectories from files (SUMO FCD, GPX, CSV) and from waypoints, complete and in a fixed order.
+// Trajectories from files (SUMO FCD, GPX, CSV, OSI, esmini, CARLA) and from waypoints, complete and in a fixed order.
 // Throws InputError with file, line and what to do; what is left out or made up is told in Trajectories::warnings.
 #pragma once
 #include <filesystem>
@@ -26,7 +26,7 @@ struct TrajectoryOptions {
   // FCD: <person> and <container> are read like vehicles, with "person:" and "container:" before their ids, since SUMO
   // numbers them apart. Riders, written inside of their <vehicle>, are never read: the vehicle carries them.
   bool persons = false, containers = false;
-  std::vector<VehicleType> types;  // sizes by the name of the type; they go before those of SUMO's classes
+  std::vector<VehicleType> types = {};  // sizes by the name of the type; they go before those of SUMO's classes
   // For types that neither `types` nor SUMO's classes name. Absent: such a type is an error.
   std::optional<VehicleType> default_type = VehicleType{"", 5.0, 1.8, 1.5};
   // The speed that a vehicle without a reported one may have between two samples; farther is a teleport.
@@ -38,7 +38,8 @@ struct TrajectoryOptions {
   GroundHeight ground = {};
 };
 
-// FCD (`.xml`), GPX or CSV, each of them plain or gzip, told apart by content.
+// FCD (`.xml`), GPX, CSV, traces of OSI (osi.hpp), or what esmini (esmini.hpp) or CARLA (carla.hpp) recorded; plain or
+// gzip, told apart by content.
 //
 // FCD, as SUMO writes it with --fcd-output: time, id, x, y are needed; angle, speed, z, slope and type are used where
 // they are, other attributes are not. angle is in degrees clockwise from north; (x, y, z) is the centre of the front

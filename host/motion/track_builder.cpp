@@ -36,7 +36,7 @@ TrackBuilder::TrackBuilder(std::string file, const TrajectoryOptions& options)
 }
 
 void TrackBuilder::add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line,
-                       std::string_view what) {
+                       std::string_view what, const std::optional<glm::dvec3>& size_m) {
   const auto found = track_of_.find(id);
   if (found == track_of_.end()) {
     if (has_control_character(id) || has_control_character(type))
@@ -45,7 +45,7 @@ void TrackBuilder::add(std::string_view id, std::string_view type, const Sample&
                           "plots cannot show: remove it",
                           what));
     track_of_.emplace(id, static_cast<uint32_t>(out_.tracks.size()));
-    out_.tracks.push_back({std::string(id), type_index(type, line), {sample}, {}});
+    out_.tracks.push_back({std::string(id), type_index(type, line, size_m), {sample}, {}});
     last_line_.push_back(line);
     return;
   }
@@ -67,14 +67,18 @@ void TrackBuilder::add(std::string_view id, std::string_view type, const Sample&
   last_line = line;
 }
 
-uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
-  const auto known = type_of_.find(name);
+uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line, const std::optional<glm::dvec3>& size_m) {
+  // Vehicles of one type may differ in size.
+  const std::string key =
+      size_m ? fmt::format("{}\n{} {} {}", name, size_m->x, size_m->y, size_m->z) : std::string(name);
+  const auto known = type_of_.find(key);
   if (known != type_of_.end()) return known->second;
   // SUMO names the type of a vehicle that was changed at run time TYPE@VEHICLE.
   const std::string_view base = name.substr(0, name.find('@'));
   const auto given = std::find_if(options_.types.begin(), options_.types.end(),
                                   [&](const VehicleType& t) { return t.name == name || t.name == base; });
   std::optional<VehicleType> type = given != options_.types.end() ? *given : sumo_type(base);
+  if (type && given == options_.types.end() && size_m) *type = {type->name, size_m->x, size_m->y, size_m->z};
   if (!type) {
     if (!options_.default_type) {
       fail_at(file_, line,
@@ -88,7 +92,7 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line) {
   type->name = name;
   const uint32_t index = static_cast<uint32_t>(out_.types.size());
   out_.types.push_back(*type);
-  type_of_.emplace(name, index);
+  type_of_.emplace(key, index);
   return index;
 }
 

@@ -25,8 +25,10 @@ class TrackBuilder {
   TrackBuilder(std::string file, const TrajectoryOptions& options);
 
   const std::string& file() const { return file_; }
-  // what: the sample as messages name it, "vehicle 'a'". Throws where the vehicle has a sample at this time or a later.
-  void add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line, std::string_view what);
+  // what: the sample as messages name it, "vehicle 'a'"; size_m: length, width and height, where the file tells them
+  // (those of TrajectoryOptions::types go before). Throws where the vehicle has a sample at this time or a later.
+  void add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line, std::string_view what,
+           const std::optional<glm::dvec3>& size_m = {});
   // Whether the vehicle is off the network, by its file coordinates. Such a sample is not to be added, but counted
   // here: the vehicle is absent then.
   bool off_network(double x, double y) {
@@ -46,7 +48,7 @@ class TrackBuilder {
 
  private:
   void place(Track& track);
-  uint32_t type_index(std::string_view name, uint64_t line);
+  uint32_t type_index(std::string_view name, uint64_t line, const std::optional<glm::dvec3>& size_m);
 
   struct Hash {
     using is_transparent = void;

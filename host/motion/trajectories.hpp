@@ -32,6 +32,7 @@ struct Track {
   uint32_t type = 0;               // index into Trajectories::types
   std::vector<Sample> samples;     // in strictly increasing time
   std::vector<uint32_t> segments;  // first sample of each segment; between segments the vehicle is absent
+  bool mounts = true;              // [[mount]]s put antennas on it
 };
 
 struct Trajectories {

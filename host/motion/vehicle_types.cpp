@@ -74,12 +74,21 @@ const Class* find_by_words(std::string_view name) {
   return nullptr;
 }
 
+const Class* class_of(std::string_view name) {
+  const std::string lower = lower_case(name);
+  const Class* const found = find(lower);
+  return found ? found : find_by_words(lower);
+}
+
 }  // namespace
 
+std::string_view vehicle_class(std::string_view name) {
+  const Class* const found = class_of(name);
+  return found ? found->name : std::string_view();
+}
+
 std::optional<VehicleType> sumo_type(std::string_view name) {
-  const std::string lower = lower_case(name);
-  const Class* found = find(lower);
-  if (!found) found = find_by_words(lower);
+  const Class* const found = class_of(name);
   if (!found) return std::nullopt;
   return VehicleType{std::string(name), found->length_m, found->width_m, found->height_m};
 }

@@ -13,6 +13,9 @@ namespace wavetracer {
 // SUMO's DEFAULT_VEHTYPE and its like, and the common words car, van, lorry and bike.
 std::optional<VehicleType> sumo_type(std::string_view name);
 
+// The name of that class, in small letters; empty where there is none.
+std::string_view vehicle_class(std::string_view name);
+
 // Throws ConfigError unless all sizes are positive.
 void check_type(const VehicleType& type);
 

@@ -4,20 +4,18 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "radio/element_link.hpp"
 #include "radio/path_power.hpp"
 #include "radio/unit_phases.hpp"
+#include "radio/wide_loops.hpp"
 
 namespace wavetracer {
 namespace {
 
 using Complex = std::complex<double>;
-
-Complex times(const Complex& a, const Complex& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 // The first element alone.
 Codebook first_element(uint32_t elements) {
@@ -26,32 +24,64 @@ Codebook first_element(uint32_t elements) {
   return out;
 }
 
-// What the beams make of one path's elements, (tx beam, rx beam).
-std::vector<Complex> through_beams(const PathOfElements& path, double carrier_hz, double delay_s, const Codebook& sent,
-                                   const Codebook& heard) {
-  std::vector<Complex> by_sent(size_t{sent.beams} * heard.elements);
-  std::vector<double> late_s(sent.elements), amplitude(sent.elements), re(sent.elements), im(sent.elements);
-  for (uint32_t r = 0; r < heard.elements; ++r) {
-    path.between(r, 0, sent.elements, late_s.data(), amplitude.data());
-    for (double& late : late_s) late = carrier_hz * (late - delay_s);
-    unit_phases(late_s.data(), sent.elements, re.data(), im.data());
-    for (uint32_t beam = 0; beam < sent.beams; ++beam) {
-      Complex sum = 0;
-      for (uint32_t t = 0; t < sent.elements; ++t)
-        sum += times({amplitude[t] * re[t], amplitude[t] * im[t]}, sent.weights[size_t{beam} * sent.elements + t]);
-      by_sent[size_t{beam} * heard.elements + r] = sum;
-    }
+// Weights as columns of beams, one of each element.
+struct BeamColumns {
+  size_t beams, elements;
+  std::vector<double> re, im;  // (element, beam)
+
+  explicit BeamColumns(const Codebook& book) : beams(book.beams), elements(book.elements) {
+    for (size_t element = 0; element < elements; ++element)
+      for (size_t beam = 0; beam < beams; ++beam) {
+        const Complex& weight = book.weights[beam * elements + element];
+        re.push_back(weight.real());
+        im.push_back(weight.imag());
+      }
   }
-  std::vector<Complex> out;
-  for (uint32_t tx_beam = 0; tx_beam < sent.beams; ++tx_beam)
-    for (uint32_t rx_beam = 0; rx_beam < heard.beams; ++rx_beam) {
-      Complex sum = 0;
-      for (uint32_t r = 0; r < heard.elements; ++r)
-        sum +=
-            times(by_sent[size_t{tx_beam} * heard.elements + r], heard.weights[size_t{rx_beam} * heard.elements + r]);
-      out.push_back(sum);
-    }
-  return out;
+};
+
+// What the beams of a link make of its paths, one after the other.
+class LinkBeams {
+ public:
+  LinkBeams(const Codebook& sent, const Codebook& heard)
+      : sent_(sent),
+        heard_(heard),
+        late_s_(sent.elements),
+        amplitude_(sent.elements),
+        phase_re_(sent.elements),
+        phase_im_(sent.elements),
+        by_sent_re_(size_t{sent.beams} * heard.elements),
+        by_sent_im_(by_sent_re_.size()),
+        re(size_t{sent.beams} * heard.beams),
+        im(re.size()) {}
+
+  // Of one path, into re and im.
+  void hear(const PathOfElements& path, double carrier_hz, double delay_s);
+
+ private:
+  BeamColumns sent_, heard_;
+  std::vector<double> late_s_, amplitude_, phase_re_, phase_im_;
+  std::vector<double> by_sent_re_, by_sent_im_;  // (rx element, tx beam)
+
+ public:
+  std::vector<double> re, im;  // (tx beam, rx beam)
+};
+
+WAVETRACER_WIDE void LinkBeams::hear(const PathOfElements& path, double carrier_hz, double delay_s) {
+  for (auto* column : {&by_sent_re_, &by_sent_im_, &re, &im}) std::fill(column->begin(), column->end(), 0.0);
+  for (size_t r = 0; r < heard_.elements; ++r) {
+    path.between(r, 0, sent_.elements, late_s_.data(), amplitude_.data());
+    for (double& late : late_s_) late = carrier_hz * (late - delay_s);
+    unit_phases(late_s_.data(), sent_.elements, phase_re_.data(), phase_im_.data());
+    for (size_t t = 0; t < sent_.elements; ++t)
+      add_product({amplitude_[t] * phase_re_[t], amplitude_[t] * phase_im_[t]}, &sent_.re[t * sent_.beams],
+                  &sent_.im[t * sent_.beams], sent_.beams, &by_sent_re_[r * sent_.beams],
+                  &by_sent_im_[r * sent_.beams]);
+  }
+  for (size_t beam = 0; beam < sent_.beams; ++beam)
+    for (size_t r = 0; r < heard_.elements; ++r)
+      add_product({by_sent_re_[r * sent_.beams + beam], by_sent_im_[r * sent_.beams + beam]},
+                  &heard_.re[r * heard_.beams], &heard_.im[r * heard_.beams], heard_.beams, &re[beam * heard_.beams],
+                  &im[beam * heard_.beams]);
 }
 
 }  // namespace
@@ -88,11 +118,12 @@ BeamRows Beams::gains(const ElementModel& model, const FrameResult& frame) const
     const Codebook &sent = transmitters_[link.tx] ? *transmitters_[link.tx] : none_sent,
                    &heard = receivers_[link.rx] ? *receivers_[link.rx] : none_heard;
     const ElementLink elements(model, frame, link);
+    LinkBeams made(sent, heard);
     std::vector<double> power(first[i + 1] - first[i]);
     for (size_t row = elements.first_row(); row < elements.end_row(); ++row) {
-      const auto made =
-          through_beams(elements.path(row), model.carriers_hz()[0], frame.paths.delay_s[row], sent, heard);
-      for (size_t k = 0; k < power.size(); ++k) power[k] += power_of(frame.paths, row) * std::norm(made[k]);
+      made.hear(elements.path(row), model.carriers_hz()[0], frame.paths.delay_s[row]);
+      for (size_t k = 0; k < power.size(); ++k)
+        power[k] += power_of(frame.paths, row) * (made.re[k] * made.re[k] + made.im[k] * made.im[k]);
     }
     for (size_t k = 0; k < power.size(); ++k) {
       const size_t at = first[i] + k;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "radio/constants.hpp"
+#include "radio/wide_loops.hpp"
 
 namespace wavetracer {
 namespace {
@@ -30,7 +31,8 @@ ElementPair PathOfElements::between(size_t rx_element, size_t tx_element) const 
   return out;
 }
 
-void PathOfElements::between(size_t rx_element, size_t first, size_t count, double* delay_s, double* amplitude) const {
+WAVETRACER_WIDE void PathOfElements::between(size_t rx_element, size_t first, size_t count, double* delay_s,
+                                             double* amplitude) const {
   if (plane_) {
     const double heard_m = heard_m_[rx_element];
     for (size_t i = 0; i < count; ++i) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "radio/unit_phases.hpp"
+#include "radio/wide_loops.hpp"
 
 namespace wavetracer {
 namespace {
@@ -17,16 +18,6 @@ using PairColumn = std::array<double, ResponseSum::most_pairs>;
 // Without the checks for infinities that operator* makes.
 std::complex<double> product(const std::complex<double>& a, const std::complex<double>& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-// sum += z * factor, of so many numbers.
-void add_product(const std::complex<double>& z, const double* factor_re, const double* factor_im, size_t count,
-                 double* __restrict sum_re, double* __restrict sum_im) {
-  const double re = z.real(), im = z.imag();
-  for (size_t i = 0; i < count; ++i) {
-    sum_re[i] += re * factor_re[i] - im * factor_im[i];
-    sum_im[i] += re * factor_im[i] + im * factor_re[i];
-  }
 }
 
 }  // namespace
@@ -64,8 +55,8 @@ void ResponseSum::add(const double* delay_s, const double* amplitude, size_t pai
 }
 
 // Blocks of frequencies: the phases within a block are the same for all of them, and one factor leads to the next.
-void ResponseSum::add_even(const double* delay_s, const double* amplitude, size_t pairs,
-                           std::span<const std::complex<double>> coefficients) {
+WAVETRACER_WIDE void ResponseSum::add_even(const double* delay_s, const double* amplitude, size_t pairs,
+                                           std::span<const std::complex<double>> coefficients) {
   PairColumn turns, first_re, first_im, step_re, step_im;
   const auto phases_at = [&](double frequency_hz, PairColumn& re, PairColumn& im) {
     for (size_t i = 0; i < pairs; ++i) turns[i] = frequency_hz * delay_s[i];
@@ -73,29 +64,38 @@ void ResponseSum::add_even(const double* delay_s, const double* amplitude, size_
   };
   phases_at(axis_.frequencies_hz.front(), first_re, first_im);
   phases_at(axis_.step_hz, step_re, step_im);
-  for (size_t i = 0; i < pairs; ++i) {
-    std::array<double, frequency_block> within_re, within_im;
-    std::complex<double> along(1);
-    for (size_t j = 0; j < frequency_block; ++j) {
-      within_re[j] = along.real();
-      within_im[j] = along.imag();
-      along = product(along, {step_re[i], step_im[i]});
+  // One step after the other depends on the one before, so steps are made of all pairs at a time.
+  std::array<std::array<double, frequency_block>, most_pairs> within_re, within_im;
+  PairColumn along_re, along_im;
+  along_re.fill(1);
+  along_im.fill(0);
+  for (size_t j = 0; j < frequency_block; ++j)
+    for (size_t i = 0; i < pairs; ++i) {
+      const double re = along_re[i], im = along_im[i];
+      within_re[i][j] = re;
+      within_im[i][j] = im;
+      along_re[i] = re * step_re[i] - im * step_im[i];
+      along_im[i] = re * step_im[i] + im * step_re[i];
     }
+  for (size_t i = 0; i < pairs; ++i) {
+    const std::complex<double> along(along_re[i], along_im[i]);
     const std::complex<double> first(amplitude[i] * first_re[i], amplitude[i] * first_im[i]);
     for (size_t c = 0; c < coefficients.size(); ++c) {
       std::complex<double> base = product(coefficients[c], first);
       const size_t at = place(c, i, 0);
-      for (size_t k = 0; k < count_; k += frequency_block) {
-        add_product(base, within_re.data(), within_im.data(), std::min(frequency_block, count_ - k), &re_[at + k],
-                    &im_[at + k]);
+      const double *const re = within_re[i].data(), *const im = within_im[i].data();
+      size_t k = 0;
+      for (; k + frequency_block <= count_; k += frequency_block) {  // of a length that the compiler knows
+        add_product(base, re, im, frequency_block, &re_[at + k], &im_[at + k]);
         base = product(base, along);
       }
+      add_product(base, re, im, count_ - k, &re_[at + k], &im_[at + k]);
     }
   }
 }
 
-void ResponseSum::add_each(const double* delay_s, const double* amplitude, size_t pairs,
-                           std::span<const std::complex<double>> coefficients) {
+WAVETRACER_WIDE void ResponseSum::add_each(const double* delay_s, const double* amplitude, size_t pairs,
+                                           std::span<const std::complex<double>> coefficients) {
   PairColumn turns, re, im;
   for (size_t k = 0; k < count_; ++k) {
     for (size_t i = 0; i < pairs; ++i) turns[i] = axis_.frequencies_hz[k] * delay_s[i];

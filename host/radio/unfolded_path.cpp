@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "radio/wide_loops.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -74,8 +76,8 @@ glm::dvec3 UnfoldedPath::coordinates(const glm::dvec3& image) const {
 
 // The spreading over an edge is 1 / (before after sin b sqrt(1 / before + 1 / after)) of wt_edge_spreading, by
 // distances from its line.
-void UnfoldedPath::between(const PointColumns& from, size_t first, size_t points, const glm::dvec3& to,
-                           double* length_m, double* amplitude) const {
+WAVETRACER_WIDE void UnfoldedPath::between(const PointColumns& from, size_t first, size_t points, const glm::dvec3& to,
+                                           double* length_m, double* amplitude) const {
   const double *const x = from.x.data() + first, *const y = from.y.data() + first, *const z = from.z.data() + first;
   if (count == 0) {
     for (size_t i = 0; i < points; ++i) {

@@ -3,10 +3,12 @@
 #pragma once
 #include <cstddef>
 
+#include "radio/wide_loops.hpp"
+
 namespace wavetracer {
 
 // turns: less than 2^50 in size.
-inline void unit_phases(const double* turns, size_t count, double* re, double* im) {
+WAVETRACER_WIDE_PART void unit_phases(const double* turns, size_t count, double* re, double* im) {
   constexpr double whole = 6755399441055744.0;                             // 1.5 2^52: what is added to it is rounded
   constexpr double quarter_of_angle = -1.5707963267948966192313216916398;  // -2 pi / 4
   for (size_t i = 0; i < count; ++i) {

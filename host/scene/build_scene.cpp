@@ -227,6 +227,7 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch ed
   scene.materials = std::move(resolved.materials);
   scene.origin_m = recentre(soup, raw.file);
   gather_volumes(scene, raw, resolved);
+  for (const SceneNode& node : raw.nodes) scene.nodes.push_back({node.name, node.position_m - scene.origin_m});
   std::vector<uint32_t> triangle_material;
   weld_and_clean(scene, soup, resolved.mesh_material, triangle_material);
   if (scene.triangles.empty()) throw InputError(fmt::format("{}: all triangles of the scene are degenerate", raw.file));

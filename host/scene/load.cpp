@@ -82,12 +82,12 @@ void apply_units(RawScene& raw, const SceneConfig& config) {
     throw ConfigError(fmt::format("scene.scale = {}: must be a positive number of metres per file unit", config.scale));
   }
   const bool y_up = config.up == "y" || (config.up == "auto" && raw.y_up);
-  for (RawMesh& mesh : raw.meshes) {
-    for (glm::dvec3& v : mesh.vertices) {
-      if (y_up) v = {v.x, -v.z, v.y};
-      v *= config.scale;
-    }
-  }
+  const auto convert = [&](glm::dvec3& v) {
+    if (y_up) v = {v.x, -v.z, v.y};
+    v *= config.scale;
+  };
+  for (RawMesh& mesh : raw.meshes) std::ranges::for_each(mesh.vertices, convert);
+  for (SceneNode& node : raw.nodes) convert(node.position_m);
 }
 
 Scene finish(RawScene raw, const SceneConfig& scene, const std::vector<MaterialConfig>& materials, double frequency_hz,

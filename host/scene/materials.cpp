@@ -9,10 +9,13 @@
 #include <limits>
 #include <set>
 
+#include "scene/vehicle_materials.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
+
+constexpr std::string_view unused = ": no mesh has this material";
 
 std::string_view strip(std::string_view text, std::string_view prefix) {
   if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
@@ -60,11 +63,12 @@ class Resolver {
     }
     if (definition && (definition->itu_type || definition->permittivity)) return defined(*definition);
     if (const auto material = known(name)) return *material;
-    throw InputError(
-        fmt::format("{}: the material '{}' is not known{}; known ITU materials: {}. Map it in the configuration:\n"
-                    "  [scene.material_alias]\n  \"{}\" = \"concrete\"\nor define it:\n"
-                    "  [[material]]\n  name = \"{}\"\n  permittivity = 5.24\n  conductivity_s_m = 0.19",
-                    used_by, name, newer_edition(spellings(name)[2]), itu_names(scene_.itu_edition), name, name));
+    throw InputError(fmt::format(
+        "{}: the material '{}' is not known{}; known ITU materials: {}; of vehicles: {}. Map it in the configuration:\n"
+        "  [scene.material_alias]\n  \"{}\" = \"concrete\"\nor define it:\n"
+        "  [[material]]\n  name = \"{}\"\n  permittivity = 5.24\n  conductivity_s_m = 0.19",
+        used_by, name, newer_edition(spellings(name)[2]), itu_names(scene_.itu_edition), vehicle_material_names(), name,
+        name));
   }
 
   // What the library had to say, then what nothing has used.
@@ -72,12 +76,12 @@ class Resolver {
     std::vector<std::string> out(notes_.begin(), notes_.end());
     for (const auto& [from, to] : scene_.material_alias) {
       if (!used_.contains("alias " + from)) {
-        out.push_back(fmt::format("[scene.material_alias] '{}' = '{}': no mesh has this material", from, to));
+        out.push_back(fmt::format("[scene.material_alias] '{}' = '{}'{}", from, to, unused));
       }
     }
     for (const MaterialConfig& m : overrides_) {
       if (!used_.contains("material " + m.name)) {
-        out.push_back(fmt::format("[[material]] '{}': no mesh has this material", m.name));
+        out.push_back(fmt::format("[[material]] '{}'{}", m.name, unused));
       }
     }
     return out;
@@ -149,10 +153,11 @@ class Resolver {
     return nullptr;
   }
 
-  // What the library says of this exact name at the carrier. Beyond the ranges of its laws: that of the nearest one,
+  // What the libraries say of this exact name at the carrier. Beyond the ranges of its laws: that of the nearest one,
   // whose range is lifted where the configuration wants it. Nothing is said of a law that the configuration replaces.
   std::optional<Material> itu(const std::string& name, bool law_is_given) {
     std::optional<ItuLaw> law = find_itu_law(scene_.itu_edition, name, frequency_ghz_);
+    if (!law) law = find_vehicle_law(name, frequency_ghz_);
     if (!law || law_is_given) return law ? std::optional(law->material) : std::nullopt;
     if (!law->choice.empty()) notes_.insert(law->choice);
     if (!law->in_range && scene_.extrapolate_materials && !range_is_a_limit(name)) {
@@ -243,6 +248,14 @@ uint32_t index_in(std::vector<Material>& materials, const Material& material) {
 }
 
 }  // namespace
+
+void drop_used(std::vector<std::string>& warnings, const std::vector<Scene>& models) {
+  std::erase_if(warnings, [&](const std::string& warning) {
+    return warning.ends_with(unused) && std::ranges::any_of(models, [&](const Scene& model) {
+             return std::ranges::find(model.report.warnings, warning) == model.report.warnings.end();
+           });
+  });
+}
 
 ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scene,
                                     const std::vector<MaterialConfig>& overrides, double frequency_hz) {

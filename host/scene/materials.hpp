@@ -18,6 +18,9 @@ struct ResolvedMaterials {
   std::vector<std::string> warnings;
 };
 
+// Takes what says that no mesh of a scene has a material out of its warnings, where a model has it.
+void drop_used(std::vector<std::string>& warnings, const std::vector<Scene>& models);
+
 // A name is looked up in this order: its alias (scene.material_alias); [[material]] or the file itself; the ITU
 // material of that name. "mat-" and then "itu_" are stripped where the full name is not known. [[material]] of the
 // configuration overrides file and table, field by field. A material that its edition does not know at the frequency

@@ -51,6 +51,9 @@ class ModelReader {
  private:
   void node(const aiNode& n, const glm::dmat4& parent) {
     const glm::dmat4 to_root = parent * to_double(n.mTransformation);
+    const glm::dvec3 origin(to_root[3]);
+    if (n.mName.length > 0 && std::isfinite(origin.x + origin.y + origin.z))
+      raw_.nodes.push_back({n.mName.C_Str(), origin});
     for (unsigned i = 0; i < n.mNumMeshes; ++i) mesh(*scene_.mMeshes[n.mMeshes[i]], n, to_root);
     for (unsigned i = 0; i < n.mNumChildren; ++i) node(*n.mChildren[i], to_root);
   }

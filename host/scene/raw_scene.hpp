@@ -44,6 +44,7 @@ struct RawScene {
   std::vector<RawMesh> meshes;
   std::vector<RawMaterial> materials;
   std::vector<RawVolume> volumes;
+  std::vector<SceneNode> nodes;
   std::vector<std::string> warnings;
   bool y_up = false;  // what the format prescribes; scene.up overrides it
 };

@@ -96,7 +96,10 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (known) out.late = late_counts(*known, out.paths);
   if (const auto text = recall_warning(found, s_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
   if (searches) ++warm_frames_;
-  if (!task.compiling) account.left_out(left_out, task.transmitter_name, task.receiver_name);
+  if (task.left_out)
+    task.left_out->merge(left_out);
+  else if (!task.compiling)
+    account.left_out(left_out, task.transmitter_name, task.receiver_name);
   account.end_stage("columns");
   if (s_.elements.on() && !task.compiling && !task.receivers) {
     s_.elements(out);

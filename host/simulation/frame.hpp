@@ -18,6 +18,7 @@ struct FrameTask {
   EndName transmitter_name = {}, receiver_name = {};  // for warnings; asked after the poses
   std::optional<TransmitterRange> transmitters = {};  // only the links of these; not given: all
   std::optional<ReceiverRange> receivers = {};        // likewise
+  LeftOut* left_out = nullptr;                        // a part of a frame adds its own here instead of a warning
   bool timed = true;                                  // its stages on the device are profiled
   DiscoveryMark* discovery = nullptr;                 // of the source of poses; null: of the drive
   bool between = false;  // two frames of poses: launches no rays where frames may do without

@@ -22,7 +22,7 @@ class FrameWatch {
   void tell(decltype(FrameProgress::stage) stage, uint64_t done, uint64_t total) const {
     uint64_t& largest = largest_[stage.index()];
     largest = parts_ > 1 ? std::max(largest, total) : total;
-    if (observer_ && !observer_({stage, part_ * largest + done, parts_ * largest})) throw FrameStopped();
+    if (observer_ && !observer_({stage, part_ * largest + done, parts_ * largest, part_, parts_})) throw FrameStopped();
   }
 
  private:

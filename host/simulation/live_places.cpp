@@ -58,10 +58,11 @@ Pose pose_between(const LiveTraffic::Vehicle& from, const LiveTraffic::Vehicle& 
 LivePlaces::LivePlaces(const Config& config, const VehicleModels& vehicles, const Scene& scene)
     : bounds_{scene.origin_m + scene.lower - config.live.margin_m, scene.origin_m + scene.upper + config.live.margin_m},
       origin_m_(scene.origin_m) {
-  if (!config.trajectories.file.empty() || !config.trajectories.generate.empty() || !config.tracks.empty())
+  if (!config.trajectories.file.empty() || !config.trajectories.generate.empty() || !config.tracks.empty() ||
+      !config.parked.empty())
     throw ConfigError(
         "[[live_vehicle]] and trajectories exclude each other: with live vehicles all poses come from the "
-        "client; leave out trajectories.file, trajectories.generate and every [[track]]");
+        "client; leave out trajectories.file, trajectories.generate, every [[track]] and every [[parked]]");
   for (const LiveVehicleConfig& row : config.live_vehicles) {
     if (std::ranges::any_of(types_, [&](const LiveType& type) { return type.name == row.type; }))
       throw ConfigError(fmt::format(

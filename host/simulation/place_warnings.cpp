@@ -169,7 +169,7 @@ std::vector<std::string> place_warnings(const Config& config, const Surroundings
   for (int kind = 0; kind < kinds; ++kind) say_named(config, ends, world, static_cast<Kind>(kind), out);
   say_grids(config, around, ends, out);
   for (const MountConfig& mount : config.mounts)
-    if (mount.offset_m[2] < 0)
+    if (mount.offset_m[2] < 0 && mount.node.empty())
       out.push_back(fmt::format("[[mount]] \"{}\": offset_m is {:.3g} m below the ground under its vehicle", mount.name,
                                 -mount.offset_m[2]));
   say_links(config, world, out);

@@ -4,6 +4,7 @@
 #include "radio/carriers.hpp"
 #include "radio/opacity.hpp"
 #include "scene/load.hpp"
+#include "scene/materials.hpp"
 #include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/tracing_depth.hpp"
@@ -141,6 +142,8 @@ Setup::Setup(const Config& asked, const std::string& device_text, bool frames_fo
       discovery(context, device_scene, trace, discovery_options(*this)),
       exact_paths(context, device_scene, scene, world, trace, origins, reuse),
       finish(context, scene, with_trace(config, trace), world),
-      elements(config, scene, world) {}
+      elements(config, scene, world) {
+  drop_used(scene.report.warnings, world.models());
+}
 
 }  // namespace wavetracer

@@ -33,6 +33,8 @@ struct Simulation::State {
     const std::vector<ReceiverRange> batches = receiver_batches(setup.trace, whole ? 0 : receivers);
     if (batches.size() == 1) return frames.run(task);
     std::vector<FrameResult> parts;
+    LeftOut left_out;  // links of a batch are those of its receivers, so no link is here twice
+    task.left_out = &left_out;
     for (const ReceiverRange& batch : batches) {
       setup.frame_watch.set_part(parts.size(), batches.size());
       task.receivers = batch;
@@ -40,6 +42,8 @@ struct Simulation::State {
     }
     setup.frame_watch.set_part(0, 1);
     FrameResult out = joined_batches(std::move(parts));
+    if (!left_out.empty())
+      out.warnings.push_back(left_out_warning(left_out, task.transmitter_name, task.receiver_name));
     if (setup.elements.on()) {  // of all links at once
       Stopwatch watch;
       setup.elements(out);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "base/spelling.hpp"
 #include "motion/frame_clock.hpp"
 #include "radio/antenna.hpp"
 #include "simulation/live_places.hpp"
@@ -90,6 +91,7 @@ struct World::State {
   void add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m);
   void add_instances(VehicleModels& vehicles, const Scene& scene);
   void add_mounts(const std::vector<MountConfig>& mounts, const glm::dvec3& origin_m);
+  glm::dvec3 offset_of(const MountConfig& mount, uint32_t track) const;
   void add_mounted(EndsOfRole& role, uint32_t track, const MountConfig& mount, const glm::dvec3& origin_m);
   glm::dvec3 mounted_position(const MountedEnd& end, const Pose& pose) const;
   EndState mounted_state(const MountedEnd& end, const VehicleState& vehicle) const;
@@ -150,11 +152,34 @@ EndState World::State::mounted_state(const MountedEnd& end, const VehicleState& 
           .present = vehicle.present};
 }
 
+// From the centre of the footprint.
+glm::dvec3 World::State::offset_of(const MountConfig& mount, uint32_t track) const {
+  if (mount.node.empty()) return vector_of(mount.offset_m);
+  const Track& vehicle = trajectories.tracks[track];
+  const std::string who = fmt::format("[[mount]] \"{}\": node = \"{}\": the vehicle \"{}\" of type \"{}\"", mount.name,
+                                      mount.node, vehicle.id, trajectories.types[vehicle.type].name);
+  if (track_instance[track] == no_instance)
+    throw ConfigError(who + " has no body, and so no nodes: leave node out, or choose other vehicles by on");
+  const Scene& model = models[instances[track_instance[track]].model];
+  std::vector<std::string> names;
+  const SceneNode* found = nullptr;
+  for (const SceneNode& node : model.nodes) {
+    names.push_back(node.name);
+    if (node.name != mount.node) continue;
+    if (found && found->position_m != node.position_m)
+      throw ConfigError(who + " has several nodes of this name in its body, " + model.file + ": rename all but one");
+    found = &node;
+  }
+  if (!found)
+    throw ConfigError(fmt::format("{} has no such node in its body, {}{}", who, model.file,
+                                  names.empty() ? ", which has none" : spelling_hint(mount.node, names)));
+  return model.origin_m + found->position_m + vector_of(mount.offset_m);
+}
+
 // As it is where its vehicle first appears.
 void World::State::add_mounted(EndsOfRole& role, uint32_t track, const MountConfig& mount, const glm::dvec3& origin_m) {
   const Track& vehicle = trajectories.tracks[track];
-  role.mounted.push_back(
-      {track, vector_of(mount.offset_m), rotation_of(mount.orientation_deg), mount.above == "ground"});
+  role.mounted.push_back({track, offset_of(mount, track), rotation_of(mount.orientation_deg), mount.above == "ground"});
   const EndState first = mounted_state(role.mounted.back(), vehicle_at(vehicle, vehicle.samples.front().time_s));
   const glm::dvec3 position_m = origin_m + first.position_m, velocity_m_s = first.velocity_m_s;
   role.ends.push_back({.name = vehicle.id + "/" + mount.name,
@@ -177,6 +202,7 @@ void World::State::add_mounts(const std::vector<MountConfig>& mounts, const glm:
     for (const RadioEnd& end : role->ends) taken.insert(end.name);
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
     const Track& track = trajectories.tracks[k];
+    if (!track.mounts) continue;
     for (const MountConfig& mount : mounts) {
       const bool by_id = !live && matches(mount.on, track.id);  // places have no ids that a user would know
       if (!by_id && !matches(mount.on, trajectories.types[track.type].name)) continue;

@@ -28,13 +28,28 @@ NamedBody kind_of(std::string_view type) {
     std::string_view word;
     NamedBody body;
   };
-  constexpr ClassBody classes[] = {
-      {"truck", "truck"},     {"lorry", "truck"},         {"trailer", "truck"},   {"bus", "truck"},
-      {"coach", "truck"},     {"tram", "truck"},          {"rail", "truck"},      {"railtype", "truck"},
-      {"ship", "truck"},      {"containertype", "truck"}, {"container", "truck"}, {"delivery", "van"},
-      {"van", "van"},         {"emergency", "van"},       {"pedestrian", "none"}, {"pedtype", "none"},
-      {"person", "none"},     {"bicycle", "none"},        {"bike", "none"},       {"biketype", "none"},
-      {"motorcycle", "none"}, {"moped", "none"}};
+  constexpr ClassBody classes[] = {{"truck", "truck"},
+                                   {"lorry", "truck"},
+                                   {"trailer", "truck"},
+                                   {"bus", "bus"},
+                                   {"coach", "bus"},
+                                   {"tram", "tram"},
+                                   {"rail", "tram"},
+                                   {"railtype", "tram"},
+                                   {"ship", "truck"},
+                                   {"containertype", "truck"},
+                                   {"container", "truck"},
+                                   {"delivery", "van"},
+                                   {"van", "van"},
+                                   {"emergency", "van"},
+                                   {"pedestrian", "pedestrian"},
+                                   {"pedtype", "pedestrian"},
+                                   {"person", "pedestrian"},
+                                   {"bicycle", "motorcycle"},
+                                   {"bike", "motorcycle"},
+                                   {"biketype", "motorcycle"},
+                                   {"motorcycle", "motorcycle"},
+                                   {"moped", "motorcycle"}};
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz";
   const std::string name = lower_case(type);
   for (size_t at = name.find_first_of(letters); at != name.npos; at = name.find_first_of(letters, at)) {
@@ -53,6 +68,7 @@ Scene stretched(Scene scene, const glm::dvec3& scale) {
   if (scale == glm::dvec3(1)) return scene;
   scene.origin_m *= scale;
   for (glm::dvec3& vertex : scene.vertices) vertex *= scale;
+  for (SceneNode& node : scene.nodes) node.position_m *= scale;
   for (Surface& surface : scene.surfaces) {
     const glm::dvec3 normal = surface.normal / scale;
     surface.normal = normal / glm::length(normal);
@@ -148,7 +164,7 @@ std::optional<uint32_t> VehicleModels::model_of(const VehicleType& type, std::st
   if (!row_of(name) && !sumo_type(base_of(name))) name = config_.trajectories.default_type;
   const VehicleTypeConfig* row = row_of(name);
   std::string body = row ? row->model : "auto";
-  if (body == "auto") body = vehicle_id.starts_with("person:") ? "none" : kind_of(base_of(name)).text();
+  if (body == "auto") body = vehicle_id.starts_with("person:") ? "pedestrian" : kind_of(base_of(name)).text();
   if (body == "none") return std::nullopt;
   const bool mesh = row && is_mesh(*row);
   const auto next = static_cast<uint32_t>(models_.size());

@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
 #include <set>
 
+#include "motion/parked.hpp"
 #include "motion/read.hpp"
 #include "motion/track_motion.hpp"
 #include "scene/city_traffic.hpp"
@@ -72,6 +75,63 @@ Trajectories connect(const std::vector<TrackConfig>& tracks, const VehicleModels
   return connect_waypoints(out, ground_of(places));
 }
 
+std::vector<ParkedPlace> places_of(const ParkedConfig& parked) {
+  if (!parked.file.empty()) return read_parked(parked.file);
+  std::vector<ParkedPlace> out;
+  for (const auto& [x, y, z, yaw_deg] : parked.places) out.push_back({{x, y, z}, yaw_deg, ""});
+  return out;
+}
+
+// Standing from the first frame to the last.
+Track standing(std::string id, uint32_t type, const ParkedPlace& place, double first_s, double last_s) {
+  Track out{std::move(id), type, {}, {0}};
+  Sample sample{.position_m = place.position_m,
+                .yaw_rad = glm::radians(std::remainder(place.yaw_deg, 360.0)),
+                .pitch_rad = 0,
+                .speed_m_s = 0,
+                .velocity_m_s = glm::dvec3(0)};
+  for (const double time_s : {first_s, last_s}) {
+    if (!out.samples.empty() && !(time_s > first_s)) break;
+    sample.time_s = time_s;
+    out.samples.push_back(sample);
+  }
+  return out;
+}
+
+// They say nothing of the times of a drive: those are the others', or those of [time] where all are parked.
+void park(Trajectories& to, const Config& config, const VehicleModels& vehicles) {
+  if (config.parked.empty()) return;
+  const bool alone = to.tracks.empty();
+  const double start_s = config.time.start_s.value_or(alone ? 0 : to.first_time_s);
+  const double end_s = config.time.end_s.value_or(alone ? start_s : to.last_time_s);
+  const double first_s = alone ? start_s : std::min(start_s, to.first_time_s);
+  const double last_s = alone ? end_s : std::max(end_s, to.last_time_s);
+  std::set<std::string> ids;
+  for (const Track& track : to.tracks) ids.insert(track.id);
+  for (const ParkedConfig& parked : config.parked) {
+    const std::vector<ParkedPlace> places = places_of(parked);
+    for (size_t i = 0; i < places.size(); ++i) {
+      const std::string& name = places[i].type.empty() ? parked.type : places[i].type;
+      std::optional<VehicleType> type = vehicles.find_type(name);
+      if (!type)
+        throw ConfigError(
+            fmt::format("[[parked]] \"{}\", place {}: the type \"{}\" is neither a [[vehicle_type]] nor a vehicle "
+                        "class of SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
+                        parked.name, i, name));
+      type->name = name;
+      auto same = std::ranges::find(to.types, *type);
+      if (same == to.types.end()) same = to.types.insert(same, *type);
+      const std::string id = fmt::format("{}/{}", parked.name, i);
+      if (!ids.insert(id).second)
+        throw ConfigError(fmt::format(
+            "[[parked]] \"{}\": the trajectories have a vehicle \"{}\" too: choose another name", parked.name, id));
+      to.tracks.push_back(standing(id, static_cast<uint32_t>(same - to.types.begin()), places[i], first_s, last_s));
+      to.tracks.back().mounts = parked.mounts;
+    }
+  }
+  if (alone) to.first_time_s = first_s, to.last_time_s = last_s;
+}
+
 // Waypoints lie farther apart than samples, so the step stays that of `to`, where it has one.
 void join(Trajectories& to, Trajectories more) {
   const double step_s = to.step_s > 0 ? to.step_s : more.step_s;
@@ -99,6 +159,7 @@ Trajectories load_trajectories(const Config& config, const VehicleModels& vehicl
   if (!config.trajectories.file.empty()) out = read(config.trajectories, vehicles, places);
   if (!config.trajectories.generate.empty()) out = generate(config.trajectories.generate, vehicles);
   if (!config.tracks.empty()) join(out, connect(config.tracks, vehicles, places));
+  park(out, config, vehicles);
   return out;
 }
 

@@ -1,4 +1,5 @@
-// The trajectories of a configuration: those of a file or of generated traffic, and those of [[track]] waypoints.
+// The trajectories of a configuration: those of a file or of generated traffic, those of [[track]] waypoints, and
+// vehicles that are [[parked]].
 // Assumes that file and generate are not both given.
 #pragma once
 #include "motion/trajectories.hpp"

@@ -20,15 +20,15 @@ using Woodland = Choice<"none", "mixed", "deciduous">;
 
 struct MaterialConfig {  // [[material]]: overrides or adds a radio material by name
   std::string name;
-  std::string library;               // the material of the library that it is made of; empty: that of its own name
-  std::optional<double> a, b, c, d;  // ITU-R P.2040 coefficients
-  std::optional<double> permittivity, conductivity_s_m;
-  std::optional<double> thickness_m;                                          // infinity allowed: a half space
-  std::optional<double> scattering, scattering_lobe, scattering_cross_polar;  // see Material
+  std::string library = {};  // the material of the library that it is made of; empty: that of its own name
+  std::optional<double> a = {}, b = {}, c = {}, d = {};  // ITU-R P.2040 coefficients
+  std::optional<double> permittivity = {}, conductivity_s_m = {};
+  std::optional<double> thickness_m = {};  // infinity allowed: a half space
+  std::optional<double> scattering = {}, scattering_lobe = {}, scattering_cross_polar = {};  // see Material
   // Leaves and twigs instead of a surface, see VegetationLaw.
   Woodland vegetation = "none";
   bool in_leaf = true;
-  std::optional<double> attenuation_db_m, max_attenuation_db;
+  std::optional<double> attenuation_db_m = {}, max_attenuation_db = {};
 };
 
 using UpAxis = Choice<"auto", "y", "z">;
@@ -110,7 +110,7 @@ struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the m
 
 // [trajectories]: how vehicles move. Give either file or generate, or [[track]] tables, or nothing: no vehicles.
 struct TrajectoriesConfig {
-  std::string file;                         // SUMO FCD, GPX or CSV, plain or gzip
+  std::string file;                         // a format of motion/read.hpp
   std::string generate;                     // arguments of `wavetracer scene city` about vehicles, instead of a file
   std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of `file` + this
   double scale = 1;                         // of positions in `file`
@@ -127,8 +127,16 @@ struct TrackConfig {  // [[track]]: a vehicle on waypoints
   HeightAbove above = "zero";                               // what the heights of waypoints are measured from
 };
 
+struct ParkedConfig {  // [[parked]]: vehicles that stand in all frames
+  std::string name;    // the vehicles are called NAME/0, NAME/1, ...
+  std::string file;    // CSV with a header that names the columns x, y and optionally z, yaw, type
+  std::vector<std::array<double, 4>> places;  // x, y, z, yaw in degrees; file coordinates of the scene
+  std::string type = "passenger";             // where the file names none
+  bool mounts = false;                        // [[mount]]s put antennas on them, too
+};
+
 // The bodies of vehicles that are built in (else: a mesh file).
-using NamedBody = Choice<"auto", "car", "van", "truck", "none">;
+using NamedBody = Choice<"auto", "car", "van", "truck", "bus", "tram", "motorcycle", "pedestrian", "none">;
 
 struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories looks like
   std::string name;
@@ -144,7 +152,8 @@ struct MountConfig {     // [[mount]]: an antenna on vehicles
   std::string name;      // the end is called VEHICLE/NAME
   std::string on = "*";  // ids or types of vehicles, * and ? as in shells
   MountRole role = "both";
-  std::array<double, 3> offset_m{0, 0, 0};  // from the centre of the footprint: ahead, left, up
+  std::array<double, 3> offset_m{0, 0, 0};  // from the centre of the footprint, or from the node: ahead, left, up
+  std::string node = {};                    // a point of the vehicle's body, by its name; empty: the footprint
   std::string antenna = "isotropic";
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // in the vehicle's axes
@@ -280,6 +289,7 @@ struct Config {
   std::vector<ArrayConfig> arrays;
   TrajectoriesConfig trajectories;
   std::vector<TrackConfig> tracks;
+  std::vector<ParkedConfig> parked;
   std::vector<VehicleTypeConfig> vehicle_types;
   std::vector<MountConfig> mounts;
   LinksConfig links;

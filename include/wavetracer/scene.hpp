@@ -78,6 +78,12 @@ struct Volume {
   uint32_t material = 0;                                  // into Scene::materials, where it has a VegetationLaw
 };
 
+// A point that the file gives a name, such as the place of an antenna.
+struct SceneNode {
+  std::string name;
+  glm::dvec3 position_m{0};
+};
+
 // What was left out when the scene was loaded, and why; every count is reported to the user.
 struct LoadReport {
   uint64_t degenerate_triangles = 0;  // zero area, dropped
@@ -108,6 +114,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Volume> volumes;       // no surfaces: rays do not see them
   std::vector<std::string> objects;  // mesh names
+  std::vector<SceneNode> nodes;      // of a glTF or OBJ file, or of a built-in vehicle; names may repeat
   glm::dvec3 lower{0}, upper{0};     // bounding box, recentred
   LoadReport report;
 };

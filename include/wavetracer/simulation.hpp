@@ -19,6 +19,7 @@ namespace wavetracer {
 struct FrameProgress {
   Choice<"rays", "paths"> stage;  // rays that were launched, then steps of the exact solution
   uint64_t done = 0, total = 0;
+  uint64_t part = 0, parts = 1;  // of the frame, counted from 0: batches of receivers (trace.batch_receivers)
 };
 // Called between batches of rays and between these steps; if it returns false, the frame is cancelled.
 using FrameObserver = std::function<bool(const FrameProgress&)>;

@@ -47,7 +47,7 @@ Outcome convert(std::vector<std::string> arguments) {
 TEST_CASE("the list names every format") {
   const Outcome list = convert({"--list"});
   CHECK(list.code == 0);
-  for (const char* name : {"sionna", "deepmimo", "ns3", "matlab", "vtk", "glb", "kml", ".npz", "folder"})
+  for (const char* name : {"sionna", "deepmimo", "ns3", "matlab", "vtk", "glb", "kml", "osi", ".npz", "folder"})
     CHECK(contains(list.out, name));
 }
 

@@ -1,24 +1,13 @@
 """Channels between the elements of panels, by Sionna RT (synthetic arrays: plane waves) and from wavetracer's responses.
 Run as compare_sionna_arrays.py PROGRAM OUTPUT; answers 77, "skipped", where sionna-rt or its LLVM is missing."""
-import glob
 import os
 import subprocess
 import sys
 
-newer = sorted(glob.glob("/usr/lib/x86_64-linux-gnu/libLLVM.so.*"))  # from 18 on they are called so
-if newer:
-    os.environ.setdefault("DRJIT_LIBLLVM_PATH", newer[-1])
-try:
-    import drjit as dr
-    import numpy as np
-    import sionna.rt as rt
-except ImportError as missing:
-    print(f"skipped: {missing} (PyPI: sionna-rt)")
-    sys.exit(77)
-
-if not (dr.has_backend(dr.JitBackend.LLVM) and dr.detail.llvm_version() >= (16, 0, 0)):
-    print("skipped: LLVM is older than 16, which sionna-rt cannot use (Debian: libllvm19)")
-    sys.exit(77)
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
+import needs_sionna  # noqa: F401, E402
+import numpy as np  # noqa: E402
+import sionna.rt as rt  # noqa: E402
 
 PROGRAM, OUTPUT = sys.argv[1:3]
 os.makedirs(OUTPUT, exist_ok=True)

@@ -3,7 +3,6 @@
 
 Usage: sionna_test.py. Exits with 77, "skipped", where sionna-rt, its LLVM or h5py is missing.
 """
-import glob
 import os
 import pathlib
 import re
@@ -11,19 +10,9 @@ import sys
 import tempfile
 import warnings
 
-newer = sorted(glob.glob("/usr/lib/x86_64-linux-gnu/libLLVM.so.*"))  # from 18 on they are called so
-if newer:
-    os.environ.setdefault("DRJIT_LIBLLVM_PATH", newer[-1])
-try:
-    import drjit as dr
-    import numpy as np
-    import sionna.rt as rt
-except ImportError as missing:
-    print(f"skipped: {missing} (PyPI: sionna-rt)")
-    sys.exit(77)
-if not (dr.has_backend(dr.JitBackend.LLVM) and dr.detail.llvm_version() >= (16, 0, 0)):
-    print("skipped: LLVM is older than 16, which sionna-rt cannot use (Debian: libllvm19)")
-    sys.exit(77)
+import needs_sionna  # noqa: F401
+import numpy as np
+import sionna.rt as rt
 import wavetracer as wt
 
 

@@ -64,15 +64,18 @@ TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
     config.trace.batch_receivers = batch;
     bool within = true;
     uint64_t least = 0, most = 0;  // of the steps that paths take
+    uint64_t part = 0;
     Simulation simulation(config);
     simulation.observe([&](const FrameProgress& at) {
-      within = within && at.done <= at.total;
+      within = within && at.done <= at.total && at.part >= part && at.part < at.parts;
+      part = at.part;
       if (at.stage == "paths") within = within && at.done >= std::exchange(least, at.done), most = at.total;
       return true;
     });
     const FrameResult found = simulation.run_frame(0);
     CHECK(within);
     CHECK(least == most);  // at the end of the last batch
+    CHECK(part + 1 == receiver_batches(config.trace, static_cast<uint32_t>(whole.world.receivers.size())).size());
     CHECK(identical(found.paths, whole.paths));
     CHECK(found.paths.quarters == whole.paths.quarters);
     CHECK(found.carriers.at(0).a == whole.carriers[0].a);
@@ -99,4 +102,21 @@ TEST_CASE("batches without a link are empty, and a frame that is given up goes o
   CHECK_THROWS_AS(simulation.run_frame(0), FrameStopped);
   simulation.observe({});
   CHECK(identical(simulation.run_frame(0).paths, whole.paths));
+}
+
+TEST_CASE("what antennas that touch leave out is said once for all batches, as for the frame in one") {
+  const SceneFile file(two_boxes());
+  Config config = map_of(file);
+  config.transmitters[0].position_m = {-12.49995, -11, 1.5};  // 0.05 mm beside the first cell of the grid
+  config.transmitters[1].position_m = {12.49995, 14, 1.5};    // and beside one of its last row
+  const auto left_out = [](const FrameResult& frame) {
+    std::vector<std::string> out;
+    for (const std::string& warning : frame.warnings)
+      if (warning.find("left out") != std::string::npos) out.push_back(warning);
+    return out;
+  };
+  const std::vector<std::string> whole = left_out(run(config));
+  REQUIRE(whole.size() == 1);
+  config.trace.batch_receivers = 10;
+  CHECK(left_out(run(config)) == whole);
 }

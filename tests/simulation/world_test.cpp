@@ -147,14 +147,14 @@ TEST_CASE("bodies by the name of the type; none where none is wanted, with anten
     return world.models();
   };
   const auto surfaces = [&](const std::string& model) { return models("x", model).back().surfaces.size(); };
-  for (const std::string type : {"bicycle", "motorcycle", "pedestrian", "my_moped2", "DEFAULT_PEDTYPE"}) {
-    CAPTURE(type);
-    CHECK(models(type).size() == 1);
-  }
-  const size_t car = surfaces("car"), van = surfaces("van"), truck = surfaces("truck");
-  CHECK(std::set<size_t>{car, van, truck}.size() == 3);
-  for (const std::string type : {"bus", "truck2", "veh_trailer", "COACH"})
-    CHECK(models(type).back().surfaces.size() == truck);
+  const size_t car = surfaces("car"), van = surfaces("van"), truck = surfaces("truck"), bus = surfaces("bus"),
+               cycle = surfaces("motorcycle"), person = surfaces("pedestrian");
+  CHECK(std::set<size_t>{car, van, truck, bus, cycle, person}.size() == 6);
+  for (const std::string type : {"bicycle", "motorcycle", "my_moped2"})
+    CHECK(models(type).back().surfaces.size() == cycle);
+  for (const std::string type : {"pedestrian", "DEFAULT_PEDTYPE"}) CHECK(models(type).back().surfaces.size() == person);
+  for (const std::string type : {"truck2", "veh_trailer"}) CHECK(models(type).back().surfaces.size() == truck);
+  for (const std::string type : {"bus", "COACH"}) CHECK(models(type).back().surfaces.size() == bus);
   for (const std::string type : {"delivery", "emergency1"}) CHECK(models(type).back().surfaces.size() == van);
   for (const std::string type : {"taxi", "mine", "passenger/truck"}) CHECK(models(type).back().surfaces.size() == car);
   CHECK(models("mine", "none").size() == 1);

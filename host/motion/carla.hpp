@@ -1,0 +1,15 @@
+// Recordings of CARLA as text: what client.show_recorder_file_info(file, show_all=True) returns.
+// Lengths in it are Unreal's: centimetres, y to the right; angles in degrees. Sizes are in it only if the recording was
+// started with additional_data=True.
+#pragma once
+#include "motion/byte_stream.hpp"
+#include "motion/read.hpp"
+
+namespace wavetracer {
+
+// How such a text begins.
+bool is_carla_recording(std::string_view start);
+
+Trajectories read_carla(ByteStream& stream, const TrajectoryOptions& options);
+
+}  // namespace wavetracer

@@ -1,0 +1,54 @@
+// Lines into cells.
+#include "motion/csv_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "motion/input_text.hpp"
+
+namespace wavetracer {
+
+bool CsvRows::next() {
+  while (lines_.next()) {
+    text_ = trimmed(lines_.line());
+    if (text_.empty() || text_.front() == '#') continue;
+    split(text_);
+    return true;
+  }
+  return false;
+}
+
+// A line into cells_, quotes removed.
+void CsvRows::split(std::string_view line) {
+  cells_.clear();
+  size_t at = 0;
+  do {
+    std::string& cell = cells_.emplace_back();
+    const size_t start = std::min(line.find_first_not_of(" \t", at), line.size());
+    if (start < line.size() && line[start] == '"') {
+      at = quoted(line, start + 1, cell);
+    } else {
+      const size_t end = std::min(line.find(',', at), line.size());
+      cell = trimmed(line.substr(at, end - at));
+      at = end;
+    }
+  } while (at++ < line.size());
+}
+
+// A quoted cell whose text begins at `at`; returns the place of the comma after it, or the end of the line.
+size_t CsvRows::quoted(std::string_view line, size_t at, std::string& cell) const {
+  for (;; ++at) {
+    const size_t quote = line.find('"', at);
+    if (quote == line.npos) fail(fmt::format("column {}: the quotes are not closed", cells_.size()));
+    cell += line.substr(at, quote - at);
+    at = quote + 1;
+    if (at == line.size() || line[at] != '"') break;
+    cell += '"';  // "" is a quote inside of quotes
+  }
+  const size_t end = std::min(line.find_first_not_of(" \t", at), line.size());
+  if (end < line.size() && line[end] != ',') fail(fmt::format("column {}: text after the quotes", cells_.size()));
+  return end;
+}
+
+}  // namespace wavetracer

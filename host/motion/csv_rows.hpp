@@ -1,0 +1,35 @@
+// Comma-separated values row by row; blank lines and comments are passed over.
+// Assumes RFC 4180 without line breaks in quotes.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "motion/text_lines.hpp"
+
+namespace wavetracer {
+
+class CsvRows {
+ public:
+  explicit CsvRows(ByteStream& stream) : lines_(stream) {}
+
+  // The next row; false at the end of the file.
+  bool next();
+  // Of the row: its cells without blanks around them and quotes; the line, counted from 1, and its text.
+  const std::vector<std::string>& cells() const { return cells_; }
+  uint64_t number() const { return lines_.number(); }
+  std::string_view text() const { return text_; }
+  const std::string& file() const { return lines_.file(); }
+  // Throws InputError with file and line.
+  [[noreturn]] void fail(std::string_view what) const { lines_.fail(what); }
+
+ private:
+  void split(std::string_view line);
+  size_t quoted(std::string_view line, size_t at, std::string& cell) const;
+
+  TextLines lines_;
+  std::string text_;
+  std::vector<std::string> cells_;
+};
+
+}  // namespace wavetracer

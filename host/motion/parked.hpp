@@ -1,0 +1,20 @@
+// Where vehicles are parked: CSV with a header that names the columns, in any order: x, y (m) are needed; z (m), yaw
+// (degrees counter-clockwise from +x) and type are optional, also cell by cell. Plain or gzip.
+#pragma once
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace wavetracer {
+
+struct ParkedPlace {
+  glm::dvec3 position_m{0};  // centre of the footprint, on the ground
+  double yaw_deg = 0;
+  std::string type;  // empty: not given
+};
+
+// In the order of the file, at least one. Throws InputError.
+std::vector<ParkedPlace> read_parked(const std::filesystem::path& path);
+
+}  // namespace wavetracer

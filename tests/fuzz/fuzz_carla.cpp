@@ -1,0 +1,13 @@
+// Fuzz target: recordings of CARLA as text.
+#include "fuzz/fuzz.hpp"
+#include "motion/carla.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace wavetracer;
+  static fuzz::MemoryFile file;
+  return fuzz::accept_or_refuse([&] {
+    const TrajectoryOptions options;
+    ByteStream stream(file.write(data, size));
+    read_carla(stream, options);
+  });
+}
