@@ -253,42 +253,6 @@ void check_degrees(const Config& config, Found& out) {
       check(fmt::format("track.{}.waypoints_wgs84", i), p[1], p[2]);
 }
 
-void check_times(const std::string& key, const std::vector<std::array<double, 4>>& waypoints, size_t track,
-                 Found& out) {
-  for (size_t k = 1; k < waypoints.size(); ++k)
-    if (!(waypoints[k][0] > waypoints[k - 1][0]))
-      out.push_back({{fmt::format("track.{}.{}", track, key)},
-                     fmt::format("track.{}[{}] is at {} s, but the waypoint before it is at {} s: times must increase",
-                                 key, k, waypoints[k][0], waypoints[k - 1][0])});
-}
-
-void check_trajectories(const Config& config, Found& out) {
-  const TrajectoriesConfig& t = config.trajectories;
-  if (!t.file.empty() && !t.generate.empty())
-    out.push_back({{"trajectories.generate", "trajectories.file"},
-                   "trajectories.file and trajectories.generate exclude each other: remove one of them"});
-  const bool carried = std::ranges::any_of(config.parked, &ParkedConfig::mounts);
-  if (t.file.empty() && t.generate.empty() && config.tracks.empty() && config.live_vehicles.empty() && !carried &&
-      !config.mounts.empty())
-    out.push_back({{"mount.0"},
-                   "[[mount]] needs vehicles: give trajectories.file, trajectories.generate, a [[track]] or, for "
-                   "`wavetracer serve`, a [[live_vehicle]]"});
-  for (size_t i = 0; i < config.tracks.size(); ++i) {
-    check_times("waypoints", config.tracks[i].waypoints, i, out);
-    check_times("waypoints_wgs84", config.tracks[i].waypoints_wgs84, i, out);
-  }
-  for (size_t i = 0; i < config.parked.size(); ++i)
-    if (config.parked[i].places.empty() == config.parked[i].file.empty())
-      out.push_back({{fmt::format("parked.{}.places", i), fmt::format("parked.{}.file", i)},
-                     fmt::format("[[parked]] \"{}\" needs places or a file, {}", config.parked[i].name,
-                                 config.parked[i].places.empty() ? "and has neither" : "and not both")});
-  const TimeConfig& time = config.time;
-  if (time.start_s && time.end_s && *time.end_s < *time.start_s)
-    out.push_back({{"time.start_s", "time.end_s"},
-                   fmt::format("time.end_s = {} is before time.start_s = {}: give an end that is later than the start",
-                               *time.end_s, *time.start_s)});
-}
-
 }  // namespace
 
 std::vector<Contradiction> contradictions(const Config& config) {

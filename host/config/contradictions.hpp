@@ -17,5 +17,7 @@ std::vector<Contradiction> contradictions(const Config& config);
 
 // Of array_checks.cpp: a part of them, what concerns arrays and several carriers.
 void check_arrays(const Config& config, std::vector<Contradiction>& out);
+// Of vehicle_checks.cpp: what concerns vehicles and the time of their drive.
+void check_trajectories(const Config& config, std::vector<Contradiction>& out);
 
 }  // namespace wavetracer::config

@@ -9,9 +9,9 @@
 #include "base/pending_file.hpp"
 #include "convert/convert.hpp"
 #include "convert/vtk_glb_kml.hpp"
-#include "imports/georeference.hpp"
 #include "motion/osi_schema.hpp"
 #include "results/saved_world.hpp"
+#include "scene/georeference.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
