@@ -17,5 +17,8 @@ std::vector<Contradiction> contradictions(const Config& config);
 
 // Of array_checks.cpp: a part of them, what concerns arrays and several carriers.
 void check_arrays(const Config& config, std::vector<Contradiction>& out);
+// Of place_checks.cpp.
+void check_air(const Config& config, std::vector<Contradiction>& out);
+void check_degrees(const Config& config, std::vector<Contradiction>& out);
 
 }  // namespace wavetracer::config
