@@ -27,24 +27,6 @@ void check_scene(const SceneConfig& scene, Found& out) {
         {{"scene.generate", "scene.file"}, "scene.file and scene.generate exclude each other: remove one of them"});
 }
 
-// Ranges of the recommendations. fog: P.840 is Rayleigh scattering.
-void check_air(const Config& config, Found& out) {
-  std::vector<double> carriers = config.radio.frequencies_hz;
-  carriers.push_back(config.radio.frequency_hz);
-  const auto check = [&](bool on, const char* key, const char* recommendation, double from_hz, double to_hz) {
-    if (!on) return;
-    for (const double hz : carriers)
-      if (hz < from_hz || hz > to_hz)
-        out.push_back({{std::string("air.") + key, "radio.frequency_hz"},
-                       fmt::format("air.{}: ITU-R {} is known from {:g} to {:g} GHz, but a carrier is {:g} GHz: remove "
-                                   "air.{}",
-                                   key, recommendation, from_hz / 1e9, to_hz / 1e9, hz / 1e9, key)});
-  };
-  check(config.air.rain_mm_h > 0, "rain_mm_h", "P.838-3", 1e9, 1e12);
-  check(config.air.gases, "gases", "P.676-13", 1e9, 1e12);
-  check(config.air.fog_g_m3 > 0, "fog_g_m3", "P.840-8", 0, 200e9);
-}
-
 void check_launch(const Config& config, Found& out) {
   const uint32_t local = config.launch.local_size.value_or(1);
   if ((local & (local - 1)) != 0)
@@ -229,28 +211,6 @@ void check_ends(const Config& config, Found& out) {
         {{"station.0"},
          "one [[station]] alone has no other end to send to: add a second one, a [[receiver]], or a [[mount]] "
          "for vehicles"});
-}
-
-void check_degrees(const Config& config, Found& out) {
-  const auto check = [&](const std::string& key, double latitude, double longitude) {
-    if (std::abs(latitude) > 90 || std::abs(longitude) > 180)
-      out.push_back(
-          {{key},
-           fmt::format("latitude {} and longitude {} are no place on the earth: give the latitude first, from "
-                       "-90 to 90 degrees, then the longitude, from -180 to 180",
-                       latitude, longitude)});
-  };
-  const auto check_all = [&](const char* table, const std::vector<RadioEnd>& ends) {
-    for (size_t i = 0; i < ends.size(); ++i)
-      if (const auto& p = ends[i].position_wgs84)
-        check(fmt::format("{}.{}.position_wgs84", table, i), (*p)[0], (*p)[1]);
-  };
-  check_all("transmitter", config.transmitters);
-  check_all("receiver", config.receivers);
-  check_all("station", config.stations);
-  for (size_t i = 0; i < config.tracks.size(); ++i)
-    for (const auto& p : config.tracks[i].waypoints_wgs84)
-      check(fmt::format("track.{}.waypoints_wgs84", i), p[1], p[2]);
 }
 
 }  // namespace

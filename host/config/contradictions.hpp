@@ -19,5 +19,8 @@ std::vector<Contradiction> contradictions(const Config& config);
 void check_arrays(const Config& config, std::vector<Contradiction>& out);
 // Of vehicle_checks.cpp: what concerns vehicles and the time of their drive.
 void check_trajectories(const Config& config, std::vector<Contradiction>& out);
+// Of place_checks.cpp.
+void check_air(const Config& config, std::vector<Contradiction>& out);
+void check_degrees(const Config& config, std::vector<Contradiction>& out);
 
 }  // namespace wavetracer::config

@@ -151,10 +151,8 @@ class OsmReader {
     for (const osmium::NodeRef& node : way.nodes())
       if (node.location().valid()) line_deg.emplace_back(node.lon(), node.lat());
     const std::vector<glm::dvec2> trees = planted(line_deg);
-    if (trees.size() > most_trees_of_row || (row_trees_ += trees.size()) > most_trees_of_rows) {
-      ++map_.left_out["row of more than 1000 trees, or beyond 200,000 trees in rows"];
-      return;
-    }
+    if (trees.size() > most_trees_of_row || (row_trees_ += trees.size()) > most_trees_of_rows)
+      return void(++map_.left_out["row of more than 1000 trees, or beyond 200,000 trees in rows"]);
     size_t count = 0;
     for (const glm::dvec2& place_deg : trees) plant(place_deg, fmt::format("way_{}_{}", way.id(), ++count), way.tags());
   }

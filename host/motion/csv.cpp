@@ -52,7 +52,7 @@ class CsvReader {
 
   void read_header() {
     std::string unused;
-    size_t degrees = 0;
+    size_t in_degrees = 0;
     for (size_t i = 0; i < cells().size(); ++i) {
       const std::string name = lower_case(cells()[i]);
       const auto known = std::find(column_names.begin(), column_names.end(), name);
@@ -61,16 +61,17 @@ class CsvReader {
         unused += fmt::format("{}'{}'", unused.empty() ? "" : ", ", cells()[i]);
         continue;
       }
-      degrees += degree != degree_names.end();
+      in_degrees += degree != degree_names.end();
       size_t& column = column_[known != column_names.end() ? static_cast<size_t>(known - column_names.begin())
                                                            : static_cast<size_t>(degree->column)];
       if (column != absent)
-        fail(fmt::format("the header has the column '{}' twice{}", name, degrees > 0 ? ", in metres or degrees" : ""));
+        fail(fmt::format("the header has the column '{}' twice{}", name,
+                         in_degrees > 0 ? ", in metres or degrees" : ""));
       column = i;
     }
-    if (degrees == 1) fail("the header must have both lat and lon, which then stand in the place of x and y");
-    if (degrees > 0) tracks_.in_degrees();
-    in_degrees_ = degrees > 0;
+    if (in_degrees == 1) fail("the header must have both lat and lon, which then stand in the place of x and y");
+    if (in_degrees > 0) tracks_.in_degrees();
+    in_degrees_ = in_degrees > 0;
     for (size_t i = 0; i < needed; ++i) {
       if (column_[i] != absent) continue;
       const bool semicolons = rows_.text().find(';') != std::string_view::npos;

@@ -76,6 +76,13 @@ RawScene read_raw(const std::filesystem::path& path) {
       "{}: the file format is unknown; supported formats: Mitsuba XML, PLY, OBJ, glTF (.gltf, .glb)", path.string()));
 }
 
+// A file that says where on earth the scene is counts as one of the scene's.
+RawScene read_with_georeference(const std::filesystem::path& path) {
+  RawScene raw = read_raw(path);
+  if (const std::filesystem::path place = georeference_file(path); !place.empty()) raw.files.push_back(place.string());
+  return raw;
+}
+
 // File units and axes to metres with z up.
 void apply_units(RawScene& raw, const SceneConfig& config) {
   if (!(config.scale > 0) || !std::isfinite(config.scale)) {
@@ -107,16 +114,15 @@ Scene load_scene(const Config& config) {
                           : "both scene.file and scene.generate are set: keep one");
   }
   const EdgeSearch edges = config.trace.diffraction ? EdgeSearch::of_scene : EdgeSearch::none;
-  RawScene raw = scene.file.empty() ? generate_city(parse_city_options(scene.generate)) : read_raw(scene.file);
+  RawScene raw =
+      scene.file.empty() ? generate_city(parse_city_options(scene.generate)) : read_with_georeference(scene.file);
   add_volumes(raw, config.vegetation);
   return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, edges);
 }
 
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,
                       const std::vector<MaterialConfig>& materials, double frequency_hz, EdgeSearch edges) {
-  RawScene raw = read_raw(path);
-  if (const std::filesystem::path place = georeference_file(path); !place.empty()) raw.files.push_back(place.string());
-  return finish(std::move(raw), scene, materials, frequency_hz, edges);
+  return finish(read_with_georeference(path), scene, materials, frequency_hz, edges);
 }
 
 }  // namespace wavetracer

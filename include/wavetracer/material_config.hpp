@@ -1,0 +1,27 @@
+// The part of the configuration about radio materials.
+// A value that is not given is that of the library or of the scene file.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "wavetracer/choice.hpp"
+
+namespace wavetracer {
+
+// Whose measurements give the largest attenuation of vegetation, see VegetationLaw (wavetracer/scene.hpp).
+using Woodland = Choice<"none", "mixed", "deciduous">;
+
+struct MaterialConfig {  // [[material]]: overrides or adds a radio material by name
+  std::string name;
+  std::string library = {};  // the material of the library that it is made of; empty: that of its own name
+  std::optional<double> a = {}, b = {}, c = {}, d = {};  // ITU-R P.2040 coefficients
+  std::optional<double> permittivity = {}, conductivity_s_m = {};
+  std::optional<double> thickness_m = {};  // infinity allowed: a half space
+  std::optional<double> scattering = {}, scattering_lobe = {}, scattering_cross_polar = {};  // see Material
+  // Leaves and twigs instead of a surface, see VegetationLaw.
+  Woodland vegetation = "none";
+  bool in_leaf = true;
+  std::optional<double> attenuation_db_m = {}, max_attenuation_db = {};
+};
+
+}  // namespace wavetracer
