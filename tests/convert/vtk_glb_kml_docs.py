@@ -1,5 +1,6 @@
 """Runs the examples of docs/formats.md as they stand there: the conversions, then every block of Python.
 Run as vtk_glb_kml_docs.py PROGRAM RUN ARRAYS OUTPUT; a block whose package is missing is skipped, and said so."""
+import json
 import os
 import re
 import shlex
@@ -23,6 +24,9 @@ for kind, text in blocks:
             if words[1] == "convert":  # the run is there already
                 subprocess.run([program, *words[1:]], cwd=output, check=True, stdout=subprocess.DEVNULL)
                 done += 1
+        continue
+    if kind == "json":  # a file as it is written, not an example to run
+        json.loads(text)
         continue
     assert kind == "python", kind
     result = subprocess.run([sys.executable, "-c", text], cwd=output, capture_output=True, text=True)
