@@ -10,6 +10,7 @@
 #include <memory>
 #include <string_view>
 #include <unordered_map>
+#include "base/stage_fault.hpp"
 #include "jobs/csv_records.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
@@ -114,17 +115,26 @@ class Reader {
     using Sums = std::shared_ptr<LinkSums>;
     CsvBlocks blocks(path_);
     LinkSums all;
+    StageFault fault;
     const auto next = tbb::make_filter<void, Block>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
       const auto block = std::make_shared<std::string>();
-      if (!blocks.next(*block)) flow.stop();
-      if (header_.empty()) take_header(*block);
+      bool more = false;
+      fault.run([&] {
+        more = blocks.next(*block);
+        if (header_.empty()) take_header(*block);
+      });
+      if (!more || fault.failed()) flow.stop();
       return block;
     });
-    const auto sum = tbb::make_filter<Block, Sums>(tbb::filter_mode::parallel,
-                                                   [this](const Block& block) { return sums_of(*block); });
-    const auto add =
-        tbb::make_filter<Sums, void>(tbb::filter_mode::serial_in_order, [&all](const Sums& sums) { all.add(*sums); });
+    const auto sum = tbb::make_filter<Block, Sums>(tbb::filter_mode::parallel, [&](const Block& block) {
+      const auto sums = std::make_shared<LinkSums>();
+      fault.run([&] { add_rows(*block, *sums); });
+      return sums;
+    });
+    const auto add = tbb::make_filter<Sums, void>(tbb::filter_mode::serial_in_order,
+                                                  [&](const Sums& sums) { fault.run([&] { all.add(*sums); }); });
     tbb::parallel_pipeline(2 * static_cast<size_t>(tbb::info::default_concurrency()), next & sum & add);
+    fault.rethrow();
     return statistics(std::move(all));
   }
 
@@ -162,17 +172,15 @@ class Reader {
     block.erase(0, block.size() - text.size());
   }
 
-  std::shared_ptr<LinkSums> sums_of(std::string_view block) const {
-    auto sums = std::make_shared<LinkSums>();
+  void add_rows(std::string_view block, LinkSums& sums) const {
     std::vector<std::string> fields;
     std::string names;
     while (take_record(block, fields)) {
       if (fields.size() != header_.size()) fail("its rows differ in length");
-      sums->add({fields[at_.tx], fields[at_.rx], number(fields[at_.paths]), number(fields[at_.gain]),
-                 number(fields[at_.spread]), number(fields[at_.los]) > 0},
-                grid_of_, names);
+      sums.add({fields[at_.tx], fields[at_.rx], number(fields[at_.paths]), number(fields[at_.gain]),
+                number(fields[at_.spread]), number(fields[at_.los]) > 0},
+               grid_of_, names);
     }
-    return sums;
   }
 
   LinkStatistics statistics(LinkSums sums) const {

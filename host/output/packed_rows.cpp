@@ -10,6 +10,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include "base/stage_fault.hpp"
 #include "output/hdf5.hpp"
 #include "output/row_source.hpp"
 #include "wavetracer/error.hpp"
@@ -144,9 +145,9 @@ using WorkPointer = std::shared_ptr<Work>;
 size_t chunks_at_once() { return 4 * static_cast<size_t>(tbb::info::default_concurrency()); }
 
 // The chunks in their order.
-auto each_of(const std::vector<Chunk>& chunks, size_t& next) {
+auto each_of(const std::vector<Chunk>& chunks, size_t& next, const StageFault& fault) {
   return tbb::make_filter<void, WorkPointer>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
-    if (next == chunks.size()) {
+    if (next == chunks.size() || fault.failed()) {
       flow.stop();
       return WorkPointer();
     }
@@ -166,18 +167,22 @@ uint64_t write_chunks(const RowSource& rows, PendingFile& out, uint32_t level) {
   const std::vector<StoredTable> tables = stored_tables(file);
   const std::vector<Chunk> chunks = chunks_of(tables);
   Room room(out, size_of(file));
+  StageFault fault;
   size_t next = 0;
   const auto pack = tbb::make_filter<WorkPointer, WorkPointer>(tbb::filter_mode::parallel, [&](WorkPointer work) {
-    work->packed = deflated(shuffled(work->chunk, rows), level);
+    fault.run([&] { work->packed = deflated(shuffled(work->chunk, rows), level); });
     return work;
   });
   const auto write = tbb::make_filter<WorkPointer, void>(tbb::filter_mode::serial_in_order, [&](WorkPointer work) {
-    room.use(work->packed.size());
-    hdf5::checked(H5Dwrite_chunk(work->chunk.table->dataset, H5P_DEFAULT, 0, place_of(work->chunk).data(),
-                                 work->packed.size(), work->packed.data()),
-                  "write dataset " + work->chunk.table->path);
+    fault.run([&] {
+      room.use(work->packed.size());
+      hdf5::checked(H5Dwrite_chunk(work->chunk.table->dataset, H5P_DEFAULT, 0, place_of(work->chunk).data(),
+                                   work->packed.size(), work->packed.data()),
+                    "write dataset " + work->chunk.table->path);
+    });
   });
-  tbb::parallel_pipeline(chunks_at_once(), each_of(chunks, next) & pack & write);
+  tbb::parallel_pipeline(chunks_at_once(), each_of(chunks, next, fault) & pack & write);
+  fault.rethrow();
   file.flush();
   return size_of(file);
 }
@@ -189,26 +194,34 @@ uint64_t write_chunks(const RowSource& rows, PendingFile& out, uint32_t level) {
                   file.string(), table));
 }
 
+void read_chunk(Work& work, const fs::path& path) {
+  const StoredTable& table = *work.chunk.table;
+  const std::vector<hsize_t> place = place_of(work.chunk);
+  hsize_t size = 0;
+  uint32_t left_out = 0;
+  hdf5::checked(H5Dget_chunk_storage_size(table.dataset, place.data(), &size), "find a chunk of " + table.path);
+  if (size > compressBound(table.chunk_bytes())) refuse(path, table.path);
+  work.packed.resize(size);
+  hdf5::checked(H5Dread_chunk(table.dataset, H5P_DEFAULT, place.data(), &left_out, work.packed.data()),
+                "read " + table.path);
+  if (left_out != 0) refuse(path, table.path);
+}
+
 void prove_chunks(const RowSource& rows, const std::vector<Chunk>& chunks, const fs::path& path) {
   size_t next = 0;
+  StageFault fault;
   const auto read =
       tbb::make_filter<WorkPointer, WorkPointer>(tbb::filter_mode::serial_in_order, [&](WorkPointer work) {
-        const StoredTable& table = *work->chunk.table;
-        const std::vector<hsize_t> place = place_of(work->chunk);
-        hsize_t size = 0;
-        uint32_t left_out = 0;
-        hdf5::checked(H5Dget_chunk_storage_size(table.dataset, place.data(), &size), "find a chunk of " + table.path);
-        if (size > compressBound(table.chunk_bytes())) refuse(path, table.path);
-        work->packed.resize(size);
-        hdf5::checked(H5Dread_chunk(table.dataset, H5P_DEFAULT, place.data(), &left_out, work->packed.data()),
-                      "read " + table.path);
-        if (left_out != 0) refuse(path, table.path);
+        fault.run([&] { read_chunk(*work, path); });
         return work;
       });
   const auto compare = tbb::make_filter<WorkPointer, void>(tbb::filter_mode::parallel, [&](const WorkPointer& work) {
-    if (!inflates_to(work->packed, shuffled(work->chunk, rows))) refuse(path, work->chunk.table->path);
+    fault.run([&] {
+      if (!inflates_to(work->packed, shuffled(work->chunk, rows))) refuse(path, work->chunk.table->path);
+    });
   });
-  tbb::parallel_pipeline(chunks_at_once(), each_of(chunks, next) & read & compare);
+  tbb::parallel_pipeline(chunks_at_once(), each_of(chunks, next, fault) & read & compare);
+  fault.rethrow();
 }
 
 void prove_plain(const RowSource& rows, const StoredTable& table, const fs::path& path) {
