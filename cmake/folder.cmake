@@ -42,7 +42,20 @@ function(wavetracer_unity target)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${WAVETRACER_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
   # A type of an anonymous namespace is seen by an include of the generated file, which GCC takes for a header.
-  target_compile_options(${target} PRIVATE "$<$<BOOL:${WAVETRACER_UNITY}>:-Wno-subobject-linkage>")
+  target_compile_options(${target} PRIVATE "$<$<AND:$<BOOL:${WAVETRACER_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>")
+endfunction()
+
+# wavetracer_optimization(TARGET): for the sanitizers only what computes for long is optimized, and of other builds all but
+# the tests, since compiling is most of what a test takes.
+function(wavetracer_optimization target)
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(option "")
+  if(WAVETRACER_SANITIZE AND folder MATCHES "^(base|imports|motion|scene|accel|radio|reference)$")
+    set(option -O1)
+  elseif(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/tests/" AND CMAKE_BUILD_TYPE STREQUAL Release)
+    set(option -O1)
+  endif()
+  target_compile_options(${target} PRIVATE ${option})
 endfunction()
 
 # wavetracer_folder(NAME [DEPENDS folder...] [LIBRARIES target...] [PUBLIC_LIBRARIES target...])
@@ -53,6 +66,7 @@ function(wavetracer_folder name)
   add_library(wavetracer_${name} STATIC ${sources} ${ARG_SOURCES})
   set_target_properties(wavetracer_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   wavetracer_unity(wavetracer_${name})
+  wavetracer_optimization(wavetracer_${name})
   target_include_directories(wavetracer_${name} PRIVATE ${CMAKE_SOURCE_DIR}/host)
   file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
   wavetracer_check_includes(wavetracer_${name} SOURCES ${sources} ${headers} ALLOWED ${name} ${ARG_DEPENDS}

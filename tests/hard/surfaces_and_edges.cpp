@@ -14,9 +14,9 @@ struct Place {
 
 // A cube of concrete around the origin, 2 m wide, over a ground at z = -3 m.
 const glm::dvec3 above{6.13, 5.29, 4.37};
-constexpr Place places[] = {{"on a face", {1, 0.2, 0.1}, "LOS R"}, {"on a face that looks away", {-1, 0.2, 0.1}, ""},
-                            {"on an edge", {1, 1, 0.1}, "LOS R"},  {"at a corner", {1, 1, 1}, "LOS R"},
-                            {"on the ground", {3, -4, -3}, "LOS"}, {"at the other end", above, "R"}};
+const Place places[] = {{"on a face", {1, 0.2, 0.1}, "LOS R"}, {"on a face that looks away", {-1, 0.2, 0.1}, ""},
+                        {"on an edge", {1, 1, 0.1}, "LOS R"},  {"at a corner", {1, 1, 1}, "LOS R"},
+                        {"on the ground", {3, -4, -3}, "LOS"}, {"at the other end", above, "R"}};
 
 std::vector<Part> cube_over_ground() {
   return {{reference::box_walls({-1, -1, -1}, {1, 1, 1}), "concrete"},

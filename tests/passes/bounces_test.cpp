@@ -105,15 +105,16 @@ std::vector<Ray> launch_rays(uint32_t count, uint32_t instances) {
 TEST_CASE("what the loop over depths enters, in one launch") {
   const Traffic traffic(9, 71);
   const DeviceScene scene = traffic.upload();
-  for (const uint32_t count : {1u, 127u, 129u, 3000u})
+  const uint32_t many = context().info().platform == "Oclgrind" ? 500 : 3000;  // a millisecond a ray there
+  for (const uint32_t count : {1u, 127u, 129u, many})
     for (const uint32_t interactions : {1u, 2u, 6u}) {
       CAPTURE(count);
       CAPTURE(interactions);
       const std::vector<Ray> rays = launch_rays(count, 9);
       const Outcome loop = depth_by_depth(scene, rays, interactions);
       CHECK(at_once(scene, rays, interactions) == loop);
-      if (count == 3000) CHECK(loop.sequences.size() > 100 * interactions);
-      if (count == 3000) CHECK(loop.ended[interactions] > 20);
+      if (count == many) CHECK(loop.sequences.size() > many / 30 * interactions);
+      if (count == many) CHECK(loop.ended[interactions] > many / 150);
     }
 }
 
