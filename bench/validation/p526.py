@@ -70,7 +70,8 @@ def double_exact_db(a, b, c, h1, h2, wavelength_m):
     z = b2 - s * x
     near = z.real >= 0
     exponent = -x * x - 2 * b1 * x
-    values = np.where(near, np.exp(exponent) * wofz(1j * np.where(near, z, 1)),
-                      2 * np.exp(np.where(near, -1, exponent + z * z)) - np.exp(exponent) * wofz(-1j * np.where(near, -1, z)))
+    ahead = np.exp(exponent) * wofz(1j * np.where(near, z, 1))
+    behind = 2 * np.exp(np.where(near, -1, exponent + z * z)) - np.exp(exponent) * wofz(-1j * np.where(near, -1, z))
+    values = np.where(near, ahead, behind)
     field = np.sqrt((1 - s * s) / np.pi) / 2 * (w * values).sum()
     return -20 * np.log10(abs(field))

@@ -1,35 +1,16 @@
 """The page docs/validation.md of the results: every number in it is one of bench/validation/results/*.json, or made of them."""
-import subprocess
-
 import numpy as np
 
+import page_streets
+from page_parts import gnuplot, measured, table
+
 EDGES = "validation_edges.svg"
-FIGURES = (EDGES,)
-
-
-def table(head, rows, left=1):
-    """Markdown; the first `left` columns are texts."""
-    lines = ["| " + " | ".join(head) + " |", "| " + " | ".join(["---"] * left + ["---:"] * (len(head) - left)) + " |"]
-    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
-
-
-def measured(result):
-    return f"(`./dev validation`, {result['device']}, {result['date']})"
-
-
-def ghz(row):
-    return f"{row['frequency_hz'] / 1e9:g}"
+FIGURES = (EDGES, page_streets.LOSS)
 
 
 def ours(row):
     """The mean of vertical and horizontal waves in dB; P.526 does not tell them apart."""
     return (row["v_db"] + row["h_db"]) / 2
-
-
-def gnuplot(path, lines):
-    head = ["set terminal svg size 760,480 font 'sans-serif,13' background '#ffffff'", f"set output '{path}'",
-            "set grid lc rgb '#dddddd'"]
-    subprocess.run(["gnuplot"], input="\n".join(head + lines), text=True, check=True)
 
 
 # --- edges ---
@@ -123,9 +104,32 @@ The documents of the ITU and of 3GPP were not at hand. Their formulas are those 
 """
 
 
+CAMPAIGNS = """## Measurement campaigns
+Whoever has the files of a campaign compares them in one command. It prints per route the number of points, how many have a path, the offset (the mean of measured less computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so levels are compared up to the offset; a path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes some.
+
+```sh
+python3 -m wavetracer.measurements cost231 -c configs/measurements/cost231.toml METRO200.csv METRO201.csv METRO202.csv
+python3 -m wavetracer.measurements berlin -c configs/measurements/berlin.toml sidelink_dataframe.csv --every 10
+python3 -m wavetracer.measurements flourish -c configs/measurements/flourish.toml vehNo_01_RxCAM_HP.log
+```
+
+| campaign | files | how they are read |
+| --- | --- | --- |
+| COST 231, Munich, 947 MHz | METRO 200, 201, 202 as CSV | X, Y, Z in metres and the path loss in dB; a file per route. The transmitter is that of the configuration |
+| Berlin V2X, sidelink, 5.9 GHz | `sidelink_dataframe.parquet`, written as CSV by pandas (`to_csv`) | columns `Latitude_source`, `Longitude_source`, `Latitude_destination`, `Longitude_destination`, `Source`, `Destination`, `Scenario` and a level, `--level RSRP`, `RSSI` or `SNR`; a route per scenario and pair of cars |
+| FLOURISH, Bristol, 5.9 GHz | `NAME_RxCAM_HP.log` with `NAME_tcpDump_HP.log` beside it, as the authors' scripts grep them (github.com/v2x-dev/ITS-G5_trials) | places of receivers and levels, joined by the sender's address and the number of the message; a route per sender |
+
+The map is not part of a campaign's files: the head of each configuration in `configs/measurements` says how to make it, and has the heights of antennas. Where both ends have degrees, every row is a frame of its own, with a vehicle of the type `sender` and one of the type `receiver`; bodies are those of the configuration.
+
+**None of these files was at hand, so no number is claimed here.** The readers were written after the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which name the fields that they take by their places. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line; rows that say that they have no position or level are left out and counted.
+"""
+
+
 def text(results):
-    return "\n".join([HEAD, edges_section(results["edges"]), laws_section(results["laws"])])
+    return "\n".join([HEAD, edges_section(results["edges"]), laws_section(results["laws"]),
+                      page_streets.section(results["streets"]), CAMPAIGNS])
 
 
 def draw(results, folder):
     draw_edges(results["edges"], folder)
+    page_streets.draw(results["streets"], folder)

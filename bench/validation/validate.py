@@ -35,7 +35,12 @@ def laws():
             "room_m": room.ROOM_M, "receivers": 6 * room.POINTS**2, "reciprocity": room.reciprocity()}
 
 
-PARTS = {"edges": edges, "laws": laws}
+def streets():
+    import compare
+    return compare.all_links()
+
+
+PARTS = {"edges": edges, "laws": laws, "streets": streets}
 
 
 def results():

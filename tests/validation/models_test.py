@@ -4,6 +4,7 @@
 Usage: models_test.py FOLDER; FOLDER is bench/validation. Exits with 77 without numpy and scipy. No device is used.
 """
 import sys
+import types
 
 try:
     import numpy as np
@@ -11,6 +12,7 @@ try:
 except ImportError:
     sys.exit(77)
 sys.path.insert(0, sys.argv[1])
+import links
 import p526
 import p1411
 import tr37885
@@ -45,7 +47,8 @@ def check_3gpp():
 
 def check_p1411():
     # By hand: at 100 m and 10 GHz the logarithms are 2 and 1.
-    for kind, wanted in (("los", 42.4 + 29.2 + 21.1), ("nlos_high_rise", 80 + 10.2 + 23.6), ("nlos_low_rise", 101.2 - 4.68 + 20.2)):
+    for kind, wanted in (("los", 42.4 + 29.2 + 21.1), ("nlos_high_rise", 80 + 10.2 + 23.6),
+                         ("nlos_low_rise", 101.2 - 4.68 + 20.2)):
         near(p1411.site_general(10, 100, kind), wanted, 1e-9, kind)
     # By hand: a wavelength of 0.1 m, both antennas 2 m high: breakpoint 160 m, where the lower bound is
     # abs(20 log10(0.01 / (32 pi))) = 80.0454 dB and 160 m of free space 20 log10(4 pi 160 / 0.1) = 86.066 dB.
@@ -60,7 +63,8 @@ def check_p1411():
     near(p1411.los_millimetre(28, 100), 101.0 - 0.056, 1e-3, "28 GHz, 100 m: 88.944 - 28 + 40")
     # Around a corner: 20 dB at 30 m into the other street, continuous at both of its borders, then 60 dB per decade.
     los = p1411.los_millimetre(28, 60)
-    for x2, wanted in ((5, 0), (11, 0), (40, 20 / np.log10(31) * np.log10(30)), (41, 20), (41.0001, 20), (140, 20 + 60 * np.log10(2))):
+    for x2, wanted in ((5, 0), (11, 0), (40, 20 / np.log10(31) * np.log10(30)), (41, 20), (41.0001, 20),
+                       (140, 20 + 60 * np.log10(2))):
         near(p1411.corner(28, 60, x2, 20, 10, 1.5) - los, wanted, 0.3 if x2 == 41.0001 else 1e-9, f"corner, {x2} m")
 
 
@@ -97,8 +101,35 @@ def by_propagation(a, b, c, h1, h2, wavelength):
     return -20 * np.log10(abs(last / free))
 
 
+class Made(types.SimpleNamespace):
+    def __len__(self):
+        return len(self.tx)
+
+
+def check_figures():
+    """Two links and one without a path: two equal paths 100 ns apart from +-30 degrees, and one beside a path 40 dB down."""
+    turn = np.radians([30, -30, 90, 10])
+    paths = Made(
+        tx=np.array([0, 0, 1, 1]), rx=np.array([0, 0, 0, 0]), depth=np.array([0, 1, 1, 2]), aoa_phi_rad=turn, aod_phi_rad=2 * turn,
+        delay_s=np.array([1e-6, 1.1e-6, 1e-6, 5e-6]), frequency_hz=5e6,  # half a turn in 100 ns
+        a=np.sqrt(np.array([0.5e-8, 0.5e-8, 1e-8, 1e-12]))[:, None, None] * np.ones((1, 1, 1), complex),
+        kind=np.array(["line_of_sight", "diffracted", "reflected", "reflected"]))
+    found = links.figures(paths, 2, 2)
+    near(found["loss_db"][0], 80, 1e-9, "two halves")
+    assert found["fading_db"][0] > 150, "opposite fields cancel"
+    near(found["ds"][0] * 1e9, 50, 1e-6, "half of 100 ns")
+    near(found["asa"][0], np.degrees(np.sqrt(-2 * np.log(np.cos(np.radians(30))))), 1e-9, "TR 38.901, A-1")
+    near(found["asd"][0], np.degrees(np.sqrt(-2 * np.log(0.5))), 1e-9, "departure, +-60 degrees")
+    near(found["ds"][2], 0, 0, "what is 40 dB down does not spread")
+    near(found["asa"][2], 0, 0, "nor turn")
+    assert np.isinf(found["loss_db"][1]) and np.isnan(found["ds"][1]), "no path"
+    near(links.figures(paths, 2, 2, diffraction=False)["loss_db"][0], 80 + 10 * np.log10(2), 1e-9, "without the edge")
+    assert links.line_of_sight(paths, 2, 2).tolist() == [True, False, False, False]
+
+
 def main():
     check_3gpp()
+    check_figures()
     check_p1411()
     check_edges()
     print("all formulas hold")
