@@ -121,7 +121,7 @@ python3 -m wavetracer.measurements flourish -c configs/measurements/flourish.tom
 
 The map is not part of a campaign's files: the head of each configuration in `configs/measurements` says how to make it, and has the heights of antennas. Where both ends have degrees, every row is a frame of its own, with a vehicle of the type `sender` and one of the type `receiver`; bodies are those of the configuration.
 
-**None of these files was at hand, so no number is claimed here.** The readers were written after the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which name the fields that they take by their places. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line; rows that say that they have no position or level are left out and counted.
+**None of these files was at hand, so no number is claimed here.** The readers were written after the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which name the fields that they take by their places. These do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line; rows that say that they have no position or level are left out and counted.
 """
 
 

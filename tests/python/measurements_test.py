@@ -191,7 +191,7 @@ def check_flourish(folder):
         assert code == 3 and wanted in err, (name, err)
 
 
-def check_broken_bytes(folder, per_file=300):
+def check_broken_bytes(folder, per_file=150):
     """Whatever stands in a file, readers read it or say what is wrong with it."""
     random = np.random.default_rng(11)
     for campaign, name in (("cost231", "METRO200.csv"), ("berlin", "sidelink.csv"), ("flourish", "vehNo_01_RxCAM_HP.log"),
