@@ -56,10 +56,11 @@ def read_cost231(file: pathlib.Path, level: str) -> list[Route]:
     """A file per route (METRO 200, 201, 202): X, Y, Z in metres and the path loss in dB, separated by commas, semicolons or
     spaces, with a line of names above or without."""
     del level
-    route = Route(file.stem)
+    route, first = Route(file.stem), True
     for number, line in lines_of(file):
         cells = line.replace(";", ",").split(",") if any(mark in line for mark in ",;") else line.split()
-        if not route.receivers and number == 1 and not is_number(cells[0]):
+        named, first = first and not is_number(cells[0]), False
+        if named:
             continue  # the names of the columns
         if len(cells) != 4:
             raise InputError(f"{file}:{number}: {len(cells)} columns instead of X, Y, Z and the path loss")

@@ -124,7 +124,7 @@ def check_cost231(folder):
     code, out, err = run("cost231", "-c", folder / "cost.toml", folder / "METRO200.csv", "--every", 4)
     assert code == 0 and rows(out)["METRO200"][0] == 5, (out, err)
     for text, wanted in (("1,2,3\n", ":1: 3 columns instead"), ("1,2,3,4\n5,6,x,7\n", ":2: Z is 'x'"),
-                         ("X,Y,Z,L\n1,2,3,nan\n", ":2: the path loss is 'nan'"), ("X,Y,Z,L\n", "no point with a position")):
+                         ("\nX,Y,Z,L\n1,2,3,nan\n", ":3: the path loss is 'nan'"), ("X,Y,Z,L\n", "no point with a position")):
         (folder / "broken.csv").write_text(text)
         code, out, err = run("cost231", "-c", folder / "cost.toml", folder / "broken.csv")
         assert code == 3 and wanted in err and "broken.csv" in err, (text, err)
