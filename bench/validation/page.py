@@ -1,0 +1,135 @@
+"""The page docs/validation.md of the results: every number in it is one of bench/validation/results/*.json, or made of them."""
+import numpy as np
+
+import page_streets
+from page_parts import gnuplot, measured, table
+
+EDGES = "validation_edges.svg"
+FIGURES = (EDGES, page_streets.LOSS)
+
+
+def ours(row):
+    """The mean of vertical and horizontal waves in dB; P.526 does not tell them apart."""
+    return (row["v_db"] + row["h_db"]) / 2
+
+
+# --- edges ---
+
+def draw_edges(result, folder):
+    """Over one edge our losses and the exact ones; over two, how far ours are off."""
+    near = [row for row in result["single"] if row["frequency_hz"] == 5.9e9 and row["d1_m"] == 100]
+    pairs = [row for row in result["double"] if row["frequency_hz"] == 5.9e9 and row["nu_1"] == row["nu_2"]]
+    lines = ["set multiplot layout 1,2", "set key below", "set xlabel 'nu'", "set title 'one edge, 100 m and 100 m, 5.9 GHz'",
+             "set ylabel 'loss, dB'", "$one << END"]
+    lines += [f"{row['nu']} {row['exact_db']} {row['v_db']} {row['h_db']}" for row in near] + ["END"]
+    lines += ["plot $one using 1:2 with lines lw 2 title 'Fresnel integral', $one using 1:3 with points pt 7 title 'ours, V', "
+              "$one using 1:4 with points pt 6 title 'ours, H'", "set title 'two edges, the same nu at each, 5.9 GHz'",
+              "set ylabel 'ours (mean of V and H) - double Fresnel integral, dB'"]
+    places = sorted({(row["a_m"], row["b_m"], row["c_m"]) for row in pairs})
+    for i, place in enumerate(places):
+        lines += [f"$two{i} << END"] + [f"{row['nu_1']} {ours(row) - row['exact_db']}" for row in pairs
+                                        if (row["a_m"], row["b_m"], row["c_m"]) == place] + ["END"]
+    lines.append("plot " + ", ".join(f"$two{i} with linespoints lw 2 pt {i + 4} title '{a} + {b} + {c} m'"
+                                     for i, (a, b, c) in enumerate(places)))
+    gnuplot(folder / EDGES, lines + ["unset multiplot"])
+
+
+def difference_row(rows, reference):
+    """Largest differences of the mean of both waves, and of each of them, from a reference."""
+    mean = max(abs(ours(row) - row[reference]) for row in rows)
+    each = max(abs(row[wave] - row[reference]) for row in rows for wave in ("v_db", "h_db"))
+    return f"{mean:.2f}", f"{each:.2f}"
+
+
+def edges_section(result):
+    single, double = result["single"], result["double"]
+    ones = []
+    for f, d1, d2 in sorted({(row["frequency_hz"], row["d1_m"], row["d2_m"]) for row in single}):
+        rows = [row for row in single if (row["frequency_hz"], row["d1_m"], row["d2_m"]) == (f, d1, d2)]
+        shadow = [row for row in rows if row["nu"] > -0.78]
+        ones.append([f"{f / 1e9:g} GHz, {d1} + {d2} m", *difference_row([row for row in rows if row["nu"] <= 3], "exact_db"),
+                     *difference_row([row for row in rows if row["nu"] > 3], "exact_db"), difference_row(shadow, "p526_db")[0]])
+    twos = []
+    for low, high in ((0, 0), (0, 0.5), (0, 5), (0.5, 0.5), (1, 1), (2, 2), (5, 5)):
+        rows = [row for row in double if sorted((row["nu_1"], row["nu_2"])) == [low, high]]
+        off = [ours(row) - row["exact_db"] for row in rows]
+        theirs = [row["p526_db"] - row["exact_db"] for row in rows]
+        between = max(abs(row["v_db"] - row["h_db"]) for row in rows)
+        twos.append([f"{low:g} and {high:g}", len(rows), f"{np.median(off):+.2f}", f"{min(off):+.2f} to {max(off):+.2f}",
+                     f"{between:.1f}", f"{min(theirs):+.2f} to {max(theirs):+.2f}"])
+    deep = [ours(row) - row["exact_db"] for row in double if min(row["nu_1"], row["nu_2"]) >= 1]
+    return f"""## Edges
+Screens of metal hang in free space, and what arrives over their upper edges is compared with Recommendation ITU-R P.526-15: section 4.1 for one edge (the Fresnel integral, and its approximation), section 4.3 for two. `nu` is the parameter of section 4.1: 0 is grazing, positive is shadow; with two edges it is taken at each edge, from its end to the other edge. What section 4.3 approximates is the Fresnel integral over both half planes (L. E. Vogler, Radio Science 17, 1982), evaluated by quadrature here, so ours and P.526 are both compared with that. The recommendation does not know polarisation; "mean" is the mean of our losses with vertical and horizontal waves {measured(result)}.
+
+![Losses over one edge and over two](figures/{EDGES})
+
+One edge, `nu` from -2 to 10, largest differences in dB:
+
+{table(["", "mean, exact, nu to 3", "each wave", "mean, exact, nu 5 and 10", "each wave", "mean, P.526's approximation"], ones)}
+
+The mean follows the Fresnel integral. Waves that are vertical and horizontal part from each other where the angle of diffraction is large: that is physics of a conducting screen, which a scalar integral lacks.
+
+Two edges of one height, {len(double)} cases at 5.9 and 28 GHz, {min(row['b_m'] for row in double)} to {max(row['b_m'] for row in double)} m from each other, ours less the double integral in dB:
+
+{table(["nu at the edges", "cases", "median of the mean", "range", "V and H apart, up to", "P.526 4.3 less the integral"], twos)}
+
+**Where ours is wrong.** A coefficient of the uniform theory expects a ray as the incident field. Where the path grazes both edges, the field at the second is in the transition from light to shadow of the first, and the product of two coefficients loses too much: up to {max(ours(row) - row["exact_db"] for row in double):.1f} dB, the more the closer the edges are to each other. With `nu` of 1 or more at both edges it is off by {min(deep):+.2f} to {max(deep):+.2f} dB. Slope diffraction would mend most of the rest; it is not in the program.
+"""
+
+
+# --- laws ---
+
+def laws_section(result):
+    rows = []
+    for name, orders in result["energy"].items():
+        last = orders[-1]
+        worst = max(abs(row["program_returns_w"] / row["returns_w"] - 1) for row in orders[:-1])
+        rows.append([name, f"{orders[0]['arrives_w']:.4f}", f"{orders[1]['arrives_w']:.4f}", f"{last['returns_w']:.1e}",
+                     f"{last['taken_w']:.4f}", f"{last['taken_w'] + last['returns_w']:.4f}", f"{worst:.2%}"])
+    back = result["reciprocity"]
+    most = max(abs(orders[-1]["taken_w"] + orders[-1]["returns_w"] - 1) for orders in result["energy"].values())
+    return f"""## Energy and reciprocity
+**A closed room.** 1 W is sent in an empty room of {' x '.join(f'{side:g}' for side in result['room_m'])} m. The flux that arrives at its walls is integrated by Gauss' rule over {result['receivers']} receivers 1 mm in front of them, for every number of reflections before. What the walls take is that flux times 1 - abs(R)^2 with reflectances that the script computes itself (ITU-R P.2040-3, section 2.2.2); R is never asked of the program. All of it together is what was sent, to {most:.2%} {measured(result)}.
+
+{table(["walls", "arrives directly, W", "after one reflection", "still under way after the last", "taken by the walls", "taken and under way", "reflected power, ours to theirs, worst order"], rows)}
+
+**Ends swapped.** {back["links"]} links of a generated city with reflection, diffraction, transmission and scattering, up to three interactions, patterns of TR 38.901 with two polarisations that look anywhere; then the same with every receiver as a transmitter. {back["common"]:,} paths of {back["paths"]:,} and {back["paths_back"]:,} are found both ways; of them the coefficients between all ports differ by at most {back["worst_of_amplitude"]:.0e} of the largest, and delays by {back["worst_delay_s"] * 1e9:.0e} ns. What one way alone has found is what rays have missed, and has {back["lost_share"]:.0e} of the power. Where a radio sends and receives, links get the paths of both ways ([architecture.md](architecture.md#moving-worlds)).
+"""
+
+
+HEAD = """# Validation
+How the program compares with what others have published: recommendations, models fitted to measurements, and laws of physics. Generated by `./dev validation` from `bench/validation`, do not edit: every number below is computed. What is exact by construction and what is sampled is in [method.md](method.md).
+
+The documents of the ITU and of 3GPP were not at hand. Their formulas are those of transcriptions, which the files in `bench/validation` name beside each formula; the test `validation_models` holds them to values that others have computed.
+"""
+
+
+CAMPAIGNS = """## Measurement campaigns
+Whoever has the files of a campaign compares them in one command. It prints per route the number of points, how many have a path, the offset (the mean of measured less computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so levels are compared up to the offset; a path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes some.
+
+```sh
+python3 -m wavetracer.measurements cost231 -c configs/measurements/cost231.toml METRO200.csv METRO201.csv METRO202.csv
+python3 -m wavetracer.measurements berlin -c configs/measurements/berlin.toml sidelink_dataframe.csv --every 10
+python3 -m wavetracer.measurements flourish -c configs/measurements/flourish.toml vehNo_01_RxCAM_HP.log
+```
+
+| campaign | files | how they are read |
+| --- | --- | --- |
+| COST 231, Munich, 947 MHz | METRO 200, 201, 202 as CSV | X, Y, Z in metres and the path loss in dB; a file per route. The transmitter is that of the configuration |
+| Berlin V2X, sidelink, 5.9 GHz | `sidelink_dataframe.parquet`, written as CSV by pandas (`to_csv`) | columns `Latitude_source`, `Longitude_source`, `Latitude_destination`, `Longitude_destination`, `Source`, `Destination`, `Scenario` and a level, `--level RSRP`, `RSSI` or `SNR`; a route per scenario and pair of cars |
+| FLOURISH, Bristol, 5.9 GHz | `NAME_RxCAM_HP.log` with `NAME_tcpDump_HP.log` beside it, as the authors' scripts grep them (github.com/v2x-dev/ITS-G5_trials) | places of receivers and levels, joined by the sender's address and the number of the message; a route per sender |
+
+The map is not part of a campaign's files: the head of each configuration in `configs/measurements` says how to make it, and has the heights of antennas. Where both ends have degrees, every row is a frame of its own, with a vehicle of the type `sender` and one of the type `receiver`; bodies are those of the configuration, and look east, because headings are not read.
+
+**None of these files was at hand, so no number is claimed here.** The readers were written after the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which name the fields that they take by their places. These do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line; rows that say that they have no position or level are left out and counted.
+"""
+
+
+def text(results):
+    return "\n".join([HEAD, edges_section(results["edges"]), laws_section(results["laws"]),
+                      page_streets.section(results["streets"]), CAMPAIGNS])
+
+
+def draw(results, folder):
+    draw_edges(results["edges"], folder)
+    page_streets.draw(results["streets"], folder)

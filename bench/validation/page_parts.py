@@ -1,0 +1,22 @@
+"""What the parts of docs/validation.md are written and drawn with."""
+import subprocess
+
+
+def table(head, rows, left=1):
+    """Markdown; the first `left` columns are texts."""
+    lines = ["| " + " | ".join(head) + " |", "| " + " | ".join(["---"] * left + ["---:"] * (len(head) - left)) + " |"]
+    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
+
+
+def measured(result):
+    return f"(`./dev validation`, {result['device']}, {result['date']})"
+
+
+def ghz(row):
+    return f"{row['frequency_hz'] / 1e9:g}"
+
+
+def gnuplot(path, lines, size="760,480"):
+    head = [f"set terminal svg size {size} font 'sans-serif,13' background '#ffffff'", f"set output '{path}'",
+            "set grid lc rgb '#dddddd'"]
+    subprocess.run(["gnuplot"], input="\n".join(head + lines), text=True, check=True)
