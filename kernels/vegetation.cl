@@ -25,8 +25,8 @@ kernel void vegetation(const global wt_bvh2_node* nodes, const global wt_volume*
                        const global wt_counters* counters, global double* lengths, wt_vegetation_arguments args) {
   const uint i = get_global_id(0);
   if (i >= wt_length(counters, args.visible_counter, args.visible_count)) return;
-  double inside[WT_MOST_KINDS];
-  for (uint kind = 0; kind < WT_MOST_KINDS; ++kind) inside[kind] = 0.0;
+  ulong inside[WT_MOST_KINDS];
+  for (uint kind = 0; kind < WT_MOST_KINDS; ++kind) inside[kind] = 0;
   const global double* v = vertices + 3 * (size_t)args.max_depth * i;
   const uint depth = visible[i].depth;
   double3 from = transmitters[visible[i].transmitter].xyz;
@@ -47,12 +47,13 @@ kernel void vegetation(const global wt_bvh2_node* nodes, const global wt_volume*
           continue;
         }
         for (uint k = wt_leaf_first(child); k < wt_leaf_end(child); ++k)
-          inside[volumes[k].kind] += wt_length_inside(volumes + k, triangles, from, to);
+          inside[volumes[k].kind] += wt_parts_of_length(wt_length_inside(volumes + k, triangles, from, to));
       }
       if (waiting == 0) break;
       next = stack[--waiting];
     }
     from = to;
   }
-  for (uint kind = 0; kind < args.kinds; ++kind) lengths[(size_t)i * args.kinds + kind] = inside[kind];
+  for (uint kind = 0; kind < args.kinds; ++kind)
+    lengths[(size_t)i * args.kinds + kind] = wt_length_of_parts(inside[kind]);
 }

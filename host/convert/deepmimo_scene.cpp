@@ -64,6 +64,9 @@ DeepmimoScene::DeepmimoScene(const SavedRun& run, Warnings& warnings)
     : world_(load_saved_world(run)), frequency_hz_(run.frequency_hz()) {
   for (const SavedInstance& instance : run.instances()) vehicles_.push_back(instance.id);
   for (const std::string& warning : world_.warnings) warnings.push_back("deepmimo: " + warning);
+  if (const size_t volumes = world_.scene.volumes.size(); volumes > 0)
+    warnings.push_back(
+        fmt::format("deepmimo: {} volumes of vegetation are no objects of the scene that is written", volumes));
   first_material_.push_back(0);
   auto next = static_cast<uint32_t>(world_.scene.materials.size());
   for (const Scene& model : world_.models) {

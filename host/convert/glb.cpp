@@ -4,34 +4,22 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 #include "convert/convert.hpp"
 #include "convert/glb_file.hpp"
 #include "convert/glb_lines.hpp"
+#include "convert/glb_materials.hpp"
 #include "convert/glb_tracks.hpp"
 #include "convert/vtk_glb_kml.hpp"
 #include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
+#include "scene/volume_surface.hpp"
 
 namespace wavetracer {
 namespace {
 
 using nlohmann::json;
-
-// Colours of materials as people expect them, linear.
-json base_colour(const std::string& material) {
-  static constexpr struct {
-    const char* name;
-    std::array<double, 3> colour;
-  } known[] = {{"brick", {0.35, 0.11, 0.07}},          {"glass", {0.25, 0.45, 0.55}},
-               {"metal", {0.35, 0.38, 0.42}},          {"wood", {0.30, 0.17, 0.07}},
-               {"marble", {0.60, 0.56, 0.50}},         {"asphalt_concrete", {0.05, 0.05, 0.055}},
-               {"wet_ground", {0.08, 0.10, 0.06}},     {"medium_dry_ground", {0.13, 0.13, 0.08}},
-               {"very_dry_ground", {0.25, 0.20, 0.12}}};
-  for (const auto& entry : known)
-    if (material == entry.name) return {entry.colour[0], entry.colour[1], entry.colour[2], 1.0};
-  return {0.32, 0.32, 0.31, 1.0};  // as concrete
-}
 
 class GlbWriter {
  public:
@@ -43,6 +31,7 @@ class GlbWriter {
   }
 
   void add_scene();
+  void add_vegetation();
   void add_vehicles(const std::vector<NodeTrack>& tracks);
   void add_ends(const std::vector<NodeTrack>& transmitters, const std::vector<NodeTrack>& receivers);
   void add_paths(const SavedFrame& frame, Warnings& warnings);
@@ -77,22 +66,37 @@ class GlbWriter {
   std::optional<size_t> line_material_, all_times_;
 };
 
-// One a radio material, under its name; its law stands in extras, so that a custom one is not lost.
+// One a radio material, under its name.
 size_t GlbWriter::material(const Material& material) {
   for (const auto& [known, index] : materials_)
     if (known == material) return index;
-  json law{{"a", material.a}, {"b", material.b}, {"c", material.c}, {"d", material.d}};
-  if (std::isfinite(material.thickness_m)) law["thickness_m"] = material.thickness_m;
-  if (material.scattering > 0) law["scattering"] = material.scattering;
-  const size_t index =
-      file_.add("materials",
-                {{"name", material.name},
-                 {"doubleSided", true},
-                 {"pbrMetallicRoughness",
-                  {{"baseColorFactor", base_colour(material.name)}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}},
-                 {"extras", std::move(law)}});
+  const size_t index = file_.add("materials", glb_material(material));
   materials_.emplace_back(material, index);
   return index;
+}
+
+// One node a material, whose mesh is all of its volumes: translucent, and closed, so that they can be read back.
+void GlbWriter::add_vegetation() {
+  const Scene& scene = world_.scene;
+  if (scene.volumes.empty()) return;
+  const size_t parent = child(root_, {{"name", "vegetation"}});
+  for (uint32_t m = 0; m < scene.materials.size(); ++m) {
+    std::vector<glm::vec3> positions;
+    for (const Volume& volume : scene.volumes) {
+      if (volume.material != m) continue;
+      for (const auto& triangle : surface_triangles(volume))
+        positions.insert(positions.end(), triangle.begin(), triangle.end());
+    }
+    if (positions.empty()) continue;
+    std::vector<uint32_t> indices(positions.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    const json primitive{{"attributes", {{"POSITION", file_.add_positions(positions)}}},
+                         {"indices", file_.add_indices(indices)},
+                         {"material", material(scene.materials[m])}};
+    const std::string& name = scene.materials[m].name;
+    const size_t mesh = file_.add("meshes", {{"name", name}, {"primitives", {primitive}}});
+    child(parent, {{"name", name}, {"mesh", mesh}});
+  }
 }
 
 // Of paths and markers: the colours of their vertices, whatever the light.
@@ -277,6 +281,7 @@ Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& 
   GlbWriter writer(run, world);
   writer.set_times(tracks.times_s);
   writer.add_scene();
+  writer.add_vegetation();
   writer.add_vehicles(tracks.vehicles);
   writer.add_paths(first, warnings);
   if (const std::optional<SavedWaypoints> waypoints = saved_waypoints(run))

@@ -9,6 +9,7 @@
 #include "output/path_kinds.hpp"
 #include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
+#include "scene/volume_surface.hpp"
 
 namespace wavetracer {
 namespace {
@@ -64,6 +65,29 @@ VtkFile scene_file(const Scene& scene) {
   file.add(VtkFile::cell_data, "object", scene.triangle_object);
   file.add(VtkFile::field_data, "material_names", names_of(scene.materials, &Material::name));
   file.add(VtkFile::field_data, "object_names", scene.objects);
+  return file;
+}
+
+VtkFile vegetation_file(const Scene& scene) {
+  std::vector<glm::dvec3> points;
+  std::vector<int64_t> corners, ends;
+  std::vector<uint32_t> material, number;
+  for (uint32_t i = 0; i < scene.volumes.size(); ++i)
+    for (const auto& triangle : surface_triangles(scene.volumes[i])) {
+      for (const glm::dvec3& corner : triangle) {
+        corners.push_back(static_cast<int64_t>(points.size()));
+        points.push_back(scene.origin_m + corner);
+      }
+      ends.push_back(static_cast<int64_t>(points.size()));
+      material.push_back(scene.volumes[i].material);
+      number.push_back(i);
+    }
+  VtkFile file;
+  file.add_points(points);
+  file.add_cells(VtkFile::polys, corners, ends);
+  file.add(VtkFile::cell_data, "material", material);
+  file.add(VtkFile::cell_data, "volume", number);
+  file.add(VtkFile::field_data, "material_names", names_of(scene.materials, &Material::name));
   return file;
 }
 
@@ -220,6 +244,10 @@ Written export_vtk(const SavedRun& run, const ExportOptions& options, Warnings& 
   if (!world.scene.triangles.empty()) {
     put(folder, "scene.vtp", scene_file(world.scene));
     constant.push_back("scene.vtp");
+  }
+  if (!world.scene.volumes.empty()) {
+    put(folder, "vegetation.vtp", vegetation_file(world.scene));
+    constant.push_back("vegetation.vtp");
   }
   if (VtkFile edges; add_edges(edges, world.scene, world.config.trace.free_edges)) {
     put(folder, "edges.vtp", edges);

@@ -116,14 +116,17 @@ std::vector<double> lengths_inside(const VolumeTable& table, const device::wt_pa
   const size_t kinds = table.material.size();
   std::vector<double> out(count * kinds);
   tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+    std::vector<uint64_t> inside(kinds);
     const device::wt_path path = device::wt_path_of(&list, static_cast<uint32_t>(2 * i));
     glm::dvec3 from = path.from;
     for (uint32_t leg = 0; leg <= path.depth; ++leg) {
       const glm::dvec3 to = leg < path.depth ? device::wt_vertex(&path, leg) : path.to;
       for (const device::wt_volume& volume : table.volumes)
-        out[i * kinds + volume.kind] += device::wt_length_inside(&volume, table.triangles.data(), from, to);
+        inside[volume.kind] +=
+            device::wt_parts_of_length(device::wt_length_inside(&volume, table.triangles.data(), from, to));
       from = to;
     }
+    std::ranges::transform(inside, out.begin() + static_cast<ptrdiff_t>(i * kinds), device::wt_length_of_parts);
   });
   return out;
 }

@@ -88,8 +88,8 @@ std::vector<TriangleGrid::Crossing> TriangleGrid::crossings(const dvec3& a, cons
     }
   });
   std::ranges::sort(out, {}, [](const Crossing& c) { return std::pair(c.distance_m, c.triangle); });
-  const auto same = [](const Crossing& a, const Crossing& b) { return a.triangle == b.triangle; };
-  out.erase(std::unique(out.begin(), out.end(), same), out.end());  // a triangle may be in several cells
+  const auto repeated = std::ranges::unique(out, {}, &Crossing::triangle);  // a triangle may be in several cells
+  out.erase(repeated.begin(), repeated.end());
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Triangles keep their surface, surfaces their material and object, wedges their faces: what a click can ask for.
 // Outlines are the edges that are not flat.
 #include "viewer/scene_blocks.hpp"
+#include "scene/volume_surface.hpp"
 #include "viewer/blocks.hpp"
 
 namespace wavetracer {
@@ -41,6 +42,24 @@ nlohmann::json add_scene_blocks(const Scene& scene, const std::string& prefix, c
   nlohmann::json materials = nlohmann::json::array();
   for (const Material& material : scene.materials) materials.push_back(material.name);
   return {{"prefix", prefix}, {"materials", materials}, {"objects", scene.objects}};
+}
+
+nlohmann::json add_vegetation_block(const Scene& scene, const glm::dvec3& from_centre_m, std::string& elements) {
+  Packer corners;
+  nlohmann::json rows = nlohmann::json::array();
+  for (uint32_t material = 0; material < scene.materials.size(); ++material) {
+    size_t triangles = 0;
+    for (const Volume& volume : scene.volumes) {
+      if (volume.material != material) continue;
+      for (const auto& triangle : surface_triangles(volume)) {
+        for (const glm::dvec3& corner : triangle) corners.add(corner + from_centre_m);
+        ++triangles;
+      }
+    }
+    if (triangles > 0) rows.push_back({scene.materials[material].name, triangles});
+  }
+  if (!rows.empty()) elements += block_element("vegetation", corners);
+  return rows;
 }
 
 }  // namespace wavetracer

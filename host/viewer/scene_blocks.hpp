@@ -13,4 +13,7 @@ namespace wavetracer {
 nlohmann::json add_scene_blocks(const Scene& scene, const std::string& prefix, const glm::dvec3& from_centre_m,
                                 bool free_edges, std::string& elements);
 
+// Appends the triangles of volumes of vegetation, by material; returns [name, number of triangles] of each material.
+nlohmann::json add_vegetation_block(const Scene& scene, const glm::dvec3& from_centre_m, std::string& elements);
+
 }  // namespace wavetracer

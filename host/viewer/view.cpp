@@ -218,6 +218,7 @@ ViewPage make_view(const SavedRun& run, const SavedWorld& world, const ViewOptio
                {"grids", grid_rows},
                {"scene", scene},
                {"models", models},
+               {"vegetation", add_vegetation_block(world.scene, world.scene.origin_m - centre, elements)},
                {"rays", rays},
                {"warnings", page.warnings}});
   const uint64_t taken = form_bytes + scripts.size() + elements.size() + meta_text(meta).size();

@@ -160,6 +160,12 @@ def check(folder, name, rows):
     assert colour[legs[0, 1], 1] > colour[legs[1, 1], 1]  # the first segment is the brighter
 
 
+# What can be looked through: vegetation alone.
+root, _ = chunks(os.path.join(sys.argv[1], "one.glb"))
+green = {material["name"]: material["extras"] for material in root["materials"] if material.get("alphaMode") == "BLEND"}
+assert green == {"vegetation": {"vegetation": "mixed", "in_leaf": True},
+                 "hedge": {"vegetation": "deciduous", "in_leaf": True, "attenuation_db_m": 1.5}}, green
+assert set(children(root, "vegetation")) == set(green)
 check(sys.argv[1], "one.glb", [2])
 check(sys.argv[1], "drive.glb", [0, 1, 2, 3])
 print("glb: as glTF 2.0 asks, and as in paths.h5")

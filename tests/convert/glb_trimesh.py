@@ -28,7 +28,7 @@ def area(corner):
     return np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1).sum() / 2
 
 
-parts = [triangles(name) for name in ("scene.vtp", "vehicles_00004.vtp")]
+parts = [triangles(name) for name in ("scene.vtp", "vegetation.vtp", "vehicles_00004.vtp")]
 expected, material = np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
 scene = trimesh.load(os.path.join(sys.argv[1], "one.glb"), process=False)
 found = {}

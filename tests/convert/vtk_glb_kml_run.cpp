@@ -17,6 +17,24 @@ time = {start_s = 0.0, end_s = 0.5, step_s = 0.1}
 [[material]]
 name = "brick"
 permittivity = 4.0
+[[material]]
+name = "hedge"
+vegetation = "deciduous"
+attenuation_db_m = 1.5
+[[vegetation]]
+centre_m = [5.0, 6.0, 6.0]
+size_m = [4.0, 5.0, 6.0]
+[[vegetation]]
+shape = "box"
+centre_m = [-6.0, 6.0, 1.0]
+size_m = [8.0, 1.0, 2.0]
+yaw_deg = 90.0
+material = "hedge"
+[[vegetation]]
+shape = "cylinder"
+centre_m = [-6.0, 20.0, 1.0]
+size_m = [2.0, 2.0, 4.0]
+material = "hedge"
 [[transmitter]]
 name = "<rsu> & \"co\" é"
 position_m = [8.0, 7.5, 6.0]

@@ -6,11 +6,14 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numbers>
+#include <tuple>
 #include "base/file.hpp"
 #include "convert/convert.hpp"
 #include "convert/kml_text.hpp"
 #include "results/saved_world.hpp"
 #include "scene/load.hpp"
+#include "scene/volume_surface.hpp"
 #include "vtk_glb_kml_run.hpp"
 #include "wavetracer/error.hpp"
 
@@ -87,13 +90,61 @@ TEST_CASE("our own loader reads a .glb back: triangles, areas, extents and mater
     CHECK(glm::distance(found[name].upper, amount.upper) < 1e-4);
   }
   for (const std::string& object : world.scene.objects) CHECK(std::ranges::count(read.objects, object) == 1);
+
+  // Vegetation comes back as volumes, of its materials and sizes.
+  REQUIRE(world.scene.volumes.size() == 3);
+  REQUIRE(read.volumes.size() == 3);
+  for (const Volume& volume : world.scene.volumes) {
+    const bool turned = volume.yaw_rad != 0;
+    const glm::dvec3 half =
+        turned ? glm::dvec3(volume.half_size.y, volume.half_size.x, volume.half_size.z) : volume.half_size;
+    const glm::dvec3 centre = world.scene.origin_m + volume.centre;
+    CHECK(std::ranges::count_if(read.volumes, [&](const Volume& other) {
+            return read.materials[other.material].name == world.scene.materials[volume.material].name &&
+                   glm::distance(read.origin_m + other.centre, centre) < 1e-4 &&
+                   glm::distance(other.half_size, half) < 1e-4;
+          }) == 1);
+  }
+}
+
+TEST_CASE("DeepMIMO's scene has no vegetation, and the export says so") {
+  Warnings warnings;
+  ExportOptions one = options("mimo");
+  one.last_row = 0;
+  export_deepmimo(run(), one, warnings);
+  CHECK(std::ranges::count(warnings, "deepmimo: 3 volumes of vegetation are no objects of the scene that is written") ==
+        1);
+}
+
+TEST_CASE("a volume's triangles are closed, look outwards, and hold nearly all of it") {
+  const double all[] = {8, 2 * std::numbers::pi, 4 * std::numbers::pi / 3};
+  for (const VolumeShape shape : {VolumeShape::box, VolumeShape::cylinder, VolumeShape::spheroid}) {
+    const Volume volume{.shape = shape, .centre = {50, -20, 7}, .half_size = {2, 3, 0.5}, .yaw_rad = 0.7};
+    double volume_m3 = 0;
+    std::map<std::array<double, 6>, int> edges;
+    for (const auto& corners : surface_triangles(volume)) {
+      volume_m3 +=
+          glm::dot(corners[0] - volume.centre, glm::cross(corners[1] - volume.centre, corners[2] - volume.centre)) / 6;
+      CHECK(glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0])) > 0.01);
+      for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % 3];
+        const bool up = std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+        const glm::dvec3 &p = up ? a : b, &q = up ? b : a;
+        edges[{p.x, p.y, p.z, q.x, q.y, q.z}] += up ? 1 : -1;
+      }
+    }
+    for (const auto& [edge, passes] : edges) CHECK(passes == 0);
+    const double share = volume_m3 / (3 * all[static_cast<size_t>(shape)]);
+    CHECK(share <= 1 + 1e-12);
+    CHECK(share > (shape == VolumeShape::box ? 1 - 1e-12 : 0.92));
+  }
 }
 
 TEST_CASE("files for the scripts: a drive as .glb, a folder for ParaView, a .kml with the strongest paths") {
   Warnings warnings;
   CHECK(export_glb(run(), options("drive.glb"), warnings).size() == 1);
   const Written vtk = export_vtk(run(), options("vtk"), warnings);
-  CHECK(vtk.size() == 1 + 2 + 4 * test::frame_count);
+  CHECK(vtk.size() == 1 + 3 + 4 * test::frame_count);
   for (const fs::path& file : vtk) CHECK(fs::exists(file));
   CHECK_THROWS_AS(export_vtk(run(), options("vtk"), warnings), InputError);  // the folder is there already
   CHECK(warnings.empty());

@@ -82,7 +82,7 @@ struct Corner {
   CVector geometrical(const glm::dvec3& source, const glm::dvec3& receiver, const glm::dvec3& moment, int order) const {
     const glm::dvec3 k = glm::normalize(receiver - source);
     CVector direct = sent(moment, k), total{0};
-    double part[2];
+    double part[2] = {};
     const bool met[2] = {passes(source, receiver, 0, part[0]),
                          exterior_rad < 2 * std::numbers::pi && passes(source, receiver, 1, part[1])};
     const size_t first = met[0] && met[1] ? part[1] < part[0] : met[1];

@@ -142,6 +142,22 @@ TEST_CASE("fields on the device are the host's to the last bit: rough surfaces")
   CHECK(check_same(config, 1)[scattering] > 200);
 }
 
+TEST_CASE("fields on the device are the host's to the last bit: behind crowns, several of one kind") {
+  Config config = town(50000, 3);
+  for (int i = 0; i < 6; ++i) {
+    VegetationConfig& crown = config.vegetation.emplace_back();
+    crown.centre_m = {-60.0 + 23 * i, 4.0 - 2 * i, 5};
+    crown.size_m = {9, 8, 9};
+    crown.material = i % 2 ? "vegetation" : "deciduous_vegetation";
+  }
+  for (const char* name : {"vegetation", "deciduous_vegetation"}) {
+    MaterialConfig& leaves = config.materials.emplace_back();
+    leaves.name = name;
+    leaves.vegetation = "mixed";
+  }
+  check_same(config, 1);
+}
+
 TEST_CASE("fields on the device are the host's to the last bit: vehicles that drive, with Doppler shifts") {
   Config config = town(50000, 3);
   config.receivers.clear();

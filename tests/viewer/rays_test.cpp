@@ -1,4 +1,4 @@
-// Sampled rays on the page of a run, and how many of them. Writes the page that rays_page.py opens.
+// Sampled rays and vegetation on the page of a run. Writes the pages that rays_page.py and vegetation_page.py open.
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -37,4 +37,20 @@ TEST_CASE("sampled rays: on the page where a run holds them, and thinned out whe
   const RayBlocks one_frame = add_ray_blocks(waypoints, {1}, {0, 0, 0}, 8 * 20, elements);
   CHECK(one_frame.frames == nlohmann::json{7});
   CHECK(one_frame.warning.empty());
+}
+
+TEST_CASE("vegetation has triangles of its own, by material; a page without it has none") {
+  const std::string trees =
+      "generate = \"--seed 1 --blocks 2x2\"\n[[vegetation]]\ncentre_m = [-26.0, 2.0, 4.0]\nsize_m = [12.0, 10.0, 8.0]\n"
+      "[[vegetation]]\nshape = \"box\"\ncentre_m = [20.0, 0.0, 1.0]\nsize_m = [2.0, 8.0, 2.0]\n"
+      "material = \"deciduous_vegetation\"\n";
+  test::write_made_run({.frames = 1, .scene = trees}, pages / "green");
+  const ViewPage page = make_view(SavedRun(pages / "green"), {});
+  write_file(pages / "green" / "view.html", page.html);
+  CHECK(page.warnings.empty());
+  CHECK(page.html.find(R"("vegetation":[["vegetation",224],["deciduous_vegetation",16]])") != std::string::npos);
+  CHECK(page.html.find("id=\"block_vegetation\"") != std::string::npos);
+  const std::string without = make_view(SavedRun(pages / "without_rays"), {}).html;
+  CHECK(without.find("\"vegetation\":[]") != std::string::npos);
+  CHECK(without.find("id=\"block_vegetation\"") == std::string::npos);
 }

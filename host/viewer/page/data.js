@@ -132,6 +132,11 @@ function decode_scene(description) {
 
 const city = decode_scene(meta.scene);
 const models = meta.models.map(decode_scene);
+// Of each material of vegetation its name and the corners of its triangles.
+const vegetation = (() => {
+  const from = new Columns(block("vegetation"));
+  return meta.vegetation.map(([name, triangles]) => [name, from.take(Float32Array, 9 * triangles)]);
+})();
 const streets = {
   vertices: new Float32Array(block("street_vertices")), triangles: new Uint32Array(block("street_triangles")),
 };

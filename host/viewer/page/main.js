@@ -207,6 +207,7 @@ function apply_toggles() {
   lines.through_houses(control("show_hidden").checked);
   world.city.visible = control("show_city").checked;
   world.streets.visible = control("show_streets").checked;
+  world.vegetation.visible = control("show_vegetation").checked;
   world.vehicles.visible = control("show_vehicles").checked;
   world.edges.visible = control("show_edges").checked;
   state.labels = control("show_labels").checked;
@@ -265,6 +266,8 @@ function write_facts() {
     control("materials").append(legend_entry(material_colour(name), name));
   control("show_streets").parentElement.hidden = !streets.triangles.length;
   if (streets.triangles.length) control("materials").append(legend_entry(street_colour, "streets"));
+  control("show_vegetation").parentElement.hidden = !vegetation.length;
+  vegetation.forEach(([name], number) => control("materials").append(legend_entry(vegetation_colour(number), name)));
 }
 
 // The second click of a double click chooses nothing.

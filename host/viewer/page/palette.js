@@ -39,6 +39,10 @@ const other_materials = ["#a08fb0", "#8fb09a", "#b0a58f", "#8f9db0", "#b08f9a"];
 
 const street_colour = "#93969b";
 
+// Of vegetation, in the order of its materials.
+const vegetation_colours = ["#4f9a55", "#8aa83c", "#2f8f7a", "#6f8a4a"], vegetation_opacity = 0.3;
+const vegetation_colour = (number) => vegetation_colours[number % vegetation_colours.length];
+
 // Flat roofs are paler than the ground of the same material.
 const roof_share = 0.45, roof_tint = "#ffffff";
 

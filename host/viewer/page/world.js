@@ -62,6 +62,17 @@ function street_mesh() {
   return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({side: THREE.DoubleSide}));
 }
 
+// Crowns and woods, to be looked through: they hide nothing, and paths lie on top of them.
+function vegetation_mesh(positions) {
+  const geometry = geometry_of(positions);
+  geometry.computeVertexNormals();
+  const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({
+    side: THREE.DoubleSide, transparent: true, opacity: vegetation_opacity, depthWrite: false,
+  }));
+  mesh.renderOrder = 1;
+  return mesh;
+}
+
 class WorldView {
   constructor() {
     this.scene = new THREE.Scene();
@@ -70,7 +81,9 @@ class WorldView {
     this.vehicles = new THREE.Group();
     this.edges = new THREE.Group();
     this.edges.visible = false;
-    this.scene.add(this.city, this.streets, this.vehicles, this.edges);
+    this.vegetation = new THREE.Group();
+    for (const [, positions] of vegetation) this.vegetation.add(vegetation_mesh(positions));
+    this.scene.add(this.city, this.streets, this.vehicles, this.edges, this.vegetation);
     this.solids = [];  // [mesh, name of its material, whether it is of flat roofs]
     for (const [name, roof, positions] of corners_by_material(city)) {
       const mesh = solid(positions, "#ffffff");
@@ -112,6 +125,7 @@ class WorldView {
       mesh.material.color.multiplyScalar(theme().city_light);
     }
     this.streets.material.color.set(street_colour).multiplyScalar(theme().city_light);
+    this.vegetation.children.forEach((mesh, number) => mesh.material.color.set(vegetation_colour(number)));
     this.outline_material.color.set(theme().outline);
     this.edge_material.color.set(theme().wedge);
     this.vehicle_material.color.set(theme().vehicle);
@@ -158,7 +172,10 @@ function box_of_run(with_city) {
         }
   };
   if (meta.ends_m) for (const corner of meta.ends_m) grow(corner);
-  if (with_city || lower[0] > upper[0]) grow(city.vertices);
+  if (with_city || lower[0] > upper[0]) {
+    grow(city.vertices);
+    for (const [, positions] of vegetation) grow(positions);
+  }
   if (lower[0] > upper[0]) return [[-10, -10, 0], [10, 10, 5]];
   return [lower, upper];
 }

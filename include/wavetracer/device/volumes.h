@@ -90,6 +90,10 @@ inline double wt_length_in_mesh(const WT_GLOBAL double* triangles, wt_uint count
   return fmin(fmax(inside, 0.0), length_m);
 }
 
+// Lengths are summed as whole parts of a metre, of which it has 2^40: then no sum depends on the order of its terms.
+inline wt_ulong wt_parts_of_length(double length_m) { return (wt_ulong)(length_m * 1099511627776.0 + 0.5); }
+inline double wt_length_of_parts(wt_ulong parts) { return (double)parts / 1099511627776.0; }
+
 // How much of the leg is inside of the volume, in metres. triangles: nine doubles each, of all meshes.
 inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_double3 from,
                                wt_double3 to) {
