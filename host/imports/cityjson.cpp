@@ -65,6 +65,8 @@ class CityJsonReader {
       throw InputError(
           fmt::format("{}: not well-formed JSON; {}",
                       line_of(content, static_cast<std::ptrdiff_t>(error.byte > 0 ? error.byte - 1 : 0), name_), hint));
+    } catch (const Json::out_of_range&) {
+      throw InputError(fmt::format("{}: holds a number that is too large to be one", name_));
     }
   }
 

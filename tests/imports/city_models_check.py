@@ -206,7 +206,7 @@ def check_terrain(source):
             continue
         key = name.split(" ")[1]
         west = {"house": 0, "court": 30, "tower": 80, "hall": 80}[key]  # tower and hall stand together
-        foot = BASE - 4 + rise * west - FOUNDATION
+        foot = min(BASE + BASES[key], BASE - 4 + rise * west) - FOUNDATION
         assert abs(mesh.bounds[0][2] - foot) < 0.02, (name, mesh.bounds, foot)
         top = BASE + BASES[key] + {"house": 10, "court": 15, "tower": 40, "hall": 8}[key]
         assert abs(mesh.bounds[1][2] - top) < 0.002, (name, mesh.bounds, top)

@@ -125,6 +125,7 @@ TEST_CASE("broken city models are refused with the place and the reason") {
   refused(R"({"type":"CityJSON","version":"0.9","CityObjects":{},"vertices":[]})", "upgrade");
   refused(R"({"type":"CityJSONFeature","CityObjects":{},"vertices":[]})", "is not \"CityJSON\"");
   refused(R"({"type":"CityJSON","version":"2.0","CityObjects":[],"vertices":[]})", "CityObjects");
+  refused(city_json(gable_house(), "[[0,0,1e999]]"), "too large");
   refused(city_json(gable_house(), "[[0,0]]"), "vertices/0: must be three numbers");
   refused(city_json(gable_house(), "[[0,0,0]]"), "names vertex 3, but they are 0 to 0");
   refused(city_json(building("b", solid("x", gable_solid))), "CityObjects/b/geometry/0: lod");
