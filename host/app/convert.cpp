@@ -155,37 +155,23 @@ for (const std::string& warning : summary.warnings) std::cerr << "warning: " << 
 std::cout << describe(summary);
 }  // namespace
 
-}  // namespace wavetracer::app
-
-void add_convert(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("convert", "Convert a run to the format of another program, or a city map to a scene");
-  const auto options = std::make_shared<ConvertOptions>();
-  command->add_option(
-      "INPUT", options->input,
-      "The folder of a run, its paths.h5, or a map (.osm, .osm.pbf, .poly.xml, or what GDAL opens: .gpkg, "
-      ".shp, .geojson, .fgb and many more)");
-  command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
-  command->add_option("-o,--output", options->output, "File or folder to write; which of them depends on the format");
-  command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all frames if not given");
-  command->add_option("--projection", options->projection,
-                      "PROJ string: for kml and osi, of the scene's coordinates, if there is no georeference.json that "
-                      "contains it; for a map, of the coordinates that the scene shall have, instead of metres about "
-                      "its middle");
-  command->add_flag("--list", options->list, "List the formats for --to");
-  ImportOptions& import = options->import;
+void add_map_options(CLI::App& command, ConvertOptions& options) {
+  ImportOptions& import = options.import;
   const char* maps = "Maps";
   const auto add = [&](const char* name, auto& value, const char* help) {
-    return command->add_option(name, value, help)->group(maps);
+    return command.add_option(name, value, help)->group(maps);
   };
   add("--net", import.net,
       "For OSM maps: the .net.xml that netconvert made from the map; the scene gets its coordinates");
-  add("--traffic", options->traffic, "Trajectories (FCD, CSV) whose whole area the ground must cover too");
+  add("--traffic", options.traffic, "Trajectories (FCD, CSV) whose whole area the ground must cover too");
   add("--layer", import.layer, "For maps that GDAL opens: the layer with the buildings; all layers if not given");
   add("--height", import.height_field,
       "For maps that GDAL opens: the field with heights of buildings in metres; \"height\" if there is one");
   add("--levels", import.levels_field,
       "For maps that GDAL opens: the field with numbers of storeys; \"levels\" if there is one");
+  add("--lod", import.lod,
+      "For CityJSON and CityGML: the highest level of detail to build, 1, 2 or 3, or one of CityJSON's, such as 1.2; 2 "
+      "if not given");
   add("--terrain", import.terrain,
       "Heights of the ground in metres, a raster that GDAL opens (GeoTIFF and others): the ground follows it, and "
       "houses "
@@ -202,10 +188,31 @@ void add_convert(CLI::App& program) {
   add("--roof-material", import.roof_material, "ITU material if the map does not name one")->capture_default_str();
   add("--ground-material", import.ground_material, "ITU material of the ground")->capture_default_str();
   command
-      ->add_flag("--vegetation", import.vegetation,
-                 "For OSM maps: trees, rows of trees and woods as volumes that attenuate; Sionna RT does not know them")
+      .add_flag("--vegetation", import.vegetation,
+                "For OSM maps: trees, rows of trees and woods as volumes that attenuate; Sionna RT does not know them")
       ->group(maps);
-  command->add_flag("!--no-ground", import.ground, "Write buildings only, without ground")->group(maps);
+  command.add_flag("!--no-ground", import.ground, "Write buildings only, without ground")->group(maps);
+}
+
+}  // namespace wavetracer::app
+
+void add_convert(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("convert", "Convert a run to the format of another program, or a city map to a scene");
+  const auto options = std::make_shared<ConvertOptions>();
+  command->add_option(
+      "INPUT", options->input,
+      "The folder of a run, its paths.h5, or a map (.osm, .osm.pbf, .poly.xml, CityJSON, CityGML, or what GDAL "
+      "opens: .gpkg, .shp, .geojson, .fgb and many more)");
+  command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
+  command->add_option("-o,--output", options->output, "File or folder to write; which of them depends on the format");
+  command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all frames if not given");
+  command->add_option("--projection", options->projection,
+                      "PROJ string: for kml and osi, of the scene's coordinates, if there is no georeference.json that "
+                      "contains it; for a map, of the coordinates that the scene shall have, instead of metres about "
+                      "its middle");
+  command->add_flag("--list", options->list, "List the formats for --to");
+  add_map_options(*command, *options);
   command->callback([options] {
     if (options->list) return print_list();
     if (options->input.empty()) throw ConfigError("convert: give what to convert: the folder of a run, or a map");

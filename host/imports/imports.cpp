@@ -10,7 +10,9 @@
 #include <limits>
 
 #include "base/file.hpp"
+#include "imports/city_model.hpp"
 #include "imports/map.hpp"
+#include "imports/model_import.hpp"
 #include "imports/plan.hpp"
 #include "imports/scene_files.hpp"
 #include "imports/terrain.hpp"
@@ -50,24 +52,36 @@ void check(const ImportOptions& options) {
   }
 }
 
-bool is_osm_or_sumo(std::string_view begin) { return imports::is_osm(begin) || imports::is_sumo_polygons(begin); }
+bool is_city_model(std::string_view begin) { return imports::is_cityjson(begin) || imports::is_citygml(begin); }
+
+// Whether this is read here, not by GDAL.
+bool is_read_here(std::string_view begin) {
+  return imports::is_osm(begin) || imports::is_sumo_polygons(begin) || is_city_model(begin);
+}
 
 void refuse_options_of_gdal(const std::string& name, const ImportOptions& options) {
   for (const auto& [flag, value] :
        {std::pair{"--layer", &options.layer}, {"--height", &options.height_field}, {"--levels", &options.levels_field}})
     if (!value->empty())
-      throw ConfigError(
-          fmt::format("{}: {} is for maps with fields; this one has tags, whose heights are read anyway", name, flag));
+      throw ConfigError(fmt::format(
+          "{}: {} is for maps with fields; this one has heights of its own, which are read anyway", name, flag));
+}
+
+void refuse_levels_of_detail(const std::string& name, const ImportOptions& options) {
+  if (!options.lod.empty())
+    throw ConfigError(
+        fmt::format("{}: --lod is for CityJSON and CityGML; a map has footprints, not levels of detail", name));
 }
 
 imports::Map read_map(std::string_view content, const std::string& name, const ImportOptions& options) {
   const std::string_view begin = content.substr(0, first_bytes);
   refuse_options_of_gdal(name, options);
+  refuse_levels_of_detail(name, options);
   if (imports::is_osm(begin)) return imports::read_osm(content, name, options);
   if (imports::is_sumo_polygons(begin)) return imports::read_sumo_polygons(content, name);
   throw InputError(
-      fmt::format("{}: this is neither an OpenStreetMap file (.osm, .osm.pbf) nor a file of SUMO polygons (.poly.xml); "
-                  "unpack .gz and .bz2 first",
+      fmt::format("{}: this is neither an OpenStreetMap file (.osm, .osm.pbf), SUMO polygons (.poly.xml), CityJSON nor "
+                  "CityGML; unpack .gz, .bz2 and .zip first",
                   name));
 }
 
@@ -115,6 +129,27 @@ void write_reference(const std::filesystem::path& folder, const Georeference& ge
   }
 }
 
+// Writes the files of a scene; what they are goes to the summary.
+ImportSummary write_city(const std::vector<imports::SceneMesh>& meshes, const Georeference& georeference,
+                         ImportSummary summary, const ImportOptions& options) {
+  for (const imports::SceneMesh& mesh : meshes) summary.triangles += mesh.triangles.size();
+  summary.attribution = georeference.attribution;
+  write_reference(options.output, georeference);
+  imports::write_scene(meshes, options, georeference.attribution);
+  summary.scene = options.output / "city.xml";
+  summary.net = options.net;
+  return summary;
+}
+
+ImportSummary import_model(std::string_view content, const std::string& name, const ImportOptions& options) {
+  refuse_options_of_gdal(name, options);
+  imports::ModelScene scene = imports::build_model(imports::is_citygml(content.substr(0, first_bytes))
+                                                       ? imports::read_citygml(content, name, options)
+                                                       : imports::read_cityjson(content, name, options),
+                                                   name, options);
+  return write_city(scene.meshes, scene.georeference, std::move(scene.summary), options);
+}
+
 ImportSummary import_map(const imports::Map& map, const std::string& name, const ImportOptions& options) {
   imports::Plan plan = imports::plan_city(map, name, options);
   Georeference georeference = map.georeference;
@@ -136,14 +171,8 @@ ImportSummary import_map(const imports::Map& map, const std::string& name, const
                                  summary.left_out.empty() ? "" : "; left out:\n", total(summary.left_out)));
   }
   const std::vector<imports::SceneMesh> meshes = imports::build_scene(plan, terrain ? &*terrain : nullptr, options);
-  for (const imports::SceneMesh& mesh : meshes) summary.triangles += mesh.triangles.size();
   summary.offset_m = plan.offset_m;
-  summary.attribution = georeference.attribution;
-  write_reference(options.output, georeference);
-  imports::write_scene(meshes, options, georeference.attribution);
-  summary.scene = options.output / "city.xml";
-  summary.net = options.net;
-  return summary;
+  return write_city(meshes, georeference, std::move(summary), options);
 }
 
 }  // namespace
@@ -153,18 +182,20 @@ bool is_import(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error)) return false;
   const std::string begin = first_bytes_of(file);
   const std::string suffix = file.extension().string();
-  return is_osm_or_sumo(begin) || !(begin.empty() || begin.starts_with("\x89HDF") || suffix == ".h5" ||
-                                    suffix == ".xml" || suffix == ".toml" || file.filename() == "run.json");
+  return is_read_here(begin) || !(begin.empty() || begin.starts_with("\x89HDF") || suffix == ".h5" ||
+                                  suffix == ".xml" || suffix == ".toml" || file.filename() == "run.json");
 }
 
 ImportSummary import_city(const std::filesystem::path& file, const ImportOptions& options) {
-  if (is_osm_or_sumo(first_bytes_of(file))) return import_city(read_file(file), file.string(), options);
+  if (is_read_here(first_bytes_of(file))) return import_city(read_file(file), file.string(), options);
   check(options);
+  refuse_levels_of_detail(file.string(), options);
   return import_map(imports::read_vector_map(file.string(), options), file.string(), options);
 }
 
 ImportSummary import_city(std::string_view content, const std::string& name, const ImportOptions& options) {
   check(options);
+  if (is_city_model(content.substr(0, first_bytes))) return import_model(content, name, options);
   return import_map(read_map(content, name, options), name, options);
 }
 
@@ -179,6 +210,7 @@ std::string describe(const ImportSummary& s) {
     out += fmt::format("ground     {:.0f} x {:.0f} m, from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})\n",
                        s.ground.upper_m.x - s.ground.lower_m.x, s.ground.upper_m.y - s.ground.lower_m.y,
                        s.ground.lower_m.x, s.ground.lower_m.y, s.ground.upper_m.x, s.ground.upper_m.y);
+  if (!s.heights.empty()) out += fmt::format("heights    {}\n", s.heights);
   if (s.terrain)
     out += fmt::format(
         "terrain    {} triangles for {} posts, from {:.1f} to {:.1f} m; misses the posts by {:.3f} m at most, {:.3f} m "

@@ -1,5 +1,5 @@
 // Cities of OpenStreetMap (.osm, .osm.pbf), SUMO (.poly.xml) and of maps that GDAL reads as scenes: extruded buildings
-// on ground that is flat or follows a raster.
+// on ground that is flat or follows a raster. City models (CityJSON, CityGML): buildings as they are.
 // Nothing is assumed of a file; what cannot be used is left out, counted and reported.
 #pragma once
 #include <cstdint>
@@ -44,6 +44,7 @@ struct ImportOptions {
   std::string projection = {};
   // Maps that GDAL reads only: the layer (empty: all of them), and its fields with heights in m and numbers of storeys.
   std::string layer = {}, height_field = {}, levels_field = {};
+  std::string lod = {};  // CityJSON and CityGML only: the highest level of detail; empty: 2
   // A raster of heights that the ground follows and houses stand on; empty: flat at z = 0.
   std::filesystem::path terrain = {};
   double terrain_error_m = 0.3;  // the most by which the ground may miss a post of the raster
@@ -57,6 +58,7 @@ struct ImportSummary {
   uint64_t buildings = 0;                    // solids of whole buildings
   uint64_t parts = 0;                        // solids of building:part
   uint64_t vegetation = 0;                   // trees and woods
+  std::string heights;                       // of city models: where their ground was and is, in words
   uint64_t courtyards = 0;                   // holes in either
   uint64_t triangles = 0;                    // the ground included
   std::map<std::string, uint64_t> left_out;  // reason -> how many
@@ -74,8 +76,8 @@ struct ImportSummary {
   std::vector<std::string> warnings;
 };
 
-// Whether the file is a map that import_city() reads: OSM XML, OSM PBF, or SUMO's polygons, by its first bytes, or what
-// else is no run's HDF5 or JSON file. False for folders and files that are not there.
+// Whether the file is a map that import_city() reads: OSM, SUMO's polygons, CityJSON or CityGML, by its first bytes, or
+// what else is no run's HDF5 or JSON file. False for folders and files that are not there.
 bool is_import(const std::filesystem::path& file);
 
 // Writes OUTPUT/city.xml, OUTPUT/meshes/*.ply and OUTPUT/georeference.json, the scene file last.

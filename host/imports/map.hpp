@@ -51,6 +51,9 @@ struct SumoLocation {
 // Empty where it has none. Throws InputError where it is malformed.
 std::optional<SumoLocation> sumo_location(std::string_view content, const std::string& name);
 
+// "NAME:LINE" of a byte of the text.
+std::string line_of(std::string_view content, std::ptrdiff_t offset, const std::string& name);
+
 // The name of the root element of an XML text, of which the beginning is enough; empty where it is none.
 std::string_view root_element(std::string_view text);
 

@@ -18,27 +18,6 @@ namespace {
 
 constexpr const char* too_many_around = "inside of more than 200 others";
 
-// The shift by whole metres that brings all footprints near the origin; none where they are there already, since the
-// coordinates may be those of vehicles.
-glm::dvec2 shift_to_origin(const Map& map, const std::string& name) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  glm::dvec2 lower(infinity), upper(-infinity);
-  for (const Footprint& footprint : map.footprints) {
-    for (const glm::dvec2& p : footprint.outer) {
-      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-      upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
-    }
-  }
-  const double reach = std::max({-lower.x, -lower.y, upper.x, upper.y});
-  if (!(reach > largest_coordinate_m)) return {0, 0};
-  if (!(std::max(upper.x - lower.x, upper.y - lower.y) < 2 * largest_coordinate_m - 2)) {
-    throw InputError(
-        fmt::format("{}: the buildings span {:.0f} x {:.0f} km; at most {:.0f} km are allowed; cut a part out of it",
-                    name, (upper.x - lower.x) / 1000, (upper.y - lower.y) / 1000, 2 * largest_coordinate_m / 1000));
-  }
-  return {-std::round((lower.x + upper.x) / 2), -std::round((lower.y + upper.y) / 2)};
-}
-
 Ring shifted_ring(RingM points, const glm::dvec2& shift) {
   for (glm::dvec2& p : points) p += shift;
   return make_ring(points);
@@ -61,9 +40,11 @@ class Planner {
  public:
   Planner(const Map& map, const std::string& name, const ImportOptions& options) : map_(map), options_(options) {
     plan_.left_out = map.left_out;
-    plan_.offset_m = shift_to_origin(map, name);
-    for (const auto& [extent, what] : {std::pair{map.network, "network"}, {options.traffic, "traffic"}})
-      if (options.ground && !extent.empty()) reach(extent, fmt::format("{}: the {}", name, what));
+    Extent extent;
+    for (const Footprint& footprint : map.footprints)
+      for (const glm::dvec2& p : footprint.outer) extent.add(p);
+    plan_.offset_m = shift_to_origin(extent, name);
+    plan_.traffic = extent_to_reach(map.network, plan_.offset_m, name, options);
   }
 
   Plan plan() {
@@ -79,20 +60,6 @@ class Planner {
   }
 
  private:
-  void reach(const Extent& extent, const std::string& what) {
-    constexpr double most_m = 2 * largest_coordinate_m;
-    for (const glm::dvec2& corner : {extent.lower_m, extent.upper_m}) {
-      const glm::dvec2 p = corner + plan_.offset_m;
-      if (!(std::max(std::abs(p.x), std::abs(p.y)) <= most_m)) {
-        throw InputError(
-            fmt::format("{} reaches ({:.0f}, {:.0f}) km in the scene, and the ground must reach as far; at most {:.0f} "
-                        "km are allowed: do map and network belong together? Cut both, or use --no-ground",
-                        what, p.x / 1000, p.y / 1000, most_m / 1000));
-      }
-      plan_.traffic.add(p);
-    }
-  }
-
   void drop(Candidate& candidate, const std::string& reason) {
     candidate.gone = true;
     ++plan_.left_out[reason];
@@ -237,6 +204,38 @@ class Planner {
 };
 
 }  // namespace
+
+glm::dvec2 shift_to_origin(const Extent& extent, const std::string& name) {
+  const glm::dvec2 &lower = extent.lower_m, &upper = extent.upper_m;
+  const double reach = std::max({-lower.x, -lower.y, upper.x, upper.y});
+  if (!(reach > largest_coordinate_m)) return {0, 0};
+  if (!(std::max(upper.x - lower.x, upper.y - lower.y) < 2 * largest_coordinate_m - 2)) {
+    throw InputError(
+        fmt::format("{}: the buildings span {:.0f} x {:.0f} km; at most {:.0f} km are allowed; cut a part out of it",
+                    name, (upper.x - lower.x) / 1000, (upper.y - lower.y) / 1000, 2 * largest_coordinate_m / 1000));
+  }
+  return {-std::round((lower.x + upper.x) / 2), -std::round((lower.y + upper.y) / 2)};
+}
+
+Extent extent_to_reach(const Extent& network, const glm::dvec2& offset_m, const std::string& name,
+                       const ImportOptions& options) {
+  constexpr double most_m = 2 * largest_coordinate_m;
+  Extent out;
+  for (const auto& [extent, what] : {std::pair{network, "network"}, {options.traffic, "traffic"}}) {
+    if (!options.ground || extent.empty()) continue;
+    for (const glm::dvec2& corner : {extent.lower_m, extent.upper_m}) {
+      const glm::dvec2 p = corner + offset_m;
+      if (!(std::max(std::abs(p.x), std::abs(p.y)) <= most_m)) {
+        throw InputError(fmt::format(
+            "{}: the {} reaches ({:.0f}, {:.0f}) km in the scene, and the ground must reach as far; at most "
+            "{:.0f} km are allowed: do map and network belong together? Cut both, or use --no-ground",
+            name, what, p.x / 1000, p.y / 1000, most_m / 1000));
+      }
+      out.add(p);
+    }
+  }
+  return out;
+}
 
 Plan plan_city(const Map& map, const std::string& name, const ImportOptions& options) {
   return Planner(map, name, options).plan();

@@ -31,6 +31,14 @@ struct Plan {
   std::map<std::string, uint64_t> left_out, guessed;
 };
 
+// The shift by whole metres that brings all that is built near the origin; none where it is there already, since the
+// coordinates may be those of vehicles. Throws InputError where it is too wide.
+glm::dvec2 shift_to_origin(const Extent& extent, const std::string& name);
+// What the ground has to reach besides the buildings, in coordinates of the scene: the network, and the traffic of
+// options. Throws InputError where it is too far away.
+Extent extent_to_reach(const Extent& network, const glm::dvec2& offset_m, const std::string& name,
+                       const ImportOptions& options);
+
 // Throws InputError where the map is wider than a scene can be.
 Plan plan_city(const Map& map, const std::string& name, const ImportOptions& options);
 

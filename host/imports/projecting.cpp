@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -16,13 +13,8 @@ namespace {
 constexpr double widest_map_deg = 2;  // 200 km: a slip, or a country, of which no scene can be made
 
 // A transverse Mercator projection about the middle of the buildings: true to scale and angle, north is +y.
-Georeference local_projection(Map& map, const std::string& name, const std::string& advice) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  glm::dvec2 lower(infinity), upper(-infinity);
-  each_point(map, [&](const glm::dvec2& p) {
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
-  });
+Georeference local_projection(const Extent& degrees, const std::string& name, const std::string& advice) {
+  const glm::dvec2 &lower = degrees.lower_m, &upper = degrees.upper_m;
   if (upper.x - lower.x > widest_map_deg || upper.y - lower.y > widest_map_deg) {
     throw InputError(fmt::format("{}: spans {:.1f} by {:.1f} degrees; extract a city from it: {}", name,
                                  upper.x - lower.x, upper.y - lower.y, advice));
@@ -34,7 +26,7 @@ Georeference local_projection(Map& map, const std::string& name, const std::stri
           {}};
 }
 
-void take_network(Map& map, const std::filesystem::path& file) {
+Georeference take_network(const std::filesystem::path& file, Extent& network) {
   const auto location = sumo_location(read_file(file), file.string());
   if (!location || location->georeference.projection.empty()) {
     throw InputError(
@@ -42,21 +34,24 @@ void take_network(Map& map, const std::filesystem::path& file) {
                     "the same map",
                     file.string()));
   }
-  map.georeference = location->georeference;
-  map.network = location->boundary;
+  network = location->boundary;
+  return location->georeference;
 }
 
 }  // namespace
 
+Georeference scene_projection(const Extent& degrees, const std::string& name, const ImportOptions& options,
+                              const std::string& advice, Extent& network) {
+  if (!options.net.empty()) return take_network(options.net, network);
+  if (!options.projection.empty()) return {options.projection, {0, 0}, {}, {}};
+  return local_projection(degrees, name, advice);
+}
+
 void project(Map& map, const std::string& name, const ImportOptions& options, const std::string& advice) {
   if (map.footprints.empty()) return;
-  if (!options.net.empty()) {
-    take_network(map, options.net);
-  } else if (!options.projection.empty()) {
-    map.georeference = {options.projection, {0, 0}, {}, {}};
-  } else {
-    map.georeference = local_projection(map, name, advice);
-  }
+  Extent degrees;
+  each_point(map, [&](const glm::dvec2& p) { degrees.add(p); });
+  map.georeference = scene_projection(degrees, name, options, advice, map.network);
   const Projection projection(map.georeference);
   each_point(map, [&](glm::dvec2& p) { p = projection.scene(p); });
 }

@@ -17,6 +17,11 @@ void each_point(Map& map, const Visit& visit) {
   }
 }
 
+// The projection of the scene, in the order of project(), of a map that covers these degrees; sets `network` where
+// there is one.
+Georeference scene_projection(const Extent& degrees, const std::string& name, const ImportOptions& options,
+                              const std::string& advice, Extent& network);
+
 // Footprints in degrees (longitude, latitude) into coordinates of the network of options.net, or of
 // options.projection, or else of a transverse Mercator projection about their middle; sets the map's georeference.
 // advice: how to cut a part out of a map that is too wide. Throws InputError.

@@ -127,7 +127,7 @@ std::string_view fault(const Polygon& polygon) {
     if (!box.contains(box_of(hole))) return "a courtyard outside of the building";
   }
   if (twice_area(polygon.outer) == 0) return "no area";
-  if (any_collision(polygon)) return "outline that crosses or touches itself";
+  if (any_collision(polygon)) return crossing_outline;
   for (size_t i = 0; i < polygon.holes.size(); ++i) {
     if (!contains(polygon.outer, polygon.holes[i][0])) return "a courtyard outside of the building";
     for (size_t j = 0; j < polygon.holes.size(); ++j) {

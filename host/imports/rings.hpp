@@ -53,6 +53,8 @@ void orient(Polygon& polygon);  // turns rings as Polygon wants them
 // Whether p is inside of the ring; on its border either answer.
 bool contains(const Ring& ring, const Point& p);
 
+constexpr std::string_view crossing_outline = "outline that crosses or touches itself";
+
 // Why this is no polygon with holes: rings that cross, touch, fold back, hold nothing or are out of place. Empty where
 // it is one. Sizes are checked first, so that any rings may be given.
 std::string_view fault(const Polygon& polygon);

@@ -38,21 +38,6 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-// "way_123 Bäckerei": ids of Mitsuba hold no dots, and $ starts a parameter.
-std::string object_name(const Solid& solid) {
-  if (solid.name.empty() || !is_utf8(solid.name)) return solid.id;
-  std::string name = solid.name;
-  for (char& c : name) {
-    if (c == '.' || c == '$' || (static_cast<unsigned char>(c) < ' ') || c == 0x7F) c = '_';
-  }
-  if (name.size() > longest_name) {
-    size_t end = longest_name;
-    while (end > 0 && is_continuation(name[end])) --end;
-    name.resize(end);
-  }
-  return solid.id + " " + name;
-}
-
 std::vector<glm::dvec3> corners(const Solid& solid) {
   std::vector<glm::dvec3> out;
   const double bottom = solid.shape.bottom_m > 0 ? solid.shape.bottom_m : -foundation_m;
@@ -86,8 +71,23 @@ void append(pugi::xml_node parent, const char* tag, const char* name, const std:
 
 }  // namespace
 
+// Ids of Mitsuba hold no dots, and $ starts a parameter.
+std::string object_name(const std::string& id, const std::string& text) {
+  if (text.empty() || !is_utf8(text)) return id;
+  std::string name = text;
+  for (char& c : name) {
+    if (c == '.' || c == '$' || (static_cast<unsigned char>(c) < ' ') || c == 0x7F) c = '_';
+  }
+  if (name.size() > longest_name) {
+    size_t end = longest_name;
+    while (end > 0 && is_continuation(name[end])) --end;
+    name.resize(end);
+  }
+  return id + " " + name;
+}
+
 std::vector<SceneMesh> extrude(const Solid& solid) {
-  SceneMesh walls{solid.id, object_name(solid), solid.shape.walls, corners(solid), {}};
+  SceneMesh walls{solid.id, object_name(solid.id, solid.name), solid.shape.walls, corners(solid), {}};
   const auto top = static_cast<uint32_t>(walls.vertices.size() / 2);
   uint32_t first = 0;
   const auto wall_ring = [&](const Ring& ring) {
@@ -122,12 +122,14 @@ Extent ground_extent(const Plan& plan, const ImportOptions& options) {
   return out;
 }
 
+std::vector<SceneMesh> build_ground(const Extent& extent, const Terrain* terrain, const ImportOptions& options) {
+  if (terrain) return {{"ground", "ground", options.ground_material, terrain->vertices, terrain->triangles}};
+  if (extent.empty()) return {};
+  return {flat_ground(extent, options)};
+}
+
 std::vector<SceneMesh> build_scene(const Plan& plan, const Terrain* terrain, const ImportOptions& options) {
-  std::vector<SceneMesh> out;
-  if (terrain)
-    out.push_back({"ground", "ground", options.ground_material, terrain->vertices, terrain->triangles});
-  else if (const Extent extent = ground_extent(plan, options); !extent.empty())
-    out.push_back(flat_ground(extent, options));
+  std::vector<SceneMesh> out = build_ground(ground_extent(plan, options), terrain, options);
   for (const Solid& solid : plan.solids) {
     for (SceneMesh& mesh : extrude(solid)) out.push_back(std::move(mesh));
   }

@@ -19,13 +19,19 @@ struct SceneMesh {
   std::vector<Triangle> triangles;
 };
 
+// "way_123 Bäckerei": an id of Mitsuba made of an id of ours and a text of the file.
+std::string object_name(const std::string& id, const std::string& text);
+
 // A closed solid, normals outward: one mesh, or two, walls and roof, where their materials differ.
 std::vector<SceneMesh> extrude(const Solid& solid);
 
 // The rectangle of the ground: all buildings, the network and the traffic, and the margin; empty without a ground.
 Extent ground_extent(const Plan& plan, const ImportOptions& options);
 
-// The ground first, if it is asked for, flat or that of the terrain, then all solids. Names of meshes are unique.
+// The ground, flat or that of the terrain; none where the extent is empty.
+std::vector<SceneMesh> build_ground(const Extent& extent, const Terrain* terrain, const ImportOptions& options);
+
+// The ground first, if it is asked for, then all solids. Names of meshes are unique.
 std::vector<SceneMesh> build_scene(const Plan& plan, const Terrain* terrain, const ImportOptions& options);
 
 // meshes/*.ply in the folder options.output, then city.xml, which names `attribution`. Throws RuntimeError.

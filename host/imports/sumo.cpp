@@ -46,13 +46,6 @@ std::optional<RingM> parse_shape(std::string_view text) {
   return out;
 }
 
-std::string where(std::string_view content, std::ptrdiff_t offset, const std::string& name) {
-  const auto size = static_cast<std::ptrdiff_t>(content.size());
-  return fmt::format(
-      "{}:{}", name,
-      1 + std::count(content.begin(), content.begin() + std::clamp<std::ptrdiff_t>(offset, 0, size), '\n'));
-}
-
 // Four numbers with commas between them. SUMO writes lower > upper where there is nothing, which is empty.
 Extent read_boundary(std::string_view text, const std::string& at) {
   if (text.empty()) return {};
@@ -100,6 +93,13 @@ std::string left_out_type(std::string_view type, const std::map<std::string, uin
 
 }  // namespace
 
+std::string line_of(std::string_view content, std::ptrdiff_t offset, const std::string& name) {
+  const auto size = static_cast<std::ptrdiff_t>(content.size());
+  return fmt::format(
+      "{}:{}", name,
+      1 + std::count(content.begin(), content.begin() + std::clamp<std::ptrdiff_t>(offset, 0, size), '\n'));
+}
+
 std::string_view root_element(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   while (true) {
@@ -133,7 +133,7 @@ std::optional<SumoLocation> sumo_location(std::string_view content, const std::s
   if (end == std::string_view::npos) return {};
   pugi::xml_document document;
   const std::string_view element = content.substr(begin, end + 1 - begin);
-  const std::string at = where(content, static_cast<std::ptrdiff_t>(begin), name);
+  const std::string at = line_of(content, static_cast<std::ptrdiff_t>(begin), name);
   if (!document.load_buffer(element.data(), element.size())) {
     throw InputError(fmt::format("{}: the element <location> cannot be read", at));
   }
@@ -145,13 +145,13 @@ Map read_sumo_polygons(std::string_view content, const std::string& name) {
   const pugi::xml_parse_result result = document.load_buffer(content.data(), content.size());
   if (!result) {
     throw InputError(
-        fmt::format("{}: not well-formed XML: {}", where(content, result.offset, name), result.description()));
+        fmt::format("{}: not well-formed XML: {}", line_of(content, result.offset, name), result.description()));
   }
   Map map;
   map.nested_are_courtyards = true;
   const pugi::xml_node root = document.document_element();
   if (const pugi::xml_node location = root.child("location")) {
-    const SumoLocation read = read_location(location, where(content, location.offset_debug(), name));
+    const SumoLocation read = read_location(location, line_of(content, location.offset_debug(), name));
     map.georeference = read.georeference;
     map.network = read.boundary;
   }
@@ -168,7 +168,7 @@ Map read_sumo_polygons(std::string_view content, const std::string& name) {
       ++map.left_out[left_out_type(type, map.left_out)];
       continue;
     }
-    const auto at = [&] { return where(content, poly.offset_debug(), name); };
+    const auto at = [&] { return line_of(content, poly.offset_debug(), name); };
     auto shape = parse_shape(poly.attribute("shape").value());
     if (!shape) {
       throw InputError(

@@ -161,27 +161,32 @@ Terrain read_terrain(const Extent& area, const Georeference& georeference, const
   return out;
 }
 
-void stand_on(const Ground& ground, Plan& plan) {
+std::optional<double> lowest_along(const Ground& ground, std::span<const glm::dvec2> ring) {
   constexpr double step_m = 1;
-  const auto metres = [](const Point& p) {
-    return glm::dvec2(static_cast<double>(p.x), static_cast<double>(p.y)) / static_cast<double>(grid_per_m);
-  };
-  std::erase_if(plan.solids, [&](Solid& solid) {
-    const Ring& ring = solid.outline.empty() ? solid.polygon.outer : solid.outline;
-    double lowest = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const glm::dvec2 a = metres(ring[i]), b = metres(ring[(i + 1) % ring.size()]);
-      const double pieces = std::max(1.0, std::ceil(glm::distance(a, b) / step_m));
-      for (double k = 0; k < pieces; ++k) {
-        const std::optional<double> z = ground.height_m(glm::mix(a, b, k / pieces));
-        if (!z) {
-          ++plan.left_out["beyond the terrain"];
-          return true;
-        }
-        lowest = std::min(lowest, *z);
-      }
+  double lowest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+    const double pieces = std::max(1.0, std::ceil(glm::distance(a, b) / step_m));
+    for (double k = 0; k < pieces; ++k) {
+      const std::optional<double> z = ground.height_m(glm::mix(a, b, k / pieces));
+      if (!z) return {};
+      lowest = std::min(lowest, *z);
     }
-    solid.base_m = lowest;
+  }
+  return lowest;
+}
+
+void stand_on(const Ground& ground, Plan& plan) {
+  std::erase_if(plan.solids, [&](Solid& solid) {
+    RingM ring;
+    for (const Point& p : solid.outline.empty() ? solid.polygon.outer : solid.outline)
+      ring.push_back(glm::dvec2(static_cast<double>(p.x), static_cast<double>(p.y)) / static_cast<double>(grid_per_m));
+    const std::optional<double> lowest = lowest_along(ground, ring);
+    if (!lowest) {
+      ++plan.left_out["beyond the terrain"];
+      return true;
+    }
+    solid.base_m = *lowest;
     return false;
   });
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct Terrain {
 // Of options.terrain, for the area of the ground. Heights are those of the raster, in metres above its zero. Throws
 // InputError for the raster, RuntimeError where there is no GDAL.
 Terrain read_terrain(const Extent& area, const Georeference& georeference, const ImportOptions& options);
+
+// The lowest ground along a closed ring; empty where the ring reaches beyond the terrain.
+std::optional<double> lowest_along(const Ground& ground, std::span<const glm::dvec2> ring);
 
 // Sets Solid::base_m to the lowest ground along the outline of each solid, or of the building that it is a part of.
 // Those that reach beyond the terrain are left out and counted.

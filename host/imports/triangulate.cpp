@@ -104,6 +104,9 @@ class Clipper {
     return true;
   }
 
+  // Whether the way to corner i is the way back: what is left between two ears where an outline touches itself.
+  bool is_spike(size_t i) const { return at(i + loop_.size() - 1) == at(i + 1) || at(i) == at(i + 1); }
+
   // Cutting an ear changes what is an ear beside it alone, so that the rest is not looked at again: only where rounds
   // of bridges lie on each other may more have changed, which shows when no ear is left.
   std::vector<Triangle> clip() {
@@ -112,7 +115,7 @@ class Clipper {
     std::vector<char> ears;
     size_t i = 0, in_vain = 0;
     int looks = 0;
-    const auto look = [&](size_t k) { ears[k % loop_.size()] = is_ear(k % loop_.size()); };
+    const auto look = [&](size_t k) { ears[k % loop_.size()] = is_spike(k) || is_ear(k % loop_.size()); };
     while (loop_.size() > 3) {
       if (ears.empty() || in_vain == loop_.size()) {
         if (looks++ == most_looks) return {};
@@ -132,13 +135,14 @@ class Clipper {
       }
       ++i;  // after a cut this passes over a corner, which makes fans rarer
     }
+    if (is_spike(0) || is_spike(1) || is_spike(2)) return out;
     if (turn(at(0), at(1), at(2)) <= 0) return {};
     out.push_back({loop_[0], loop_[1], loop_[2]});
     return out;
   }
   void cut(size_t i, std::vector<Triangle>& out) {
     const size_t n = loop_.size();
-    out.push_back({loop_[(i + n - 1) % n], loop_[i], loop_[(i + 1) % n]});
+    if (!is_spike(i)) out.push_back({loop_[(i + n - 1) % n], loop_[i], loop_[(i + 1) % n]});
     loop_.erase(loop_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 

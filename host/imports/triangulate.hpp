@@ -7,7 +7,8 @@
 namespace wavetracer::imports {
 
 // Counter-clockwise triangles of a polygon without a fault(); indices count the corners of the outer ring, then those
-// of each hole. Empty where it cannot be done, which would be a fault that fault() does not know.
+// of each hole. Empty where it cannot be done, which would be a fault that fault() does not know. An outline that
+// touches itself (crossing_outline) may be given, too; mostly it can be done.
 std::vector<Triangle> triangulate(const Polygon& polygon);
 
 }  // namespace wavetracer::imports
