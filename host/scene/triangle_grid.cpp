@@ -88,8 +88,8 @@ std::vector<TriangleGrid::Crossing> TriangleGrid::crossings(const dvec3& a, cons
     }
   });
   std::ranges::sort(out, {}, [](const Crossing& c) { return std::pair(c.distance_m, c.triangle); });
-  const auto same = [](const Crossing& p, const Crossing& q) { return p.triangle == q.triangle; };
-  out.erase(std::unique(out.begin(), out.end(), same), out.end());  // a triangle may be in several cells
+  const auto repeated = std::ranges::unique(out, {}, &Crossing::triangle);  // a triangle may be in several cells
+  out.erase(repeated.begin(), repeated.end());
   return out;
 }
 
