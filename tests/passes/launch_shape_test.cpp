@@ -85,7 +85,7 @@ TEST_CASE("hits and the hits of blocks are the same for every launch shape") {
   const Scene scene = scene_of_triangles(random_soup(60, 10, 4, 11));
   const DeviceScene device = make_device_scene(context(), scene, false, 20);
   Random random(5);
-  std::vector<Ray> rays(1003);
+  std::vector<Ray> rays(as_many(1003, 259));
   for (Ray& ray : rays) {
     const glm::dvec3 o = random.in_cube(12), d = random.direction();
     for (int axis = 0; axis < 3; ++axis) {

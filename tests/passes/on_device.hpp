@@ -37,6 +37,11 @@ inline gpu::Context& context() {
   return shared;
 }
 
+// How many items a test takes: Oclgrind runs one work-item at a time, a ray in a millisecond.
+inline uint32_t as_many(uint32_t elsewhere, uint32_t on_oclgrind) {
+  return context().info().platform == "Oclgrind" ? on_oclgrind : elsewhere;
+}
+
 // Every shape of traversal that the device can run. BVH2 runs on all.
 inline std::vector<TraceShape> shapes() {
   if (!context().info().cpu) return {TraceShape::bvh2};
