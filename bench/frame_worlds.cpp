@@ -96,6 +96,14 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     c.receivers.resize(2);
     c.trace.scattering = true;
   });
+  add("crowns", [](Config& c) {
+    plant(c);
+    MaterialConfig& leaves = c.materials.emplace_back();
+    leaves.name = "vegetation";
+    leaves.vegetation = "mixed";
+    leaves.scattering = 0.5;
+    c.trace.scattering = true;
+  });
   add("diffraction", [](Config& c) { diffract(c, 1); });
   add("two diffractions", [](Config& c) { diffract(c, 2); });
   add(

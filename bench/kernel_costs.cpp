@@ -133,6 +133,7 @@ constexpr KernelCost costs[] = {
     {"transmissions/transmissions", "transmission", "legs", legs, leg_bytes, tree_operations},
     {"scatter/lit", "scattering", "sequences", items_of<"scatter/lit">, always<12>, always<20>, true},
     {"scatter/scatter", "scattering", "tiles of links", joined, scatter_bytes, nothing},
+    {"crowns/crowns", "crowns", "cells of links", joined, scatter_bytes, nothing},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
      mirror_operations, true},
     {"wedge_join/wedge_join", "diffraction", "candidates", joined, join_bytes, always<60>},

@@ -102,14 +102,16 @@ Table trace_table() {
                   "A path through one building or vehicle needs 2."},
           {.name = "scattering",
            .slot = t(&TraceConfig::scattering),
-           .doc = "Diffuse scattering by surfaces whose material has a scattering coefficient (material.scattering). "
-                  "Surfaces are divided into tiles, and a path goes from the transmitter to one tile to the receiver."},
+           .doc =
+               "Diffuse scattering by surfaces and vegetation whose material has a scattering coefficient "
+               "(material.scattering). They are divided into tiles and cells, and a path goes from the transmitter to "
+               "one of them to the receiver."},
           {.name = "tile_m",
            .slot = t(&TraceConfig::tile_m),
            .unit = "m",
            .range = {0, 1e6, true},
            .doc = "The largest side length of a tile of scattering. Half the length gives four times as many paths and "
-                  "about a quarter of the error."},
+                  "about a quarter of the error; of vegetation, which is cut into cells, eight times as many."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
            .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, given their "

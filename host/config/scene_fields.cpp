@@ -173,7 +173,8 @@ Table material_table() {
                    .range = {0, 1},
                    .doc = "Scattering coefficient S, used with trace.scattering: the share S^2 of the reflected power "
                           "is scattered in all directions, and the specular reflection keeps the rest (Degli-Esposti "
-                          "et al., 2007). Not given: 0.",
+                          "et al., 2007). Of vegetation the share S^2 of the power that it takes is scattered, evenly "
+                          "over all directions. Not given: 0.",
                    .example = "0.4"},
                   {.name = "scattering_lobe",
                    .slot = m(&MaterialConfig::scattering_lobe),
@@ -191,7 +192,7 @@ Table material_table() {
                    .doc = "Leaves and twigs instead of a surface: closed meshes of this material are volumes that "
                           "take power per metre inside, A_m (1 - exp(-g d / A_m)) dB on d metres (ITU-R P.833-10, "
                           "equation 1). mixed, deciduous: the wood in which A_m was measured. The keys about "
-                          "permittivity, thickness and scattering do not apply.",
+                          "permittivity, thickness and scattering_lobe do not apply.",
                    .example = "\"mixed\""},
                   {.name = "in_leaf",
                    .slot = m(&MaterialConfig::in_leaf),

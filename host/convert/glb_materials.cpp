@@ -37,12 +37,13 @@ json law_of(const VegetationLaw& vegetation) {
 json glb_material(const Material& material) {
   json law{{"a", material.a}, {"b", material.b}, {"c", material.c}, {"d", material.d}};
   if (std::isfinite(material.thickness_m)) law["thickness_m"] = material.thickness_m;
+  if (material.vegetation) law = law_of(*material.vegetation);
   if (material.scattering > 0) law["scattering"] = material.scattering;
   json element{{"name", material.name},
                {"doubleSided", true},
                {"pbrMetallicRoughness",
                 {{"baseColorFactor", base_colour(material)}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}},
-               {"extras", material.vegetation ? law_of(*material.vegetation) : std::move(law)}};
+               {"extras", std::move(law)}};
   if (material.vegetation) element["alphaMode"] = "BLEND";
   return element;
 }

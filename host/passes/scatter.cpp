@@ -2,14 +2,12 @@
 // Which receivers a surface may serve holds for all its tiles, so the rows are counted before any is written.
 #include "passes/scatter.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 
 #include "passes/growing_list.hpp"
+#include "passes/tile_rows.hpp"
 #include "wavetracer/device/arguments.h"
-#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 
@@ -73,15 +71,7 @@ std::vector<uint32_t> Scatter::place_rows(uint32_t entry_count) {
     rows += static_cast<uint64_t>(std::popcount(entries[i + 2])) * entries[i + 3];
     first_row.push_back(static_cast<uint32_t>(rows));
   }
-  const uint64_t row_bytes = 3 * sizeof(double) * solved_.max_depth;  // the largest of the list's buffers
-  const uint64_t most = std::min<uint64_t>(context_.info().max_buffer / row_bytes, 0xFFFFFFFFu);
-  if (rows > most)
-    throw RuntimeError(
-        fmt::format("diffuse scattering has {} paths by tiles to test in this frame, and buffers of {} hold {}: raise "
-                    "trace.tile_m (twice as long tiles are a quarter as many), ask for fewer links, or choose a device "
-                    "with more memory",
-                    rows, context_.info().name, most));
-  if (rows > solved_.headers.size()) solved_.reserve(context_, std::min(rows + rows / 4, most));
+  reserve_tile_rows(context_, solved_, rows);
   return first_row;
 }
 

@@ -1,14 +1,19 @@
 // Materials of all scenes stand in one list, part after part; surfaces of the world point into it.
 #include "radio/field_tables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <complex>
 
 #include "radio/air.hpp"
 #include "radio/antenna.hpp"
+#include "radio/cells.hpp"
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
 #include "scene/tiles.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
@@ -62,6 +67,23 @@ void add_antennas(FieldTables& tables, const Config& config) {
   for (const RadioEnd& end : config.receivers) add(end, tables.ports.rx);
 }
 
+// After the tiles.
+void add_cells(FieldTables& tables, const Scene& scene, double cell_m) {
+  const std::vector<Cell> cells = make_cells(scene, cell_m, TileTable::most_tiles - tables.surface_of_tile.size());
+  const size_t first = scene.surfaces.size();
+  if (!cells.empty() && first + scene.volumes.size() > WT_CELL_NUMBER)
+    throw ConfigError(
+        fmt::format("the scene has {} surfaces and {} volumes of vegetation, too many for scattering off "
+                    "vegetation: at most {} are possible",
+                    first, scene.volumes.size(), WT_CELL_NUMBER));
+  for (const Cell& cell : cells) {
+    const uint32_t kind = tables.volumes.volumes[cell.volume].kind;
+    tables.surface_of_tile.push_back(WT_CELL | kind << WT_CELL_KIND_SHIFT | static_cast<uint32_t>(first + cell.volume));
+    tables.area_of_tile.push_back(std::cbrt(cell.volume_m3));
+  }
+  tables.cells = static_cast<uint32_t>(cells.size());
+}
+
 }  // namespace
 
 FieldTables make_field_tables(const Scene& scene, const Config& config, std::span<const Scene> models,
@@ -84,6 +106,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
     tables.surface_of_tile.push_back(tiles.surface(place));
     tables.area_of_tile.push_back(tiles.tile(place).area_m2);
   }
+  add_cells(tables, scene, config.trace.tile_m);
   return tables;
 }
 

@@ -17,8 +17,9 @@ namespace wavetracer {
 struct FieldTables {
   std::vector<device::wt_material> materials;  // those of all scenes, at the carrier's frequency
   std::vector<uint32_t> materials_of;          // of every surface of the world
-  std::vector<uint32_t> surface_of_tile;       // with trace.scattering: of every tile of the world
-  std::vector<double> area_of_tile;            // m2
+  std::vector<uint32_t> surface_of_tile;       // with trace.scattering: of every tile and cell of the world (WT_CELL)
+  std::vector<double> area_of_tile;            // m2; of a cell the side of a cube of its volume, m
+  uint32_t cells = 0;                          // how many of the last tiles are cells of vegetation
   std::vector<device::wt_antenna> antennas;    // transmitters', then receivers', in the order of the configuration
   std::vector<double> samples;                 // of pattern files
   uint32_t transmitters = 0;                   // how many of the antennas are theirs

@@ -61,9 +61,11 @@ VolumeTable volume_table(const Scene& scene) {
 std::vector<device::wt_foliage> foliages_at(const VolumeTable& table, const Scene& scene, double frequency_hz) {
   std::vector<device::wt_foliage> out;
   for (const uint32_t material : table.material) {
-    const VegetationLoss loss = vegetation_loss(*scene.materials[material].vegetation, frequency_hz);
+    const Material& leaves = scene.materials[material];
+    const VegetationLoss loss = vegetation_loss(*leaves.vegetation, frequency_hz);
     const double np_of_db = std::numbers::ln10 / 20;
-    out.push_back({loss.db_m * np_of_db, std::isinf(loss.most_db) ? -1 : loss.most_db * np_of_db});
+    out.push_back({loss.db_m * np_of_db, std::isinf(loss.most_db) ? -1 : loss.most_db * np_of_db, leaves.scattering,
+                   leaves.scattering_cross_polar});
   }
   return out;
 }

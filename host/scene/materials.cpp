@@ -101,9 +101,11 @@ class Resolver {
     if (m.scattering_lobe && *m.scattering_lobe != std::floor(*m.scattering_lobe))
       fail("scattering_lobe must be an integer");
     if (m.thickness_m && !(*m.thickness_m > 0)) fail("thickness_m must be positive (inf: a half space)");
-    const bool surface = law || fixed || m.thickness_m || m.scattering || !m.library.empty();
+    const bool surface = law || fixed || m.thickness_m || m.scattering_lobe || !m.library.empty();
     if (m.vegetation != "none" && surface)
-      fail("vegetation is no surface, and has no permittivity, thickness, scattering or library: remove those keys");
+      fail(
+          "vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: remove those "
+          "keys");
     const bool leaves = m.attenuation_db_m || m.max_attenuation_db || !m.in_leaf;
     if (leaves && (surface || (m.vegetation == "none" && woodland_named(spellings(m.name)[2]) == "none")))
       fail("attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or \"deciduous\"");
@@ -184,6 +186,8 @@ class Resolver {
     out.vegetation->in_leaf = over->in_leaf;
     out.vegetation->attenuation_db_m = over->attenuation_db_m;
     out.vegetation->max_attenuation_db = over->max_attenuation_db;
+    out.scattering = over->scattering.value_or(0);
+    out.scattering_cross_polar = over->scattering_cross_polar.value_or(0);
     return out;
   }
 

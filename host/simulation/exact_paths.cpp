@@ -30,9 +30,12 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     diffraction.emplace(context, Wedges(context, scene, world.models(), world.instances(), trace.free_edges),
                         origins.receiver_of_origin, trace.max_depth, std::move(two));
   }
-  if (trace.scattering)
-    scatter.emplace(context, TileTable(scene, world.models(), world.instances(), trace.tile_m),
-                    surface_count(scene, world), trace.max_depth);
+  if (trace.scattering) {
+    const TileTable tiles(scene, world.models(), world.instances(), trace.tile_m);
+    if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), trace.max_depth);
+    const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
+    if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), trace.max_depth);
+  }
   if (trace.transmission)
     transmissions.emplace(context, device_scene, std::min(trace.max_transmissions, trace.max_depth));
   else

@@ -5,6 +5,7 @@
 
 #include "base/stopwatch.hpp"
 #include "passes/candidates.hpp"
+#include "passes/crowns.hpp"
 #include "passes/occlusion.hpp"
 #include "passes/scatter.hpp"
 #include "passes/solve.hpp"
@@ -24,8 +25,10 @@ struct ExactPaths {
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
-  // Of paths: specular, diffracted, scattered.
-  uint64_t kinds() const { return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()}; }
+  // Of paths: specular, diffracted, scattered off surfaces and off vegetation.
+  uint64_t kinds() const {
+    return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()} + uint64_t{crowns.has_value()};
+  }
 
   uint32_t max_depth;
   Candidates candidates;
@@ -33,6 +36,7 @@ struct ExactPaths {
   Solve solve;
   std::optional<DiffractedPaths> diffraction;
   std::optional<Scatter> scatter;
+  std::optional<Crowns> crowns;
   std::optional<Occlusion> occlusion;  // one of these two
   std::optional<Transmissions> transmissions;
   Visible visible;

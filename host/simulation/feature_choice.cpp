@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "radio/cells.hpp"
 #include "radio/material.hpp"
 #include "radio/opacity.hpp"
 #include "wavetracer/error.hpp"
@@ -63,7 +64,7 @@ std::map<Interaction, std::vector<Reason>> needs(const Config& config, const Sce
   });
   const bool passable =
       any_material(scene, world, [&](const Material& m) { return !is_opaque(m, config.radio.frequency_hz); });
-  const bool rough = any_material(scene, world, [](const Material& m) { return m.scattering > 0; });
+  const bool rough = any_material(scene, world, [](const Material& m) { return m.scattering > 0; }) || has_cells(scene);
   return {{diffraction,
            {{!wedges, "no edge of the scene diffracts"},
             {!config.trace.free_edges && !closed, "all edges that diffract are free, and trace.free_edges = false"}}},

@@ -247,11 +247,19 @@ uint32_t solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnd
     see(edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.join.list(), joined,
                     counters));  // wedge_solve
   }
-  if (!exact.scatter) return 0;
-  SolvedList& scattered =
-      (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
-  see(scattered);
-  return scattered.count;
+  uint32_t scattered = 0;
+  if (exact.scatter) {
+    SolvedList& by_tiles =
+        (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
+    see(by_tiles);
+    scattered += by_tiles.count;
+  }
+  if (exact.crowns) {
+    SolvedList& by_cells = (*exact.crowns)(ends);  // crowns
+    see(by_cells);
+    scattered += by_cells.count;
+  }
+  return scattered;
 }
 
 }  // namespace wavetracer

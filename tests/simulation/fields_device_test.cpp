@@ -158,6 +158,27 @@ TEST_CASE("fields on the device are the host's to the last bit: behind crowns, s
   check_same(config, 1);
 }
 
+TEST_CASE("fields on the device are the host's to the last bit: several crowns of one kind that scatter") {
+  Config config = town(2000, 2);
+  config.trace.scattering = true;
+  config.trace.transmission = true;
+  for (int i = 0; i < 6; ++i) {
+    VegetationConfig& crown = config.vegetation.emplace_back();
+    crown.centre_m = {-60.0 + 23 * i, 4.0 - 2 * i, 5};
+    crown.size_m = {5, 5, 6};
+    crown.material = i % 2 ? "vegetation" : "deciduous_vegetation";
+  }
+  for (const char* name : {"vegetation", "deciduous_vegetation"}) {
+    MaterialConfig& leaves = config.materials.emplace_back();
+    leaves.name = name;
+    leaves.vegetation = "mixed";
+    leaves.scattering = 0.6;
+    leaves.scattering_cross_polar = 0.3;
+  }
+  config.trace.tile_m = 2;
+  CHECK(check_same(config, 1)[scattering] > 50);
+}
+
 TEST_CASE("fields on the device are the host's to the last bit: vehicles that drive, with Doppler shifts") {
   Config config = town(50000, 3);
   config.receivers.clear();

@@ -184,6 +184,8 @@ function place_of(frame, k) {
   const scene = instance === no_instance ? city : models[model];
   const on = instance === no_instance ? "" : ", vehicle " + id;
   const edge = frame.vertex_interaction[k] === code_of("diffraction");
+  if (scene === city && !edge && number >= city.surface_material.length && city.surface_material.length)
+    return `vegetation ${number - city.surface_material.length}`;
   const surfaces = edge ? (scene ? Array.from(scene.wedge_surface.subarray(2 * number, 2 * number + 2)) : []) : [number];
   const names = [];
   for (const surface of surfaces) {

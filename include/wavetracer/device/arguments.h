@@ -116,6 +116,14 @@ typedef struct {
 } wt_scatter_arguments;
 
 typedef struct {
+  wt_uint row_count;
+  wt_uint rows_per_item;
+  wt_uint cells;
+  wt_uint first_tile;  // the number of the first cell
+  wt_uint max_depth;
+} wt_crowns_arguments;
+
+typedef struct {
   wt_uint trie_mask;
   wt_uint node_count;
   wt_uint capacity;

@@ -31,7 +31,14 @@ typedef struct {
 // What vegetation takes of a wave at the carrier: most (1 - exp(-loss d / most)) on d metres; most < 0: loss d.
 typedef struct {
   double loss_np_m, most_np;
+  double scattering, cross_polar;  // S and K: the share S^2 of what it takes is scattered
 } wt_foliage;
+
+// Tiles of the world that are cells of vegetation: in the place of their surface this bit, the kind in three bits from
+// WT_CELL_KIND_SHIFT on, and below them the number of the volume, counted on from the surfaces of the static scene.
+#define WT_CELL 0x80000000u
+#define WT_CELL_KIND_SHIFT 28u
+#define WT_CELL_NUMBER 0x0FFFFFFFu
 
 // As VolumeShape (wavetracer/scene.hpp) has them.
 #define WT_VOLUME_BOX 0u

@@ -35,6 +35,12 @@ inline double wt_foliage_np(const WT_GLOBAL wt_foliage* foliage, double length_m
   return most > 0.0 ? -most * wt_expm1(-loss / most) : most == 0.0 ? 0.0 : loss;
 }
 
+// The share of the power that the next metre takes, where a path is so long inside.
+inline double wt_foliage_extinction(const WT_GLOBAL wt_foliage* foliage, double length_m) {
+  const double loss = foliage->loss_np_m, most = foliage->most_np;
+  return 2.0 * (most > 0.0 ? loss * wt_exp(-loss * length_m / most) : most == 0.0 ? 0.0 : loss);
+}
+
 // Nepers that gases, fog and vegetation take of a path; solved: its number in the list of solved paths.
 inline double wt_path_loss_np(const wt_field_world* world, wt_uint solved, double length_m) {
   double loss = world->air.loss_np_m * length_m;

@@ -45,6 +45,21 @@ inline void wt_meet_surface(const wt_field_world* world, wt_uint step, wt_double
   }
 }
 
+#if WT_CELLS
+// solved: the number of the path in the list of solved ones.
+inline void wt_scatter_in_cell(const wt_field_world* world, wt_uint tile, wt_uint solved, wt_double3 k_in,
+                               wt_double3 k_out, wt_transfer* transfer) {
+  const wt_uint kind = world->surface_of_tile[tile] >> WT_CELL_KIND_SHIFT & (WT_MOST_KINDS - 1u);
+  const WT_GLOBAL wt_foliage* foliage = world->foliages + kind;
+  const double side_m = world->area_of_tile[tile];
+  const double extinction =
+      wt_foliage_extinction(foliage, world->lengths_inside[(wt_ulong)solved * world->foliage_count + kind]);
+  const wt_wave_map wave =
+      wt_scatter_in_leaves(foliage, extinction, k_in, k_out, side_m * side_m * side_m, world->seed, tile);
+  wt_map(transfer, wave.from, wave.to, wave.matrix);
+}
+#endif
+
 #if WT_SCATTERS
 inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_double3 k_in, wt_double3 k_out,
                           wt_transfer* transfer) {
@@ -94,6 +109,7 @@ typedef struct {
   wt_walk_leg leg;
   wt_transfer transfer;
   double spread, since_m, speed;
+  wt_uint solved;  // the number of the path in the list of solved ones
 } wt_wave;
 
 // Past vertex k, whatever the vertex does to the wave. Returns the leg before it.
@@ -114,6 +130,16 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
   for (; k < path->depth && wt_kind(path, k) != WT_STEP_DIFFRACTION; ++k) {
     const wt_uint step = wt_step(path, k);
     const wt_walk_leg leg = wt_pass(world, path, k, wave);
+#if WT_CELLS
+    if (wt_is_cell(world, step)) {
+      const wt_uint cell = step & ~WT_STEP_KIND;
+      const double side_m = world->area_of_tile[cell];
+      wt_scatter_in_cell(world, cell, wave->solved, leg.direction, wave->leg.direction, &wave->transfer);
+      wave->spread = 1.0 / (wt_distance_from_cell(wave->since_m, side_m) *
+                            wt_distance_from_cell(length_m - wave->since_m, side_m));
+      continue;
+    }
+#endif
 #if WT_SCATTERS
     if ((step & WT_STEP_KIND) == WT_STEP_SCATTERING) {
       wt_scatter_at(world, step & ~WT_STEP_KIND, leg.direction, wave->leg.direction, &wave->transfer);
@@ -143,6 +169,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   const double length_m = wt_path_length(&path);
   wave.spread = 1.0 / length_m;
   wave.since_m = 0.0;
+  wave.solved = ordered->rows[row] >> 1;
   wave.speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
 #if WT_DIFFRACTS
   wt_edge edges[2];

@@ -5,6 +5,11 @@
 #include "wavetracer/device/field_records.h"
 #include "wavetracer/device/path_rows.h"
 
+// Vegetation that scatters need not be compiled for a scene without it.
+#ifndef WT_CELLS
+#define WT_CELLS 1
+#endif
+
 #ifndef __OPENCL_VERSION__
 namespace wavetracer::device {
 #endif
@@ -16,8 +21,8 @@ typedef struct {
   const WT_GLOBAL wt_uint* materials_of;  // of surfaces
   const WT_GLOBAL wt_material* materials;
   const WT_GLOBAL wt_wedge* wedges;
-  const WT_GLOBAL wt_uint* surface_of_tile;
-  const WT_GLOBAL double* area_of_tile;
+  const WT_GLOBAL wt_uint* surface_of_tile;  // of a cell of vegetation: see WT_CELL
+  const WT_GLOBAL double* area_of_tile;      // m2; of a cell the side of a cube of its volume, m
   const WT_GLOBAL wt_exact_instance* instances;
   const WT_GLOBAL wt_field_end* transmitters;
   const WT_GLOBAL wt_field_end* receivers;
@@ -90,16 +95,28 @@ inline int wt_is_near(const wt_field_world* world, const wt_path* path) {
   return wt_degenerates(world, path, path->from, 0) || wt_degenerates(world, path, path->to, path->depth - 1);
 }
 
+// Is the step at a cell of vegetation?
+inline int wt_is_cell(const wt_field_world* world, wt_uint step) {
+#if WT_CELLS
+  return (step & WT_STEP_KIND) == WT_STEP_SCATTERING && (world->surface_of_tile[step & ~WT_STEP_KIND] & WT_CELL) != 0;
+#else
+  return 0;
+#endif
+}
+
 // The instance on which a step happens, or WT_NONE.
 inline wt_uint wt_step_instance(const wt_field_world* world, wt_uint step) {
   const wt_uint number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
+  if (wt_is_cell(world, step)) return WT_NONE;
   if (kind == WT_STEP_DIFFRACTION) return world->wedges[number].instance;
   return world->surfaces[kind == WT_STEP_SCATTERING ? world->surface_of_tile[number] : number].instance;
 }
 
-// The number of a step's surface or wedge in its scene or model; of a tile, that of its surface.
+// The number of a step's surface or wedge in its scene or model; of a tile, that of its surface; of a cell, that of its
+// volume.
 inline wt_uint wt_local_number(const wt_field_world* world, wt_uint step) {
   const wt_uint number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
+  if (wt_is_cell(world, step)) return world->surface_of_tile[number] & WT_CELL_NUMBER;
   const wt_uint instance = wt_step_instance(world, step);
   const wt_uint own = kind == WT_STEP_SCATTERING ? world->surface_of_tile[number] : number;
   if (instance == WT_NONE) return own;

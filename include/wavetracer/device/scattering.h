@@ -84,6 +84,29 @@ inline wt_wave_map wt_scatter(const wt_material* material, double wavelength_m, 
   return wave;
 }
 
+// What a cell of vegetation sends, in metres as wt_scatter has it: the share S^2 of what it takes, evenly over all
+// directions (docs/outdoors.md). extinction: the share of the power that a metre takes there. Amplitudes are between
+// the vertical and horizontal waves of both directions; on the way back both horizontal vectors are reversed and the
+// vertical ones are not, hence the minus.
+inline wt_wave_map wt_scatter_in_leaves(const WT_GLOBAL wt_foliage* foliage, double extinction, wt_double3 k_in,
+                                        wt_double3 k_out, double volume_m3, wt_ulong seed, wt_uint tile) {
+  const double amplitude_m = foliage->scattering * sqrt(extinction * volume_m3 / (4.0 * WT_PI));
+  const double same = amplitude_m * sqrt(1.0 - foliage->cross_polar);
+  const wt_double2 other = wt_random_phase(seed, tile, 2) * (amplitude_m * sqrt(foliage->cross_polar));
+  wt_wave_map wave;
+  wave.from = wt_spherical_basis(k_in);
+  wave.to = wt_spherical_basis(k_out);
+  wave.matrix.m[0] = wt_random_phase(seed, tile, 0) * same;
+  wave.matrix.m[1] = other;
+  wave.matrix.m[2] = -other;
+  wave.matrix.m[3] = wt_random_phase(seed, tile, 1) * same;
+  return wave;
+}
+
+// The distance that spreading counts from a cell, a cube of that side as a ball: near its middle 1 / r^2 is no more
+// than its mean over the ball, 3 / radius^2.
+inline double wt_distance_from_cell(double distance_m, double side_m) { return fmax(distance_m, 0.35816 * side_m); }
+
 // What is left of the amplitude of the mirrored wave.
 inline double wt_specular_share(const wt_material* material) {
   return sqrt(1.0 - material->scattering * material->scattering);

@@ -1,0 +1,58 @@
+// Host side of kernels/crowns.cl.
+// How many rows there are the host knows, so nothing is read.
+#include "passes/crowns.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "passes/tile_rows.hpp"
+#include "wavetracer/device/arguments.h"
+
+namespace wavetracer {
+namespace {
+
+// Transmitter and receiver of each link.
+std::vector<uint32_t> link_pairs(const RadioEnds& ends) {
+  const uint32_t groups = ends.receiver_capacity / 16;
+  std::vector<uint32_t> out;
+  for (uint32_t tx = 0; tx < ends.transmitter_count; ++tx)
+    for (uint32_t group = 0; group < groups; ++group)
+      for (uint32_t word = ends.link_words[size_t{tx} * groups + group]; word; word &= word - 1)
+        out.insert(out.end(), {tx, 16 * group + static_cast<uint32_t>(std::countr_zero(word))});
+  return out;
+}
+
+}  // namespace
+
+Crowns::Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t first_tile, uint32_t max_depth)
+    : context_(context),
+      kernel_(context.kernel("crowns", "crowns")),
+      work_(tuning_of(context.info()).tiles),
+      cells_(static_cast<uint32_t>(cells.size())),
+      first_tile_(first_tile) {
+  std::vector<double> centres;
+  for (const Cell& cell : cells) centres.insert(centres.end(), {cell.centre_m.x, cell.centre_m.y, cell.centre_m.z});
+  centres_ = context.buffer(centres, "cells of vegetation");
+  solved_.max_depth = std::max(max_depth, 1u);
+}
+
+SolvedList& Crowns::operator()(const RadioEnds& ends) {
+  if (!links_ || ends.link_words != link_words_) {
+    const std::vector<uint32_t> pairs = link_pairs(ends);
+    link_words_ = ends.link_words;
+    links_count_ = static_cast<uint32_t>(pairs.size() / 2);
+    if (links_count_ > 0) links_ = context_.buffer(pairs, "links of crowns");
+  }
+  solved_.count = reserve_tile_rows(context_, solved_, uint64_t{links_count_} * cells_);
+  if (solved_.count > 0)
+    kernel_(work_.range(solved_.count), "crowns", links_, centres_, solved_.headers, solved_.vertices,
+            solved_.sequences,
+            wt_crowns_arguments{.row_count = solved_.count,
+                                .rows_per_item = work_.per_item,
+                                .cells = cells_,
+                                .first_tile = first_tile_,
+                                .max_depth = solved_.max_depth});
+  return solved_;
+}
+
+}  // namespace wavetracer

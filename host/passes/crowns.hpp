@@ -1,0 +1,36 @@
+// crowns: rows of paths transmitter - cell - receiver, for the cells of vegetation that scatters. Rays do not see
+// leaves, so every link meets every cell. A list of its own, which occlusion and visible take on as they do that of
+// solve.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
+#include "radio/cells.hpp"
+
+namespace wavetracer {
+
+class Crowns {
+ public:
+  // first_tile: the number of the first cell among the tiles of the world. max_depth: interactions that a row has room
+  // for, at least one.
+  Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t first_tile, uint32_t max_depth);
+
+  // Rows go by links, then by cells. Throws RuntimeError, naming trace.tile_m, where they outgrow the buffers of the
+  // device.
+  SolvedList& operator()(const RadioEnds& ends);
+
+ private:
+  gpu::Context& context_;
+  gpu::Kernel kernel_;
+  Work work_;
+  uint32_t cells_, first_tile_, links_count_ = 0;
+  gpu::Buffer<double> centres_;
+  std::vector<uint16_t> link_words_;  // of links_
+  gpu::Buffer<uint32_t> links_;       // transmitter and receiver of each
+  SolvedList solved_;
+};
+
+}  // namespace wavetracer
