@@ -45,14 +45,14 @@ function(wavetracer_unity target)
   target_compile_options(${target} PRIVATE "$<$<AND:$<BOOL:${WAVETRACER_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>")
 endfunction()
 
-# wavetracer_optimization(TARGET): for the sanitizers only what computes for long is optimized, and of other builds all but
-# the tests, since compiling is most of what a test takes.
+# wavetracer_optimization(TARGET): for the sanitizers only what computes for long is optimized, of other builds all but the
+# tests, since compiling is most of what a test takes.
 function(wavetracer_optimization target)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(option "")
-  if(WAVETRACER_SANITIZE AND folder MATCHES "^(base|imports|motion|scene|accel|radio|reference)$")
-    set(option -O1)
-  elseif(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/tests/" AND CMAKE_BUILD_TYPE STREQUAL Release)
+  if(WAVETRACER_SANITIZE AND folder MATCHES "^(motion|scene|accel|radio|reference|output|results|viewer)$")
+    set(option -O2)
+  elseif(target MATCHES "^test_" AND CMAKE_BUILD_TYPE STREQUAL Release)
     set(option -O1)
   endif()
   target_compile_options(${target} PRIVATE ${option})

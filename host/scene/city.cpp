@@ -76,6 +76,7 @@ class CityBuilder {
   }
 
  private:
+  // What is drawn is named first where a call takes several: the order of its arguments is the compiler's choice.
   int metres(int low, int high) { return random_.range(low, high) * grid_per_m; }
   int height() {
     return random_.range(static_cast<int>(options_.min_floors), static_cast<int>(options_.max_floors)) * floor_height;
@@ -88,7 +89,8 @@ class CityBuilder {
     } else if (kind == 3) {
       plaza(r);
     } else {
-      lots(r, random_.range(3, 4), random_.range(2, 3));
+      const int rows = random_.range(2, 3), columns = random_.range(3, 4);
+      lots(r, columns, rows);
     }
   }
 
@@ -96,7 +98,8 @@ class CityBuilder {
   void perimeter_block(const Rectangle& r) {
     const int wing = metres(11, 14), setback = metres(0, 2);
     const Rectangle outer{r.x0 + setback, r.y0 + setback, r.x1 - setback, r.y1 - setback};
-    add_flat(cells(outer, wing, wing, city::ring_cells), height(), random_.chance(50) ? "marble" : "brick");
+    const char* walls = random_.chance(50) ? "marble" : "brick";
+    add_flat(cells(outer, wing, wing, city::ring_cells), height(), walls);
     const int yard = std::min(outer.width(), outer.depth()) - 2 * wing;
     if (yard < 24 * grid_per_m || !random_.chance(70)) return;
     const int gap = 6 * grid_per_m;
@@ -141,10 +144,13 @@ class CityBuilder {
     if (shape <= 45 && smaller <= 24 * grid_per_m) {
       house(r, height());
     } else if (shape <= 70) {
-      add_flat(cells(r, r.width() / 3, r.depth() / 3, 1), height(), wall_material());
+      const char* walls = wall_material();
+      add_flat(cells(r, r.width() / 3, r.depth() / 3, 1), height(), walls);
     } else {
       constexpr uint32_t shapes[] = {city::l_cells, city::u_cells, city::t_cells};
-      add_flat(cells(r, r.width() / 3, r.depth() / 3, shapes[random_.range(0, 2)]), height(), wall_material());
+      const char* walls = wall_material();
+      const int top = height();
+      add_flat(cells(r, r.width() / 3, r.depth() / 3, shapes[random_.range(0, 2)]), top, walls);
     }
   }
 
@@ -152,8 +158,8 @@ class CityBuilder {
     city::Footprint footprint = cells(r, 0, 0, 1);
     const int smaller = std::min(r.width(), r.depth());
     const int rise = smaller * random_.range(2, 5) / 10;  // roofs of 22 to 45 degrees
-    add(city::gabled_building(footprint, foundation, eaves, rise), wall_material(),
-        random_.chance(80) ? "brick" : "metal");
+    const char* roof = random_.chance(80) ? "brick" : "metal";
+    add(city::gabled_building(footprint, foundation, eaves, rise), wall_material(), roof);
   }
 
   const char* wall_material() {
