@@ -3,53 +3,92 @@
 // always. Conservative: each bound covers the rounding of everything it is computed from.
 // Of transmitters below transmitter_count alone, and of at most max_reflections surfaces: the trie may hold what other
 // ends see, and longer prefixes. nodes[] holds the roots first, then the trie's nodes (lib/count.clh), at most
-// node_count. receivers: three planes of
-// receiver_capacity floats, padded to a multiple of 16 with copies of the last one. links: a mask of the wanted
-// receivers for each transmitter and 16 receivers.
+// node_count. Receivers come in groups of 16 on CPUs, elsewhere as lists of those that each transmitter has links to.
 #include "lib/count.clh"
 #include "lib/reach.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
 #ifdef WT_CPU
+#include "lib/beam.clh"
+
 // A bit for each lane.
-inline uint bits_of(int16 m) {
-  const int16 b = m & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
-  const int8 b8 = b.lo | b.hi;
-  const int4 b4 = b8.lo | b8.hi;
+inline uint bits_of(int8 m) {
+  const int8 b = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const int4 b4 = b.lo | b.hi;
   const int2 b2 = b4.lo | b4.hi;
   return (uint)(b2.x | b2.y);
 }
 
-inline uint lowest_bit(uint bits) { return bits & (~bits + 1); }
+inline uint lowest_bit(uint bits) { return popcount((bits & (~bits + 1)) - 1u); }
 
-// One sequence per work-item, 16 receivers at a time.
+// Receivers that wait for the last test, which eight take together.
+typedef struct {
+  double x[8], y[8], z[8];
+  uint receiver[8];
+  uint count;
+} waiting_receivers;
+
+// Those that pass the last test become candidates. Places beyond `count` are tested, too, and not used.
+inline void test_waiting(waiting_receivers* w, const wt_followed* s, const global wt_exact_surface* exact,
+                         const global wt_surface* surfaces, uint node, global wt_candidate* out,
+                         global wt_counters* counters, uint capacity) {
+  char keep[8];
+  vstore8(wt_in_boxes8(s, exact, surfaces, vload8(0, w->x), vload8(0, w->y), vload8(0, w->z)), 0, keep);
+  uint kept = 0;
+  for (uint k = 0; k < w->count; ++k) {
+    w->receiver[kept] = w->receiver[k];
+    kept += keep[k] != 0;
+  }
+  w->count = 0;
+  const uint first = kept ? atomic_add(&counters->candidates, kept) : 0u;
+  for (uint k = 0; k < kept && first + k < capacity; ++k) {
+    out[first + k].node = node;
+    out[first + k].receiver = w->receiver[k];
+  }
+}
+
+// One sequence per work-item; its receivers in groups of 16 (host/passes/receiver_groups.hpp), of which eight are
+// tested at a time. order: the receiver at each place of the groups; places: three planes of their coordinates; boxes:
+// see wt_meets_beam; links: of each transmitter the wanted places of each group. args.receiver_capacity: all places.
 kernel void candidates(const global ulong* table, const global uint* nodes, const global double4* transmitters,
                        const global double4* exact_receivers, const global wt_exact_surface* exact,
-                       const global wt_surface* surfaces, const global float* receivers, const global ushort* links,
-                       global wt_candidate* out, global wt_counters* counters, wt_candidates_arguments args) {
-  const uint i = get_global_id(0), groups = args.receiver_capacity / 16;
+                       const global wt_surface* surfaces, const global uint* order, const global float* places,
+                       const global float* boxes, const global ushort* links, global wt_candidate* out,
+                       global wt_counters* counters, wt_candidates_arguments args) {
+  const uint i = get_global_id(0), stride = args.receiver_capacity, groups = stride / 16;
   wt_followed s;
   if (i >= wt_node_count(counters, args.node_count) ||
       !wt_follow_back(table, nodes[i], transmitters, exact, surfaces, args, &s))
     return;
-  for (uint group = 0; group < groups; ++group) {
-    uint keep = links[(size_t)s.transmitter * groups + group];
-    if (keep != 0 && s.depth > 0) {
-      const global float* at = receivers + 16 * group;
-      keep &= bits_of(wt_may_reach(&s, vload16(0, at), vload16(0, at + args.receiver_capacity),
-                                   vload16(0, at + 2 * (size_t)args.receiver_capacity)));
-      for (uint rest = keep; rest; rest &= rest - 1) {
-        const uint bit = lowest_bit(rest);
-        if (!wt_in_boxes(&s, exact, surfaces, exact_receivers[16 * group + popcount(bit - 1u)].xyz)) keep &= ~bit;
+  wt_beam beam;
+  if (s.depth > 0) beam = wt_beam_of(&s);
+  waiting_receivers waiting;
+  waiting.count = 0;
+  const global ushort* wanted = links + (size_t)s.transmitter * groups;
+  for (uint first = 0; first < groups; first += 8) {
+    uint near = bits_of(convert_int8(vload8(0, wanted + first)) != 0);
+    if (near && s.depth > 0) near &= bits_of(wt_meets_beam(&beam, boxes + first, groups));
+    for (; near; near &= near - 1) {
+      const uint group = first + lowest_bit(near);
+      uint keep = wanted[group];
+      if (s.depth > 0) {
+        const global float* at = places + 16 * group;
+        const int16 reached =
+            wt_may_reach(&s, vload16(0, at), vload16(0, at + stride), vload16(0, at + 2 * (size_t)stride));
+        keep &= bits_of(reached.lo) | bits_of(reached.hi) << 8;
+      }
+      for (; keep; keep &= keep - 1) {
+        const uint receiver = order[16 * group + lowest_bit(keep)], k = waiting.count++;
+        const double4 at = exact_receivers[receiver];
+        waiting.receiver[k] = receiver;
+        waiting.x[k] = at.x;
+        waiting.y[k] = at.y;
+        waiting.z[k] = at.z;
+        if (k == 7) test_waiting(&waiting, &s, exact, surfaces, nodes[i], out, counters, args.capacity);
       }
     }
-    uint slot = keep ? atomic_add(&counters->candidates, popcount(keep)) : 0u;
-    for (; keep; keep &= keep - 1, ++slot) {
-      if (slot >= args.capacity) continue;
-      out[slot].node = nodes[i];
-      out[slot].receiver = 16 * group + popcount(lowest_bit(keep) - 1u);
-    }
   }
+  if (waiting.count > 0) test_waiting(&waiting, &s, exact, surfaces, nodes[i], out, counters, args.capacity);
 }
 #else
 // Pairs wait for the second test, so that all lanes make it together; at most WT_ROUND pairs a lane between two looks
@@ -77,8 +116,8 @@ inline void step_on(walk* w, const local uint* link_counts, uint count, uint lan
 // How many of `count` nodes a group takes that begins with `first`.
 inline uint left_from(uint first, uint count) { return min((uint)WT_NODES, count - min(first, count)); }
 
-// WT_NODES sequences per work-group with the receivers that their transmitters have links to. linked: for each
-// transmitter and one more where its receivers begin, then the receivers.
+// WT_NODES sequences per work-group with the receivers that their transmitters have links to. receivers: three planes
+// of their coordinates. linked: for each transmitter and one more where its receivers begin, then the receivers.
 __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
     const global ulong* table, const global uint* nodes, const global double4* transmitters,
     const global double4* exact_receivers, const global wt_exact_surface* exact, const global wt_surface* surfaces,

@@ -35,20 +35,25 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
 
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                                 const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters) {
-  if (ends.receiver_capacity == 0) return 0;
+  if (ends.receiver_count == 0) return 0;
   const bool alone = tuning_of(context_.info()).alone;
-  const gpu::Memory& links = alone ? static_cast<const gpu::Memory&>(ends.links) : ends.linked;
-  const gpu::Range range = alone ? work_.range(node_count) : work_.groups(node_count);
+  const ReceiverGroups& groups = ends.groups;
   return fill_list(
       counters, &wt_counters::candidates, "candidates", [&] { return list_.size(); },
       [&] {
-        kernel_(range, "candidates", trie, nodes, ends.transmitters, ends.receivers, scene.exact_surfaces,
-                scene.surfaces, ends.receiver_planes, links, list_, counters.buffer(),
-                wt_candidates_arguments{.node_count = node_count,
-                                        .receiver_capacity = ends.receiver_capacity,
-                                        .transmitter_count = ends.transmitter_count,
-                                        .max_reflections = max_reflections_,
-                                        .capacity = static_cast<uint32_t>(list_.size())});
+        const wt_candidates_arguments arguments{.node_count = node_count,
+                                                .receiver_capacity = alone ? groups.capacity : ends.receiver_capacity,
+                                                .transmitter_count = ends.transmitter_count,
+                                                .max_reflections = max_reflections_,
+                                                .capacity = static_cast<uint32_t>(list_.size())};
+        if (alone)
+          kernel_(work_.range(node_count), "candidates", trie, nodes, ends.transmitters, ends.receivers,
+                  scene.exact_surfaces, scene.surfaces, groups.order, groups.places, groups.boxes, groups.links, list_,
+                  counters.buffer(), arguments);
+        else
+          kernel_(work_.groups(node_count), "candidates", trie, nodes, ends.transmitters, ends.receivers,
+                  scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.linked, list_, counters.buffer(),
+                  arguments);
       },
       [&](size_t entries) { list_ = context_.buffer<wt_candidate>(entries, "candidates"); });
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "passes/receiver_groups.hpp"
 #include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
@@ -17,7 +18,8 @@ struct RadioEnds {
   gpu::Buffer<uint16_t> links;                  // bit b of word tx * (receiver_capacity / 16) + g: receiver 16 g + b
   std::vector<uint16_t> link_words;             // what `links` has
   gpu::Buffer<uint32_t> linked;  // the same as lists: where the receivers of each transmitter begin and the last ones
-                                 // end, then the receivers
+                                 // end, then the receivers; GPUs alone
+  ReceiverGroups groups;         // CPUs alone
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
 };
 
@@ -75,6 +77,7 @@ inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::ve
   upload(ends.transmitters, end_quadruples(launching), "transmitters");
   upload(ends.receivers, end_quadruples(receivers), "receivers");
   upload(ends.receiver_planes, planes, "receiver planes");
+  if (context.info().cpu) ends.groups.set(context, receivers, ends.transmitter_count, links);
   std::vector<uint16_t> masks = link_masks(ends, links);
   if (ends.links && masks == ends.link_words) return;
   upload(ends.links, masks, "links");

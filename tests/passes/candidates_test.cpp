@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "passes/image_method.hpp"
 
 using namespace wavetracer;
@@ -77,6 +79,47 @@ TEST_CASE("far images: four reflections between walls that are kilometres apart"
   const Outcome o = compare(quads, {{-1000, 500, 25}, {2000, -2000, 5}}, receivers, all_sequences(2, 3, 4), 4);
   CHECK(o.lost == 0);
   CHECK(o.accepted > 100);
+}
+
+TEST_CASE("receivers in groups: every one once, in groups of 16 that are halves of what they lie in") {
+  Random random(6);
+  for (const size_t count : {size_t{1}, size_t{16}, size_t{17}, size_t{1000}}) {
+    CAPTURE(count);
+    std::vector<float> positions;
+    for (size_t i = 0; i < 3 * count; ++i) positions.push_back(static_cast<float>(random.between(-100, 100)));
+    std::vector<uint32_t> order = grouped(positions);
+    double sizes = 0;  // of the groups' boxes
+    for (size_t first = 0; first + 16 <= count; first += 16)
+      for (size_t axis = 0; axis < 2; ++axis) {
+        float lower = 100, upper = -100;
+        for (size_t i = first; i < first + 16; ++i) {
+          lower = std::min(lower, positions[3 * order[i] + axis]);
+          upper = std::max(upper, positions[3 * order[i] + axis]);
+        }
+        sizes += upper - lower;
+      }
+    if (count == 1000) CHECK(sizes / 2 / 62 < 80);  // of a cube of 200 m; its 63rd part is a cube of 50 m
+    std::ranges::sort(order);
+    for (uint32_t i = 0; i < count; ++i) CHECK(order[i] == i);
+  }
+}
+
+TEST_CASE("many receivers in groups: none is lost with its group, and receivers that move are found where they are") {
+  Random random(5);
+  const std::vector<Quad> quads = random_quads(8, 60, 40, random);
+  std::vector<glm::dvec3> receivers;
+  for (int cluster = 0; cluster < 25; ++cluster) {
+    const glm::dvec3 middle = random.in_cube(80);
+    for (int i = 0; i < 12; ++i) receivers.push_back(middle + random.in_cube(cluster % 5));
+  }
+  const std::vector<glm::dvec3> transmitters = random_points(2, 60, random);
+  for (int place = 0; place < 2; ++place) {
+    const Outcome o = compare(quads, transmitters, receivers, all_sequences(2, 8, 3), 3);
+    CHECK(o.lost == 0);
+    CHECK(o.accepted > 100);
+    CHECK(o.candidates < o.pairs / 20);
+    for (glm::dvec3& at : receivers) at += glm::dvec3{0, 30, 0} * random();
+  }
 }
 
 TEST_CASE("what listeners see is no candidate, nor is a longer sequence than asked for") {

@@ -1,0 +1,110 @@
+#include "passes/receiver_groups.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+namespace wavetracer {
+namespace {
+
+struct Extent {
+  std::array<float, 3> lower, upper;
+};
+
+Extent extent_of(std::span<const uint32_t> points, const std::vector<float>& positions) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Extent out{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for (const uint32_t point : points)
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float at = positions[3 * size_t{point} + axis];
+      out.lower[axis] = std::min(out.lower[axis], at);
+      out.upper[axis] = std::max(out.upper[axis], at);
+    }
+  return out;
+}
+
+void halve(std::span<uint32_t> points, const std::vector<float>& positions) {
+  const size_t groups = (points.size() + ReceiverGroups::size - 1) / ReceiverGroups::size;
+  if (groups <= 1) return;
+  const Extent extent = extent_of(points, positions);
+  size_t longest = 0;
+  for (size_t axis = 1; axis < 3; ++axis)
+    if (extent.upper[axis] - extent.lower[axis] > extent.upper[longest] - extent.lower[longest]) longest = axis;
+  const size_t half = groups / 2 * ReceiverGroups::size;
+  std::ranges::nth_element(points, points.begin() + static_cast<ptrdiff_t>(half), {},
+                           [&](uint32_t point) { return positions[3 * size_t{point} + longest]; });
+  halve(points.first(half), positions);
+  halve(points.subspan(half), positions);
+}
+
+template <class T>
+void upload(gpu::Context& context, gpu::Buffer<T>& buffer, const std::vector<T>& values, const char* name) {
+  if (buffer && values.size() <= buffer.size())
+    buffer.write(values);
+  else
+    buffer = context.buffer(values, name);
+}
+
+}  // namespace
+
+std::vector<uint32_t> grouped(const std::vector<float>& positions) {
+  std::vector<uint32_t> out(positions.size() / 3);
+  for (size_t i = 0; i < out.size(); ++i) out[i] = static_cast<uint32_t>(i);
+  halve(out, positions);
+  return out;
+}
+
+bool ReceiverGroups::moved(const std::vector<EndState>& receivers) {
+  std::vector<float> now;
+  now.reserve(3 * receivers.size());
+  for (const EndState& receiver : receivers)
+    for (int axis = 0; axis < 3; ++axis) now.push_back(static_cast<float>(receiver.position_m[axis]));
+  if (now == positions_ && places) return false;
+  positions_ = std::move(now);
+  return true;
+}
+
+void ReceiverGroups::set_places(gpu::Context& context) {
+  std::vector<uint32_t> at = grouped(positions_);
+  place_of_.resize(at.size());
+  for (size_t place = 0; place < at.size(); ++place) place_of_[at[place]] = static_cast<uint32_t>(place);
+  constexpr size_t step = size_t{size} * together;
+  at.resize((at.size() + step - 1) / step * step, at.empty() ? 0 : at.back());  // no link names the rest
+  capacity = static_cast<uint32_t>(at.size());
+  std::vector<float> planes(3 * at.size()), box_planes(6 * at.size() / size);
+  const size_t groups = at.size() / size;
+  for (size_t axis = 0; axis < 3; ++axis)
+    for (size_t place = 0; place < at.size(); ++place)
+      planes[axis * at.size() + place] = positions_[3 * size_t{at[place]} + axis];
+  for (size_t group = 0; group < groups; ++group) {
+    const Extent extent = extent_of(std::span(at).subspan(group * size, size), positions_);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float middle = 0.5f * (extent.lower[axis] + extent.upper[axis]);
+      box_planes[axis * groups + group] = middle;
+      box_planes[(3 + axis) * groups + group] = std::max(extent.upper[axis] - middle, middle - extent.lower[axis]);
+    }
+  }
+  upload(context, order, at, "receivers in groups");
+  upload(context, places, planes, "places of receivers");
+  upload(context, boxes, box_planes, "boxes of receivers");
+}
+
+void ReceiverGroups::set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,
+                         const std::vector<Link>& wanted) {
+  if (receivers.empty()) {
+    capacity = 0;
+    return;
+  }
+  if (moved(receivers)) set_places(context);
+  const size_t groups = capacity / size;
+  std::vector<uint16_t> words(transmitter_count * groups, 0);
+  for (const Link& link : wanted) {
+    const uint32_t place = place_of_[link.rx];
+    words[link.tx * groups + place / size] |= static_cast<uint16_t>(1u << place % size);
+  }
+  if (links && words == link_words_) return;
+  upload(context, links, words, "links of groups");
+  link_words_ = std::move(words);
+}
+
+}  // namespace wavetracer

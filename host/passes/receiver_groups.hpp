@@ -1,0 +1,39 @@
+// Receivers in groups of 16 that lie close together, each in its box: what a sequence surely does not reach is passed
+// over group by group (candidates on CPUs).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gpu/gpu.hpp"
+#include "wavetracer/world_state.hpp"
+
+namespace wavetracer {
+
+struct ReceiverGroups {
+  static constexpr uint32_t size = 16;     // places of a group, one each for a receiver
+  static constexpr uint32_t together = 8;  // groups that are tested at a time: their number is a multiple of it
+  gpu::Buffer<uint32_t> order;             // the receiver at each place
+  gpu::Buffer<float> places;               // three planes: x, y and z, recentred metres
+  gpu::Buffer<float> boxes;                // six planes, of each group: the middle of its box, and half of its size
+  gpu::Buffer<uint16_t> links;             // bit b of word tx * groups + g: place 16 g + b
+  uint32_t capacity = 0;                   // places
+
+  // receivers: in recentred metres. What has not changed since the last call is kept.
+  void set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,
+           const std::vector<Link>& links);
+
+ private:
+  std::vector<float> positions_;    // of the receivers, three each
+  std::vector<uint32_t> place_of_;  // of each receiver
+  std::vector<uint16_t> link_words_;
+
+  bool moved(const std::vector<EndState>& receivers);
+  void set_places(gpu::Context& context);
+};
+
+// The numbers of points, three coordinates each, group by group: halved along the longest side of their box until 16
+// are left, so that all groups but the last one are full.
+std::vector<uint32_t> grouped(const std::vector<float>& positions);
+
+}  // namespace wavetracer
