@@ -63,6 +63,7 @@ class Bench {
   void measure(const FrameWorld& world) {
     Simulation simulation(world.config, options_.device);
     const size_t triangles = load_scene(world.config).triangles.size();
+    worlds_.insert(world.name);
     Samples first, later;
     for (uint32_t run = 0; run <= options_.runs; ++run) {
       const FrameResult frame = simulation.run_frame(world.frames > 1 ? run % world.frames : 0);
@@ -84,7 +85,8 @@ class Bench {
   }
 
   bool belongs(const KernelCost& cost, const FrameWorld& world) const {
-    return cost.world == world.name || (cost.world.empty() && !printed_.contains(std::string(cost.kernel)));
+    return cost.world == world.name || (!printed_.contains(std::string(cost.kernel)) &&
+                                        (cost.world.empty() || worlds_.contains(std::string(cost.world))));
   }
 
   void print_row(const KernelCost& cost, const FrameWorld& world, const std::vector<Sample>& samples) {
@@ -143,7 +145,7 @@ class Bench {
   std::string command_;
   gpu::DeviceInfo info_;
   DeviceLimits limits_;
-  std::set<std::string> ran_, printed_;
+  std::set<std::string> ran_, printed_, worlds_;  // worlds_: measured so far
 };
 
 }  // namespace

@@ -93,7 +93,7 @@ double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + wo
 
 constexpr KernelCost costs[] = {
     {"generate_rays/generate_rays", "reflections", "rays", rays, always<32>, always<20>},
-    {"generate_rays/generate_launchers", "drive", "rays", rays, always<32>, always<20>},
+    {"generate_rays/generate_launchers", "diffraction", "rays", rays, always<32>, always<20>},
     {"trace_bvh2/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
     {"trace_bvh8/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
     {"trace_packet16/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
@@ -101,6 +101,7 @@ constexpr KernelCost costs[] = {
     {"scan/scan", "reflections", "blocks", items_of<"scan/scan">, always<8>, always<1>},
     {"scan/scan_sums", "reflections", "blocks", items_of<"scan/scan_sums">, always<4>, always<1>},
     {"interact/interact", "reflections", "segments", segments, interact_bytes, always<20>},
+    {"sequences/clear", "reflections", "slots", items_of<"sequences/clear">, always<12>, nothing},
     {"sequences/collect", "reflections", "slots", items_of<"sequences/collect">, always<8>, nothing},
     {"sequences/commute", "reflections", "sequences", items_of<"sequences/commute">, always<12>, nothing},
     {"sequences/regrow", "", "slots", items_of<"sequences/regrow">, always<8>, nothing},

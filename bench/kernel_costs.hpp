@@ -28,7 +28,8 @@ struct FrameNumbers {
 
 struct KernelCost {
   std::string_view kernel;   // "program/kernel"
-  std::string_view world;    // in which it is measured; empty: the first that launches it
+  std::string_view world;    // in which it is measured, or a later one if that does not launch it on this device;
+                             // empty: the first that launches it
   std::string_view element;  // in the plural
   double (*elements)(const FrameNumbers&);
   double (*bytes)(const FrameNumbers&);       // per element

@@ -85,19 +85,19 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
 }
 
 // Rows to their places: those of one key by what wt_compare_rows says. rows: WT_NO_ROW where none stays, or one that is
-// near; counts: 1 where one stays, and vertex_counts its interactions.
+// near; counts: 1 where one stays, and behind those of all places its interactions.
 kernel void order_rows(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                        const global double* transmitters, const global double* receivers,
                        const global uint* receiver_of, const global uint* transmitter_of, const global uint* keys,
                        const global uint* order, const global double* lengths, const global uchar* stays,
                        const global uchar* quarters, global uint* rows, global double* delays, global uint* counts,
-                       global uint* vertex_counts, global uchar* row_quarters, wt_distinct_arguments args) {
+                       global uchar* row_quarters, wt_distinct_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count) return;
   const uint scale = args.twins ? 1u : 2u, row = scale * order[place], key = keys[place];
   if (key == WT_NONE) {
     rows[place] = WT_NO_ROW;
-    counts[place] = vertex_counts[place] = 0;
+    counts[place] = counts[args.row_count + place] = 0;
     return;
   }
   const wt_path_list list = {solved,    vertices,    steps,          transmitters,
@@ -118,6 +118,6 @@ kernel void order_rows(const global wt_solved* solved, const global double* vert
   rows[to] = is_row ? row : WT_NO_ROW;
   delays[to] = delay_s;
   counts[to] = is_row ? 1u : 0u;
-  vertex_counts[to] = is_row ? path.depth : 0u;
+  counts[args.row_count + to] = is_row ? path.depth : 0u;
   row_quarters[to] = quarters[place];
 }

@@ -5,13 +5,13 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 // One place of the rows per work-item; what does not fit is left out, as the counters of rows and vertices tell.
-// first_row and first_vertex: how many rows and vertices stand before each place.
+// before: how many rows stand before each place, then all of them and how many vertices do.
 kernel void fields(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                    const global double* transmitter_places, const global double* receiver_places,
                    const global uint* receiver_of, const global uint* transmitter_of, const global uint* rows,
-                   const global double* delays, const global uchar* quarters, const global uint* first_row,
-                   const global uint* first_vertex, const global wt_exact_surface* surfaces,
-                   const global uint* materials_of, const global wt_material* materials, const global wt_wedge* wedges,
+                   const global double* delays, const global uchar* quarters, const global uint* before,
+                   const global wt_exact_surface* surfaces, const global uint* materials_of,
+                   const global wt_material* materials, const global wt_wedge* wedges,
                    const global uint* surface_of_tile, const global double* area_of_tile,
                    const global wt_exact_instance* instances, const global wt_field_end* transmitters,
                    const global wt_field_end* receivers, const global wt_antenna* antennas,
@@ -19,7 +19,8 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
                    global wt_path_row* out, global wt_vertex_row* out_vertices, wt_fields_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count || rows[place] == WT_NO_ROW) return;
-  if (first_row[place] >= args.row_capacity || first_vertex[place] + WT_MAX_DEPTH > args.vertex_capacity) return;
+  const uint first_row = before[place], first_vertex = before[args.row_count + place] - before[args.row_count];
+  if (first_row >= args.row_capacity || first_vertex + WT_MAX_DEPTH > args.vertex_capacity) return;
   const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
                              receiver_places, receiver_of, transmitter_of, args.max_depth};
   const wt_field_world world = {
@@ -28,5 +29,5 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
       args.scatters, args.foliage_count, foliages,  lengths_inside, args.air};
   const wt_ordered_rows ordered = {&list, rows, delays, args.row_count};
   wt_write_row(&world, &ordered, place, quarters[place], (double3)(args.origin[0], args.origin[1], args.origin[2]),
-               first_vertex[place], out + first_row[place], out_vertices);
+               first_vertex, out + first_row, out_vertices);
 }

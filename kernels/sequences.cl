@@ -7,6 +7,16 @@
 #include "lib/count.clh"
 #include "lib/trie.clh"
 
+// No sequences, and all counters zero. A work-item takes WT_SLOTS_PER_ITEM slots.
+kernel void clear(global ulong* table, global uint* quarters, uint slots, global wt_counters* counters) {
+  const uint item = get_global_id(0), first = item * WT_SLOTS_PER_ITEM, end = min(first + WT_SLOTS_PER_ITEM, slots);
+  for (uint k = item; k < sizeof(wt_counters) / sizeof(uint); k += get_global_size(0)) ((global uint*)counters)[k] = 0;
+  for (uint slot = first; slot < end; ++slot) {
+    table[slot] = WT_EMPTY;
+    quarters[slot] = 0;
+  }
+}
+
 // Appends the id of every used slot to nodes, in no particular order; counters->nodes is their number. A work-item
 // takes WT_SLOTS_PER_ITEM slots.
 kernel void collect(const global ulong* table, uint slots, global uint* nodes, uint capacity,

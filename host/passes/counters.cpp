@@ -33,7 +33,7 @@ Counters::Counters(gpu::Context& context) : context_(context), buffer_(context.b
 
 void Counters::zero() {
   buffer_.write(std::vector<wt_counters>{{}}, 0, "sequences");
-  foreseen_.clear();
+  zeroed();
 }
 
 void Counters::restart(Count count, uint32_t from, const char* stage) {

@@ -22,6 +22,8 @@ class Counters {
   gpu::Buffer<wt_counters>& buffer() { return buffer_; }
   // All begin with zero, and nothing is foreseen of them yet.
   void zero();
+  // A kernel has made them so.
+  void zeroed() { foreseen_.clear(); }
   // One of them begins again with this number.
   void restart(Count count, uint32_t from, const char* stage);
   // So many nodes are listed, and none after them.

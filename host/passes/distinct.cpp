@@ -38,8 +38,7 @@ void Distinct::reserve(size_t places) {
   stays_ = context_.buffer<uint8_t>(places, "distinct paths");
   quarters_ = context_.buffer<uint8_t>(places, "quarters of paths");
   rows_.rows = context_.buffer<uint32_t>(places, "rows of paths");
-  rows_.counts = context_.buffer<uint32_t>(places, "counts of rows");
-  rows_.vertex_counts = context_.buffer<uint32_t>(places, "counts of vertices");
+  rows_.counts = context_.buffer<uint32_t>(2 * places, "counts of rows and vertices");
   rows_.delays = context_.buffer<double>(places, "delays of paths");
   rows_.quarters = context_.buffer<uint8_t>(places, "quarters of rows");
 }
@@ -75,7 +74,7 @@ void Distinct::place(const DeviceScene& scene, const RadioEnds& ends, const Solv
              lengths_, stays_, quarters_, counters.buffer(), arguments_);
   order_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
               ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, keys_, order_, lengths_, stays_,
-              quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.vertex_counts, rows_.quarters, arguments_);
+              quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.quarters, arguments_);
 }
 
 std::map<Link, uint32_t> Distinct::left_out() {

@@ -19,7 +19,8 @@ namespace wavetracer {
 // Rows at their places; see kernels/distinct.cl. Buffers are longer than `places`, the number of places.
 struct RowList {
   uint32_t places = 0;
-  gpu::Buffer<uint32_t> rows, counts, vertex_counts;  // counts: after a scan, how many rows stand before a place
+  gpu::Buffer<uint32_t> rows;
+  gpu::Buffer<uint32_t> counts;  // of rows at each place, then of their vertices; scanned, how many stand before it
   gpu::Buffer<double> delays;
   gpu::Buffer<uint8_t> quarters;
 };

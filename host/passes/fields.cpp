@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "passes/upload.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -55,13 +57,10 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts,
 void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                         const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
                         const Distinct& distinct, const RowList& rows, RowCounts most) {
-  const std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
-                                                        field_ends(world.receivers, transmitters_)};
-  for (int side = 0; side < 2; ++side) {
-    if (ends_[side].size() < records[side].size())
-      ends_[side] = context_.buffer<device::wt_field_end>(records[side].size(), "ends of paths");
-    ends_[side].write(records[side], 0, "fields");
-  }
+  std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
+                                                  field_ends(world.receivers, transmitters_)};
+  for (int side = 0; side < 2; ++side)
+    upload(context_, ends_[side], end_records_[side], std::move(records[side]), "ends of paths");
   make_room(context_, rows_, host_rows_, most.rows, "path rows");
   make_room(context_, vertices_, host_vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
   arguments_.row_count = rows.places;
@@ -70,9 +69,9 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
   arguments_.max_depth = visible.max_depth;
   kernel_(work_.range(rows.places), "fields", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
           ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.delays, rows.quarters,
-          rows.counts, rows.vertex_counts, scene.exact_surfaces, materials_of_, materials_, wedges, surface_of_tile_,
-          area_of_tile_, scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, foliages_, lengths_inside,
-          rows_, vertices_, arguments_);
+          rows.counts, scene.exact_surfaces, materials_of_, materials_, wedges, surface_of_tile_, area_of_tile_,
+          scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, foliages_, lengths_inside, rows_, vertices_,
+          arguments_);
 }
 
 void Fields::begin_read(uint32_t frame, RowCounts expected) {

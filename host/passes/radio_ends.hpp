@@ -8,6 +8,7 @@
 
 #include "gpu/gpu.hpp"
 #include "passes/receiver_groups.hpp"
+#include "passes/upload.hpp"
 #include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
@@ -21,6 +22,9 @@ struct RadioEnds {
                                  // end, then the receivers; GPUs alone
   ReceiverGroups groups;         // CPUs alone
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
+  std::vector<double> transmitter_words, receiver_words;  // what the buffers have
+  std::vector<float> plane_words;
+  std::vector<uint32_t> linked_words;
 };
 
 // Links as RadioEnds::links has them.
@@ -59,12 +63,6 @@ inline std::vector<double> end_quadruples(const std::vector<EndState>& ends) {
 inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::vector<EndState>& transmitters,
                            const std::vector<EndState>& receivers, const std::vector<Link>& links,
                            const std::vector<uint32_t>& listeners = {}) {
-  const auto upload = [&](auto& buffer, const auto& values, const char* name) {
-    if (buffer && values.size() <= buffer.size())
-      buffer.write(values);
-    else
-      buffer = context.buffer(values, name);
-  };
   ends.transmitter_count = static_cast<uint32_t>(transmitters.size());
   ends.receiver_count = static_cast<uint32_t>(receivers.size());
   ends.receiver_capacity = (ends.receiver_count + 15) / 16 * 16;
@@ -74,15 +72,15 @@ inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::ve
       planes.push_back(static_cast<float>(receivers[std::min(i, ends.receiver_count - 1)].position_m[axis]));
   std::vector<EndState> launching = transmitters;
   for (const uint32_t receiver : listeners) launching.push_back(receivers[receiver]);
-  upload(ends.transmitters, end_quadruples(launching), "transmitters");
-  upload(ends.receivers, end_quadruples(receivers), "receivers");
-  upload(ends.receiver_planes, planes, "receiver planes");
+  upload(context, ends.transmitters, ends.transmitter_words, end_quadruples(launching), "transmitters");
+  upload(context, ends.receivers, ends.receiver_words, end_quadruples(receivers), "receivers");
+  upload(context, ends.receiver_planes, ends.plane_words, std::move(planes), "receiver planes");
   if (context.info().cpu) ends.groups.set(context, receivers, ends.transmitter_count, links);
   std::vector<uint16_t> masks = link_masks(ends, links);
   if (ends.links && masks == ends.link_words) return;
-  upload(ends.links, masks, "links");
-  if (!context.info().cpu) upload(ends.linked, link_lists(ends.transmitter_count, masks), "lists of links");
-  ends.link_words = std::move(masks);
+  if (!context.info().cpu)
+    upload(context, ends.linked, ends.linked_words, link_lists(ends.transmitter_count, masks), "lists of links");
+  upload(context, ends.links, ends.link_words, std::move(masks), "links");
 }
 
 inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndState>& transmitters,

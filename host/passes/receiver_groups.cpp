@@ -4,6 +4,8 @@
 #include <limits>
 #include <span>
 
+#include "passes/upload.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -35,14 +37,6 @@ void halve(std::span<uint32_t> points, const std::vector<float>& positions) {
                            [&](uint32_t point) { return positions[3 * size_t{point} + longest]; });
   halve(points.first(half), positions);
   halve(points.subspan(half), positions);
-}
-
-template <class T>
-void upload(gpu::Context& context, gpu::Buffer<T>& buffer, const std::vector<T>& values, const char* name) {
-  if (buffer && values.size() <= buffer.size())
-    buffer.write(values);
-  else
-    buffer = context.buffer(values, name);
 }
 
 }  // namespace
@@ -84,9 +78,9 @@ void ReceiverGroups::set_places(gpu::Context& context) {
       box_planes[(3 + axis) * groups + group] = std::max(extent.upper[axis] - middle, middle - extent.lower[axis]);
     }
   }
-  upload(context, order, at, "receivers in groups");
-  upload(context, places, planes, "places of receivers");
-  upload(context, boxes, box_planes, "boxes of receivers");
+  upload(context, order, order_words_, std::move(at), "receivers in groups");
+  upload(context, places, place_words_, std::move(planes), "places of receivers");
+  upload(context, boxes, box_words_, std::move(box_planes), "boxes of receivers");
 }
 
 void ReceiverGroups::set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,
@@ -102,9 +96,7 @@ void ReceiverGroups::set(gpu::Context& context, const std::vector<EndState>& rec
     const uint32_t place = place_of_[link.rx];
     words[link.tx * groups + place / size] |= static_cast<uint16_t>(1u << place % size);
   }
-  if (links && words == link_words_) return;
-  upload(context, links, words, "links of groups");
-  link_words_ = std::move(words);
+  upload(context, links, link_words_, std::move(words), "links of groups");
 }
 
 }  // namespace wavetracer

@@ -24,8 +24,10 @@ struct ReceiverGroups {
            const std::vector<Link>& links);
 
  private:
-  std::vector<float> positions_;    // of the receivers, three each
-  std::vector<uint32_t> place_of_;  // of each receiver
+  std::vector<float> positions_;       // of the receivers, three each
+  std::vector<uint32_t> place_of_;     // of each receiver
+  std::vector<uint32_t> order_words_;  // what the buffers have
+  std::vector<float> place_words_, box_words_;
   std::vector<uint16_t> link_words_;
 
   bool moved(const std::vector<EndState>& receivers);

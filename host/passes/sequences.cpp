@@ -18,6 +18,7 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
       counters_(context) {
   gpu::Definitions definitions = {{"WT_SLOTS_PER_ITEM", slots_work_.option()}};
   if (keep_ages) definitions["WT_AGES"] = "1";
+  clear_ = context.kernel("sequences", "clear", definitions);
   collect_ = context.kernel("sequences", "collect", definitions);
   commute_ = context.kernel("sequences", "commute", definitions);
   regrow_ = context.kernel("sequences", "regrow", definitions);
@@ -37,9 +38,9 @@ void Sequences::resize(uint64_t slots) {
 }
 
 void Sequences::clear() {
-  context_.fill(table_, WT_EMPTY, "sequences");
-  context_.fill(quarters_, 0, "sequences");
-  counters_.zero();
+  clear_(slots_work_.range(table_.size()), "sequences", table_, quarters_, static_cast<uint32_t>(table_.size()),
+         counters_.buffer());
+  counters_.zeroed();
 }
 
 gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest) {

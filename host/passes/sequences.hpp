@@ -58,7 +58,7 @@ class Sequences {
   gpu::Context& context_;
   bool keep_ages_;
   Work slots_work_, work_;
-  gpu::Kernel collect_, commute_, regrow_, follow_, keep_;
+  gpu::Kernel clear_, collect_, commute_, regrow_, follow_, keep_;
   gpu::Buffer<uint64_t> table_;
   gpu::Buffer<uint32_t> quarters_, ages_;
   uint32_t frame_ = 1;

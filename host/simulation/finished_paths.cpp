@@ -44,8 +44,7 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     expected = counters.foresees() ? expected_rows(counters.last()) : most;
   }
   if (most.rows > 0) {
-    scan_.prefix(distinct_.rows().counts, places, "distinct");                                             // scan
-    scan_.prefix(distinct_.rows().vertex_counts, places, "distinct");                                      // scan
+    scan_.prefix(distinct_.rows().counts, 2 * places, "distinct");                                         // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
       fields_[i](scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, inside, distinct_,

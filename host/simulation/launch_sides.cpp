@@ -49,12 +49,15 @@ LaunchSides::LaunchSides(const Scene& scene, std::span<const Scene> models, std:
     : instances_(instances), static_(scene), models_(models.begin(), models.end()) {}
 
 // Planes that are one are listed once: patches of the ground, walls that touch.
-std::vector<LaunchSides::Plane> LaunchSides::planes_at(const Launcher& launcher, const WorldState& state,
-                                                       double step_m) const {
+std::vector<LaunchSides::Plane> LaunchSides::planes_at(const Launcher& launcher, const WorldState& state, double step_m,
+                                                       std::optional<Known>& known) const {
   const glm::dvec3& p = launcher.position_m;
   const double tolerance_m = std::max(WT_ON_SURFACE_M, step_m);
-  std::vector<Plane> found;
-  static_.find(p, tolerance_m, found);
+  if (!known || known->position_m != p) {
+    known = {p, {}};
+    static_.find(p, tolerance_m, known->planes);
+  }
+  std::vector<Plane> found = known->planes;
   for (uint32_t i = 0; i < state.instances.size(); ++i) {
     const Placement& body = state.instances[i];
     const Planes& model = models_[instances_[i].model];
@@ -72,12 +75,14 @@ std::vector<LaunchSides::Plane> LaunchSides::planes_at(const Launcher& launcher,
   return out;
 }
 
-std::vector<Launcher> LaunchSides::of(const std::vector<Launcher>& launchers, const WorldState& state) const {
+std::vector<Launcher> LaunchSides::of(const std::vector<Launcher>& launchers, const WorldState& state) {
   std::vector<std::vector<Launcher>> sides(launchers.size());
+  for (const Launcher& launcher : launchers)
+    if (launcher.transmitter >= known_.size()) known_.resize(launcher.transmitter + 1);
   const auto find = [&](size_t i) {
     sides[i] = {launchers[i]};
     const double step_m = step_beside(launchers[i].position_m);
-    for (const Plane& plane : planes_at(launchers[i], state, step_m)) {
+    for (const Plane& plane : planes_at(launchers[i], state, step_m, known_[launchers[i].transmitter])) {
       std::vector<Launcher> both;
       for (const Launcher& from : sides[i])
         for (const double side : {1.0, -1.0}) {

@@ -2,6 +2,7 @@
 // stands on or just in front of; paths are decided in double, where a surface closer than 0.1 mm hides nothing from an
 // antenna (kernels/lib/legs.clh). So such an antenna launches from both sides of the surface, a step beside it.
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,13 +14,13 @@
 
 namespace wavetracer {
 
-// Keeps references to the models and the instances.
+// Keeps references to the models and the instances. Launchers of one call have transmitters of their own.
 class LaunchSides {
  public:
   LaunchSides(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances);
 
   // The same launchers, those on surfaces once for each side of each of them, three surfaces at most.
-  std::vector<Launcher> of(const std::vector<Launcher>& launchers, const WorldState& state) const;
+  std::vector<Launcher> of(const std::vector<Launcher>& launchers, const WorldState& state);
 
  private:
   // A plane with its unit normal, and the height of a point above it.
@@ -36,11 +37,18 @@ class LaunchSides {
     // Appends those that the point is on.
     void find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const;
   };
-  std::vector<Plane> planes_at(const Launcher& launcher, const WorldState& state, double step_m) const;
+  // Of the static scene, for each launcher: those at its place, which most keep from frame to frame.
+  struct Known {
+    glm::dvec3 position_m;
+    std::vector<Plane> planes;
+  };
+  std::vector<Plane> planes_at(const Launcher& launcher, const WorldState& state, double step_m,
+                               std::optional<Known>& known) const;
 
   std::span<const Instance> instances_;
   Planes static_;
   std::vector<Planes> models_;
+  std::vector<std::optional<Known>> known_;
 };
 
 }  // namespace wavetracer

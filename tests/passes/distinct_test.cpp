@@ -1,5 +1,4 @@
-// distinct: which solutions are paths, in which order, and what reversal adds: against plain quadratic code and cases
-// by hand, for rows that come in any order.
+// distinct: which solutions are paths, in which order, and what reversal adds: by plain quadratic code, and by hand.
 #include "passes/distinct.hpp"
 
 #include <doctest/doctest.h>
@@ -168,9 +167,10 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
   distinct.place(scene, on_device, visible, counters);
   const wt_counters totals = counters.read("distinct");
   if (left_out && totals.near_rows > 0) *left_out = distinct.left_out();
-  const std::vector<uint32_t> counts = distinct.rows().counts.read(0, places);
-  const uint32_t rows = scan(distinct.rows().counts, places), vertices = scan(distinct.rows().vertex_counts, places);
-  const std::vector<uint32_t> at = distinct.rows().counts.read(0, places), of = distinct.rows().rows.read(0, places);
+  gpu::Buffer<uint32_t>& of_places = distinct.rows().counts;
+  const std::vector<uint32_t> counts = of_places.read(0, places), of = distinct.rows().rows.read(0, places);
+  const uint32_t sum = scan(of_places, 2 * places), rows = of_places.read_one(places), vertices = sum - rows;
+  const std::vector<uint32_t> at = of_places.read(0, 2 * places);
   const std::vector<uint8_t> quarters = distinct.rows().quarters.read(0, places);
   const std::vector<double> delays = distinct.rows().delays.read(0, places);
   std::vector<Path> out;
@@ -179,6 +179,7 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
     CHECK((of[place] == WT_NO_ROW) == (counts[place] == 0));
     if (of[place] == WT_NO_ROW) continue;
     CHECK(at[place] == out.size());
+    CHECK(at[places + place] - rows == seen);
     Path path = found[of[place] / 2];
     if (of[place] % 2) path = reversed(path, ends.transmitter_of[path.rx], ends.receiver_of[path.tx]);
     path.quarters = quarters[place];
@@ -186,9 +187,8 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
     seen += static_cast<uint32_t>(path.points.size());
     out.push_back(path);
   }
-  CHECK(vertices == seen);
+  CHECK((vertices == seen && totals.row_vertices == vertices));
   CHECK((rows == out.size() && totals.rows == rows));
-  CHECK(totals.row_vertices == vertices);
   return out;
 }
 
