@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 struct ConvertOptions {
   std::string input, format, output, frames, projection, traffic;
   bool list = false;
-  ImportOptions import;
+  ImportOptions map;
 };
 
 std::string formats_in_words() {
@@ -117,7 +117,7 @@ void export_run(const ConvertOptions& options) {
 
 // Where the vehicles of a file are: the ground has to reach below them.
 Extent extent_of_traffic(const ConvertOptions& options) {
-  if (options.import.net.empty() && fs::path(options.input).extension() != ".xml")
+  if (options.map.net.empty() && fs::path(options.input).extension() != ".xml")
     throw ConfigError(
         fmt::format("--traffic {}: needs --net with the network that the vehicles drive on, since only "
                     "then map and vehicles have the same coordinates",
@@ -140,61 +140,57 @@ void import_map(const ConvertOptions& options) {
     throw ConfigError(fmt::format("--frames: this option is for runs, but {} is a map", options.input));
   if (!options.format.empty() && options.format != "mitsuba")
     throw ConfigError(fmt::format("--to {}: a map can only be converted to a scene (mitsuba)", options.format));
-  ImportOptions import = options.import;
-  import.output = options.output;
-  import.projection = options.projection;
-  if (!import.projection.empty() && !import.net.empty())
+  ImportOptions map = options.map;
+  map.output = options.output;
+  map.projection = options.projection;
+  if (!map.projection.empty() && !map.net.empty())
     throw ConfigError("--projection and --net both say which coordinates the scene has: remove one of them");
-  if (!options.traffic.empty()) import.traffic = extent_of_traffic(options);
+  if (!options.traffic.empty()) map.traffic = extent_of_traffic(options);
   Progress progress;
-  import.at = [&progress](uint64_t done, uint64_t total) { progress.bar("writing", done, total, "meshes");
-};
-const ImportSummary summary = import_city(options.input, import);
-progress.end();
-for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
-std::cout << describe(summary);
-}  // namespace
+  map.at = [&progress](uint64_t done, uint64_t total) { progress.bar("writing", done, total, "meshes"); };
+  const ImportSummary summary = import_city(options.input, map);
+  progress.end();
+  for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
+  std::cout << describe(summary);
+}
 
 void add_map_options(CLI::App& command, ConvertOptions& options) {
-  ImportOptions& import = options.import;
+  ImportOptions& map = options.map;
   const char* maps = "Maps";
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command.add_option(name, value, help)->group(maps);
   };
-  add("--net", import.net,
-      "For OSM maps: the .net.xml that netconvert made from the map; the scene gets its coordinates");
+  add("--net", map.net, "For OSM maps: the .net.xml that netconvert made from the map; the scene gets its coordinates");
   add("--traffic", options.traffic, "Trajectories (FCD, CSV) whose whole area the ground must cover too");
-  add("--layer", import.layer, "For maps that GDAL opens: the layer with the buildings; all layers if not given");
-  add("--height", import.height_field,
+  add("--layer", map.layer, "For maps that GDAL opens: the layer with the buildings; all layers if not given");
+  add("--height", map.height_field,
       "For maps that GDAL opens: the field with heights of buildings in metres; \"height\" if there is one");
-  add("--levels", import.levels_field,
+  add("--levels", map.levels_field,
       "For maps that GDAL opens: the field with numbers of storeys; \"levels\" if there is one");
-  add("--lod", import.lod,
+  add("--lod", map.lod,
       "For CityJSON and CityGML: the highest level of detail to build, 1, 2 or 3, or one of CityJSON's, such as 1.2; 2 "
       "if not given");
-  add("--terrain", import.terrain,
+  add("--terrain", map.terrain,
       "Heights of the ground in metres, a raster that GDAL opens (GeoTIFF and others): the ground follows it, and "
-      "houses "
-      "stand on it");
-  add("--terrain-error", import.terrain_error_m,
-      "The most by which the ground may miss a post of the terrain, in metres")
+      "houses stand on it");
+  add("--terrain-error", map.terrain_error_m, "The most by which the ground may miss a post of the terrain, in metres")
       ->capture_default_str();
-  add("--level-height", import.level_height_m, "Height of one storey of a building in metres")->capture_default_str();
-  add("--default-height", import.default_height_m, "Height in metres of buildings without a height in the map")
+  add("--level-height", map.level_height_m, "Height of one storey of a building in metres")->capture_default_str();
+  add("--default-height", map.default_height_m, "Height in metres of buildings without a height in the map")
       ->capture_default_str();
-  add("--margin", import.margin_m, "How far the ground extends beyond buildings, network and traffic, in metres")
+  add("--margin", map.margin_m, "How far the ground extends beyond buildings, network and traffic, in metres")
       ->capture_default_str();
-  add("--wall-material", import.wall_material, "ITU material if the map does not name one")->capture_default_str();
-  add("--roof-material", import.roof_material, "ITU material if the map does not name one")->capture_default_str();
-  add("--ground-material", import.ground_material, "ITU material of the ground")->capture_default_str();
+  add("--wall-material", map.wall_material, "ITU material if the map does not name one")->capture_default_str();
+  add("--roof-material", map.roof_material, "ITU material if the map does not name one")->capture_default_str();
+  add("--ground-material", map.ground_material, "ITU material of the ground")->capture_default_str();
   command
-      .add_flag("--vegetation", import.vegetation,
+      .add_flag("--vegetation", map.vegetation,
                 "For OSM maps: trees, rows of trees and woods as volumes that attenuate; Sionna RT does not know them")
       ->group(maps);
-  command.add_flag("!--no-ground", import.ground, "Write buildings only, without ground")->group(maps);
+  command.add_flag("!--no-ground", map.ground, "Write buildings only, without ground")->group(maps);
 }
 
-}  // namespace wavetracer::app
+}  // namespace
 
 void add_convert(CLI::App& program) {
   CLI::App* command =

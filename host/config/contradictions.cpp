@@ -242,6 +242,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_arrays(config, out);
   check_trajectories(config, out);
   check_degrees(config, out);
+  check_grid_corners(config, out);
   return out;
 }
 

@@ -22,5 +22,6 @@ void check_trajectories(const Config& config, std::vector<Contradiction>& out);
 // Of place_checks.cpp.
 void check_air(const Config& config, std::vector<Contradiction>& out);
 void check_degrees(const Config& config, std::vector<Contradiction>& out);
+void check_grid_corners(const Config& config, std::vector<Contradiction>& out);
 
 }  // namespace wavetracer::config

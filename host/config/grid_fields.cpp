@@ -3,18 +3,31 @@
 #include "config/field_rows.hpp"
 
 namespace wavetracer::config {
+namespace {
+
+constexpr auto of_grid = [](auto member) { return at(&Config::receiver_grids, member); };
+
+Field grid_border(std::string name, std::optional<double> ReceiverGridConfig::*member, const std::string& side,
+                  std::string example) {
+  return {.name = std::move(name),
+          .slot = of_grid(member),
+          .unit = "m",
+          .doc = side + " border of the grid, in the coordinates of the scene file. Not given: that of the scene.",
+          .example = std::move(example)};
+}
+
+Field grid_corner(std::string name, std::optional<std::array<double, 2>> ReceiverGridConfig::*member, std::string doc,
+                  std::string example) {
+  return {.name = std::move(name),
+          .slot = of_grid(member),
+          .unit = "degrees",
+          .doc = std::move(doc),
+          .example = std::move(example)};
+}
+
+}  // namespace
 
 Table receiver_grid_table() {
-  const auto g = [](auto member) { return at(&Config::receiver_grids, member); };
-  const auto border = [&](std::string name, auto member, std::string side, std::string example) {
-    return Field{.name = std::move(name),
-                 .slot = g(member),
-                 .unit = "m",
-                 .doc = side +
-                        " border of the grid, in the coordinates of the scene file. Not given: the border of the "
-                        "scene. the coordinates of the scene file. Not given: that of the scene.",
-                 .example = std::move(example)};
-  };
   return {
       .name = "receiver_grid",
       .doc =
@@ -24,38 +37,46 @@ Table receiver_grid_table() {
       .fields =
           {
               {.name = "name",
-               .slot = g(&ReceiverGridConfig::name),
+               .slot = of_grid(&ReceiverGridConfig::name),
                .required = true,
                .doc = "The beginning of the names of its receivers; unique among the grids.",
                .example = "\"street\""},
-              border("x_min_m", &ReceiverGridConfig::x_min_m, "Western", "-100.0"),
-              border("x_max_m", &ReceiverGridConfig::x_max_m, "Eastern", "100.0"),
-              border("y_min_m", &ReceiverGridConfig::y_min_m, "Southern", "-100.0"),
-              border("y_max_m", &ReceiverGridConfig::y_max_m, "Northern (y_max_m = y_min_m gives a single row)",
-                     "100.0"),
+              grid_border("x_min_m", &ReceiverGridConfig::x_min_m, "Western", "-100.0"),
+              grid_border("x_max_m", &ReceiverGridConfig::x_max_m, "Eastern", "100.0"),
+              grid_border("y_min_m", &ReceiverGridConfig::y_min_m, "Southern", "-100.0"),
+              grid_border("y_max_m", &ReceiverGridConfig::y_max_m, "Northern (y_max_m = y_min_m gives a single row)",
+                          "100.0"),
+              grid_corner(
+                  "south_west_wgs84", &ReceiverGridConfig::south_west_wgs84,
+                  "Instead of x_min_m and y_min_m: latitude and longitude (WGS84) of that corner, which need a "
+                  "georeference.json beside the scene file (`wavetracer convert` writes one). The borders run along "
+                  "x and y of the scene all the same, and height_m is measured from what `above` says.",
+                  "[48.136, 11.573]"),
+              grid_corner("north_east_wgs84", &ReceiverGridConfig::north_east_wgs84,
+                          "Instead of x_max_m and y_max_m: latitude and longitude of that corner.", "[48.138, 11.577]"),
               {.name = "step_m",
-               .slot = g(&ReceiverGridConfig::step_m),
+               .slot = of_grid(&ReceiverGridConfig::step_m),
                .unit = "m",
                .range = {0, 1e6, true},
                .doc =
                    "Side of a cell. As many cells as fit between the borders are placed in the middle, at least one. "
                    "Half the step gives four times as many receivers; more than a million receivers are an error."},
               {.name = "height_m",
-               .slot = g(&ReceiverGridConfig::height_m),
+               .slot = of_grid(&ReceiverGridConfig::height_m),
                .unit = "m",
                .doc =
                    "Height of the receivers. 1.5 m is the height of a phone, and of an antenna on the roof of a car."},
               {.name = "above",
-               .slot = g(&ReceiverGridConfig::above),
+               .slot = of_grid(&ReceiverGridConfig::above),
                .doc = "What height_m is measured from. zero: height_m is the z coordinate in the scene file. ground: "
                       "the ground at that place, for hilly terrain; where there is none, the lowest point of the "
                       "scene. The ground is what spans at least half of the scene, seen from above, or else the "
                       "lowest surface."},
-              antenna_field(g, &ReceiverGridConfig::antenna),
-              polarization_field(g, &ReceiverGridConfig::polarization),
-              array_field(g, &ReceiverGridConfig::array),
+              antenna_field(of_grid, &ReceiverGridConfig::antenna),
+              polarization_field(of_grid, &ReceiverGridConfig::polarization),
+              array_field(of_grid, &ReceiverGridConfig::array),
               {.name = "orientation_deg",
-               .slot = g(&ReceiverGridConfig::orientation_deg),
+               .slot = of_grid(&ReceiverGridConfig::orientation_deg),
                .unit = "degrees",
                .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
           },

@@ -47,6 +47,28 @@ void check_degrees(const Config& config, std::vector<Contradiction>& out) {
   for (size_t i = 0; i < config.tracks.size(); ++i)
     for (const auto& p : config.tracks[i].waypoints_wgs84)
       check(fmt::format("track.{}.waypoints_wgs84", i), p[1], p[2]);
+  for (size_t i = 0; i < config.receiver_grids.size(); ++i) {
+    const ReceiverGridConfig& grid = config.receiver_grids[i];
+    if (const auto& p = grid.south_west_wgs84)
+      check(fmt::format("receiver_grid.{}.south_west_wgs84", i), (*p)[0], (*p)[1]);
+    if (const auto& p = grid.north_east_wgs84)
+      check(fmt::format("receiver_grid.{}.north_east_wgs84", i), (*p)[0], (*p)[1]);
+  }
+}
+
+void check_grid_corners(const Config& config, std::vector<Contradiction>& out) {
+  for (size_t i = 0; i < config.receiver_grids.size(); ++i) {
+    const ReceiverGridConfig& grid = config.receiver_grids[i];
+    const auto check = [&](const char* corner, bool in_degrees, const char* border, bool in_metres) {
+      if (in_degrees && in_metres)
+        out.push_back({{fmt::format("receiver_grid.{}.{}", i, corner), fmt::format("receiver_grid.{}.{}", i, border)},
+                       fmt::format("[[receiver_grid]] has both {} and {}: remove one of them", border, corner)});
+    };
+    check("south_west_wgs84", grid.south_west_wgs84.has_value(), "x_min_m", grid.x_min_m.has_value());
+    check("south_west_wgs84", grid.south_west_wgs84.has_value(), "y_min_m", grid.y_min_m.has_value());
+    check("north_east_wgs84", grid.north_east_wgs84.has_value(), "x_max_m", grid.x_max_m.has_value());
+    check("north_east_wgs84", grid.north_east_wgs84.has_value(), "y_max_m", grid.y_max_m.has_value());
+  }
 }
 
 }  // namespace wavetracer::config

@@ -198,7 +198,7 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
             return std::string();
           },
           [&](std::array<double, 3>* to) { return assign_vector(field, key, *to, value, accepted(field)); },
-          [&](std::optional<std::array<double, 3>>* to) {
+          [&]<size_t N>(std::optional<std::array<double, N>>* to) {
             return assign_vector(field, key, to->emplace(), value, accepted(field));
           },
           [&](std::vector<std::string>* to) { return assign_words(field, key, *to, value); },

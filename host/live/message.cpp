@@ -1,5 +1,4 @@
-// The parser looks at depth, numbers of entries and repeated keys while it reads, before it builds anything of them.
-// Then every object is read by a list of its keys, so that what nobody asked for is refused with the nearest name.
+// Every object is read by a list of its keys, so that what nobody asked for is refused with the nearest name.
 #include "live/message.hpp"
 
 #include <fmt/format.h>
@@ -8,9 +7,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <set>
 
 #include "base/spelling.hpp"
+#include "live/message_json.hpp"
 #include "wavetracer/names.hpp"
 
 namespace wavetracer::live {
@@ -18,97 +17,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int max_depth = 4;          // message, vehicles, vehicle, vector
-constexpr size_t max_entries = 16;    // of arrays and objects, vehicles excepted
 constexpr size_t max_id_bytes = 128;  // of ids and types
 constexpr size_t max_token_bytes = 4096;
 constexpr double max_coordinate_m = 1e7, max_time_s = 1e12, max_speed = 1e6;
-constexpr uint64_t max_frame = (1ull << 53) - 1;  // that JSON numbers hold exactly, everywhere
-constexpr size_t max_quoted_bytes = 60;
-
-// What came from a client, cut so that it fits into a message; json::dump would refuse half a character.
-std::string in_quotes(std::string_view text) {
-  std::string out;
-  for (const char c : text.substr(0, max_quoted_bytes)) out += c >= ' ' && c < 127 && c != '"' ? c : '?';
-  return "\"" + out + (text.size() > max_quoted_bytes ? "...\"" : "\"");
-}
-
-[[noreturn]] void refuse(const char* code, const std::string& text) { throw ProtocolError(code, text); }
-
-// Throws while a parser goes through a text that has too much of anything, so that nothing is built of it: removing
-// what it built costs nlohmann's parser the square of an array's length.
-class Watch {
- public:
-  explicit Watch(size_t max_vehicles) : max_vehicles_(max_vehicles) {}
-
-  bool operator()(int depth, json::parse_event_t event, json& value) {
-    using Event = json::parse_event_t;
-    // depth counts the containers around an event; one that starts adds itself.
-    const bool starts = event == Event::object_start || event == Event::array_start;
-    if (starts && depth >= max_depth)
-      refuse("bad_json", fmt::format("arrays and objects are nested deeper than {} levels", max_depth));
-    if (event == Event::key) {
-      note_key(value.get_ref<const std::string&>());
-    } else if ((starts || event == Event::value) && !open_.empty() && open_.back().array) {
-      count_entry();
-    }
-    if (event == Event::value && open_.size() == 1 && key_ == "frame" && value.is_number_unsigned())
-      frame_ = value.get<uint64_t>();
-    if (starts) open_.push_back({.array = event == Event::array_start, .entries = 0, .keys = {}});
-    if (event == Event::object_end || event == Event::array_end) open_.pop_back();
-    return true;
-  }
-
-  // The number of the frame, once it was there.
-  std::optional<uint64_t> frame() const { return frame_ <= max_frame ? frame_ : std::nullopt; }
-
- private:
-  struct Open {
-    bool array;
-    size_t entries;
-    std::set<std::string> keys;
-  };
-
-  void note_key(const std::string& key) {
-    if (!open_.back().keys.insert(key).second) refuse("bad_json", "the key " + in_quotes(key) + " occurs twice");
-    if (open_.size() == 1) key_ = key;
-    count_entry();
-  }
-  // Of vehicles as many as have places, of anything else more than the protocol ever asks for.
-  void count_entry() {
-    const size_t count = ++open_.back().entries;
-    const bool vehicles = open_.size() == 2 && open_.back().array && key_ == "vehicles";
-    if (vehicles && count > max_vehicles_)
-      refuse("no_place", fmt::format("frame: more than {} vehicles, which is the total count of all types: raise the "
-                                     "counts of [[live_vehicle]]",
-                                     max_vehicles_));
-    if (!vehicles && count > max_entries)
-      refuse("bad_json",
-             fmt::format("an array or object has more than {} entries, and is not \"vehicles\"", max_entries));
-  }
-
-  size_t max_vehicles_;
-  std::vector<Open> open_;
-  std::string key_;  // of the message
-  std::optional<uint64_t> frame_;
-};
-
-json parse_json(std::string_view line, size_t max_vehicles) {
-  Watch watch(max_vehicles);
-  try {
-    return json::parse(line.begin(), line.end(), std::ref(watch));
-  } catch (ProtocolError& error) {
-    error.frame = watch.frame();
-    throw;
-  } catch (const json::exception& e) {
-    // nlohmann's texts begin with [json.exception...] and may quote bytes that are no UTF-8.
-    std::string text = e.what();
-    if (const size_t end = text.find("] "); end != text.npos) text.erase(0, end + 2);
-    for (char& c : text)
-      if (c < ' ' || c > '~') c = '?';
-    refuse("bad_json", text.substr(0, 300));
-  }
-}
 
 // The keys of one object, each asked for by name.
 class Object {
@@ -270,7 +181,7 @@ FrameMessage instant_of(const json& value) {
 }  // namespace
 
 Message parse_message(std::string_view line, size_t max_vehicles) {
-  const json value = parse_json(line, max_vehicles);
+  const json value = read_message_json(line, max_vehicles);
   if (!value.is_object()) refuse("bad_json", "a message must be an object, {\"message\": ...}");
   const auto kind = value.find("message");
   if (kind == value.end())

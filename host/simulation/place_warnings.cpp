@@ -12,6 +12,7 @@
 
 #include "radio/constants.hpp"
 #include "simulation/few.hpp"
+#include "simulation/place_finder.hpp"
 #include "simulation/receiver_grid.hpp"
 
 namespace wavetracer {
@@ -133,8 +134,9 @@ void say_named(const Config& config, const Ends& ends, const World& world, Kind 
 
 void say_grids(const Config& config, const Surroundings& around, const Ends& ends, std::vector<std::string>& out) {
   size_t first = config.receivers.size() + config.stations.size();
+  PlaceFinder places(config, around.scene());
   for (const ReceiverGridConfig& grid : config.receiver_grids) {
-    const GridShape shape = grid_shape(grid, around.scene());
+    const GridShape shape = grid_shape(grid, around.scene(), places);
     const size_t count = size_t{shape.columns} * shape.rows;
     for (int kind = 0; kind < kinds; ++kind) {
       size_t such = 0;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/vec2.hpp>
@@ -16,6 +17,25 @@
 namespace wavetracer {
 namespace {
 
+struct GridBorders {  // in file coordinates
+  glm::dvec2 lower_m, upper_m;
+};
+
+// As they are given, in metres or by a corner in degrees; else those of the scene.
+GridBorders borders_of(const ReceiverGridConfig& grid, const Scene& scene, PlaceFinder& places) {
+  const glm::dvec3 lower = scene.origin_m + scene.lower, upper = scene.origin_m + scene.upper;
+  const auto corner = [&](const std::optional<std::array<double, 2>>& degrees, const char* key,
+                          const glm::dvec2& otherwise_m) {
+    if (!degrees) return otherwise_m;
+    const auto& [latitude, longitude] = *degrees;
+    return places.from_degrees({longitude, latitude}, fmt::format("[[receiver_grid]] \"{}\", {}", grid.name, key));
+  };
+  return {corner(grid.south_west_wgs84, "south_west_wgs84",
+                 {grid.x_min_m.value_or(lower.x), grid.y_min_m.value_or(lower.y)}),
+          corner(grid.north_east_wgs84, "north_east_wgs84",
+                 {grid.x_max_m.value_or(upper.x), grid.y_max_m.value_or(upper.y)})};
+}
+
 struct Axis {
   double count, first_m;  // a whole number, as far as it fits a double
 };
@@ -23,8 +43,9 @@ struct Axis {
 Axis axis(const ReceiverGridConfig& grid, const char* letter, double lower_m, double upper_m) {
   if (!(upper_m >= lower_m))
     throw ConfigError(
-        fmt::format("[[receiver_grid]] \"{0}\": {1}_max_m = {2:g} is below {1}_min_m = {3:g} (not given, "
-                    "they are those of the scene): exchange the two, or give both",
+        fmt::format("[[receiver_grid]] \"{0}\": {1}_max_m = {2:g} is below {1}_min_m = {3:g} (not given, they are "
+                    "those of the scene; with corners in degrees, those of the corners): exchange the two, or give "
+                    "both",
                     grid.name, letter, upper_m, lower_m));
   constexpr double whole = 1e-9;  // so that 0.3 m are three cells of 0.1 m
   const double count = std::max(std::floor((upper_m - lower_m) / grid.step_m + whole), 1.0);
@@ -51,10 +72,10 @@ std::vector<RadioEnd> placed(std::vector<RadioEnd> ends, const std::vector<Radio
 
 }  // namespace
 
-GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene) {
-  const glm::dvec3 lower = scene.origin_m + scene.lower, upper = scene.origin_m + scene.upper;
-  const Axis x = axis(grid, "x", grid.x_min_m.value_or(lower.x), grid.x_max_m.value_or(upper.x));
-  const Axis y = axis(grid, "y", grid.y_min_m.value_or(lower.y), grid.y_max_m.value_or(upper.y));
+GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene, PlaceFinder& places) {
+  const GridBorders borders = borders_of(grid, scene, places);
+  const Axis x = axis(grid, "x", borders.lower_m.x, borders.upper_m.x);
+  const Axis y = axis(grid, "y", borders.lower_m.y, borders.upper_m.y);
   check_count(grid, x.count * y.count);
   return {static_cast<uint32_t>(x.count), static_cast<uint32_t>(y.count), x.first_m, y.first_m, grid.step_m};
 }
@@ -71,7 +92,7 @@ std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scen
   for (const auto* ends : {&config.transmitters, &std::as_const(out)})
     for (const RadioEnd& end : *ends) taken.insert(end.name);
   for (const ReceiverGridConfig& grid : config.receiver_grids) {
-    const GridShape shape = grid_shape(grid, scene);
+    const GridShape shape = grid_shape(grid, scene, places);
     check_count(grid, static_cast<double>(out.size() - singles + uint64_t{shape.columns} * shape.rows));
     for (uint32_t iy = 0; iy < shape.rows; ++iy)
       for (uint32_t ix = 0; ix < shape.columns; ++ix) {

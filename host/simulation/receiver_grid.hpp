@@ -21,8 +21,8 @@ struct GridShape {
 };
 
 // As many cells as fit between the borders, in their middle, one at least. Throws ConfigError for borders that are
-// exchanged, and for more than max_grid_receivers.
-GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene);
+// exchanged, for more than max_grid_receivers, and for corners in degrees of a scene without a georeference.
+GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene, PlaceFinder& places);
 
 // All transmitters that stand: [[transmitter]], then [[station]]; their position_m is set, however it was given.
 std::vector<RadioEnd> standing_transmitters(const Config& config, PlaceFinder& places);

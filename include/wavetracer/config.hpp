@@ -84,7 +84,9 @@ struct ResponseConfig {                     // [response]: the channel at subcar
 struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the middles of square cells, for coverage
   std::string name;
   std::optional<double> x_min_m, x_max_m, y_min_m, y_max_m;  // file coordinates; not given: those of the scene
-  double step_m = 5;                                         // side of a cell
+  // Instead of x_min_m and y_min_m, and of x_max_m and y_max_m: latitude and longitude in degrees.
+  std::optional<std::array<double, 2>> south_west_wgs84 = {}, north_east_wgs84 = {};
+  double step_m = 5;  // side of a cell
   double height_m = 1.5;
   HeightAbove above = "zero";  // zero: height_m is z; ground: above the lowest surface there
   std::string antenna = "isotropic";

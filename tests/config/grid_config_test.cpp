@@ -50,6 +50,38 @@ TEST_CASE("the resolved config of grids reads back the same") {
   CHECK_FALSE(d.receiver_grids[0].x_max_m.has_value());
 }
 
+TEST_CASE("corners in degrees are read, and saved as they were given") {
+  const Config c = parse_config(scene + ends + grid + "south_west_wgs84 = [48.137, 11.575]\nx_max_m = 20\n" +
+                                    "[[receiver_grid]]\nname = \"other\"\nnorth_east_wgs84 = [-90, 180]\n",
+                                "/data/a.toml");
+  const Config d = parse_config(c.text, "/elsewhere/b.toml");
+  CHECK(d.text == c.text);
+  REQUIRE(d.receiver_grids.size() == 2);
+  const ReceiverGridConfig &g = d.receiver_grids[0], &other = d.receiver_grids[1];
+  CHECK(g.south_west_wgs84 == std::array<double, 2>{48.137, 11.575});
+  CHECK_FALSE(g.north_east_wgs84.has_value());
+  CHECK_FALSE((g.x_min_m || g.y_min_m));
+  CHECK(*g.x_max_m == 20);
+  CHECK(other.north_east_wgs84 == std::array<double, 2>{-90, 180});
+}
+
+TEST_CASE("corners in degrees that exclude a border or are no place on the earth") {
+  check_contains(error_of(scene + ends + grid + "x_min_m = 0\nsouth_west_wgs84 = [48, 11]\n"),
+                 "a.toml:11:20: [[receiver_grid]] has both x_min_m and south_west_wgs84: remove one of them");
+  check_contains(error_of(scene + ends + grid + "y_min_m = 0\nsouth_west_wgs84 = [48, 11]\n"),
+                 "has both y_min_m and south_west_wgs84");
+  check_contains(error_of(scene + ends + grid + "north_east_wgs84 = [48, 11]\nx_max_m = 0\n"),
+                 "a.toml:11:11: [[receiver_grid]] has both x_max_m and north_east_wgs84");
+  check_contains(error_of(scene + ends + grid + "north_east_wgs84 = [48, 11]\ny_max_m = 0\n"),
+                 "has both y_max_m and north_east_wgs84");
+  check_contains(error_of(scene + ends + grid + "south_west_wgs84 = [95, 11]\n"),
+                 "a.toml:10:20: latitude 95 and longitude 11 are no place on the earth");
+  check_contains(error_of(scene + ends + grid + "north_east_wgs84 = [48, -181]\n"),
+                 "a.toml:10:20: latitude 48 and longitude -181 are no place on the earth");
+  check_contains(error_of(scene + ends + grid + "north_east_wgs84 = [48, 11, 6]\n"),
+                 "receiver_grid.north_east_wgs84 must be two numbers (degrees), not 3");
+}
+
 TEST_CASE("a grid takes the place of receivers") {
   CHECK(error_of(scene + transmitter + grid) == "no error");
   check_contains(error_of(scene + transmitter), "no [[receiver]]: add one");

@@ -1,5 +1,5 @@
-"""Positions in degrees of ends, tracks and GPX files, through a run and back to the earth by pyproj, to a millimetre.
-Run as positions_check.py PROGRAM FOLDER; answers 77, "skipped", without pyproj or h5py."""
+"""Positions in degrees of ends, tracks, grids and GPX files, through a run and back to the earth by pyproj, to a
+millimetre. Run as positions_check.py PROGRAM FOLDER; answers 77, "skipped", without pyproj or h5py."""
 import json
 import os
 import subprocess
@@ -20,6 +20,7 @@ os.chdir(folder)
 STATION = [48.1371234567, 11.5754321, 6.0]
 RECEIVER = [48.1381, 11.5769, 1.5]
 TRACK = [[0, 48.1365, 11.5745, 0.0], [4, 48.1365, 11.5755, 0.0]]
+CORNERS = [48.1366, 11.5741], [48.1380, 11.5767]
 GPS = [(48.1369, 11.5740), (48.1370, 11.5742), (48.1371, 11.5744)]
 to_utm = pyproj.Transformer.from_crs("EPSG:4326", "EPSG:32632", always_xy=True)
 geodesic = pyproj.Geod(ellps="WGS84")
@@ -50,6 +51,12 @@ station = [{{ name = "rsu", position_wgs84 = {STATION} }}]
 receiver = [{{ name = "rx", position_wgs84 = {RECEIVER} }}]
 track = [{{ id = "ego", waypoints_wgs84 = {TRACK} }}]
 mount = [{{ name = "up", role = "transmitter", offset_m = [0, 0, 1.6], above = "ground" }}]
+[[receiver_grid]]
+name = "map"
+south_west_wgs84 = {CORNERS[0]}
+north_east_wgs84 = {CORNERS[1]}
+step_m = 40
+above = "ground"
 """)
 subprocess.run([program, "run", "-c", "test.toml"], check=True)
 
@@ -74,4 +81,15 @@ check("transmitters", "ego/up", 0, *TRACK[0][1:3], 1.6)
 check("transmitters", "ego/up", 2, *TRACK[1][1:3], 1.6)
 for frame, place in enumerate(GPS):
     check("transmitters", "gps/up", frame, *place, 1.6)
-print("8 places agree with pyproj to a millimetre")
+
+# Cells of a grid lie between its corners, as far from one as from the other.
+borders = to_utm.transform(*np.flip(CORNERS, 1).T)
+(x_min, x_max), (y_min, y_max) = (np.add(of_axis, by) for of_axis, by in zip(borders, offset))
+cells = places["receivers"][0][[name.startswith("map/") for name in names["receivers"]]]
+assert len(cells) == int((x_max - x_min) // 40) * int((y_max - y_min) // 40) > 1, len(cells)
+assert np.abs(cells[[0, -1], :2].mean(axis=0) - [(x_min + x_max) / 2, (y_min + y_max) / 2]).max() < 1e-3, cells
+assert np.abs(cells[:, 2] - (LEVEL + SLOPE * cells[:, 0] + 1.5)).max() < 1e-3, cells
+with open("out/shards/run.json") as record:
+    saved = json.load(record)["config"]
+assert f"south_west_wgs84 = {CORNERS[0]}" in saved and f"north_east_wgs84 = {CORNERS[1]}" in saved, saved
+print("8 places and a grid agree with pyproj to a millimetre")

@@ -165,6 +165,32 @@ TEST_CASE("what no message has is refused where it begins to be too much, and a 
   CHECK(code_of(frame(many(vehicle(R"("position_m":[1,2,3],"yaw_deg":4)"), 4))) == "");
 }
 
+TEST_CASE("a long message is read whole, and what is broken behind its frame has no number") {
+  std::string vehicles;
+  constexpr size_t count = 10000;
+  for (size_t i = 0; i < count; ++i)
+    vehicles +=
+        fmt::format(R"({}{{"id":"v{}","type":"bus","position_m":[{},0,1e1],"yaw_deg":0,"velocity_m_s":[-1,0,0]}})",
+                    i > 0 ? "," : "", i, i);
+  const auto asked = std::get<FrameMessage>(parse_message(frame(vehicles), count));
+  REQUIRE(asked.vehicles.size() == count);
+  size_t wrong = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const wavetracer::LivePose& pose = asked.vehicles[i];
+    wrong += pose.id != fmt::format("v{}", i) || pose.position_m != glm::dvec3(static_cast<double>(i), 0, 10) ||
+             *pose.velocity_m_s != glm::dvec3(-1, 0, 0);
+  }
+  CHECK(wrong == 0);
+  CHECK(code_of(frame(vehicles), count - 1) == "no_place");
+  try {
+    parse_message(frame(vehicles) + "]", count);
+    FAIL("accepted");
+  } catch (const ProtocolError& error) {
+    CHECK(error.code == "bad_json");
+    CHECK_FALSE(error.frame.has_value());
+  }
+}
+
 TEST_CASE("mutations of a message are read or refused, nothing else") {
   const std::string good = frame(vehicle(R"("position_m":[1,2.5,-3e0],"yaw_deg":90,"velocity_m_s":[4,5,6])"));
   std::mt19937 random(1);

@@ -214,6 +214,40 @@ TEST_CASE("equal materials are one, unused names are warnings") {
   CHECK(resolved.warnings[1].find("'plywood'") != std::string::npos);
 }
 
+TEST_CASE("vegetation is refused what only a surface has, and a surface what only leaves have") {
+  const auto hedge = [](std::initializer_list<std::pair<Field, double>> fields) {
+    MaterialConfig out = table("hedge", fields);
+    out.vegetation = "mixed";
+    return out;
+  };
+  const auto refuses = [](const MaterialConfig& material, const char* message) {
+    CHECK_THROWS_WITH_AS(resolve(named(material.name), {material}), message, ConfigError);
+  };
+  constexpr const char* no_surface =
+      "[[material]] 'hedge': vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: "
+      "remove those keys";
+  for (const Field field : {&MaterialConfig::scattering_lobe, &MaterialConfig::thickness_m,
+                            &MaterialConfig::permittivity, &MaterialConfig::conductivity_s_m, &MaterialConfig::a,
+                            &MaterialConfig::b, &MaterialConfig::c, &MaterialConfig::d})
+    refuses(hedge({{field, 4}}), no_surface);
+  MaterialConfig bark = hedge({});
+  bark.library = "wood";
+  refuses(bark, no_surface);
+  constexpr const char* no_leaves =
+      "[[material]] 'brick': attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or "
+      "\"deciduous\"";
+  refuses(table("brick", {{&MaterialConfig::attenuation_db_m, 1}}), no_leaves);
+  refuses(table("brick", {{&MaterialConfig::max_attenuation_db, 30}}), no_leaves);
+  MaterialConfig bare = table("brick");
+  bare.in_leaf = false;
+  refuses(bare, no_leaves);
+  // What vegetation does take, the two keys of its scattering among them.
+  CHECK(resolve(named("hedge"), {hedge({{&MaterialConfig::scattering, 0.6},
+                                        {&MaterialConfig::scattering_cross_polar, 0.2},
+                                        {&MaterialConfig::attenuation_db_m, 1}})})
+            .vegetation.has_value());
+}
+
 TEST_CASE("material errors") {
   const auto fails = [](MaterialConfig m, const char* message) {
     CAPTURE(message);

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "scene/load.hpp"
+#include "simulation/place_warnings.hpp"
 #include "simulation/run.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config_file.hpp"
@@ -110,6 +111,35 @@ TEST_CASE("trajectories in degrees, and metres above the ground") {
   CHECK(flat.transmitters()[0].position_m[2] == doctest::Approx(500));
 }
 
+// By the series of Krueger to the sixth order, 48.138 north and 11.576 east is 70.665866 m east and 113.628350 m north.
+TEST_CASE("grids between corners in degrees, or one corner in degrees and the other in metres") {
+  const World world = HillSide().world(
+      "[[transmitter]]\nname = \"tx\"\nposition_m = [0, 0, 600]\n"
+      "[[receiver_grid]]\nname = \"g\"\nsouth_west_wgs84 = [48.137, 11.575]\nnorth_east_wgs84 = [48.138, 11.576]\n"
+      "step_m = 50\nheight_m = 2\nabove = \"ground\"\n"
+      "[[receiver_grid]]\nname = \"h\"\nx_min_m = -9.334134\ny_min_m = -6.371650\nnorth_east_wgs84 = [48.138, 11.576]\n"
+      "step_m = 40\nheight_m = 700\n");
+  const std::vector<RadioEnd>& rx = world.receivers();
+  REQUIRE(rx.size() == 2 + 2 * 3);
+  check_place(rx[0].position_m, {35.332933, 31.814175, 500 + slope * 35.332933 + 2});
+  check_place(rx[1].position_m, {35.332933, 81.814175, 500 + slope * 35.332933 + 2});
+  CHECK(rx[7].name == "h/1,2");
+  check_place(rx[7].position_m, {50.665866, 93.628350, 700});
+}
+
+TEST_CASE("what is said of the cells of a grid knows where its corners in degrees are") {
+  const HillSide hill;
+  const Config config = hill.config(
+      "[[transmitter]]\nname = \"tx\"\nposition_m = [0, 0, 600]\n"
+      "[[receiver_grid]]\nname = \"house\"\nsouth_west_wgs84 = [48.138, 11.576]\nx_max_m = 159.3\ny_max_m = 114\n"
+      "step_m = 80\nheight_m = 512\n");
+  const Scene scene = load_scene(config);
+  const World world(config, scene);
+  const std::vector<std::string> said = place_warnings(config, Surroundings(scene), world);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0] == "all of 1 receivers of grid \"house\" are inside closed bodies");
+}
+
 TEST_CASE("what has no place says which and why") {
   const auto has = [](const std::string& text, const std::string& part) {
     CAPTURE(text);
@@ -127,6 +157,15 @@ TEST_CASE("what has no place says which and why") {
   city.scene.file.clear();
   city.scene.generate = "--seed 1 --blocks 1";
   CHECK_THROWS_WITH_AS(World(city, load_scene(city)), doctest::Contains("needs a georeference.json"), ConfigError);
+  const std::string grid = tx + "position_m = [0, 0, 600]\n[[receiver_grid]]\nname = \"g\"\n";
+  has(problem(grid + "south_west_wgs84 = [48.138, 11.575]\nnorth_east_wgs84 = [48.137, 11.576]\n"),
+      "[[receiver_grid]] \"g\": y_max_m = 2.49202 is below y_min_m = 111.136");
+  Config map = HillSide().config(grid + "north_east_wgs84 = [48.138, 11.576]\n");
+  map.scene = city.scene;
+  CHECK_THROWS_WITH_AS(World(map, load_scene(map)),
+                       doctest::Contains("[[receiver_grid]] \"g\", north_east_wgs84: a position in degrees needs a "
+                                         "georeference.json"),
+                       ConfigError);
 }
 
 TEST_CASE("a configuration in degrees comes back from its own text") {

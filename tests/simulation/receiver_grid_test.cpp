@@ -36,6 +36,13 @@ ReceiverGridConfig grid_of(double x_min, double x_max, double y_min, double y_ma
   return grid;
 }
 
+GridShape shape_of(const ReceiverGridConfig& grid) {
+  const Config config;
+  const Scene scene = box_scene();
+  PlaceFinder places(config, scene);
+  return grid_shape(grid, scene, places);
+}
+
 std::vector<RadioEnd> receivers_of(const ReceiverGridConfig& grid, const Scene& scene) {
   Config config;
   config.receiver_grids = {grid};
@@ -76,7 +83,7 @@ TEST_CASE("cells fill the borders from their middle, row by row, x first") {
   grid.height_m = 1.5;
   grid.antenna = "dipole";
   grid.polarization = "VH";
-  const GridShape shape = grid_shape(grid, box_scene());
+  const GridShape shape = shape_of(grid);
   CHECK(shape.columns == 3);
   CHECK(shape.rows == 2);
   CHECK(shape.x_m == 2);  // 9 m of 10: half a metre is left at either side
@@ -90,9 +97,9 @@ TEST_CASE("cells fill the borders from their middle, row by row, x first") {
     CHECK(ends[i].antenna == "dipole");
     CHECK(ends[i].polarization.word() == "VH");
   }
-  CHECK(grid_shape(grid_of(0, 0.3, 0, 0.1, 0.1), box_scene()).columns == 3);  // not 2 for want of a last bit
-  CHECK(grid_shape(grid_of(0, 100, 7, 7, 1), box_scene()).rows == 1);
-  CHECK(grid_shape(grid_of(0, 100, 7, 7, 1), box_scene()).y_m == 7);
+  CHECK(shape_of(grid_of(0, 0.3, 0, 0.1, 0.1)).columns == 3);  // not 2 for want of a last bit
+  CHECK(shape_of(grid_of(0, 100, 7, 7, 1)).rows == 1);
+  CHECK(shape_of(grid_of(0, 100, 7, 7, 1)).y_m == 7);
 }
 
 TEST_CASE("borders that are not given are those of the scene, in the coordinates of its file") {
