@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/surface_sheets.hpp"
 #include "scene/triangle_grid.hpp"
 #include "wavetracer/scene.hpp"
 
@@ -29,12 +30,9 @@ class GroundRims {
   bool are_of(const Wedge& wedge, const TriangleGrid& triangles);
 
  private:
-  uint32_t root(uint32_t surface);
-  void measure();
-
   const Scene& scene_;
-  std::vector<uint32_t> parent_;  // of each surface: a forest, each pointing to a lower one
-  std::vector<bool> wide_;        // of roots, once measured
+  SurfaceSheets sheets_;
+  std::vector<bool> wide_;  // of sheets, once all are joined
 };
 
 }  // namespace wavetracer

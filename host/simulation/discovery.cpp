@@ -63,7 +63,7 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
       sequences_(context, initial_slots, options.keep_ages),
       wavefront_(context, scene, depth_, interact_options(context.info(), trace, depth_, options),
                  at_once(context.info(), depth_, options), source_, finder_, sequences_) {
-  if (!trace.rays) refinement_.emplace(context, trace, source_.heights());
+  if (!trace.rays) refinement_.emplace(context, trace, source_.heights(), options.hilly);
 }
 
 DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) {

@@ -17,6 +17,7 @@ struct DiscoveryOptions {
   HitFinder* finder = nullptr;        // a ray cache; not given: rays are traced
   RayFollower* follower = nullptr;    // of the launches that are followed
   const FrameWatch* watch = nullptr;  // gets the number of launched rays
+  bool hilly = false;                 // see Refinement
 };
 
 class Discovery {

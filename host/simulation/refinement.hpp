@@ -15,7 +15,9 @@ namespace wavetracer {
 
 class Refinement {
  public:
-  Refinement(gpu::Context& context, const TraceConfig& config, std::shared_ptr<const LaunchHeights> heights);
+  // hilly: the ground is many surfaces, each of which rays have to find.
+  Refinement(gpu::Context& context, const TraceConfig& config, std::shared_ptr<const LaunchHeights> heights,
+             bool hilly = false);
   // The first level for these launchers; slots: of the set of sequences. frame: since the last cold one, which is 0.
   // Frames that have the sequences of earlier ones launch fewer rays, and in directions of their own.
   void start(const std::vector<Launcher>& launchers, uint64_t slots, uint64_t frame);
@@ -37,6 +39,7 @@ class Refinement {
   gpu::Context& context_;
   TraceConfig config_;
   std::shared_ptr<const LaunchHeights> heights_;
+  uint32_t finer_;  // levels that a launch begins further down
   GenerateRays generate_;
   Refine refine_;
   Compact compact_;

@@ -5,6 +5,7 @@
 #include "radio/opacity.hpp"
 #include "scene/load.hpp"
 #include "scene/materials.hpp"
+#include "scene/surface_sheets.hpp"
 #include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/tracing_depth.hpp"
@@ -104,12 +105,16 @@ std::optional<RayCache> make_cache(Setup& s) {
   return out;
 }
 
+// Is the ground many surfaces? A street of a few patches is not, the coarsest of terrains is.
+bool is_hilly(const Scene& scene) { return ground_surfaces(scene) > 100; }
+
 DiscoveryOptions discovery_options(Setup& s) {
   return {.order = s.order.plan,
           .keep_ages = s.reuse,
           .finder = s.cache ? &*s.cache : nullptr,
           .follower = s.trails ? &*s.trails : nullptr,
-          .watch = &s.frame_watch};
+          .watch = &s.frame_watch,
+          .hilly = is_hilly(s.scene)};
 }
 
 Config with_trace(Config config, const TraceConfig& trace) {

@@ -36,6 +36,21 @@ RawMesh sheet(double x0, double y0, double x1, double y1, double z = 0) {
   return quad({x0, y0, z}, {x1 - x0, 0, 0}, {0, y1 - y0, 0});
 }
 
+// Hills of 40 m on 100 m, steps of 2.5 m.
+RawMesh hills_of_40_m() {
+  RawMesh hills;
+  const auto height = [](double x, double y) { return 20 * std::sin(x / 20) * std::cos(y / 25); };
+  for (int y = 0; y <= 40; ++y)
+    for (int x = 0; x <= 40; ++x) hills.vertices.emplace_back(2.5 * x, 2.5 * y, height(2.5 * x, 2.5 * y));
+  for (uint32_t y = 0; y < 40; ++y)
+    for (uint32_t x = 0; x < 40; ++x) {
+      const uint32_t a = y * 41 + x;
+      hills.triangles.push_back({a, a + 1, a + 42});
+      hills.triangles.push_back({a, a + 42, a + 41});
+    }
+  return hills;
+}
+
 }  // namespace
 
 TEST_CASE("the rim of a ground does not diffract, its houses do") {
@@ -78,20 +93,22 @@ TEST_CASE("grounds of several materials, of tiles that are not welded, with hole
   const std::vector<RawMesh> around{sheet(-50, -50, 50, -5), sheet(-50, 5, 50, 50), sheet(-50, -5, -5, 5),
                                     sheet(5, -5, 50, 5), box({-4, -4, 0}, {4, 4, 9})};
   CHECK(kept(around).free == 0);
-  // Hills of 40 m on 100 m, steps of 2.5 m.
-  RawMesh hills;
-  const auto height = [](double x, double y) { return 20 * std::sin(x / 20) * std::cos(y / 25); };
-  for (int y = 0; y <= 40; ++y)
-    for (int x = 0; x <= 40; ++x) hills.vertices.emplace_back(2.5 * x, 2.5 * y, height(2.5 * x, 2.5 * y));
-  for (uint32_t y = 0; y < 40; ++y)
-    for (uint32_t x = 0; x < 40; ++x) {
-      const uint32_t a = y * 41 + x;
-      hills.triangles.push_back({a, a + 1, a + 42});
-      hills.triangles.push_back({a, a + 42, a + 41});
-    }
+  const RawMesh hills = hills_of_40_m();
   const Scene terrain = scene_of({hills});
   CHECK(free_count(build({hills})) > 0);
   CHECK(free_count(terrain) == 0);
+}
+
+TEST_CASE("how many surfaces a ground has: flat ones one, houses on it or not, hills nearly one a triangle") {
+  const RawMesh ground = sheet(-50, -50, 50, 50);
+  CHECK(ground_surfaces(scene_of({ground})) == 1);
+  CHECK(ground_surfaces(scene_of({ground, box({-3, -2, 0}, {2, 4, 5}), box({-30, -20, -1}, {-20, -4, 5})})) == 1);
+  CHECK(ground_surfaces(scene_of({box({-3, -2, 0}, {2, 4, 5})})) == 1);  // its roof, or its floor
+  CHECK(ground_surfaces(scene_of({sheet(0, 0, 10, 30), sheet(10, 0, 40, 30)}, {0, 1})) == 2);
+  CHECK(ground_surfaces(scene_of({quad({0, 0, 0}, {10, 0, 0}, {0, 0, 5})})) == 0);  // a wall
+  const size_t hills = ground_surfaces(scene_of({hills_of_40_m(), box({44, 40, -30}, {56, 60, 90})}));
+  CHECK(hills > 2500);
+  CHECK(hills <= 3200);
 }
 
 TEST_CASE("the loader knows scenes from models, and scene info says what it left out") {

@@ -49,3 +49,18 @@ TEST_CASE("from any number of launchers to any other, cold and warm, both ways: 
       }
   CHECK(cold_cells == 16 * warm_cells);  // so that 16 launchers have as many samples as one
 }
+
+TEST_CASE("on hills a launch begins one level finer, and two where more than 0.99 of the paths are wanted") {
+  const auto cells = [](bool hilly, double recall, uint32_t frame) {
+    TraceConfig trace;
+    trace.recall = recall;
+    Refinement refinement(context(), trace, std::make_shared<LaunchHeights>(context()), hilly);
+    refinement.start(some_launchers(1), 1024, frame);
+    return refinement.level().cells();
+  };
+  for (const uint32_t frame : {0u, 1u}) {
+    CHECK(cells(true, 0.99, frame) == 4 * cells(false, 0.99, frame));
+    CHECK(cells(true, 0.999, frame) == 16 * cells(false, 0.999, frame));
+    CHECK(cells(false, 0.999, frame) == cells(false, 0.99, frame));
+  }
+}
