@@ -3,11 +3,9 @@
 // With WT_THROUGH every such ray also goes on straight, in the same place of the queue `through`.
 // quarters: of each node gets the bits of the rays that reach it.
 // With WT_AGES, ages[node] becomes `now` for every node that a ray reaches.
-// With WT_SAMPLES, ends[sample] becomes the node. With WT_LABELS, queues have all planes of records.h. With WT_BY_CLASS
-// (CPUs, no WT_THROUGH, no WT_LABELS) the rays of a work-item go on class by class, as packets take them.
+// With WT_SAMPLES, ends[sample] becomes the node. With WT_LABELS, queues have all planes of records.h.
 #include "lib/block_rank.clh"
 #include "lib/mirror.clh"
-#include "lib/triangle.clh"
 #include "lib/trie.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -59,64 +57,6 @@ inline bool goes_on(uint last) {
 }
 
 #ifdef WT_CPU
-#define WT_RUN (WT_BLOCKS_PER_ITEM * WT_BLOCK)  // rays of a work-item
-#define WT_CLASSES 24u
-
-#ifdef WT_BY_CLASS
-#ifdef WT_SAMPLES
-#define WT_ONWARD_PLANES (WT_RAY_SAMPLE + 1u)
-#else
-#define WT_ONWARD_PLANES WT_RAY_PLANES
-#endif
-
-// What of a work-item goes on, before its places in the queue are known, in planes as those of the queue. Rays of a
-// class share the signs and the dominant axis of their directions, which lanes of a packet must (trace_packet16).
-typedef struct {
-  float planes[WT_ONWARD_PLANES * WT_RUN];
-  uchar class[WT_RUN];
-  uint count, class_counts[WT_CLASSES];
-} wt_onward;
-
-inline void go_on_later(const global wt_surface* surfaces, const global float* rays, const global float* hits,
-                        uint capacity, uint i, uint surface, uint word, wt_onward* onward) {
-  float3 o = wt_load_float3(rays, capacity, WT_RAY_ORIGIN, i), d = wt_load_float3(rays, capacity, WT_RAY_DIRECTION, i);
-  wt_mirror(surfaces + surface, hits[i], &o, &d);
-  const uint class = 8 * wt_dominant_axis(d.x, d.y, d.z) + (d.x < 0.0f) + 2 * (d.y < 0.0f) + 4 * (d.z < 0.0f);
-  const uint k = onward->count++;
-  float* at = onward->planes + k;
-  at[WT_RAY_ORIGIN * WT_RUN] = o.x;
-  at[(WT_RAY_ORIGIN + 1) * WT_RUN] = o.y;
-  at[(WT_RAY_ORIGIN + 2) * WT_RUN] = o.z;
-  at[WT_RAY_DIRECTION * WT_RUN] = d.x;
-  at[(WT_RAY_DIRECTION + 1) * WT_RUN] = d.y;
-  at[(WT_RAY_DIRECTION + 2) * WT_RUN] = d.z;
-  at[WT_RAY_NODE * WT_RUN] = as_float(word);
-  at[WT_RAY_SURFACE * WT_RUN] = as_float(surface);
-#ifdef WT_SAMPLES
-  at[WT_RAY_SAMPLE * WT_RUN] = as_float(wt_load_word(rays, capacity, WT_RAY_SAMPLE, i));
-#endif
-  onward->class[k] = class;
-  ++onward->class_counts[class];
-}
-
-// Plane by plane, so that writes follow each other.
-inline void store_by_class(wt_onward* onward, uint capacity, global float* next, uint first) {
-  ushort order[WT_RUN];
-  uint place = 0;
-  for (uint c = 0; c < WT_CLASSES; ++c) {
-    const uint count = onward->class_counts[c];
-    onward->class_counts[c] = place;
-    place += count;
-  }
-  for (uint k = 0; k < onward->count; ++k) order[onward->class_counts[onward->class[k]]++] = k;
-  for (uint plane = 0; plane < WT_ONWARD_PLANES; ++plane) {
-    const float* from = onward->planes + plane * WT_RUN;
-    global float* to = next + (size_t)plane * capacity + first;
-    for (uint k = 0; k < onward->count; ++k) to[k] = from[order[k]];
-  }
-}
-#endif
-
 // WT_BLOCKS_PER_ITEM blocks a work-item, their rays in turn. Neighbours mostly share their prefix: the last insertion
 // is kept.
 kernel void interact(const global float* rays, const global float* hits, const global uint* block_offsets,
@@ -124,15 +64,10 @@ kernel void interact(const global float* rays, const global float* hits, const g
                      global wt_counters* counters, global float* next, global uint* ages, global uint* ends,
                      global float* through, wt_interact_arguments args) {
   const uint first_block = get_global_id(0) * WT_BLOCKS_PER_ITEM;
-  const uint first = first_block * WT_BLOCK, end = min(first + WT_RUN, args.ray_count);
+  const uint first = first_block * WT_BLOCK, end = min(first + WT_BLOCKS_PER_ITEM * WT_BLOCK, args.ray_count);
   if (first >= args.ray_count) return;
   uint j = block_offsets[first_block];
   uint last_parent = WT_NONE, last_surface = WT_NONE, last_node = WT_NONE, found = 0;
-#ifdef WT_BY_CLASS
-  wt_onward onward;
-  onward.count = 0;
-  for (uint c = 0; c < WT_CLASSES; ++c) onward.class_counts[c] = 0;
-#endif
   for (uint i = first; i < end; ++i) {
     const uint surface = wt_load_word(hits, args.capacity, WT_HIT_SURFACE, i);
     if (surface == WT_NONE) continue;
@@ -150,17 +85,11 @@ kernel void interact(const global float* rays, const global float* hits, const g
     }
     found |= wt_quarter_bit(word);
     note_end(rays, args.capacity, i, last_node, ends);
-    if (!goes_on(args.last)) continue;
-#ifdef WT_BY_CLASS
-    go_on_later(surfaces, rays, hits, args.capacity, i, surface, last_node | (word & WT_QUARTER_BITS), &onward);
-#else
-    store(surfaces, rays, hits, args.capacity, i, surface, word, last_node, args.last, next, through, j++);
-#endif
+    if (goes_on(args.last))
+      store(surfaces, rays, hits, args.capacity, i, surface, word, last_node, args.last, next, through, j);
+    ++j;
   }
   wt_note_quarters(quarters, last_node, found);
-#ifdef WT_BY_CLASS
-  store_by_class(&onward, args.capacity, next, j);
-#endif
 }
 #else
 // One ray per work-item, one block per work-group.

@@ -17,10 +17,8 @@ Interact::Interact(gpu::Context& context, InteractOptions options) : options_(op
   if (options.ages) definitions["WT_AGES"] = "1";
   if (options.samples) definitions["WT_SAMPLES"] = "1";
   if (options.labels) definitions["WT_LABELS"] = "1";
-  if (options.by_class && tuning.alone && !options.labels) definitions["WT_BY_CLASS"] = "1";
   kernel_ = context.kernel("interact", "interact", definitions);
   if (options.transmission) {
-    definitions.erase("WT_BY_CLASS");
     definitions["WT_THROUGH"] = "1";
     kernel_through_ = context.kernel("interact", "interact", definitions);
   }

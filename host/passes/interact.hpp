@@ -15,7 +15,6 @@ struct InteractOptions {
   bool samples = false;       // rays carry the number of their sample, and note its end
   bool labels = false;        // queues have WT_RAY_LABELLED_PLANES, see label_rays
   bool transmission = false;  // rays may also go on straight
-  bool by_class = false;      // on CPUs, without labels: reflected rays that packets share stand side by side
 };
 
 // Where rays go on. All queues have the capacity of the one that they come from; what is null is left out.

@@ -30,15 +30,11 @@ OrderPlan order_of(const TraceConfig& trace, const OrderPlan& plan) { return tra
 // Queues say whose rays they hold where a cache or a follower must know.
 bool needs_labels(const DiscoveryOptions& options) { return options.finder || options.follower; }
 
-// Rays that were put into an order keep it.
-InteractOptions interact_options(const gpu::DeviceInfo& device, const TraceConfig& trace, const TracingDepth& depth,
-                                 const DiscoveryOptions& options) {
+InteractOptions interact_options(const TraceConfig& trace, const TracingDepth& depth, const DiscoveryOptions& options) {
   return {.ages = options.keep_ages,
           .samples = !trace.rays,
           .labels = needs_labels(options),
-          .transmission = depth.transmissions > 0,
-          .by_class = choose_shape(device, trace, options.order) == TraceShape::packet16 && !options.order.key &&
-                      options.order.launch.plain()};
+          .transmission = depth.transmissions > 0};
 }
 
 // Does nothing happen to rays between two depths but their reflection? Then they need no queues. On CPUs packets of
@@ -61,7 +57,7 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
                              : traced_.emplace(context, scene, choose_shape(context.info(), trace, options.order),
                                                options.order.launch)),
       sequences_(context, initial_slots, options.keep_ages),
-      wavefront_(context, scene, depth_, interact_options(context.info(), trace, depth_, options),
+      wavefront_(context, scene, depth_, interact_options(trace, depth_, options),
                  at_once(context.info(), depth_, options), source_, finder_, sequences_) {
   if (!trace.rays) refinement_.emplace(context, trace, source_.heights(), options.hilly);
 }
