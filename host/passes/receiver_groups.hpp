@@ -19,7 +19,7 @@ struct ReceiverGroups {
   gpu::Buffer<uint16_t> links;             // bit b of word tx * groups + g: place 16 g + b
   uint32_t capacity = 0;                   // places
 
-  // receivers: in recentred metres. What has not changed since the last call is kept.
+  // receivers: in recentred metres, all of them finite. What has not changed since the last call is kept.
   void set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,
            const std::vector<Link>& links);
 
