@@ -60,7 +60,7 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
   std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
                                                   field_ends(world.receivers, transmitters_)};
   for (int side = 0; side < 2; ++side)
-    upload(context_, ends_[side], end_records_[side], std::move(records[side]), "ends of paths");
+    upload_changed(context_, ends_[side], end_records_[side], std::move(records[side]), "ends of paths");
   make_room(context_, rows_, host_rows_, most.rows, "path rows");
   make_room(context_, vertices_, host_vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
   arguments_.row_count = rows.places;

@@ -24,16 +24,12 @@ struct RadioEnds {
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
   std::vector<double> transmitter_words, receiver_words;  // what the buffers have
   std::vector<float> plane_words;
-  std::vector<uint32_t> linked_words;
 };
 
 // Links as RadioEnds::links has them.
 inline std::vector<uint16_t> link_masks(const RadioEnds& ends, const std::vector<Link>& links) {
-  const uint32_t groups = ends.receiver_capacity / 16;
-  std::vector<uint16_t> mask(size_t{ends.transmitter_count} * groups, 0);
-  for (const Link& link : links)
-    mask[size_t{link.tx} * groups + link.rx / 16] |= static_cast<uint16_t>(1u << link.rx % 16);
-  return mask;
+  return link_bits(ends.transmitter_count, ends.receiver_capacity / 16, links,
+                   [](uint32_t receiver) { return receiver; });
 }
 
 // Links as RadioEnds::linked has them.
@@ -72,15 +68,15 @@ inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::ve
       planes.push_back(static_cast<float>(receivers[std::min(i, ends.receiver_count - 1)].position_m[axis]));
   std::vector<EndState> launching = transmitters;
   for (const uint32_t receiver : listeners) launching.push_back(receivers[receiver]);
-  upload(context, ends.transmitters, ends.transmitter_words, end_quadruples(launching), "transmitters");
-  upload(context, ends.receivers, ends.receiver_words, end_quadruples(receivers), "receivers");
-  upload(context, ends.receiver_planes, ends.plane_words, std::move(planes), "receiver planes");
+  upload_changed(context, ends.transmitters, ends.transmitter_words, end_quadruples(launching), "transmitters");
+  upload_changed(context, ends.receivers, ends.receiver_words, end_quadruples(receivers), "receivers");
+  upload_changed(context, ends.receiver_planes, ends.plane_words, std::move(planes), "receiver planes");
   if (context.info().cpu) ends.groups.set(context, receivers, ends.transmitter_count, links);
   std::vector<uint16_t> masks = link_masks(ends, links);
   if (ends.links && masks == ends.link_words) return;
-  if (!context.info().cpu)
-    upload(context, ends.linked, ends.linked_words, link_lists(ends.transmitter_count, masks), "lists of links");
-  upload(context, ends.links, ends.link_words, std::move(masks), "links");
+  upload(context, ends.links, masks, "links");
+  if (!context.info().cpu) upload(context, ends.linked, link_lists(ends.transmitter_count, masks), "lists of links");
+  ends.link_words = std::move(masks);
 }
 
 inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndState>& transmitters,

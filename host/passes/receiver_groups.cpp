@@ -78,9 +78,9 @@ void ReceiverGroups::set_places(gpu::Context& context) {
       box_planes[(3 + axis) * groups + group] = std::max(extent.upper[axis] - middle, middle - extent.lower[axis]);
     }
   }
-  upload(context, order, order_words_, std::move(at), "receivers in groups");
-  upload(context, places, place_words_, std::move(planes), "places of receivers");
-  upload(context, boxes, box_words_, std::move(box_planes), "boxes of receivers");
+  upload(context, order, at, "receivers in groups");
+  upload(context, places, planes, "places of receivers");
+  upload(context, boxes, box_planes, "boxes of receivers");
 }
 
 void ReceiverGroups::set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,
@@ -90,13 +90,10 @@ void ReceiverGroups::set(gpu::Context& context, const std::vector<EndState>& rec
     return;
   }
   if (moved(receivers)) set_places(context);
-  const size_t groups = capacity / size;
-  std::vector<uint16_t> words(transmitter_count * groups, 0);
-  for (const Link& link : wanted) {
-    const uint32_t place = place_of_[link.rx];
-    words[link.tx * groups + place / size] |= static_cast<uint16_t>(1u << place % size);
-  }
-  upload(context, links, link_words_, std::move(words), "links of groups");
+  upload_changed(
+      context, links, link_words_,
+      link_bits(transmitter_count, capacity / size, wanted, [&](uint32_t receiver) { return place_of_[receiver]; }),
+      "links of groups");
 }
 
 }  // namespace wavetracer

@@ -24,15 +24,25 @@ struct ReceiverGroups {
            const std::vector<Link>& links);
 
  private:
-  std::vector<float> positions_;       // of the receivers, three each
-  std::vector<uint32_t> place_of_;     // of each receiver
-  std::vector<uint32_t> order_words_;  // what the buffers have
-  std::vector<float> place_words_, box_words_;
-  std::vector<uint16_t> link_words_;
+  std::vector<float> positions_;      // of the receivers, three each
+  std::vector<uint32_t> place_of_;    // of each receiver
+  std::vector<uint16_t> link_words_;  // what `links` has
 
   bool moved(const std::vector<EndState>& receivers);
   void set_places(gpu::Context& context);
 };
+
+// Links, a bit each: bit b of word tx * groups + g for the receiver whose place_of is 16 g + b.
+template <class PlaceOf>
+std::vector<uint16_t> link_bits(uint32_t transmitter_count, size_t groups, const std::vector<Link>& links,
+                                const PlaceOf& place_of) {
+  std::vector<uint16_t> words(transmitter_count * groups, 0);
+  for (const Link& link : links) {
+    const uint32_t place = place_of(link.rx);
+    words[link.tx * groups + place / ReceiverGroups::size] |= static_cast<uint16_t>(1u << place % ReceiverGroups::size);
+  }
+  return words;
+}
 
 // The numbers of points, three coordinates each, group by group: halved along the longest side of their box until 16
 // are left, so that all groups but the last one are full.

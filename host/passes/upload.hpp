@@ -1,6 +1,5 @@
-// Tables that most frames leave as they are: a write that changes nothing still takes microseconds of a frame.
+// Tables of a frame to buffers that later frames use again.
 #pragma once
-#include <algorithm>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -9,17 +8,24 @@
 
 namespace wavetracer {
 
-// Values to a buffer, which is made anew where it is too small for them. last: what it has, compared byte by byte.
+// Values to a buffer, which is made anew where it is too small for them.
 template <class T>
-void upload(gpu::Context& context, gpu::Buffer<T>& buffer, std::vector<T>& last, std::vector<T> values,
-            const char* name) {
-  const size_t bytes = values.size() * sizeof(T);
-  if (buffer && values.size() == last.size() && (bytes == 0 || std::memcmp(values.data(), last.data(), bytes) == 0))
-    return;
+void upload(gpu::Context& context, gpu::Buffer<T>& buffer, const std::vector<T>& values, const char* name) {
   if (buffer && values.size() <= buffer.size())
     buffer.write(values);
   else
     buffer = context.buffer(values, name);
+}
+
+// The same of tables that most frames leave as they are: a write that changes nothing still takes microseconds of a
+// frame. last: what the buffer has, compared byte by byte.
+template <class T>
+void upload_changed(gpu::Context& context, gpu::Buffer<T>& buffer, std::vector<T>& last, std::vector<T> values,
+                    const char* name) {
+  const size_t bytes = values.size() * sizeof(T);
+  if (buffer && values.size() == last.size() && (bytes == 0 || std::memcmp(values.data(), last.data(), bytes) == 0))
+    return;
+  upload(context, buffer, values, name);
   last = std::move(values);
 }
 

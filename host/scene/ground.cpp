@@ -11,8 +11,6 @@ namespace {
 
 double twice_plan_area(const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; }
 
-double box_plan_area(const SceneBox& box) { return (box.upper.x - box.lower.x) * (box.upper.y - box.lower.y); }
-
 SceneBox box_from_above(const std::array<glm::dvec3, 3>& t) {
   SceneBox box{glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])};
   box.lower.z = box.upper.z = 0;
@@ -29,9 +27,9 @@ std::vector<bool> wide_bodies(const Scene& scene, const std::vector<uint32_t>& b
     else
       boxes[body[t]].grow(box);
   }
-  const double scene_area = box_plan_area({scene.lower, scene.upper});
+  const double scene_area_m2 = SceneBox{scene.lower, scene.upper}.plan_area_m2();
   std::vector<bool> wide;
-  for (const SceneBox& box : boxes) wide.push_back(box_plan_area(box) >= 0.5 * scene_area);
+  for (const SceneBox& box : boxes) wide.push_back(box.plan_area_m2() >= 0.5 * scene_area_m2);
   return wide;
 }
 

@@ -22,19 +22,14 @@ bool open_below(const Wedge& wedge, const TriangleGrid& triangles) {
 
 }  // namespace
 
-GroundRims::GroundRims(const Scene& scene) : scene_(scene), sheets_(scene.surfaces.size()) {
-  for (const Edge& edge : scene.edges)
-    for (uint32_t k = 1; k < edge.face_count; ++k)
-      join(scene.triangle_surface[scene.edge_faces[edge.first_face]],
-           scene.triangle_surface[scene.edge_faces[edge.first_face + k]]);
-}
+GroundRims::GroundRims(const Scene& scene) : scene_(scene), sheets_(scene) {}
 
 void GroundRims::join(uint32_t surface, uint32_t other) { sheets_.join(surface, other); }
 
 bool GroundRims::are_of(const Wedge& wedge, const TriangleGrid& triangles) {
   if (wedge.surface[0] != wedge.surface[1]) return false;
   if (!is_flat(scene_.surfaces[wedge.surface[0]])) return false;
-  if (wide_.empty()) wide_ = sheets_.wide(scene_);
+  if (wide_.empty()) wide_ = sheets_.wide();
   return wide_[sheets_.root(wedge.surface[0])] && open_below(wedge, triangles);
 }
 

@@ -19,6 +19,7 @@ struct SceneBox {
     lower = glm::min(lower, other.lower);
     upper = glm::max(upper, other.upper);
   }
+  double plan_area_m2() const { return (upper.x - lower.x) * (upper.y - lower.y); }  // seen from above
 };
 
 class SceneGrid {

@@ -12,11 +12,17 @@ namespace {
 
 constexpr double flattest_z = std::numbers::sqrt2 / 2;  // of the normal, at 45 degrees
 
-double plan_area_m2(const SceneBox& box) { return (box.upper.x - box.lower.x) * (box.upper.y - box.lower.y); }
-
 }  // namespace
 
-SurfaceSheets::SurfaceSheets(size_t surfaces) : parent_(surfaces) { std::iota(parent_.begin(), parent_.end(), 0u); }
+SurfaceSheets::SurfaceSheets(const Scene& scene, bool flat_alone) : scene_(scene), parent_(scene.surfaces.size()) {
+  std::iota(parent_.begin(), parent_.end(), 0u);
+  for (const Edge& edge : scene.edges)
+    for (uint32_t k = 1; k < edge.face_count; ++k) {
+      const uint32_t a = scene.triangle_surface[scene.edge_faces[edge.first_face]],
+                     b = scene.triangle_surface[scene.edge_faces[edge.first_face + k]];
+      if (!flat_alone || (is_flat(scene.surfaces[a]) && is_flat(scene.surfaces[b]))) join(a, b);
+    }
+}
 
 uint32_t SurfaceSheets::root(uint32_t surface) {
   while (parent_[surface] != surface) surface = parent_[surface] = parent_[parent_[surface]];
@@ -28,31 +34,25 @@ void SurfaceSheets::join(uint32_t surface, uint32_t other) {
   parent_[std::max(a, b)] = std::min(a, b);
 }
 
-std::vector<bool> SurfaceSheets::wide(const Scene& scene) {
-  if (scene.surfaces.empty()) return {};
+std::vector<bool> SurfaceSheets::wide() {
+  if (scene_.surfaces.empty()) return {};
   std::vector<SceneBox> sheets;
-  for (const Surface& surface : scene.surfaces) sheets.push_back({surface.lower, surface.upper});
+  for (const Surface& surface : scene_.surfaces) sheets.push_back({surface.lower, surface.upper});
   SceneBox all = sheets[0];
   for (uint32_t s = 0; s < sheets.size(); ++s) {
     all.grow(sheets[s]);
     sheets[root(s)].grow(sheets[s]);
   }
   std::vector<bool> out(sheets.size());
-  for (uint32_t s = 0; s < sheets.size(); ++s) out[s] = plan_area_m2(sheets[s]) >= 0.5 * plan_area_m2(all);
+  for (uint32_t s = 0; s < sheets.size(); ++s) out[s] = sheets[s].plan_area_m2() >= 0.5 * all.plan_area_m2();
   return out;
 }
 
 bool is_flat(const Surface& surface) { return std::abs(surface.normal.z) > flattest_z; }
 
 size_t ground_surfaces(const Scene& scene) {
-  SurfaceSheets sheets(scene.surfaces.size());
-  for (const Edge& edge : scene.edges)
-    for (uint32_t k = 1; k < edge.face_count; ++k) {
-      const uint32_t a = scene.triangle_surface[scene.edge_faces[edge.first_face]],
-                     b = scene.triangle_surface[scene.edge_faces[edge.first_face + k]];
-      if (is_flat(scene.surfaces[a]) && is_flat(scene.surfaces[b])) sheets.join(a, b);
-    }
-  const std::vector<bool> wide = sheets.wide(scene);
+  SurfaceSheets sheets(scene, true);
+  const std::vector<bool> wide = sheets.wide();
   std::vector<size_t> counts(scene.surfaces.size());
   for (uint32_t s = 0; s < scene.surfaces.size(); ++s)
     if (is_flat(scene.surfaces[s]) && wide[sheets.root(s)]) ++counts[sheets.root(s)];

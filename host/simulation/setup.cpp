@@ -114,7 +114,7 @@ DiscoveryOptions discovery_options(Setup& s) {
           .finder = s.cache ? &*s.cache : nullptr,
           .follower = s.trails ? &*s.trails : nullptr,
           .watch = &s.frame_watch,
-          .hilly = is_hilly(s.scene)};
+          .hilly = !s.trace.rays && is_hilly(s.scene)};
 }
 
 Config with_trace(Config config, const TraceConfig& trace) {
