@@ -160,12 +160,11 @@ void say_ready(const Run& run, const TraceConfig& trace, bool warn, Progress& pr
     for (const std::string& warning : run.summary.warnings) progress.line("warning: " + warning);
 }
 
-void say_results(const Run& run, Results& results, bool verbose, Progress& progress) {
+void say_results(const Run& run, const Results& results, bool verbose, Progress& progress) {
   std::vector<std::string> warnings = results.totals.warnings;
   add_warnings(warnings, missing_words(results.totals));
   for (const std::string& warning : warnings) progress.line("warning: " + warning);
   if (results.totals.frames == 0) return;
-  results.links = link_statistics(fs::path(run.config.output.directory) / "links.csv", run.config);
   std::cout << report(run, results, verbose) << std::flush;
 }
 

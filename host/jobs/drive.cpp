@@ -31,6 +31,10 @@ void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std
     progress.line(fmt::format("--resume: {} of {} frames are computed already", done, all));
 }
 
+LinkStatistics statistics_of(const Run& run) {
+  return link_statistics(std::filesystem::path(run.config.output.directory) / "links.csv", run.config);
+}
+
 }  // namespace
 
 uint32_t block_count(const Config& config) {
@@ -54,6 +58,7 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   Results results;
   results.totals = totals_of({&frame, 1});
   results.files = write_outputs(run.config.output.directory, run, {&frame, 1});
+  results.links = statistics_of(run);
   return results;
 }
 
@@ -110,10 +115,12 @@ Results drive(const DriveTask& task, Progress& progress) {
     shards.resume();
     say_what_is_there(shards, task.identity, directory, progress);
   }
-  if (shards.complete()) return {shards.totals(), {}, shards.outputs()};
+  if (shards.complete()) return {shards.totals(), statistics_of(task.run), shards.outputs()};
   Results results;
-  UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);
+  MergeAhead ahead(task.run.config, units, directory);
+  UnitWriter writer(task.run, shards, progress);
+  writer.tell(ahead);
   for (uint64_t index = 0; index < units.count() && !interrupted(); ++index) {
     const Unit unit = units.at(index);
     if (shards.finished(unit)) continue;
@@ -126,7 +133,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   if (unfinished) add(results.totals, unfinished->totals());
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
-    results.files = shards.merge(task.run, std::move(unfinished));
+    results.files = shards.merge(task.run, std::move(unfinished), &ahead, &results.links);
     shards.remove_merged();
   }
   return results;

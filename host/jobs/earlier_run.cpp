@@ -3,6 +3,7 @@
 #include "jobs/earlier_run.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/parallel_for_each.h>
 #include <algorithm>
 #include <array>
 #include <string>
@@ -29,12 +30,13 @@ void remove_files(const fs::path& folder, const Which& which) {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (which(entry.path().filename().string())) found.push_back(entry.path());
-  for (const fs::path& path : found)
+  tbb::parallel_for_each(found, [](const fs::path& path) {  // on several cores: room of large files takes a while
     if (std::error_code error; !fs::remove(path, error) && error)
       throw RuntimeError(
           fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
                       "with -o",
                       path.string(), error.message()));
+  });
 }
 
 bool is_output(const std::string& name) { return std::ranges::find(output_names, name) != output_names.end(); }

@@ -3,6 +3,8 @@
 #include "jobs/manifest.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include "base/read_text.hpp"
 #include "output/cache_json.hpp"
@@ -194,6 +196,24 @@ std::vector<Shard> read_manifest(const fs::path& file) {
   const std::optional<std::string> text =
       read_text_if_there(file, most_manifest_bytes, "check its permissions, or remove it and run again");
   return text ? decode_manifest(*text, file.string()) : std::vector<Shard>();
+}
+
+std::vector<Shard> NewLines::read() {
+  std::vector<Shard> shards;
+  for (const fs::path& file : manifests_in(folder_)) {
+    std::error_code none;
+    const uint64_t size = fs::file_size(file, none);
+    uint64_t& done = done_[file];
+    if (none || size <= done || size > most_manifest_bytes) continue;
+    std::string text(size - done, '\0');
+    std::ifstream in(file, std::ios::binary);
+    if (!in.seekg(static_cast<std::streamoff>(done)).read(text.data(), static_cast<std::streamsize>(text.size())))
+      continue;
+    text.erase(text.rfind('\n') + 1);  // nothing of it without a line end
+    done += text.size();
+    std::ranges::move(decode_manifest(text, file.string()), std::back_inserter(shards));
+  }
+  return shards;
 }
 
 std::vector<fs::path> manifests_in(const fs::path& folder) {

@@ -2,8 +2,10 @@
 // place. A process writes to one manifest, its own. A line that a killed run left half written is passed over.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 #include "jobs/units.hpp"
 #include "output/totals.hpp"
@@ -45,6 +47,18 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
 
 // Empty where there is no manifest. Throws RuntimeError where it cannot be read, or decode_manifest() does.
 std::vector<Shard> read_manifest(const std::filesystem::path& file);
+
+// What manifests of a folder get while processes write them. Each is only appended to.
+class NewLines {
+ public:
+  explicit NewLines(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  // Whole lines since the last call. Throws as read_manifest() does.
+  std::vector<Shard> read();
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::filesystem::path, uint64_t> done_;  // bytes that were read
+};
 
 // The manifests of a folder, sorted.
 std::vector<std::filesystem::path> manifests_in(const std::filesystem::path& folder);

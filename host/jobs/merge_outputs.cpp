@@ -37,11 +37,16 @@ struct Draft {
   const WriteHead& write_head;
   PendingFile& file;
   uint32_t compression;
+  OutputAhead* ahead;  // the first of the parts, or none
 
   Pieces tables(const BeginPart& begin) const {
     begin(parts.front());
     File head;
     write_head(output, parts.front(), head);
+    if (ahead) {
+      for (const fs::path& part : parts.subspan(ahead->parts.parts().size())) ahead->parts.add(part);
+      return make_tables(file, head, ahead->parts.groups(), parts.size(), compression);
+    }
     const auto groups = of_one_frame ? groups_of_blocks(parts, output.growing_groups, begin)
                                      : growing_groups_of(parts, output.growing_groups, begin);
     return make_tables(file, head, groups, parts.size(), compression);
@@ -82,30 +87,35 @@ Pieces foreign_tables(const Draft& draft) {
 
 void merge_h5(const Draft& draft, Parts whose, Proof proof) {
   const Pieces pieces = whose == Parts::own ? draft.tables([](const fs::path&) {}) : foreign_tables(draft);
-  write_rows(draft.parts, pieces, draft.file, draft.compression);
+  const PackedAhead* const chunks = draft.ahead ? &draft.ahead->chunks : nullptr;
+  write_rows(draft.parts, pieces, draft.file, draft.compression, chunks);
   Beside synced([&] { draft.file.sync(); });
-  if (proof == Proof::rows) prove_rows(draft.parts, pieces, draft.file.temporary());
+  if (proof == Proof::rows) prove_rows(draft.parts, pieces, draft.file.temporary(), chunks);
   synced.wait();
 }
 
-void merge_links_csv(std::span<const fs::path> parts, Proof proof, PendingFile& file) {
+void merge_links_csv(std::span<const fs::path> parts, Proof proof, PendingFile& file, const ReadLinks& read) {
   join_links_csv(parts, file);
+  Beside was_read([&] { read(file.temporary()); });
   Beside synced([&] { file.sync(); });
   if (proof == Proof::rows) prove_links_csv(parts, file.temporary());
   synced.wait();
+  was_read.wait();
 }
 
 }  // namespace
 
 std::vector<PendingFile> merge_outputs(const Config& config, const MergeParts& parts, Parts whose, Proof proof,
-                                       const fs::path& directory, const WriteHead& write_head) {
+                                       const fs::path& directory, const WriteHead& write_head, MergeAhead* ahead,
+                                       const ReadLinks& read_links) {
   const std::vector<H5Output> outputs = h5_outputs(config);
   std::vector<PendingFile> files;
   for (const H5Output& output : outputs) files.emplace_back(directory / output.name);
   PendingFile& csv = files.emplace_back(directory / "links.csv");
-  Beside links([&] { merge_links_csv(parts.files.at(outputs.size()), proof, csv); });
+  Beside links([&] { merge_links_csv(parts.files.at(outputs.size()), proof, csv, read_links); });
   for (size_t i = 0; i < outputs.size(); ++i)
-    merge_h5({outputs[i], parts.files.at(i), parts.of_one_frame, write_head, files[i], config.output.compression},
+    merge_h5({outputs[i], parts.files.at(i), parts.of_one_frame, write_head, files[i], config.output.compression,
+              ahead ? ahead->of(i, parts.files.at(i)) : nullptr},
              whose, proof);
   links.wait();
   return files;

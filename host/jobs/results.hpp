@@ -7,6 +7,7 @@
 
 namespace wavetracer {
 
+// links: where there are frames.
 struct Results {
   Totals totals;
   LinkStatistics links;

@@ -234,7 +234,8 @@ void Shards::finish(Shard shard) {
   shards_.insert_or_assign(unit, std::move(shard));
 }
 
-std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> unfinished) {
+std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> unfinished, MergeAhead* ahead,
+                                    LinkStatistics* links) {
   const Clock::time_point start = Clock::now();
   PendingDirectory directory(directory_);
   MergeParts parts = parts_of(shards_, [this](const Shard&) { return folder_; });
@@ -249,7 +250,10 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
   const bool removes = !run.config.output.keep_shards && !unfinished && totals.frames == run.summary.frames_asked;
   std::vector<PendingFile> files = merge_outputs(
       run.config, parts, Parts::own, removes ? Proof::rows : Proof::none, directory_,
-      [&run](const H5Output& output, const fs::path&, hdf5::File& head) { make_head(output, run, head); });
+      [&run](const H5Output& output, const fs::path&, hdf5::File& head) { make_head(output, run, head); }, ahead,
+      [&](const fs::path& links_csv) {
+        if (links) *links = link_statistics(links_csv, run.config);
+      });
   const std::string summary = encode_summary_json(run, totals, write_seconds_ + since(start), shards_.size());
   files.emplace_back(directory_ / "summary.json", bytes(summary));
   if (fresh_) remove_shards(directory_);

@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 #include "base/pending_file.hpp"
+#include "jobs/link_statistics.hpp"
 #include "jobs/manifest.hpp"
+#include "jobs/merge_ahead.hpp"
 #include "jobs/merge_parts.hpp"
 #include "output/frame_files.hpp"
 #include "wavetracer/output.hpp"
@@ -95,8 +97,10 @@ class Shards {
   // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
   // the first frames of the one that was interrupted, if any. At least one frame is needed. Of finished shards, memory
   // holds a block of rows at most. Where the run is whole and output.keep_shards is off, all rows were read back and
-  // compared with those of the shards, and a record says so: remove_merged() is next.
-  std::vector<std::filesystem::path> merge(const Run& run, std::unique_ptr<OpenUnit> unfinished);
+  // compared with those of the shards, and a record says so: remove_merged() is next. ahead: has looked at this folder,
+  // and does so no more. links: gets the figures of links.csv.
+  std::vector<std::filesystem::path> merge(const Run& run, std::unique_ptr<OpenUnit> unfinished,
+                                           MergeAhead* ahead = nullptr, LinkStatistics* links = nullptr);
   // Removes the shards that merge() has proved to be in the outputs. No other process may look for them any more.
   void remove_merged();
 

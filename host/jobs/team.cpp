@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto poll_interval = 100ms;
+const char* const leading = "lead";  // the claim of who prepares the merge
 
 class Team {
  public:
@@ -28,8 +29,8 @@ class Team {
         progress_(progress),
         shards_(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text),
         claims_(shards_.folder(), me),
-        writer_(task.run, shards_, progress),
         units_(units_of(task)),
+        writer_(task.run, shards_, progress),
         name_(me.name) {}
 
   Shared run() {
@@ -39,13 +40,14 @@ class Team {
     shards_.share(name_, true);
     if (merged()) return {};  // asked after the shards were looked at, as they go once it is true
     say_if_idle();
+    lead();
     first_pass();
     Shared shared{{}, last_passes()};
     if (!take_merge(shared.missing == 0)) return shared;
     if (shared.missing > 0) return say_missing(shared);
     shared.results.totals = shards_.totals();
     progress_.line("writing to " + task_.run.config.output.directory);
-    shared.results.files = shards_.merge(task_.run, {});
+    shared.results.files = shards_.merge(task_.run, {}, ahead_ ? &*ahead_ : nullptr, &shared.results.links);
     mark(true);
     shards_.remove_merged();
     remove_claims(shards_.folder());
@@ -58,8 +60,9 @@ class Team {
   Progress& progress_;
   Shards shards_;
   Claims claims_;
-  UnitWriter writer_;
   Units units_;
+  std::optional<MergeAhead> ahead_;  // of the one process that is to merge
+  UnitWriter writer_;
   std::string name_;
 
   fs::path job_file() const { return shards_.folder() / "job.json"; }
@@ -116,11 +119,18 @@ class Team {
                                task_.blocks > 1 ? "" : "; a lower output.shard_frames makes more"));
   }
 
-  // Each rank begins in a stretch of its own, so that few want the same.
+  // One process prepares the merge while all compute, and merges in the end if it lives.
+  void lead() {
+    if (task_.blocks > 1 || !claims_.take(leading)) return;
+    ahead_.emplace(task_.run.config, units_, task_.run.config.output.directory);
+    writer_.tell(*ahead_);
+  }
+
+  // All take the first unit that is left, so that few wait for one that comes before them and can be merged ahead.
   void first_pass() {
-    const uint64_t count = units_.count(), start = count * ranks_.rank / ranks_.size;
+    const uint64_t count = units_.count();
     for (uint64_t i = 0; i < count && !interrupted(); ++i) {
-      const Unit unit = units_.at((start + i) % count);
+      const Unit unit = units_.at((ranks_.rank + i) % count);
       if (shards_.finished(unit) || !claims_.take(unit_name(unit))) continue;
       if (merged()) break;  // the claims of the others are gone, as all is done
       compute_unit(task_, unit, writer_, progress_);
@@ -134,6 +144,7 @@ class Team {
       claims_.look();  // likewise
       shards_.look();
       if (merged()) return 0;  // likewise asked after the look
+      if (ahead_) ahead_->look();
       uint64_t taken = 0, missing = 0;
       for (uint64_t index = 0; index < units_.count(); ++index) {
         const Unit unit = units_.at(index);
@@ -156,6 +167,7 @@ class Team {
   bool take_merge(bool whole) {
     for (; !interrupted() && !merged(); std::this_thread::sleep_for(poll_interval)) {
       claims_.look();
+      if (!ahead_ && claims_.state(leading) == ClaimState::taken) continue;  // that one is about to
       const bool taken = claims_.take("merge");
       if (taken && merged()) remove_claims(shards_.folder());  // this one came after the others had gone
       if (taken || !whole) return taken && !merged();

@@ -33,6 +33,10 @@ UnitWriter::~UnitWriter() {
   thread_.join();
 }
 
+void UnitWriter::tell(MergeAhead& ahead) {
+  enqueue(0, [this, &ahead] { ahead_ = &ahead; });
+}
+
 void UnitWriter::begin(const Unit& unit) {
   enqueue(0, [this, unit] { open_ = shards_.open(run_, unit); });
 }
@@ -54,6 +58,9 @@ void UnitWriter::end() {
     const std::lock_guard lock(mutex_);
     written_.push_back(std::move(shard));
     closing_ = false;
+  });
+  enqueue(0, [this] {
+    if (ahead_) ahead_->look();
   });
 }
 

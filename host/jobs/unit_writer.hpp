@@ -22,6 +22,8 @@ class UnitWriter {
   UnitWriter(const UnitWriter&) = delete;
   UnitWriter& operator=(const UnitWriter&) = delete;
 
+  // Is told from now on of each unit that is whole, by the thread that writes. Must outlive this.
+  void tell(MergeAhead& ahead);
   // The frames that follow are of this unit.
   void begin(const Unit& unit);
   // Waits while frames of more than some megabytes wait to be written. Like all that follow, throws what writing threw.
@@ -44,7 +46,9 @@ class UnitWriter {
   const Run& run_;
   Shards& shards_;
   Progress& progress_;
-  std::unique_ptr<OpenUnit> open_;  // of the thread, between finish() and begin() of the caller
+  // Of the thread, between finish() and begin() of the caller.
+  MergeAhead* ahead_ = nullptr;
+  std::unique_ptr<OpenUnit> open_;
   std::mutex mutex_;
   std::condition_variable changed_;
   // What follows is guarded by the mutex.

@@ -1,4 +1,4 @@
-// One walk over the parts, one of them open beside the first at a time. HDF5 copies no row: it has one thread, and
+// One walk over the parts, one of them open at a time. HDF5 copies no row: it has one thread, and
 // would take a second for each gigabyte. Parts may be anybody's: each must have the datasets of the first, in equal
 // shapes but for their rows.
 #include "output/merge_h5.hpp"
@@ -35,21 +35,22 @@ GrowingGroup empty_group(const std::string& path, const File& part) {
   return group;
 }
 
-bool has_inputs(const File& part) { return H5Lexists(part.id(), "/inputs", H5P_DEFAULT) > 0; }
+// What a part says of its run; nothing where it says nothing.
+std::optional<GrowingParts::RunOfPart> run_of(const File& part) {
+  if (H5Lexists(part.id(), "/inputs", H5P_DEFAULT) <= 0) return std::nullopt;
+  const hdf5::NumberColumn<uint64_t> hashes(part, "/inputs/hash");
+  return GrowingParts::RunOfPart{hdf5::read_strings(part, "/inputs/name"), hdf5::read_strings(part, "/inputs/file"),
+                                 hashes.read(0, hashes.rows()), hdf5::text_attribute(part.id(), "config")};
+}
 
 // Whatever the manifest says of it: a file may have been put in the place of another. Configurations name the places of
 // input files, so they compare only where these are the same.
-void check_run(const File& part, const File& first) {
-  if (!has_inputs(part) || !has_inputs(first)) return;
-  const auto texts = [](const File& file, const char* name) { return hdf5::read_strings(file, name); };
-  const auto hashes = [](const File& file) {
-    const hdf5::NumberColumn<uint64_t> column(file, "/inputs/hash");
-    return column.read(0, column.rows());
-  };
-  if (texts(part, "/inputs/name") != texts(first, "/inputs/name") || hashes(part) != hashes(first))
+void check_run(const std::optional<GrowingParts::RunOfPart>& part,
+               const std::optional<GrowingParts::RunOfPart>& first) {
+  if (!part || !first) return;
+  if (part->names != first->names || part->hashes != first->hashes)
     throw RuntimeError("it is of a run with other input files than the first part");
-  if (texts(part, "/inputs/file") == texts(first, "/inputs/file") &&
-      hdf5::text_attribute(part.id(), "config") != hdf5::text_attribute(first.id(), "config"))
+  if (part->files == first->files && part->config != first->config)
     throw RuntimeError("it is of a run with another configuration than the first part");
 }
 
@@ -104,26 +105,31 @@ void point_to(GrowingTable& path_offset, uint64_t first_paths, uint64_t all_path
 
 }  // namespace
 
+void GrowingParts::add(const std::filesystem::path& part) {
+  reading_part(part, [&] {
+    const File file = File::open_to_read(part);
+    if (parts_.empty()) {
+      for (const std::string path : names_) groups_.push_back(empty_group(path, file));
+      first_ = run_of(file);
+    } else {
+      check_run(run_of(file), first_);
+    }
+    check_datasets(file, groups_);
+    std::ifstream bytes(part, std::ios::binary);
+    for (GrowingGroup& group : groups_)
+      for (GrowingTable& table : group.tables) take(table, parts_.size(), file, bytes);
+  });
+  parts_.push_back(part);
+}
+
 std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::path> parts, Groups groups,
                                             const BeginPart& begin) {
-  begin(parts.front());
-  const File first = reading_part(parts.front(), [&] { return File::open_to_read(parts.front()); });
-  std::vector<GrowingGroup> out;
-  reading_part(parts.front(), [&] {
-    for (const std::string path : groups) out.push_back(empty_group(path, first));
-  });
-  for (size_t i = 0; i < parts.size(); ++i) {
-    begin(parts[i]);
-    reading_part(parts[i], [&] {
-      const File part = File::open_to_read(parts[i]);
-      if (i > 0) check_run(part, first);
-      check_datasets(part, out);
-      std::ifstream bytes(parts[i], std::ios::binary);
-      for (GrowingGroup& group : out)
-        for (GrowingTable& table : group.tables) take(table, i, part, bytes);
-    });
+  GrowingParts grown(groups);
+  for (const std::filesystem::path& part : parts) {
+    begin(part);
+    grown.add(part);
   }
-  return out;
+  return std::move(grown).groups();
 }
 
 // The row of the frame is that of the first part.

@@ -1,17 +1,18 @@
 // A pipeline of chunks: whatever speaks to HDF5 is a stage of one thread, the rest runs on all cores.
-// A chunk is one zlib stream of its shuffled bytes; the last one of a table is filled up with zeros, as HDF5 wants it.
+// The last chunk of a table is filled up with zeros, as HDF5 wants it.
 #include "output/packed_rows.hpp"
 #include <fmt/format.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/parallel_pipeline.h>
-#include <zlib.h>
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <string>
 #include "base/stage_fault.hpp"
 #include "output/hdf5.hpp"
+#include "output/packed_ahead.hpp"
+#include "output/packed_chunk.hpp"
 #include "output/row_source.hpp"
 #include "wavetracer/error.hpp"
 
@@ -21,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using hdf5::File;
 using hdf5::Id;
-using Bytes = std::vector<std::byte>;
 
 // A table of rows in the file.
 struct StoredTable {
@@ -81,35 +81,13 @@ std::vector<Chunk> chunks_of(const std::vector<StoredTable>& tables) {
   return chunks;
 }
 
-// The chunk before it is compressed, its bytes in the order that the shuffle filter gives them: all first bytes of the
-// values, then all second ones, and so on.
-Bytes shuffled(const Chunk& chunk, const RowSource& rows) {
+// The chunk before it is compressed.
+Bytes shuffled_rows(const Chunk& chunk, const RowSource& rows) {
   const StoredTable& table = *chunk.table;
-  Bytes plain(table.chunk_bytes()), out(plain.size());
+  Bytes plain(table.chunk_bytes());
   const uint64_t from = chunk.first_row * table.row_bytes, size = std::min(table.chunk_bytes(), table.bytes - from);
   rows.read(table.begin + from, std::span(plain).first(size));
-  const size_t values = plain.size() / table.value_bytes;
-  for (size_t byte = 0; byte < table.value_bytes; ++byte)
-    for (size_t i = 0; i < values; ++i) out[byte * values + i] = plain[i * table.value_bytes + byte];
-  return out;
-}
-
-Bytes deflated(const Bytes& plain, uint32_t level) {
-  uLongf size = compressBound(plain.size());
-  Bytes out(size);
-  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(plain.data()), plain.size(),
-                static_cast<int>(level)) != Z_OK)
-    throw RuntimeError("zlib cannot compress a chunk; this is a fault of wavetracer, report it");
-  out.resize(size);
-  return out;
-}
-
-bool inflates_to(const Bytes& packed, const Bytes& plain) {
-  Bytes out(plain.size());
-  uLongf size = out.size();
-  return uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                    packed.size()) == Z_OK &&
-         size == plain.size() && out == plain;
+  return shuffled(plain, table.value_bytes);
 }
 
 std::vector<hsize_t> place_of(const Chunk& chunk) {
@@ -162,7 +140,7 @@ uint64_t size_of(const File& file) {
 }
 
 // Returns how long the file is then, without the room behind it.
-uint64_t write_chunks(const RowSource& rows, PendingFile& out, uint32_t level) {
+uint64_t write_chunks(const RowSource& rows, PendingFile& out, uint32_t level, const PackedAhead* ahead) {
   File file = File::open_to_write(out.temporary());
   const std::vector<StoredTable> tables = stored_tables(file);
   const std::vector<Chunk> chunks = chunks_of(tables);
@@ -170,7 +148,11 @@ uint64_t write_chunks(const RowSource& rows, PendingFile& out, uint32_t level) {
   StageFault fault;
   size_t next = 0;
   const auto pack = tbb::make_filter<WorkPointer, WorkPointer>(tbb::filter_mode::parallel, [&](WorkPointer work) {
-    fault.run([&] { work->packed = deflated(shuffled(work->chunk, rows), level); });
+    fault.run([&] {
+      std::optional<Bytes> made;
+      if (ahead) made = ahead->take(work->chunk.table->path, work->chunk.first_row);
+      work->packed = made ? std::move(*made) : deflated(shuffled_rows(work->chunk, rows), level);
+    });
     return work;
   });
   const auto write = tbb::make_filter<WorkPointer, void>(tbb::filter_mode::serial_in_order, [&](WorkPointer work) {
@@ -200,14 +182,15 @@ void read_chunk(Work& work, const fs::path& path) {
   hsize_t size = 0;
   uint32_t left_out = 0;
   hdf5::checked(H5Dget_chunk_storage_size(table.dataset, place.data(), &size), "find a chunk of " + table.path);
-  if (size > compressBound(table.chunk_bytes())) refuse(path, table.path);
+  if (size > most_deflated_bytes(table.chunk_bytes())) refuse(path, table.path);
   work.packed.resize(size);
   hdf5::checked(H5Dread_chunk(table.dataset, H5P_DEFAULT, place.data(), &left_out, work.packed.data()),
                 "read " + table.path);
   if (left_out != 0) refuse(path, table.path);
 }
 
-void prove_chunks(const RowSource& rows, const std::vector<Chunk>& chunks, const fs::path& path) {
+void prove_chunks(const RowSource& rows, const std::vector<Chunk>& chunks, const fs::path& path,
+                  const PackedAhead* ahead) {
   size_t next = 0;
   StageFault fault;
   const auto read =
@@ -217,7 +200,9 @@ void prove_chunks(const RowSource& rows, const std::vector<Chunk>& chunks, const
       });
   const auto compare = tbb::make_filter<WorkPointer, void>(tbb::filter_mode::parallel, [&](const WorkPointer& work) {
     fault.run([&] {
-      if (!inflates_to(work->packed, shuffled(work->chunk, rows))) refuse(path, work->chunk.table->path);
+      const StoredTable& table = *work->chunk.table;
+      const bool proved = ahead && ahead->proves(table.path, work->chunk.first_row, work->packed);
+      if (!proved && !inflates_to(work->packed, shuffled_rows(work->chunk, rows))) refuse(path, table.path);
     });
   });
   tbb::parallel_pipeline(chunks_at_once(), each_of(chunks, next, fault) & read & compare);
@@ -239,7 +224,12 @@ void prove_plain(const RowSource& rows, const StoredTable& table, const fs::path
 
 }  // namespace
 
-void write_rows(std::span<const fs::path> parts, const Pieces& pieces, PendingFile& file, uint32_t level) {
+uint64_t full_chunk_rows(uint64_t row_bytes) {
+  return row_bytes > 0 && row_bytes < packed_chunk_bytes ? packed_chunk_bytes / row_bytes : 0;
+}
+
+void write_rows(std::span<const fs::path> parts, const Pieces& pieces, PendingFile& file, uint32_t level,
+                const PackedAhead* ahead) {
   Pieces plain(pieces.size()), packed(pieces.size());
   bool any = false;
   for (size_t i = 0; i < pieces.size(); ++i)
@@ -249,11 +239,11 @@ void write_rows(std::span<const fs::path> parts, const Pieces& pieces, PendingFi
     }
   copy_pieces(parts, plain, file);
   if (!any) return;
-  const uint64_t size = write_chunks(RowSource(parts, packed), file, level);
+  const uint64_t size = write_chunks(RowSource(parts, packed), file, level, ahead);
   if (fs::file_size(file.temporary()) > size) fs::resize_file(file.temporary(), size);
 }
 
-void prove_rows(std::span<const fs::path> parts, const Pieces& pieces, const fs::path& path) {
+void prove_rows(std::span<const fs::path> parts, const Pieces& pieces, const fs::path& path, const PackedAhead* ahead) {
   const RowSource rows(parts, pieces);
   const File file = File::open_to_read(path);
   const std::vector<StoredTable> tables = stored_tables(file);
@@ -266,7 +256,7 @@ void prove_rows(std::span<const fs::path> parts, const Pieces& pieces, const fs:
   }
   if (found != rows.bytes()) refuse(path, "the number of its rows");
   tbb::parallel_for_each(plain, [&](const StoredTable* table) { prove_plain(rows, *table, path); });
-  prove_chunks(rows, chunks_of(tables), path);
+  prove_chunks(rows, chunks_of(tables), path, ahead);
 }
 
 }  // namespace wavetracer

@@ -12,7 +12,7 @@ using hdf5::File;
 
 // Whether its rows are compressed, in chunks of less than the 4 GiB that HDF5 allows.
 bool is_packed(const GrowingTable& table, uint32_t compression) {
-  return compression > 0 && table.rows > 0 && table.row_bytes() < packed_chunk_bytes &&
+  return compression > 0 && table.rows > 0 && full_chunk_rows(table.row_bytes()) > 0 &&
          table.rows * table.row_bytes() >= smallest_packed_bytes;
 }
 
@@ -86,7 +86,7 @@ Pieces make_tables(PendingFile& out, File& head, const std::vector<GrowingGroup>
       uint64_t start = 0;
       if (const auto place = packed.find(table->path); place != packed.end()) {
         start = place->second;
-        const hsize_t chunk_rows = std::min<hsize_t>(table->rows, packed_chunk_bytes / table->row_bytes());
+        const hsize_t chunk_rows = std::min<hsize_t>(table->rows, full_chunk_rows(table->row_bytes()));
         hdf5::make_packed(file, table->path, table->meaning, table->type, shape, {chunk_rows, compression});
       } else {
         start = hdf5::make_room(file, table->path, table->meaning, table->type, shape);
