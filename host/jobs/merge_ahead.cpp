@@ -5,11 +5,8 @@
 #include <algorithm>
 
 namespace wavetracer {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 MergeAhead::MergeAhead(const Config& config, const Units& units, fs::path directory)
     : outputs_(h5_outputs(config)),
@@ -49,6 +46,12 @@ void MergeAhead::take(const std::vector<std::string>& files) {
     parts.add(directory_ / "shards" / files.at(i));
     ahead_[i]->chunks.grow(parts.groups(), parts.parts());
   }
+}
+
+size_t MergeAhead::chunks() const {
+  size_t count = 0;
+  for (const auto& output : ahead_) count += output->chunks.count();
+  return count;
 }
 
 OutputAhead* MergeAhead::of(size_t output, std::span<const fs::path> parts) {

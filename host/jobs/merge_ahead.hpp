@@ -34,6 +34,9 @@ class MergeAhead {
   // where something is wrong with a part or the disk, the merge will meet it.
   void look() noexcept;
 
+  // Compressed chunks of all outputs that are made so far.
+  size_t chunks() const;
+
   // To merge: what is known of an output (its number among h5_outputs()) that is made of these parts, or nothing. No
   // look() is allowed then.
   OutputAhead* of(size_t output, std::span<const std::filesystem::path> parts);

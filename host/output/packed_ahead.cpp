@@ -81,6 +81,11 @@ void PackedAhead::make(const Task& task) {
   }
 }
 
+size_t PackedAhead::count() const {
+  const std::lock_guard lock(mutex_);
+  return made_.size();
+}
+
 std::optional<Bytes> PackedAhead::take(const std::string& table, uint64_t first_row) const {
   const auto found = made_.find({table, first_row});
   if (found == made_.end()) return std::nullopt;

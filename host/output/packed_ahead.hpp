@@ -28,12 +28,14 @@ class PackedAhead {
   // full now. Of one thread.
   void grow(const std::vector<GrowingGroup>& groups, std::span<const std::filesystem::path> parts);
 
+  // Chunks that are made so far.
+  size_t count() const;
+
   // What follows is asked once the threads have stopped, from any thread.
   // The chunk of the table that begins with this row, if it is here; it is not kept any longer. Throws RuntimeError.
   std::optional<Bytes> take(const std::string& table, uint64_t first_row) const;
   // Whether these are the bytes of that chunk, by their hash, and it was proved that the rows come out of them again.
   bool proves(const std::string& table, uint64_t first_row, const Bytes& packed) const;
-  size_t count() const { return made_.size(); }
 
  private:
   using ChunkName = std::pair<std::string, uint64_t>;  // table, first row
@@ -52,8 +54,8 @@ class PackedAhead {
   ScratchFile scratch_;
   std::map<std::string, Grown> grown_;  // by table
   std::atomic<bool> given_up_ = false;
-  std::mutex mutex_;  // of what follows, while threads run
-  uint64_t end_ = 0;  // of the scratch file
+  mutable std::mutex mutex_;  // of what follows, while threads run
+  uint64_t end_ = 0;          // of the scratch file
   std::map<ChunkName, Made> made_;
 
   void make(const Task& task);
