@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  std::string program, device_kind = "cpu", devices_list;
+  std::string program, device_kind, devices_list;  // device_kind: empty where this machine is to say
   std::vector<uint32_t> counts;
   double seconds = 25;  // wanted of the run on one device
   uint64_t rays = 50000;
@@ -87,11 +87,24 @@ std::string find_program(const std::string& given) {
   throw ConfigError("wavetracer is not beside bench_scaling and not in its build folder; --program names it");
 }
 
+// Whether `wavetracer devices` has a GPU: whole words of its table.
+bool has_gpu(const std::string& program) {
+  FILE* const table = popen((quoted(program) + " devices 2>/dev/null").c_str(), "r");
+  if (!table) throw RuntimeError("cannot start " + program);
+  bool found = false;
+  char* line = nullptr;
+  size_t size = 0;
+  while (getline(&line, &size, table) > 0) found |= std::string(line).find("  GPU  ") != std::string::npos;
+  free(line);
+  pclose(table);
+  return found;
+}
+
 class Scaling {
  public:
   Scaling(const Options& options, std::string command) : options_(options), command_(std::move(command)) {
     program_ = find_program(options.program);
-    gpu_ = options.device_kind == "gpu";
+    gpu_ = options.device_kind.empty() ? has_gpu(program_) : options.device_kind == "gpu";
     if (options.counts.empty()) options_.counts = gpu_ ? std::vector<uint32_t>{1, 2, 4} : std::vector<uint32_t>{1, 2};
     for (size_t at = 0; at < options.devices_list.size();) {
       devices_.push_back(options.devices_list.substr(at, options.devices_list.find(',', at) - at));
@@ -193,7 +206,8 @@ int main(int argc, char** argv) {
   CLI::App app("Frames a second of a drive on 1, 2, 4, ... devices");
   bench::Options options;
   app.add_option("--program", options.program, "the wavetracer to run; default: beside this program");
-  app.add_option("--device-kind", options.device_kind, "gpu: a process per device; cpu: a process per core")
+  app.add_option("--device-kind", options.device_kind,
+                 "gpu: a process per device; cpu: a process per core; default: gpu where there is one")
       ->check(CLI::IsMember({"cpu", "gpu"}));
   app.add_option("--devices-list", options.devices_list,
                  "indices, as `wavetracer devices` counts them; default 0,1,...");

@@ -40,8 +40,9 @@ struct Shared {
   uint64_t units = 0;    // of a part: how many it has
 };
 
-// With the other ranks of its job: takes units that nobody has until all are finished, and merges if it is the first to
-// see that. Units of ranks that die are taken over, once.
+// With the other ranks of its job: takes units that nobody has until all are finished. The first one to come prepares
+// the merge meanwhile, and merges; if it dies, the first of the others to see that does. Units of ranks that die are
+// taken over, once.
 // me: has its file in the folder.
 Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessInfo& me, Progress& progress);
 

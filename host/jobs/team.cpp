@@ -1,4 +1,4 @@
-// Processes that share a folder. One of them prepares it, all take units, one of them merges: each is a claim
+// Processes that share a folder. One of them prepares it, all take units, one of them leads and merges: each is a claim
 // (jobs/claims.hpp). DIR/shards/job.json says which job the folder was prepared for, and whether it is merged.
 #include "jobs/team.hpp"
 #include <fmt/format.h>
