@@ -32,14 +32,7 @@ inline wt_double2 wt_root(wt_double2 a) {
   const double part = sqrt(0.5 * (size + fabs(a.x))), other = fabs(a.y) / (2.0 * part);
   return a.x >= 0.0 ? WT_DOUBLE2(part, copysign(other, a.y)) : WT_DOUBLE2(other, copysign(part, a.y));
 }
-inline wt_double2 wt_polar(double size, double angle) { return wt_cos_sin(angle) * size; }
-inline wt_double2 wt_complex_exp(wt_double2 a) { return wt_polar(wt_exp(a.x), a.y); }
-// exp(a) - 1 without the cancellation at small a.
-inline wt_double2 wt_complex_expm1(wt_double2 a) {
-  const wt_double2 turn = wt_cos_sin(a.y);
-  const double half_sine = wt_cos_sin(0.5 * a.y).y;
-  return WT_DOUBLE2(wt_expm1(a.x) * turn.x - 2.0 * half_sine * half_sine, wt_exp(a.x) * turn.y);
-}
+inline wt_double2 wt_complex_exp(wt_double2 a) { return wt_cos_sin(a.y) * wt_exp(a.x); }
 
 // 2 x 2 matrices, row by row.
 typedef struct {

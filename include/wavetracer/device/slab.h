@@ -13,7 +13,8 @@ typedef struct {
   wt_double2 reflection_te, reflection_tm, transmission_te, transmission_tm;
 } wt_slab;
 
-// The wave inside: s = sqrt(eta - sin^2 theta) is its normal wave number over that of free space.
+// The wave inside: s = sqrt(eta - sin^2 theta) is its normal wave number over that of free space. One sine and one
+// exponential, those of one pass, give all three powers of exp(-j q).
 typedef struct {
   wt_double2 s;
   int half_space;
@@ -29,11 +30,19 @@ inline wt_inside wt_inside_of(wt_double2 permittivity, double cos_theta, double 
   in.half_space = thickness_m == WT_INFINITY;
   in.one_pass = in.round_trip = in.missing = wt_real(0.0);
   if (in.half_space) return in;
-  const double kd = 2.0 * WT_PI * thickness_m / wavelength_m;
-  const wt_double2 exponent = WT_DOUBLE2(2.0 * kd * in.s.y, -2.0 * kd * in.s.x);
-  in.one_pass = wt_complex_exp(exponent * 0.5);
-  in.round_trip = wt_complex_exp(exponent);
-  in.missing = in.s.x == 0.0 && in.s.y == 0.0 ? WT_DOUBLE2(0.0, 2.0 * kd) : -wt_over(wt_complex_expm1(exponent), in.s);
+  const double kd = 2.0 * WT_PI * thickness_m / wavelength_m, damping = kd * in.s.y;
+  const wt_double2 turn = wt_cos_sin(-kd * in.s.x);
+  const double lost = wt_expm1(damping), size = fabs(damping) < 0.34 ? 1.0 + lost : wt_exp(damping);
+  in.one_pass = turn * size;
+  in.round_trip = wt_times(in.one_pass, in.one_pass);
+  if (in.s.x == 0.0 && in.s.y == 0.0) {
+    in.missing = WT_DOUBLE2(0.0, 2.0 * kd);
+    return in;
+  }
+  // 1 - E without the cancellation at a small q: exp(2 x) - 1 = (exp(x) - 1) (exp(x) + 1), cos(2 y) = 1 - 2 sin(y)^2.
+  const double twice_sine2 = 2.0 * turn.y * turn.y;
+  const wt_double2 rest = WT_DOUBLE2(twice_sine2 - lost * (lost + 2.0) * (1.0 - twice_sine2), -in.round_trip.y);
+  in.missing = wt_over(rest, in.s);
   return in;
 }
 
@@ -49,8 +58,9 @@ inline void wt_slab_of(const wt_inside* in, wt_double2 u, wt_double2 difference,
   }
   const wt_double2 squares = wt_times(u, u) + wt_times(in->s, in->s);
   const wt_double2 denominator = wt_times(squares, in->missing) + wt_times(u, wt_real(1.0) + in->round_trip) * 2.0;
-  *reflection = wt_over(wt_times(difference, in->missing), denominator);
-  *transmission = wt_over(wt_times(u, in->one_pass) * 4.0, denominator);
+  const wt_double2 share = wt_over(wt_real(1.0), denominator);
+  *reflection = wt_times(wt_times(difference, in->missing), share);
+  *transmission = wt_times(wt_times(u, in->one_pass) * 4.0, share);
 }
 
 // permittivity: relative; cos_theta: 0 (grazing) to 1; thickness_m: 0 or more, infinity is the half space.

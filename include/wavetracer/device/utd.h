@@ -40,8 +40,14 @@ typedef struct {
   double exterior;
   wt_double3 normals[2];
   wt_wedge_face faces[2];
-  double sine, wavelength_m;
+  double wavelength_m;
 } wt_corner;
+
+// A plane wave that comes to the corner, from the side of the edge on which its source lies.
+typedef struct {
+  wt_double3 k;
+  wt_basis coming;
+} wt_corner_wave;
 
 // Edge-fixed bases of a wave that leaves the edge and of one that comes to it; (beta, phi, k) is right-handed.
 inline wt_basis wt_leaving(wt_double3 along, wt_double3 k) {
@@ -79,13 +85,22 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
   return wt_slab_coefficients(face->permittivity, cos_theta, face->thickness_m, wavelength_m);
 }
 
-// A geometrical wave from a source at this azimuth, as a matrix from (beta', phi') to (beta, phi): reflected `count`
-// times, or straight through as many faces; at face `first`, then at the other one, and so on.
-inline wt_matrix wt_met(const wt_corner* corner, double azimuth, double cosine, int first, int count, int straight) {
-  const wt_double3 along = WT_DOUBLE3(0.0, 0.0, 1.0);
+// cosine: of the angle between the wave and the edge; sine: of the same, not negative.
+inline wt_corner_wave wt_wave_from(double azimuth, double cosine, double sine) {
   const wt_double2 turn = wt_cos_sin(azimuth);
-  wt_double3 k = WT_DOUBLE3(-corner->sine * turn.x, -corner->sine * turn.y, cosine);
-  wt_transfer transfer = wt_transfer_from(wt_coming(along, k));
+  wt_corner_wave wave;
+  wave.k = WT_DOUBLE3(-sine * turn.x, -sine * turn.y, cosine);
+  wave.coming = wt_coming(WT_DOUBLE3(0.0, 0.0, 1.0), wave.k);
+  return wave;
+}
+
+// The wave as a matrix from (beta', phi') to (beta, phi): reflected `count` times, or straight through as many faces;
+// at face `first`, then at the other one, and so on.
+inline wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, int first, int count, int straight) {
+  // Leaving, both vectors of the basis are turned round.
+  if (count == 0) return wt_diagonal(wt_real(-1.0), wt_real(-1.0));
+  wt_double3 k = wave->k;
+  wt_transfer transfer = wt_transfer_from(wave->coming);
   for (int i = 0; i < count; ++i) {
     const int face = first != (i % 2 == 1);
     const wt_double3 normal = corner->normals[face];
@@ -97,12 +112,12 @@ inline wt_matrix wt_met(const wt_corner* corner, double azimuth, double cosine, 
       wt_meet(&transfer, k, out, normal, slab.reflection_te, slab.reflection_tm);
     k = out;
   }
-  return wt_seen_in(&transfer, wt_leaving(along, k));
+  return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), k));
 }
 
 // Reflected |image| times: at face 0, 1, 0, ... if image < 0, at 1, 0, 1, ... if > 0.
-inline wt_matrix wt_image_wave(const wt_corner* corner, double azimuth, double cosine, int image) {
-  return wt_met(corner, azimuth, cosine, image > 0, image < 0 ? -image : image, 0);
+inline wt_matrix wt_image_wave(const wt_corner* corner, const wt_corner_wave* wave, int image) {
+  return wt_met(corner, wave, image > 0, image < 0 ? -image : image, 0);
 }
 
 // A shadow boundary. Reflection unfolds: a geometrical wave is a straight line past the edge, from an azimuth to one
@@ -118,7 +133,7 @@ typedef struct {
 // 2 pi n N + epsilon, with Kouyoumjian and Pathak's N.
 inline wt_boundary wt_nearest_boundary(double in, double out, double exterior, int odd, int turn) {
   const double beta = odd ? out + in : in - out, period = 2.0 * exterior;
-  const double angle = WT_PI + turn * beta, number = round(angle / period);
+  const double angle = WT_PI + turn * beta, number = wt_nearest_whole(angle / period);
   wt_boundary boundary;
   boundary.epsilon = angle - number * period;
   boundary.turn = turn;
@@ -143,17 +158,18 @@ inline double wt_decided(wt_boundary boundary, const wt_lit_sides* lit) {
 // The jump of the geometrical field at a boundary, from shadow to light. Outside of a convex wedge nothing is reflected
 // twice: one reflection, at the face on this side, is all. On the boundary both choices of angles agree; between
 // boundaries their mean makes the coefficient reciprocal.
-inline wt_matrix wt_jump(const wt_corner* corner, double in, double out, double cosine, wt_boundary boundary, int odd,
-                         int transmits) {
+// there: the wave; back: that of the link the other way.
+inline wt_matrix wt_jump(const wt_corner* corner, const wt_corner_wave* there, const wt_corner_wave* back,
+                         wt_boundary boundary, int odd, int transmits) {
   const int convex = corner->exterior >= WT_PI, turn = boundary.turn;
   const int image = !convex ? boundary.image : odd ? turn : 0;
   wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
-  sum = wt_matrix_sum(sum, 0.5, wt_image_wave(corner, in, cosine, image));
-  sum = wt_matrix_sum(sum, 0.5, wt_other_way(wt_image_wave(corner, out, -cosine, odd ? image : -image)));
+  sum = wt_matrix_sum(sum, 0.5, wt_image_wave(corner, there, image));
+  sum = wt_matrix_sum(sum, 0.5, wt_other_way(wt_image_wave(corner, back, odd ? image : -image)));
   if (!odd && transmits && convex) {
     const int count = corner->exterior > 2.0 * WT_PI - WT_GRAZING_RAD ? 1 : 2;
-    sum = wt_matrix_sum(sum, -0.5, wt_met(corner, in, cosine, turn < 0, count, 1));
-    sum = wt_matrix_sum(sum, -0.5, wt_other_way(wt_met(corner, out, -cosine, turn > 0, count, 1)));
+    sum = wt_matrix_sum(sum, -0.5, wt_met(corner, there, turn < 0, count, 1));
+    sum = wt_matrix_sum(sum, -0.5, wt_other_way(wt_met(corner, back, turn > 0, count, 1)));
   }
   return sum;
 }
@@ -177,17 +193,18 @@ inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces,
   corner.normals[1] = WT_DOUBLE3(exterior_turn.y, -exterior_turn.x, 0.0);
   corner.faces[0] = faces[0];
   corner.faces[1] = faces[1];
-  corner.sine = sqrt((1.0 - cosine) * (1.0 + cosine));
   corner.wavelength_m = wavelength_m;
   const double n = wedge.exterior / WT_PI;
   const double in = wt_azimuth_of(&wedge, -k_in), away = wt_azimuth_of(&wedge, k_out);
+  const double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+  const wt_corner_wave there = wt_wave_from(in, cosine, sine), back = wt_wave_from(away, -cosine, sine);
 
   const double root_2kl = sqrt(4.0 * WT_PI * distance_m / wavelength_m);
   for (int term = 0; term < 4; ++term) {
     const int odd = term / 2;
     const wt_boundary boundary = wt_nearest_boundary(in, away, wedge.exterior, odd, term % 2 ? 1 : -1);
     const wt_double2 factor = wt_boundary_term(wt_decided(boundary, &lit), n, root_2kl);
-    const wt_matrix jump = wt_jump(&corner, in, away, cosine, boundary, odd, transmits);
+    const wt_matrix jump = wt_jump(&corner, &there, &back, boundary, odd, transmits);
     for (int i = 0; i < 4; ++i) out.matrix.m[i] = out.matrix.m[i] + wt_times(factor, jump.m[i]);
   }
   const int grazing = fmin(in, away) < WT_GRAZING_RAD || wedge.exterior - fmax(in, away) < WT_GRAZING_RAD;

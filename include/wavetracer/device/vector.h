@@ -30,8 +30,6 @@ using std::fma;
 using std::fmax;
 using std::fmin;
 using std::ldexp;
-using std::rint;
-using std::round;
 using std::sqrt;
 using wt_double2 = glm::dvec2;
 using wt_double3 = glm::dvec3;
