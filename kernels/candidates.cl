@@ -56,10 +56,11 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
                        const global float* boxes, const global ushort* links, global wt_candidate* out,
                        global wt_counters* counters, wt_candidates_arguments args) {
   const uint i = get_global_id(0), stride = args.receiver_capacity, groups = stride / 16;
+  const uint node_count = wt_node_count(counters, args.node_count);
+  if (i >= node_count) return;
+  wt_chains_prefetch(table, nodes, i, node_count);
   wt_followed s;
-  if (i >= wt_node_count(counters, args.node_count) ||
-      !wt_follow_back(table, nodes[i], transmitters, exact, surfaces, args, &s))
-    return;
+  if (!wt_follow_back(table, nodes[i], transmitters, exact, surfaces, args, &s)) return;
   wt_beam beam;
   if (s.depth > 0) beam = wt_beam_of(&s);
   waiting_receivers waiting;

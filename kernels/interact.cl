@@ -69,6 +69,10 @@ kernel void interact(const global float* rays, const global float* hits, const g
   uint j = block_offsets[first_block];
   uint last_parent = WT_NONE, last_surface = WT_NONE, last_node = WT_NONE, found = 0;
   for (uint i = first; i < end; ++i) {
+    if (i + WT_AHEAD < end)
+      wt_trie_prefetch(table, quarters, args.trie_mask,
+                       wt_node_of(wt_load_word(rays, args.capacity, WT_RAY_NODE, i + WT_AHEAD)),
+                       wt_load_word(hits, args.capacity, WT_HIT_SURFACE, i + WT_AHEAD));
     const uint surface = wt_load_word(hits, args.capacity, WT_HIT_SURFACE, i);
     if (surface == WT_NONE) continue;
     const uint word = wt_load_word(rays, args.capacity, WT_RAY_NODE, i), parent = wt_node_of(word);

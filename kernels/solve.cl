@@ -23,18 +23,32 @@ inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const gl
   leg.own_from = leg.own_to = WT_NONE;  // of vehicles, which are not remembered
   return wt_obstructed_at(triangles, triangle_slots, surfaces, &leg, noted & (WT_BLOCKER_PLACES - 1));
 }
+
+inline void prefetch_blocker(const global uint* blockers, uint mask, const global wt_candidate* candidate) {
+  wt_prefetch(blockers + wt_blocker_slot(candidate->node, candidate->receiver, mask));
+}
 #define WT_BLOCKER_ARGUMENTS const global WT_LEAF *leaves, const global uint *blockers,
 #else
 #define WT_BLOCKER_ARGUMENTS
 #endif
+
+// Begins to read the chains of the candidates that follow candidate i.
+inline void prefetch_chains(const global ulong* table, const global wt_candidate* candidates, uint i, uint count) {
+  for (uint step = 0; WT_AHEAD > 1 && step < 3 && i + (WT_AHEAD >> step) < count; ++step)
+    wt_chain_prefetch(table, candidates[i + (WT_AHEAD >> step)].node, step);
+}
 
 kernel void solve(const global ulong* table, const global uint* quarters, const global double4* transmitters,
                   const global double4* receivers, const global wt_exact_surface* surfaces,
                   const global double* triangles, const global wt_exact_instance* instances,
                   const global wt_candidate* candidates, global wt_solved* solved, global double* vertices,
                   global uint* sequences, global wt_counters* counters, WT_BLOCKER_ARGUMENTS wt_solve_arguments args) {
-  const uint i = get_global_id(0);
-  if (i >= min(args.candidate_count, counters->candidates)) return;
+  const uint i = get_global_id(0), count = min(args.candidate_count, counters->candidates);
+  if (i >= count) return;
+  prefetch_chains(table, candidates, i, count);
+#ifdef WT_BLOCKERS
+  if (i + WT_AHEAD < count) prefetch_blocker(blockers, args.blocker_mask, candidates + i + WT_AHEAD);
+#endif
   uint chain[WT_MAX_DEPTH], transmitter;
   const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
   // The vehicle that carries an antenna is no mirror to it, as it hides nothing from it.

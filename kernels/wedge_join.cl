@@ -24,9 +24,12 @@ kernel void wedge_join(const global uint* keys, const global uint* order, const 
   const global wt_wedge_prefix* a = prefixes + order[i];
   if (a->origin >= args.transmitter_count || a->depth >= args.max_depth) return;
   const uint wedge = wt_wedge_of(keys[i]), last = wt_wedge_key(wedge, args.max_depth - 1 - a->depth);
-  const uint first = wt_lower_bound(keys, args.count, wt_wedge_key(wedge, 0));
+  const uint first = wt_lower_bound_before(keys, i, wt_wedge_key(wedge, 0));
+  wt_found_candidates batch;
+  batch.count = 0;
   for (uint j = first + lane; j < args.count && keys[j] <= last; j += args.lanes) {
     const global wt_wedge_prefix* b = prefixes + order[j];
+    if (j + WT_AHEAD / 2 < args.count) wt_prefetch(prefixes + order[j + WT_AHEAD / 2]);
     const uint receiver = wt_wanted_receiver(a, b, 1, args.max_depth, receiver_of_origin, links, args.groups);
     if (receiver == WT_NONE) continue;
     const float legs = a->away + b->away, x = (a->along * b->away + b->along * a->away) / legs;
@@ -38,6 +41,7 @@ kernel void wedge_join(const global uint* keys, const global uint* order, const 
                                 (float)(w->start[2] + x * w->along[2]));
       if (!may_reach(a, surfaces, p) || !may_reach(b, surfaces, p)) continue;
     }
-    wt_emit_candidate(a, b, wedge, WT_NONE, receiver, out, args.capacity, counters);
+    wt_emit_candidate(a, b, wedge, WT_NONE, receiver, &batch, out, args.capacity, counters);
   }
+  wt_list_candidates(&batch, out, args.capacity, counters);
 }

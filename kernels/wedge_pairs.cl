@@ -62,6 +62,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
   const uint wedge_a = wt_wedge_of(keys[i]), most = args.max_depth - 2 - a->depth;
   uint wedge_b = WT_NONE, known = 0, was_known = 0;
   global uint* keep = 0;
+  wt_found_candidates batch;
+  batch.count = 0;
   wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
   for (uint j = lane; j < args.count && keys[j] != WT_NONE;) {
     if (wt_wedge_of(keys[j]) != wedge_b) {
@@ -81,7 +83,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
       const uint wanted = pairs_of(a_is_low ? a->pieces : b->pieces, a_is_low ? b->pieces : a->pieces);
       known = look(&sight, wedges + (a_is_low ? wedge_a : wedge_b), wedges + (a_is_low ? wedge_b : wedge_a), wanted,
                    known, &hiders);
-      if (known >> 16 & wanted) wt_emit_candidate(a, b, wedge_a, wedge_b, receiver, out, args.capacity, counters);
+      if (known >> 16 & wanted)
+        wt_emit_candidate(a, b, wedge_a, wedge_b, receiver, &batch, out, args.capacity, counters);
     } else {
       const uint next = wt_lower_bound(keys, args.count, wt_wedge_key(wedge_b + 1, 0));
       j = next + (lane + args.lanes - next % args.lanes) % args.lanes;
@@ -91,4 +94,5 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
       was_known = known;
     }
   }
+  wt_list_candidates(&batch, out, args.capacity, counters);
 }

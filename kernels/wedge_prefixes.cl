@@ -8,12 +8,70 @@
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
+// What sees wedges: the node of a prefix and the surface that its rays met next.
+typedef struct {
+  uint node, seen, origin, depth, last;
+  uint quarters;
+  double3 image;
+} wt_onlooker;
+
+// A wedge that it sees, with its image in the wedge's axes.
+typedef struct {
+  uint wedge;
+  double3 at;
+} wt_view;
+
+// Views are listed so many at a time: their look-ups in the trie wait for memory together.
+#define WT_VIEWS WT_AHEAD
+
+inline uint other_face(const global wt_wedge* w, uint seen) { return w->surfaces[w->surfaces[0] == seen]; }
+
+// Does the prefix see the wedge, as far as its last mirror shows it? boxes: of the surfaces.
+inline int sees(const wt_onlooker* from, const global wt_wedge* w, const global wt_surface* boxes, double3 at) {
+  if (!(w->length > 0.0) || !wt_in_sector(w, at)) return 0;
+  return from->depth == 0 || wt_may_show(boxes + from->last, convert_float3(from->image),
+                                         convert_float3(wt_on_edge(w, 0.0)), convert_float3(wt_on_edge(w, w->length)));
+}
+
 // Quarters whose rays see the wedge from here on its other face.
-inline uint by_other_face(const global ulong* table, uint mask, const global uint* quarters, uint node, uint seen,
+inline uint by_other_face(const global ulong* table, uint mask, const global uint* quarters, const wt_onlooker* from,
                           const global wt_wedge* w) {
-  const uint other = w->surfaces[w->surfaces[0] == seen];
-  const uint beside = other == seen ? WT_NONE : wt_trie_find(table, mask, node, other);
+  const uint other = other_face(w, from->seen);
+  const uint beside = other == from->seen ? WT_NONE : wt_trie_find(table, mask, from->node, other);
   return beside == WT_NONE ? 0u : wt_found_by(quarters, beside);
+}
+
+// Lists the views but those that the prefix also has of their wedge's first face, by another node.
+inline void list_views(const global ulong* table, const global uint* quarters, const global wt_wedge* wedges,
+                       const wt_onlooker* from, wt_view* views, uint count, global uint* keys,
+                       global wt_wedge_prefix* prefixes, global wt_counters* counters,
+                       wt_wedge_prefixes_arguments args) {
+  uint kept = 0;
+  for (uint k = 0; k < count; ++k) {
+    const uint face = wedges[views[k].wedge].surfaces[0];
+    if (face == from->seen || wt_trie_find(table, args.trie_mask, from->node, face) == WT_NONE)
+      views[kept++] = views[k];
+  }
+  if (kept == 0) return;
+  uint slot = wt_take_places(&counters->wedge_prefixes, kept);
+  for (uint k = 0; k < kept && slot < args.capacity; ++k, ++slot) {
+    const global wt_wedge* w = wedges + views[k].wedge;
+    keys[slot] = wt_wedge_key(views[k].wedge, from->depth);
+    prefixes[slot].quarters = from->quarters == WT_ALL_QUARTERS
+                                  ? from->quarters
+                                  : from->quarters | by_other_face(table, args.trie_mask, quarters, from, w);
+    prefixes[slot].pieces = (1u << WT_WEDGE_PIECES) - 1u;
+    prefixes[slot].node = from->node;
+    prefixes[slot].origin = from->origin;
+    prefixes[slot].depth = from->depth;
+    prefixes[slot].last = from->last;
+    prefixes[slot].image[0] = (float)from->image.x;
+    prefixes[slot].image[1] = (float)from->image.y;
+    prefixes[slot].image[2] = (float)from->image.z;
+    prefixes[slot].along = (float)views[k].at.x;
+    prefixes[slot].away = (float)wt_from_edge(views[k].at);
+    prefixes[slot].length = (float)w->length;
+  }
 }
 
 // One node per work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
@@ -24,41 +82,32 @@ kernel void wedge_prefixes(const global ulong* table, const global uint* quarter
                            const global uint* surface_wedges, const global wt_wedge* wedges, global uint* keys,
                            global wt_wedge_prefix* prefixes, global wt_counters* counters,
                            wt_wedge_prefixes_arguments args) {
-  const uint i = get_global_id(0);
-  if (i >= wt_node_count(counters, args.node_count) || (nodes[i] & WT_ROOT)) return;
-  uint chain[WT_MAX_DEPTH], origin;
-  const uint depth = wt_chain(table, nodes[i], chain, &origin) - 1, seen = chain[depth];
-  const uint node = wt_trie_parent(table[nodes[i]]);
-  double3 image = origins[origin].xyz;
-  for (uint k = 0; k < depth; ++k) image = wt_reflected(surfaces + chain[k], image);
-  const uint found = wt_found_by(quarters, nodes[i]);
+  const uint i = get_global_id(0), node_count = wt_node_count(counters, args.node_count);
+  if (i >= node_count || (nodes[i] & WT_ROOT)) return;
+  wt_chains_prefetch(table, nodes, i, node_count);
+  uint chain[WT_MAX_DEPTH];
+  wt_onlooker from;
+  from.depth = wt_chain(table, nodes[i], chain, &from.origin) - 1;
+  from.seen = chain[from.depth];
+  from.last = from.depth > 0 ? chain[from.depth - 1] : WT_NONE;
+  from.node = wt_trie_parent(table[nodes[i]]);
+  from.quarters = wt_found_by(quarters, nodes[i]);
+  from.image = origins[from.origin].xyz;
+  for (uint k = 0; k < from.depth; ++k) from.image = wt_reflected(surfaces + chain[k], from.image);
   // The vehicle that carries an antenna hides nothing from it, nor does it diffract.
-  const uint own = depth == 0 ? wt_end_instance(origins[origin]) : WT_NONE;
-  for (uint k = first_wedges[seen]; k < first_wedges[seen + 1]; ++k) {
-    const uint number = surface_wedges[k];
-    const global wt_wedge* w = wedges + number;
+  const uint own = from.depth == 0 ? wt_end_instance(origins[from.origin]) : WT_NONE;
+  wt_view views[WT_VIEWS];
+  uint count = 0;
+  for (uint k = first_wedges[from.seen]; k < first_wedges[from.seen + 1]; ++k) {
+    const global wt_wedge* w = wedges + surface_wedges[k];
     if (own != WT_NONE && w->instance == own) continue;
-    const double3 q = wt_in_wedge(w, image);
-    if (!(w->length > 0.0) || !wt_in_sector(w, q)) continue;
-    if (depth > 0 && !wt_may_show(boxes + chain[depth - 1], convert_float3(image), convert_float3(wt_on_edge(w, 0.0)),
-                                  convert_float3(wt_on_edge(w, w->length))))
-      continue;
-    if (w->surfaces[0] != seen && wt_trie_find(table, args.trie_mask, node, w->surfaces[0]) != WT_NONE) continue;
-    const uint slot = atomic_inc(&counters->wedge_prefixes);
-    if (slot >= args.capacity) continue;
-    keys[slot] = wt_wedge_key(number, depth);
-    prefixes[slot].quarters =
-        found == WT_ALL_QUARTERS ? found : found | by_other_face(table, args.trie_mask, quarters, node, seen, w);
-    prefixes[slot].pieces = (1u << WT_WEDGE_PIECES) - 1u;
-    prefixes[slot].node = node;
-    prefixes[slot].origin = origin;
-    prefixes[slot].depth = depth;
-    prefixes[slot].last = depth > 0 ? chain[depth - 1] : WT_NONE;
-    prefixes[slot].image[0] = (float)image.x;
-    prefixes[slot].image[1] = (float)image.y;
-    prefixes[slot].image[2] = (float)image.z;
-    prefixes[slot].along = (float)q.x;
-    prefixes[slot].away = (float)wt_from_edge(q);
-    prefixes[slot].length = (float)w->length;
+    views[count].wedge = surface_wedges[k];
+    views[count].at = wt_in_wedge(w, from.image);
+    if (!sees(&from, w, boxes, views[count].at)) continue;
+    wt_trie_prefetch(table, quarters, args.trie_mask, from.node, other_face(w, from.seen));
+    if (++count < WT_VIEWS) continue;
+    list_views(table, quarters, wedges, &from, views, count, keys, prefixes, counters, args);
+    count = 0;
   }
+  if (count > 0) list_views(table, quarters, wedges, &from, views, count, keys, prefixes, counters, args);
 }

@@ -41,13 +41,23 @@ inline int solve_side(const global wt_exact_surface* surfaces, const global doub
   return in_free_space(w, p, depth > 0 ? points[depth - 1] : images[0]);
 }
 
+// Begins to read the chains of the candidates that follow candidate i.
+inline void prefetch_chains(const global ulong* table, const global wt_wedge_candidate* candidates, uint i,
+                            uint count) {
+  for (uint step = 0; WT_AHEAD > 1 && step < 3 && i + (WT_AHEAD >> step) < count; ++step) {
+    wt_chain_prefetch(table, candidates[i + (WT_AHEAD >> step)].node, step);
+    wt_chain_prefetch(table, candidates[i + (WT_AHEAD >> step)].back, step);
+  }
+}
+
 kernel void wedge_solve(const global ulong* table, const global double4* origins, const global double4* receivers,
                         const global wt_exact_surface* surfaces, const global double* triangles,
                         const global wt_exact_instance* instances, const global wt_wedge* wedges,
                         const global wt_wedge_candidate* candidates, global wt_solved* solved, global double* vertices,
                         global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
-  const uint i = get_global_id(0);
-  if (i >= min(args.candidate_count, counters->wedge_candidates)) return;
+  const uint i = get_global_id(0), count = min(args.candidate_count, counters->wedge_candidates);
+  if (i >= count) return;
+  prefetch_chains(table, candidates, i, count);
   const wt_wedge_candidate c = candidates[i];
   uint chain[WT_MAX_DEPTH], back_chain[WT_MAX_DEPTH], transmitter, origin;
   double3 images[WT_MAX_DEPTH + 1], points[WT_MAX_DEPTH], back_images[WT_MAX_DEPTH + 1], back_points[WT_MAX_DEPTH];

@@ -162,22 +162,26 @@ typedef struct {
   wt_uint quarters;  // of the launch that found it
 } wt_solved;
 
-// Counters that the passes share; one small buffer, cleared a frame.
+// Counters that the passes share; one small buffer, cleared a frame. Each has a line of memory for itself: a kernel
+// that reads one for every element and adds to another would else wait for the line, which each core takes from the
+// others.
+#define WT_REST_OF_LINE 15u
 typedef struct {
-  wt_uint nodes;                     // used slots of the trie, as they are listed
-  wt_uint exchanged;                 // listed after them, which exchanges have added
-  wt_uint trie_overflow;             // an insertion found no slot: grow and trace the batch again
-  wt_uint candidates;                // may exceed the capacity: grow and run again
-  wt_uint solved;                    // likewise
-  wt_uint hidden;                    // solved, and hidden by what hid the path before
-  wt_uint visible;                   // may exceed the capacity, as candidates
-  wt_uint wedge_prefixes;            // likewise
-  wt_uint wedge_candidates;          // likewise
-  wt_uint wedge_solved;              // likewise
-  wt_uint rows;                      // of paths
-  wt_uint row_vertices;              // their interactions
-  wt_uint near_rows;                 // left out because an antenna touches what reflects there
-  wt_uint ended[WT_MAX_DEPTH + 1u];  // rays of bounces by the number of their hits
+  wt_uint nodes;                                                 // used slots of the trie, as they are listed
+  wt_uint exchanged, exchanged_rest[WT_REST_OF_LINE - 1u];       // listed after them, which exchanges have added
+  wt_uint trie_overflow, trie_overflow_rest[WT_REST_OF_LINE];    // no slot was found: grow, and trace the batch again
+  wt_uint candidates, candidates_rest[WT_REST_OF_LINE];          // may exceed the capacity: grow and run again
+  wt_uint solved, solved_rest[WT_REST_OF_LINE];                  // likewise
+  wt_uint hidden, hidden_rest[WT_REST_OF_LINE];                  // solved, and hidden by what hid the path before
+  wt_uint visible, visible_rest[WT_REST_OF_LINE];                // may exceed the capacity, as candidates
+  wt_uint wedge_prefixes, wedge_prefixes_rest[WT_REST_OF_LINE];  // likewise
+  wt_uint wedge_candidates, wedge_candidates_rest[WT_REST_OF_LINE];  // likewise
+  wt_uint wedge_solved, wedge_solved_rest[WT_REST_OF_LINE];          // likewise
+  wt_uint rows, rows_rest[WT_REST_OF_LINE];                          // of paths
+  wt_uint row_vertices, row_vertices_rest[WT_REST_OF_LINE];          // their interactions
+  wt_uint near_rows, near_rows_rest[WT_REST_OF_LINE];                // left out: an antenna touches what reflects there
+  wt_uint ended[WT_MAX_DEPTH + 1u];                                  // rays of bounces by the number of their hits
+  wt_uint ended_rest[WT_REST_OF_LINE];
 } wt_counters;
 
 #endif
