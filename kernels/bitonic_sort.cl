@@ -136,14 +136,20 @@ inline void wt_sort(local wt_key* keys, local uint* index, uint n) {
 kernel void sort_blocks(global wt_key* keys, global uint* values, global uint* index, uint n) {
   local wt_key block_keys[WT_BLOCK];
   local uint block_index[WT_PAYLOAD != 0 ? WT_BLOCK : 1];
+  local uint unsorted;  // where the largest keys begin that end the block: they are in their places
   const uint first = get_group_id(0) * WT_BLOCK, count = min(n - first, (uint)WT_BLOCK);
   const uint lane = get_local_id(0), lanes = get_local_size(0);
+  if (lane == 0) unsorted = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint last = 0;
   for (uint i = lane; i < (count + WT_LANES - 1) / WT_LANES * WT_LANES; i += lanes) {
     block_keys[i] = i < count ? keys[first + i] : ~(wt_key)0;
+    if (block_keys[i] != ~(wt_key)0) last = i + 1;
     if (WT_PAYLOAD != 0) block_index[i] = i < count ? first + i : ~0u;
   }
+  if (last != 0) atomic_max(&unsorted, last);
   barrier(CLK_LOCAL_MEM_FENCE);
-  wt_sort(block_keys, block_index, count);
+  wt_sort(block_keys, block_index, unsorted);
   for (uint i = lane; i < count; i += lanes) {
     keys[first + i] = block_keys[i];
     if (WT_PAYLOAD == 1 && n <= WT_BLOCK) block_index[i] = values[block_index[i]];

@@ -63,15 +63,18 @@ inline uint enter(global ulong* table, uint mask, uint parent, uint surface, glo
 // ground and then the wall, and the receiver's position decides which of the two is a path. Rays find one of them and
 // may miss the other (nearly all missed paths of street scenes are such), so both are entered: for every listed node,
 // every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always. counters->nodes of at
-// most node_count nodes are listed, and what is new is listed after them, as far as there is room.
+// most node_count nodes are listed, and what is new is listed after them, as far as there is room. `lanes`
+// work-items take the pairs of a node in turn.
 kernel void commute(global ulong* table, uint mask, global uint* nodes, uint node_count, uint capacity,
                     const global wt_surface* surfaces, global uint* quarters, global wt_counters* counters,
-                    global uint* ages, uint now) {
-  const uint i = get_global_id(0);
+                    global uint* ages, uint now, uint lanes) {
+  const uint i = get_global_id(0) / lanes;
   if (i >= min(node_count, counters->nodes) || (nodes[i] & WT_ROOT)) return;
 #ifdef WT_AGES
   if (wt_load_relaxed_u32(ages + nodes[i]) != now)
     return;  // no ray met it in this frame: its neighbours are as old as it is
+#else
+  wt_chains_prefetch(table, nodes, i, min(node_count, counters->nodes));
 #endif
   uint chain[WT_MAX_DEPTH], parents[WT_MAX_DEPTH];  // from the last surface back, with the node that each was added to
   uint depth = 0;
@@ -81,7 +84,7 @@ kernel void commute(global ulong* table, uint mask, global uint* nodes, uint nod
     parents[depth++] = wt_trie_parent(key);
   }
   const uint found = wt_load_relaxed_u32(quarters + nodes[i]) & WT_ALL_QUARTERS;
-  for (uint k = 0; k + 1 < depth; ++k) {
+  for (uint k = get_global_id(0) % lanes; k + 1 < depth; k += lanes) {
     const global float* a = surfaces[chain[k]].normal;
     const global float* b = surfaces[chain[k + 1]].normal;
     if (!(fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) <= WT_PERPENDICULAR)) continue;  // also of absent instances

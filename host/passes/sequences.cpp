@@ -77,9 +77,11 @@ void Sequences::keep(const SolvedList& solved) {
 
 uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   const size_t room = nodes_.size() - node_count;
+  const uint32_t lanes = tuning_of(context_.info()).exchange_lanes(node_count);
   for (bool grew = false;; grew = true) {
-    commute_(work_.range(node_count), "sequences", table_, static_cast<uint32_t>(table_.size() - 1), nodes_, node_count,
-             static_cast<uint32_t>(nodes_.size()), surfaces, quarters_, counters_.buffer(), ages(), now());
+    commute_(work_.range(size_t{node_count} * lanes), "sequences", table_, static_cast<uint32_t>(table_.size() - 1),
+             nodes_, node_count, static_cast<uint32_t>(nodes_.size()), surfaces, quarters_, counters_.buffer(), ages(),
+             now(), lanes);
     const uint32_t added = counters_.length(&wt_counters::exchanged, room, "sequences");
     if (counters_.foresees()) return node_count + added;
     if (!overflowed()) return grew || added > room ? collect(roots_) : node_count + added;

@@ -65,9 +65,13 @@ struct Tuning {
 
   Work slots;  // collect: of the table of sequences
   Work sequences;
+  uint32_t busy_nodes;  // commute: nodes that keep the device busy
   Work candidates, exact, prefixes;
   uint32_t join_lanes, join_group;  // wedge_join: work-items per prefix
   Work tiles;                       // rows of scatter
+
+  // Work-items per node that commute takes: each exchange waits for memory some times in a row.
+  uint32_t exchange_lanes(uint32_t nodes) const { return nodes < busy_nodes ? 4 : 1; }
 
   ScanTuning scan;
   BitonicTuning bitonic;
@@ -102,6 +106,7 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       .receive = {1, cpu ? 64u : 128u},
       .slots = cpu ? Work{256, 1} : Work{1, small},
       .sequences = {1, 64},
+      .busy_nodes = cpu ? 0u : 1u << 16,  // not measured
       .candidates = {1, cpu ? 64u : 128u},
       // Kernels in double with long private arrays, whose neighbours take very different times: small groups. GPUs: an
       // H200 takes 0.41 ms for the legs of 132,000 solved paths in groups of 16, 0.31 in groups of 32 to 128
@@ -110,7 +115,7 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       .prefixes = {1, 64},  // the ground bounds many wedges and a wall few
       // A wedge may be seen by few prefixes or by thousands; not measured.
       .join_lanes = cpu ? 1u : 32u,
-      .join_group = 32,
+      .join_group = cpu ? 32u : 256u,
       // A search for the entry serves many rows where there are few cores.
       .tiles = {cpu ? 64u : 1u, small},
       // CPUs: one launch reads once, two read twice. Two free cores gain 1.07 at 2^18 counts, 1.3 at 2^20 and 2^22,

@@ -64,8 +64,7 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
 
 DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) {
   RayFollower& follower = launch.followed ? follower_ : nobody_;
-  DiscoveryCounts counts;
-  counts.segments_per_depth.assign(wavefront_.segments(follower), 0);
+  DiscoveryCounts counts = nothing_yet(follower);
   const uint64_t total = launch.total();
   if (counts.segments_per_depth.empty() || total == 0) return counts;
   follower.begin_launch();
@@ -74,6 +73,7 @@ DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) 
   while (counts.rays < total) {
     const uint64_t count = std::min(size, total - counts.rays);
     for (bool fits = false; !fits;) {
+      wavefront_.rays().count = 0;
       follower.begin_batch(source_.launch(wavefront_.rays(), launch, counts.rays, count));  // order_keys to label_rays
       fits = wavefront_.trace(scene, follower, counts);  // order_keys (of later depths) to interact, or bounces
       if (!fits) sequences_.regrow(depth_.sequences);
@@ -85,9 +85,35 @@ DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) 
   return counts;
 }
 
-DiscoveryCounts Discovery::find_refined(const DeviceScene& scene, const std::vector<Launcher>& who, uint64_t frame) {
+DiscoveryCounts Discovery::find_all(const DeviceScene& scene, std::span<const Launch> launches) {
+  DiscoveryCounts counts = nothing_yet(nobody_);
+  uint64_t total = 0;
+  for (const Launch& launch : launches) total += launch.total();
+  if (launches.size() == 1 || total > batch_rays_ || &follower_ != &nobody_ || !source_.as_launched()) {
+    for (const Launch& launch : launches) counts.add(find(scene, launch));
+    return counts;
+  }
+  if (counts.segments_per_depth.empty() || total == 0) return counts;
+  reserve(total);
+  for (bool fits = false; !fits;) {
+    wavefront_.rays().count = 0;
+    for (const Launch& launch : launches) source_.launch(wavefront_.rays(), launch, 0, launch.total());
+    fits = wavefront_.trace(scene, nobody_, counts);
+    if (!fits) sequences_.regrow(depth_.sequences);
+  }
+  counts.rays = total;
+  tell(total, total);
+  return counts;
+}
+
+DiscoveryCounts Discovery::nothing_yet(RayFollower& follower) const {
   DiscoveryCounts counts;
-  counts.segments_per_depth.assign(wavefront_.segments(nobody_), 0);
+  counts.segments_per_depth.assign(wavefront_.segments(follower), 0);
+  return counts;
+}
+
+DiscoveryCounts Discovery::find_refined(const DeviceScene& scene, const std::vector<Launcher>& who, uint64_t frame) {
+  DiscoveryCounts counts = nothing_yet(nobody_);
   if (counts.segments_per_depth.empty() || who.empty()) return counts;
   refinement_->start(who, sequences_.table().size(), frame);
   for (bool more = true; more;) {

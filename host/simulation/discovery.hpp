@@ -3,6 +3,7 @@
 // fit grows the set and is traced again.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "simulation/frame_watch.hpp"
 #include "simulation/refinement.hpp"
@@ -28,6 +29,8 @@ class Discovery {
   void set_heights(const std::vector<float>& tables) { source_.set_heights(tables); }
   // Adds to sequences() what the rays of this launch meet.
   DiscoveryCounts find(const DeviceScene& scene, const Launch& launch);
+  // The same of several launches, which share a batch where they fit into one and nobody follows them.
+  DiscoveryCounts find_all(const DeviceScene& scene, std::span<const Launch> launches);
   // The same with as many rays as trace.recall asks for, at most trace.max_rays for each launcher: a launch that is
   // refined where it still finds something. Needs trace.rays = 0 ("auto"). frame: since the last cold one, see
   // Refinement.
@@ -35,6 +38,7 @@ class Discovery {
   Sequences& sequences() { return sequences_; }
 
  private:
+  DiscoveryCounts nothing_yet(RayFollower& follower) const;
   // False if the set of sequences must grow, and the launch begin again.
   bool trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   // Makes room for batches of this many rays, in all buffers with an entry per ray.

@@ -194,12 +194,10 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
     transmitters.insert(transmitters.end(), listeners.begin(), listeners.end());
     return s_.discovery.find_refined(s_.device_scene, transmitters, warm_frames_);
   }
-  DiscoveryCounts counts;
-  for (Launch& launch : frame_launches(s_.trace, std::move(transmitters), std::move(listeners), warm_frames_)) {
+  std::vector<Launch> launches = frame_launches(s_.trace, std::move(transmitters), std::move(listeners), warm_frames_);
+  for (Launch& launch : launches)
     if (task.compiling) launch.share = few_directions(launch.rays);
-    counts.add(s_.discovery.find(s_.device_scene, launch));
-  }
-  return counts;
+  return s_.discovery.find_all(s_.device_scene, launches);
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths.

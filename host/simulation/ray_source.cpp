@@ -38,12 +38,12 @@ std::vector<LaunchPart> RaySource::launch(RayQueue& rays, const Launch& launch, 
   const auto [phase, stride] = launch.share;
   const bool sorted = order_ && launch.sorted && launch.rays == trace_.rays && stride == 1;
   GenerateRays& generate = generator(launch.rays);
-  rays.count = 0;
+  const uint32_t first_slot = rays.count;
   std::vector<LaunchPart> parts;
   for (uint64_t done = 0; done < count;) {
     const uint64_t number = (first + done) % each;  // of this launcher's rays
     const Launcher& from = launch.who[(first + done) / each];
-    const auto sample = static_cast<uint32_t>(done);
+    const auto sample = rays.count;  // in the queue
     const auto part = static_cast<uint32_t>(std::min(count - done, each - number));
     // Launchers of which this batch has all rays share a launch on the device.
     const uint64_t whole =
@@ -52,7 +52,7 @@ std::vector<LaunchPart> RaySource::launch(RayQueue& rays, const Launch& launch, 
       const auto who = std::span(launch.who).subspan((first + done) / each, whole);
       generate(rays, who, phase, part, stride);  // generate_rays
       for (const Launcher& launcher : who) {
-        parts.push_back({launcher.transmitter, static_cast<uint32_t>(done), part, 0, each, phase, stride});
+        parts.push_back({launcher.transmitter, static_cast<uint32_t>(first_slot + done), part, 0, each, phase, stride});
         done += part;
       }
       continue;

@@ -23,9 +23,10 @@ class RaySource {
   // Of directions = "horizon": the tables that launchers name from now on, see LaunchHeights.
   void set_heights(const std::vector<float>& tables) { heights_->set(tables); }
   const std::shared_ptr<LaunchHeights>& heights() const { return heights_; }
-  // The queue becomes the rays first .. first + count - 1 of the launch, counted over all its launchers. Returns whose
-  // they are.
+  // Appends the rays first .. first + count - 1 of the launch, counted over all its launchers. Returns whose they are.
   std::vector<LaunchPart> launch(RayQueue& rays, const Launch& launch, uint64_t first, uint64_t count);
+  // Are rays neither sorted nor labelled?
+  bool as_launched() const { return !order_ && !label_; }
   // Labels the rays of a queue that know their samples (a refined launch).
   void label(RayQueue& rays);
   // Before the segments of this depth, where the configuration asks for it: sorts the queue. spare has the same
