@@ -21,7 +21,7 @@ uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
 WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission)
     : sight(context, device_scene, scene, transmission),
       kernel_(context.kernel("wedge_pairs", "wedge_pairs", device_scene.definitions)),
-      group_(tuning_of(context.info()).join_group),
+      group_(tuning_of(context.info()).pairs_group),
       kept_wedges_(kept_wedges(context.info(), scene.wedges.size())),
       kept_(context.buffer<uint32_t>(words_of(kept_wedges_), "pairs of wedges")) {
   const wt_uint zero = 0;

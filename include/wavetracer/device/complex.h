@@ -32,7 +32,6 @@ inline wt_double2 wt_root(wt_double2 a) {
   const double part = sqrt(0.5 * (size + fabs(a.x))), other = fabs(a.y) / (2.0 * part);
   return a.x >= 0.0 ? WT_DOUBLE2(part, copysign(other, a.y)) : WT_DOUBLE2(other, copysign(part, a.y));
 }
-inline wt_double2 wt_complex_exp(wt_double2 a) { return wt_cos_sin(a.y) * wt_exp(a.x); }
 
 // 2 x 2 matrices, row by row.
 typedef struct {

@@ -9,8 +9,8 @@
 namespace wavetracer::device {
 #endif
 
-// The whole number nearest to x, |x| <= 2^51; of two the even one. Above 2^52 doubles have no digits behind the point, so
-// the sum rounds. Some devices compute rint in many steps.
+// The whole number nearest to x, |x| <= 2^51; of two the even one. Above 2^52 doubles have no digits behind the point,
+// so the sum rounds. Some devices compute rint in many steps.
 inline double wt_nearest_whole(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
 // x: cosine, y: sine. |angle| <= 2^30 rad. The angle's distance from the nearest quarter turn is taken in three parts:

@@ -17,22 +17,33 @@ namespace wavetracer::device {
 // The quotient of a real number.
 inline wt_double2 wt_real_over(double a, wt_double2 b) { return WT_DOUBLE2(b.x, -b.y) * (a / wt_norm(b)); }
 
-// 7.1.6: exp(u^2) erf(u) = 2 / sqrt(pi) times the sum of 2^k u^(2k+1) / (2k+1)!!.
-inline wt_double2 wt_erfcx_by_series(wt_double2 u) {
-  const wt_double2 square = wt_times(u, u);
-  wt_double2 term = u, sum = u;
-  for (int k = 1; wt_norm(term) > 1e-34 * wt_norm(sum); ++k) {
-    term = wt_times(term, square * (2.0 / (2.0 * k + 1.0)));
-    sum = sum + term;
+// 7.1.6: exp(u^2) erf(u) = 2 / sqrt(pi) times the sum of 2^k u^(2k+1) / (2k+1)!!; u^2 = j s^2, so that each term is
+// real or imaginary but for the factor u.
+inline wt_double2 wt_erfcx_by_series(wt_double2 u, double s) {
+  const double step = 2.0 * s * s;
+  double real = 1.0, imag = 0.0, term = 1.0;
+  for (double odd = 3.0; term > 1e-18; odd += 8.0) {
+    imag += term *= step / odd;
+    real -= term *= step / (odd + 2.0);
+    imag -= term *= step / (odd + 4.0);
+    real += term *= step / (odd + 6.0);
   }
-  return wt_complex_exp(square) - sum * (2.0 * WT_INV_SQRT_PI);
+  return wt_cos_sin(s * s) - wt_times(u, WT_DOUBLE2(real, imag)) * (2.0 * WT_INV_SQRT_PI);
 }
 
-// 7.1.14, from its tail: sqrt(pi) erfcx(u) = 1 / (u + (1/2) / (u + 1 / (u + (3/2) / (u + ...)))).
+// 7.1.14: sqrt(pi) erfcx(u) = 1 / (u + (1/2) / (u + 1 / (u + (3/2) / (u + ...)))). Numerator and denominator from the
+// head, x(k+1) = u x(k) + k / 2 x(k-1), so that there is one division.
 inline wt_double2 wt_erfcx_by_fraction(wt_double2 u) {
-  wt_double2 value = u;
-  for (int k = 60; k > 0; --k) value = u + wt_real_over(0.5 * k, value);
-  return wt_real_over(WT_INV_SQRT_PI, value);
+  wt_double2 above = wt_real(1.0), above_before = wt_real(0.0), below = u, below_before = wt_real(1.0);
+  for (int k = 1; k <= 60; ++k) {
+    const wt_double2 next_above = wt_times(u, above) + above_before * (0.5 * k);
+    const wt_double2 next_below = wt_times(u, below) + below_before * (0.5 * k);
+    above_before = above;
+    below_before = below;
+    above = next_above;
+    below = next_below;
+  }
+  return wt_over(above, below) * WT_INV_SQRT_PI;
 }
 
 // 7.1.23: sqrt(pi) u erfcx(u) ~ 1 - 1 / (2 u^2) + 1 * 3 / (2 u^2)^2 - ...; u^2 = j s^2, so the terms shrink until the
@@ -53,7 +64,7 @@ inline wt_double2 wt_erfcx_far(wt_double2 u, double s) {
 inline wt_double2 wt_transition_over_root(double s) {
   const wt_double2 front = WT_EIGHTH_TURN * (1.0 / WT_INV_SQRT_PI), u = WT_EIGHTH_TURN * s;
   if (s == 0.0) return front;
-  if (s < 3.0) return wt_times(front, wt_erfcx_by_series(u));
+  if (s < 3.0) return wt_times(front, wt_erfcx_by_series(u, s));
   return wt_times(front, s < 8.0 ? wt_erfcx_by_fraction(u) : wt_erfcx_far(u, s));
 }
 
