@@ -17,7 +17,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-enum class Keys { random, few, equal, sorted, reversed, extreme };
+enum class Keys { random, few, equal, sorted, reversed, extreme, ending };
 
 template <class Key>
 std::vector<Key> make_keys(Keys kind, uint32_t n) {
@@ -44,6 +44,10 @@ std::vector<Key> make_keys(Keys kind, uint32_t n) {
       // Nothing, everything and the top bit: the largest key is also what fills up vectors.
       case Keys::extreme:
         keys[i] = word % 3 == 0 ? 0 : word % 3 == 1 ? ~Key{0} : Key{1} << (8 * sizeof(Key) - 1);
+        break;
+      // The largest key here and there, and from a third of them on: what ends a block is not sorted.
+      case Keys::ending:
+        keys[i] = i > n / 3 || word % 4 == 0 ? ~Key{0} : word % 7;
         break;
     }
   }
@@ -93,7 +97,7 @@ void check_form(typename BitonicSort<Key>::Form form) {
       CAPTURE(n);
       check_sort(sort, payload, make_keys<Key>(Keys::random, n));
     }
-    for (const Keys kind : {Keys::few, Keys::equal, Keys::sorted, Keys::reversed, Keys::extreme})
+    for (const Keys kind : {Keys::few, Keys::equal, Keys::sorted, Keys::reversed, Keys::extreme, Keys::ending})
       for (const uint32_t n : {50u, 200u}) {
         CAPTURE(static_cast<int>(kind));
         CAPTURE(n);

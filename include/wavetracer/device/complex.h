@@ -13,13 +13,18 @@ inline wt_double2 wt_times(wt_double2 a, wt_double2 b) {
   return WT_DOUBLE2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 inline double wt_norm(wt_double2 a) { return a.x * a.x + a.y * a.y; }  // |a|^2
-// a / b. b is scaled first, so that the norm of a metal's permittivity does not overflow, nor that of nothing vanish.
+// a / b. Where |b|^2 may overflow, as of a metal's permittivity, or vanish, b is scaled first.
 inline wt_double2 wt_over(wt_double2 a, wt_double2 b) {
+  const double plain = wt_norm(b);
+  if (plain > 1e-200 && plain < 1e200)
+    return WT_DOUBLE2((a.x * b.x + a.y * b.y) / plain, (a.y * b.x - a.x * b.y) / plain);
   const double size = fmax(fabs(b.x), fabs(b.y));
   const double x = b.x / size, y = b.y / size, norm = (x * x + y * y) * size;
   return WT_DOUBLE2((a.x * x + a.y * y) / norm, (a.y * x - a.x * y) / norm);
 }
 inline double wt_size(wt_double2 a) {
+  const double norm = wt_norm(a);
+  if (norm > 1e-200 && norm < 1e200) return sqrt(norm);
   const double larger = fmax(fabs(a.x), fabs(a.y)), smaller = fmin(fabs(a.x), fabs(a.y));
   if (larger == 0.0) return 0.0;
   const double ratio = smaller / larger;
