@@ -62,6 +62,17 @@ Discovery::Discovery(gpu::Context& context, const DeviceScene& scene, const Trac
   if (!trace.rays) refinement_.emplace(context, trace, source_.heights(), options.hilly);
 }
 
+template <class Fill>
+void Discovery::trace_batch(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
+                            const Fill& fill) {
+  for (bool fits = false; !fits;) {
+    wavefront_.rays().count = 0;
+    fill(wavefront_.rays());
+    fits = wavefront_.trace(scene, follower, counts);  // order_keys (of later depths) to interact, or bounces
+    if (!fits) sequences_.regrow(depth_.sequences);
+  }
+}
+
 DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) {
   RayFollower& follower = launch.followed ? follower_ : nobody_;
   DiscoveryCounts counts = nothing_yet(follower);
@@ -72,12 +83,9 @@ DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) 
   reserve(size);
   while (counts.rays < total) {
     const uint64_t count = std::min(size, total - counts.rays);
-    for (bool fits = false; !fits;) {
-      wavefront_.rays().count = 0;
-      follower.begin_batch(source_.launch(wavefront_.rays(), launch, counts.rays, count));  // order_keys to label_rays
-      fits = wavefront_.trace(scene, follower, counts);  // order_keys (of later depths) to interact, or bounces
-      if (!fits) sequences_.regrow(depth_.sequences);
-    }
+    trace_batch(scene, follower, counts, [&](RayQueue& rays) {
+      follower.begin_batch(source_.launch(rays, launch, counts.rays, count));  // order_keys to label_rays
+    });
     follower.end_batch();
     counts.rays += count;
     tell(counts.rays, total);
@@ -95,12 +103,9 @@ DiscoveryCounts Discovery::find_all(const DeviceScene& scene, std::span<const La
   }
   if (counts.segments_per_depth.empty() || total == 0) return counts;
   reserve(total);
-  for (bool fits = false; !fits;) {
-    wavefront_.rays().count = 0;
-    for (const Launch& launch : launches) source_.launch(wavefront_.rays(), launch, 0, launch.total());
-    fits = wavefront_.trace(scene, nobody_, counts);
-    if (!fits) sequences_.regrow(depth_.sequences);
-  }
+  trace_batch(scene, nobody_, counts, [&](RayQueue& rays) {
+    for (const Launch& launch : launches) source_.launch(rays, launch, 0, launch.total());
+  });
   counts.rays = total;
   tell(total, total);
   return counts;

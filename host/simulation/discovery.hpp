@@ -39,6 +39,9 @@ class Discovery {
 
  private:
   DiscoveryCounts nothing_yet(RayFollower& follower) const;
+  // Rays that `fill` appends to the empty queue, traced again where the set of sequences must grow for what they meet.
+  template <class Fill>
+  void trace_batch(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, const Fill& fill);
   // False if the set of sequences must grow, and the launch begin again.
   bool trace_level(const DeviceScene& scene, DiscoveryCounts& counts);
   // Makes room for batches of this many rays, in all buffers with an entry per ray.

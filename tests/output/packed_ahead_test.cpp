@@ -12,6 +12,7 @@
 
 namespace fs = std::filesystem;
 using namespace wavetracer;
+using test::change_byte;
 using test::slurp;
 using test::TemporaryFolder;
 
@@ -79,14 +80,6 @@ struct Ahead {
   }
   ~Ahead() { threads.stop(); }
 };
-
-void change_byte(const fs::path& path, uint64_t at) {
-  std::fstream bytes(path, std::ios::binary | std::ios::in | std::ios::out);
-  bytes.seekg(static_cast<std::streamoff>(at));
-  const char byte = static_cast<char>(bytes.get() ^ 1);
-  bytes.seekp(static_cast<std::streamoff>(at));
-  bytes.put(byte);
-}
 
 }  // namespace
 

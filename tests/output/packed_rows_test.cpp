@@ -14,6 +14,7 @@
 
 namespace fs = std::filesystem;
 using namespace wavetracer;
+using test::change_byte;
 using test::datasets;
 using test::slurp;
 using test::TemporaryFolder;
@@ -90,13 +91,6 @@ struct Proved {
     out.sync();
     out.commit();
   }
-  void change(const fs::path& path, uint64_t at) const {
-    std::fstream bytes(path, std::ios::binary | std::ios::in | std::ios::out);
-    bytes.seekg(static_cast<std::streamoff>(at));
-    const char byte = static_cast<char>(bytes.get() ^ 1);
-    bytes.seekp(static_cast<std::streamoff>(at));
-    bytes.put(byte);
-  }
 };
 
 }  // namespace
@@ -140,15 +134,15 @@ TEST_CASE("a proof passes what is right, and names what is not: a byte of the fi
   CHECK_NOTHROW(prove_rows(right.parts, right.pieces, right.file));
   const uint64_t size = fs::file_size(right.file);
   const Proved part;
-  part.change(part.parts[0], 700000);
+  change_byte(part.parts[0], 700000);
   CHECK_THROWS_WITH_AS(prove_rows(part.parts, part.pieces, part.file), doctest::Contains("/g/large does not read back"),
                        RuntimeError);
   const Proved both;
-  both.change(both.parts[0], 8);
+  change_byte(both.parts[0], 8);
   CHECK_THROWS_WITH_AS(prove_rows(both.parts, both.pieces, both.file), doctest::Contains("does not read back"),
                        RuntimeError);
   const Proved file;
-  file.change(file.file, size / 2);  // in a chunk
+  change_byte(file.file, size / 2);  // in a chunk
   CHECK_THROWS_AS(prove_rows(file.parts, file.pieces, file.file), RuntimeError);
   Proved more;
   more.pieces[0].push_back({0, packed_begin + 800000, 8, 0});

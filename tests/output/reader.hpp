@@ -19,6 +19,15 @@ inline std::string slurp(const std::filesystem::path& path) {
   return text.str();
 }
 
+// Another byte at this place of the file.
+inline void change_byte(const std::filesystem::path& path, uint64_t at) {
+  std::fstream bytes(path, std::ios::binary | std::ios::in | std::ios::out);
+  bytes.seekg(static_cast<std::streamoff>(at));
+  const char byte = static_cast<char>(bytes.get() ^ 1);
+  bytes.seekp(static_cast<std::streamoff>(at));
+  bytes.put(byte);
+}
+
 struct Reader {
   hid_t file;
   explicit Reader(const std::filesystem::path& path) : file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}

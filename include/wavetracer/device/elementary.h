@@ -64,8 +64,16 @@ inline double wt_exp(double x) {
   return ldexp(1.0 + wt_small_expm1(r, k * 1.90821492927058770002e-10), (int)k);
 }
 
-// exp(x) - 1 with all its digits near 0.
-inline double wt_expm1(double x) { return fabs(x) < 0.34 ? wt_small_expm1(x, 0.0) : wt_exp(x) - 1.0; }
+// x: exp(x); y: exp(x) - 1 with all its digits near 0.
+inline wt_double2 wt_exp_and_expm1(double x) {
+  if (fabs(x) < 0.34) {
+    const double less = wt_small_expm1(x, 0.0);
+    return WT_DOUBLE2(1.0 + less, less);
+  }
+  const double size = wt_exp(x);
+  return WT_DOUBLE2(size, size - 1.0);
+}
+inline double wt_expm1(double x) { return wt_exp_and_expm1(x).y; }
 
 // The decimal logarithm of x >= 0; -infinity of 0. x is split into 2^k (1 + f) with 1 + f around 1.
 inline double wt_log10(double x) {

@@ -32,7 +32,8 @@ inline wt_inside wt_inside_of(wt_double2 permittivity, double cos_theta, double 
   if (in.half_space) return in;
   const double kd = 2.0 * WT_PI * thickness_m / wavelength_m, damping = kd * in.s.y;
   const wt_double2 turn = wt_cos_sin(-kd * in.s.x);
-  const double lost = wt_expm1(damping), size = fabs(damping) < 0.34 ? 1.0 + lost : wt_exp(damping);
+  const wt_double2 damped = wt_exp_and_expm1(damping);
+  const double size = damped.x, lost = damped.y;
   in.one_pass = turn * size;
   in.round_trip = wt_times(in.one_pass, in.one_pass);
   if (in.s.x == 0.0 && in.s.y == 0.0) {
