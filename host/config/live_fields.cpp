@@ -43,8 +43,10 @@ Table live_table() {
            .slot = l(&LiveConfig::max_pending_frames),
            .unit = "frames per client",
            .range = {1, 1000},
-           .doc = "The largest number of frames that are received but not answered yet. Above it, the server reads "
-                  "nothing more from this client until it has answered."},
+           .doc =
+               "The largest number of frames and instants (\"at\") that are received but not answered yet. Above it, "
+               "the server reads nothing more from this client until it has answered. In the mode \"free\" a frame "
+               "that waits does not count, since a newer one takes its place."},
           {.name = "max_rate_hz",
            .slot = l(&LiveConfig::max_rate_hz),
            .unit = "messages per second",

@@ -110,10 +110,10 @@ void Memory::read_to(const HostMemory& to, size_t offset, size_t bytes, bool wai
 }
 
 void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage, bool wait) const {
+  if (bytes == 0 && offset <= bytes_) return;
   require(static_cast<bool>(handle_), "reading");
   Context::State& s = *context_->state_;
   check_bounds(*s.allocations, handle_.get(), bytes_, "reading", offset, bytes);
-  if (bytes == 0) return;
   cl::Event event;
   const cl_int code = clEnqueueReadBuffer(s.queue(), handle_of(handle_), wait ? CL_TRUE : CL_FALSE, offset, bytes, to,
                                           0, nullptr, s.event_of(event));
@@ -123,10 +123,10 @@ void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage
 }
 
 void Memory::write_bytes(const void* from, size_t offset, size_t bytes, const char* stage) {
+  if (bytes == 0 && offset <= bytes_) return;
   require(static_cast<bool>(handle_), "writing");
   Context::State& s = *context_->state_;
   check_bounds(*s.allocations, handle_.get(), bytes_, "writing", offset, bytes);
-  if (bytes == 0) return;
   const void* const copy = bytes <= StagedWrites::largest ? s.staged.stage(from, bytes) : nullptr;
   cl::Event event;
   const cl_int code = clEnqueueWriteBuffer(s.queue(), handle_of(handle_), copy ? CL_FALSE : CL_TRUE, offset, bytes,
@@ -169,11 +169,12 @@ void Context::fill(Memory& memory, const void* pattern, size_t pattern_bytes, si
 }
 
 void Context::copy(const Memory& from, Memory& to, size_t bytes, const char* stage) {
+  if (bytes == 0) return;
   require(from.handle_ && to.handle_, "copying");
   State& s = *state_;
   check_bounds(*s.allocations, from.handle_.get(), from.bytes_, "copying from", 0, bytes);
   check_bounds(*s.allocations, to.handle_.get(), to.bytes_, "copying to", 0, bytes);
-  if (bytes == 0 || from.handle_ == to.handle_) return;
+  if (from.handle_ == to.handle_) return;
   s.copy(from.handle_.get(), 0, to.handle_.get(), 0, bytes, stage);
 }
 

@@ -49,6 +49,8 @@ struct Range {
       : global(global_items), local(local_items), dimensions(dimension_count) {}
   std::array<size_t, 3> global, local;  // 1 beyond the dimensions
   unsigned dimensions = 1;
+
+  bool empty() const { return global[0] == 0 || global[1] == 0 || global[2] == 0; }
 };
 
 // Preprocessor definitions of a program: name -> value. Part of the cache key.
@@ -88,7 +90,7 @@ class Memory {
 };
 
 // A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and done with the host's memory
-// when they return.
+// when they return. One of no elements needs no buffer: a list that has been empty so far may have none.
 template <class T>
 class Buffer : public Memory {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -127,13 +129,15 @@ class Buffer : public Memory {
 
 // A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it.
 // stage names the profiling sum that its time goes to. Memory arguments are Buffers, or pointers to Buffers, where a
-// null pointer is NULL in the kernel too; the rest are plain values.
+// null pointer is NULL in the kernel too; the rest are plain values. A range of no items launches nothing, and then the
+// buffers need not exist: a list that has been empty so far may have none.
 class Kernel {
  public:
   Kernel() = default;
   template <class... Args>
   void operator()(Range range, const char* stage, const Args&... args) {
     check_count(sizeof...(Args));
+    if (range.empty()) return;
     unsigned i = 0;
     (set(i++, args), ...);
     enqueue(range, stage);

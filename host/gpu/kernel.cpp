@@ -66,7 +66,6 @@ void Kernel::enqueue(Range range, const char* stage) {
   std::array<size_t, 3> padded;
   for (unsigned d = 0; d < 3; ++d) {
     if (range.local[d] == 0) throw std::logic_error(fmt::format("kernel {} was given work-groups of no items", s.name));
-    if (range.global[d] == 0) return;
     padded[d] = (range.global[d] + range.local[d] - 1) / range.local[d] * range.local[d];
   }
   cl::Event event;

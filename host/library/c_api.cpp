@@ -1,5 +1,6 @@
 // The functions of wavetracer.h, but for the columns: thin, and no exception leaves them.
 // Assumes what the header asks of the caller: no object is used after it was given back.
+#include <unistd.h>
 #include <atomic>
 #include <filesystem>
 #include <limits>
@@ -84,6 +85,18 @@ CarrierColumns carrier_columns(const FrameResult& frame) {
   return out;
 }
 
+// Tells whoever watches now, and says whether to go on.
+bool observed(wavetracer_simulation& self, const FrameProgress& progress) {
+  wavetracer_observer observer = nullptr;
+  void* user = nullptr;
+  {
+    const std::lock_guard lock(self.watching);
+    observer = self.observer;
+    user = self.observer_user;
+  }
+  return !observer || observer(user, progress.stage.word().data(), progress.done, progress.total) != 0;
+}
+
 const char* name_of(const std::vector<RadioEnd>& ends, size_t index) {
   return index < ends.size() ? ends[index].name.c_str() : nullptr;
 }
@@ -121,6 +134,7 @@ const char* wavetracer_version(void) { return WAVETRACER_VERSION; }
 const char* wavetracer_devices(wavetracer_error** error) {
   thread_local std::string listed;
   return guarded(error, static_cast<const char*>(nullptr), [&] {
+    check_process("wavetracer_devices");
     listed = device_lines();
     return listed.c_str();
   });
@@ -130,6 +144,7 @@ wavetracer_simulation* wavetracer_open(const char* config, const char* folder, c
                                        size_t set_count, const char* device, wavetracer_error** error) {
   return guarded(error, static_cast<wavetracer_simulation*>(nullptr), [&] {
     const char* const here = "wavetracer_open";
+    check_process(here);
     std::vector<std::string> texts;
     for (size_t i = 0; i < set_count; ++i)
       texts.emplace_back(&needed((&needed(sets, here, "sets"))[i], here, "one of sets"));
@@ -137,11 +152,13 @@ wavetracer_simulation* wavetracer_open(const char* config, const char* folder, c
     wavetracer::Simulation simulation(wavetracer::parse_config(&needed(config, here, "config"), file, texts),
                                       device ? device : "");
     std::string warnings = lines(simulation.warnings());
-    return new wavetracer_simulation{std::move(simulation), std::move(warnings), ++opened};
+    auto* const out = new wavetracer_simulation{std::move(simulation), std::move(warnings), ++opened, getpid()};
+    out->simulation.observe([out](const wavetracer::FrameProgress& progress) { return observed(*out, progress); });
+    return out;
   });
 }
 
-void wavetracer_close(wavetracer_simulation* self) { delete self; }
+void wavetracer_close(wavetracer_simulation* self) { close_simulation(self); }
 
 uint32_t wavetracer_frame_count(const wavetracer_simulation* self) {
   return self ? static_cast<uint32_t>(self->simulation.frame_count()) : 0;
@@ -180,9 +197,11 @@ const char* wavetracer_warnings(const wavetracer_simulation* self) { return self
 wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t frame, wavetracer_error** error) {
   return guarded(error, static_cast<wavetracer_frame*>(nullptr), [&] {
     wavetracer::Simulation& simulation = needed(self, "wavetracer_run_frame", "self").simulation;
+    const Turn turn(*self, "wavetracer_run_frame");
     if (frame >= simulation.frame_count())
       throw ConfigError("wavetracer_run_frame: there is no frame " + std::to_string(frame) + ", only " +
                         std::to_string(simulation.frame_count()) + " counted from 0");
+    if (self->forgets.exchange(false)) simulation.forget();
     auto out = std::make_unique<wavetracer_frame>();
     out->owner = self->number;
     out->result = simulation.run_frame(frame);
@@ -198,16 +217,15 @@ wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t fra
 
 void wavetracer_observe(wavetracer_simulation* self, wavetracer_observer observer, void* user) {
   if (!self) return;
-  if (!observer) return self->simulation.observe({});
-  self->simulation.observe([observer, user](const wavetracer::FrameProgress& progress) {
-    return observer(user, progress.stage.word().data(), progress.done, progress.total) != 0;
-  });
+  const std::lock_guard lock(self->watching);
+  self->observer = observer;
+  self->observer_user = user;
 }
 
 void wavetracer_frame_free(wavetracer_frame* self) { delete self; }
 
 void wavetracer_forget(wavetracer_simulation* self) {
-  if (self) self->simulation.forget();
+  if (self) self->forgets = true;
 }
 
 uint32_t wavetracer_frame_number(const wavetracer_frame* self) { return self ? self->result.frame : 0; }
@@ -239,6 +257,9 @@ int wavetracer_write(const wavetracer_simulation* self, const char* folder, cons
     const char* const here = "wavetracer_write";
     needed(self, here, "self");
     needed(folder, here, "folder");
+    static std::mutex writing;  // HDF5 has one thread
+    const Turn turn(*self, here);
+    const std::lock_guard lock(writing);
     if (count == 0) throw ConfigError("wavetracer_write: no frames are given");
     std::vector<wavetracer::FrameResult> results;
     for (size_t i = 0; i < count; ++i) {

@@ -1,11 +1,16 @@
 // What the opaque types of wavetracer.h are, and the one place where exceptions end and errors begin.
 // Assumes that a frame is filled once, by wavetracer_run_frame, and read only from then on.
 #pragma once
+#include <sys/types.h>
+
+#include <atomic>
 #include <complex>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <mutex>
 #include <new>
 #include <string>
+#include <thread>
 #include <vector>
 #include "wavetracer/error.hpp"
 #include "wavetracer/simulation.hpp"
@@ -20,6 +25,17 @@ struct wavetracer_simulation {
   wavetracer::Simulation simulation;
   std::string warnings;
   uint64_t number;  // of this process, so that frames know whose they are
+  pid_t process;    // that opened it
+
+  // Whose turn it is (Turn).
+  mutable std::mutex turn = {};
+  mutable std::atomic<std::thread::id> user = {};
+
+  // Who watches; may change while a frame is solved, also by itself.
+  std::mutex watching = {};
+  wavetracer_observer observer = nullptr;
+  void* observer_user = nullptr;
+  std::atomic<bool> forgets = false;  // before the next frame
 };
 
 namespace wavetracer::c_api {
@@ -76,6 +92,26 @@ Result guarded(::wavetracer_error** error, Result failed, const Body& body) noex
   }
   return failed;
 }
+
+// Throws RuntimeError in a process that was forked from one that has used OpenCL: the threads of its drivers are not in
+// it, and would be waited for without end. What is called before a device is used for the first time.
+void check_process(const char* function);
+
+// The use of a simulation by one thread, as long as this lives. Others wait until it ends. Throws as check_process()
+// does, and ConfigError where this thread has its turn already, as an observer has.
+class Turn {
+ public:
+  Turn(const wavetracer_simulation& self, const char* function);
+  ~Turn();
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  const wavetracer_simulation& self_;
+};
+
+// Waits for whoever has its turn, and ends the simulation. Does nothing in a forked process, or for an observer of it.
+void close_simulation(wavetracer_simulation* self) noexcept;
 
 // Throws ConfigError where a pointer that is needed is null.
 template <class T>

@@ -35,10 +35,12 @@ Client::Client(uint64_t number, Descriptor socket, const LiveConfig& limits, Clo
       spoke_(now),
       took_(now) {}
 
-// A free-running client may always bring a newer frame.
+// A free-running client may always bring a newer frame, which takes the place of the one that waits.
 bool Client::may_speak() const {
   const bool free_running = hello && hello->free_running;
-  return !ending() && !reading && has_room() && (free_running || pending.size() < limits_.max_pending_frames);
+  const auto replaced = [](const Pending& p) { return !p.message.between; };
+  const size_t waiting = pending.size() - (free_running && std::ranges::any_of(pending, replaced) ? 1 : 0);
+  return !ending() && !leaving && !reading && has_room() && waiting < limits_.max_pending_frames;
 }
 
 std::optional<Clock::duration> Client::pause(Clock::time_point now) {
@@ -135,7 +137,7 @@ void Client::check_time(Clock::time_point now) {
   }
   const auto late = [&](Clock::time_point since, double limit_s) { return now - since > duration_of(limit_s); };
   const auto drop = [&](const std::string& text) { end(error_line("timeout", text, {}, true), now); };
-  if (finished_ && owes() && !unread)
+  if (finished_ && has_answers() && !has_line() && !unread)
     gone_ = true;
   else if (unread && late(took_, limits_.send_timeout_s))
     gone_ = true;  // it would not read why
@@ -143,7 +145,7 @@ void Client::check_time(Clock::time_point now) {
     drop(fmt::format("the hello message did not arrive within {} s", limits_.hello_timeout_s));
   else if (!in_.empty() && late(line_began_, limits_.message_timeout_s))
     drop(fmt::format("a line was not complete within {} s", limits_.message_timeout_s));
-  else if (limits_.idle_timeout_s && owes() && !unread && late(spoke_, *limits_.idle_timeout_s))
+  else if (limits_.idle_timeout_s && has_answers() && !unread && late(spoke_, *limits_.idle_timeout_s))
     drop(fmt::format("no message within {} s", *limits_.idle_timeout_s));
 }
 

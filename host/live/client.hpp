@@ -46,6 +46,8 @@ class Client {
   bool gone() const { return gone_; }
   // Answers unread are few enough for another one.
   bool has_room() const { return out_.size() - sent_ <= limits_.max_queue_bytes; }
+  // Nothing of what it has asked for waits for its answer: it is the client's turn.
+  bool has_answers() const { return pending.empty() && !reading && !solving; }
 
   // What the server knows of the client.
   std::optional<Hello> hello;
@@ -58,12 +60,13 @@ class Client {
   std::deque<Pending> pending;
   bool reading = false;  // its message is with the parser: the next one waits
   bool solving = false;  // its frame is with the solver
-  uint64_t skipped = 0;  // since the last answer
+  bool leaving = false;  // it has said bye: it gets its answers, and nothing more is read
+  uint64_t skipped = 0;  // since the last channels
   unsigned errors = 0;
 
  private:
   bool may_speak() const;
-  bool owes() const { return pending.empty() && !reading && !solving; }  // it is the client's turn
+  bool has_line() const { return in_.find('\n', searched_) != in_.npos; }
 
   uint64_t number_;
   Descriptor socket_;

@@ -155,6 +155,7 @@ void Server::read(Client& client, Clock::time_point now) {
       }
     }
   } while (flush_refusals(client, now));  // which makes room for more lines
+  if (client.leaving && client.has_answers()) client.end(bye_line("goodbye"), now);
 }
 
 void Server::take_lines(Clock::time_point now) {
@@ -178,7 +179,7 @@ void Server::handle(Client& client, ReadLine line, Clock::time_point now) {
   if (auto* hello = std::get_if<Hello>(&message)) {
     greet(client, std::move(*hello), now);
   } else if (std::holds_alternative<Bye>(message)) {
-    client.end(bye_line("goodbye"), now);
+    client.leaving = true;  // once it has its answers (read())
   } else if (!client.hello) {
     end(client, "hello_first", "the first message must be hello", now);
   } else {
@@ -202,10 +203,17 @@ void Server::greet(Client& client, Hello hello, Clock::time_point now) {
   client.say(world_line_, now);
 }
 
+// A frame of a free-running client takes the place of the one that waits, and does what that one was to do besides: to
+// forget. What asks for a time between frames ("at") neither replaces a frame nor is replaced.
 void Server::queue(Client& client, FrameMessage message, Clock::time_point received) {
-  if (client.hello->free_running && !client.pending.empty()) {
-    client.skipped += client.pending.size();
-    client.pending.clear();
+  if (client.hello->free_running && !message.between) {
+    const auto older = std::ranges::find_if(client.pending, [](const auto& p) { return !p.message.between; });
+    if (older != client.pending.end()) {
+      ++client.skipped;
+      message.cold = message.cold || older->message.cold;
+      *older = {std::move(message), received, {}};
+      return;
+    }
   }
   client.pending.push_back({std::move(message), received, {}});
 }
@@ -238,6 +246,7 @@ void Server::take_answer(Clock::time_point now) {
   if (!answer->failure.empty()) log_(fmt::format("client {}: {}", answer->client, answer->failure));
   if (Client* const client = find(answer->client)) {
     client->solving = false;
+    client->skipped += answer->untold;
     talk(*client, [&] { client->say(answer->line, now); });
   }
   if (!answer->fatal) return;

@@ -43,14 +43,14 @@ Answer Solver::answer(const Job& job) {
     afresh_ = false;
     return {job.client, std::move(line), {}, false};
   } catch (const PoseError& e) {
-    return {job.client, error_line(e.code, e.what(), frame, false), {}, false};
+    return {job.client, error_line(e.code, e.what(), frame, false), {}, false, job.skipped};
   } catch (const DeviceError& e) {
     return {job.client, error_line("server", e.what(), frame, true), e.what(), true};
   } catch (const std::exception& e) {
     afresh_ = true;
     const std::string text =
         fmt::format("this frame could not be computed: {}; the next frame reuses nothing", e.what());
-    return {job.client, error_line("failed", text, frame, false), text, false};
+    return {job.client, error_line("failed", text, frame, false), text, false, job.skipped};
   }
 }
 

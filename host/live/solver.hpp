@@ -33,6 +33,7 @@ struct Answer {
   std::string line;     // and the bytes that follow it
   std::string failure;  // what the log is told, empty where the frame was solved or the client's poses were wrong
   bool fatal = false;   // of the server: the device failed
+  uint64_t untold = 0;  // frames that were skipped before this one, where the line does not say so
 };
 
 // The answer to a job. afresh: nothing of earlier frames is to be relied upon. Throws PoseError where the poses are

@@ -7,8 +7,16 @@
    Errors: a function that takes `error` returns null or 0 on failure and then stores an error there, unless `error` is
    null; on success it stores null. A null object is a failure as well, never a crash.
 
-   Threads: a simulation belongs to one thread at a time, several of them may run in threads of their own; a frame may
-   be read by any number of threads. wavetracer_write is for one thread of the process at a time. */
+   Threads: every function may be called by any thread. Simulations run beside each other. wavetracer_run_frame and
+   wavetracer_write of one simulation take turns: they wait until the call before them has returned. wavetracer_write of
+   all simulations of the process take turns as well. What reads needs no turn, and a frame may be read by any number of
+   threads. wavetracer_close waits for the call that is running; no other call may begin from then on. What an observer
+   calls of its own simulation: wavetracer_run_frame and wavetracer_write fail with USAGE, wavetracer_close does
+   nothing, and all else does what it says.
+
+   Processes: threads of OpenCL's drivers are not in a process that was forked. Once wavetracer_open or
+   wavetracer_devices was called, they, wavetracer_run_frame and wavetracer_write fail with RUNTIME in processes that
+   are forked afterwards, and wavetracer_close does nothing there. Frames may be read and given back. */
 #ifndef WAVETRACER_H
 #define WAVETRACER_H
 #include <stddef.h>
@@ -76,7 +84,7 @@ void wavetracer_forget(wavetracer_simulation* self);
 /* Who watches the frames that follow; a null observer: nobody. It is called in the thread of wavetracer_run_frame,
    between batches of rays (stage "rays": launched, of how many) and between the steps of the exact solution ("paths").
    If it returns 0, the frame is given up with an error of code STOPPED; the simulation can go on with any frame, the
-   next one cold. user is handed to it as it is. */
+   next one cold. user is handed to it as it is. Another observer is called from the next step on. */
 typedef int (*wavetracer_observer)(void* user, const char* stage, uint64_t done, uint64_t total);
 void wavetracer_observe(wavetracer_simulation* self, wavetracer_observer observer, void* user);
 

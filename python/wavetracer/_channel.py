@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._arguments import integer, number, numbers
 from .errors import ConfigError
 
 if TYPE_CHECKING:
@@ -55,10 +56,7 @@ class dense:
 
 
 def _times(time_s: ArrayLike | None) -> Array:
-    times = np.zeros(1) if time_s is None else np.atleast_1d(np.asarray(time_s, float))
-    if times.ndim != 1 or not np.isfinite(times).all():
-        raise ConfigError("time_s: give seconds within the frame, a number or one row of numbers")
-    return times
+    return np.zeros(1) if time_s is None else numbers(time_s, "time_s, in seconds within the frame")
 
 
 def turns(cycles: Array) -> Array:
@@ -138,9 +136,7 @@ def _summed(places: dense, antennas: Antennas, turned: Array, weights: Callable[
 
 def cfr(paths: Paths, frequencies_hz: ArrayLike, time_s: ArrayLike | None, normalize_delays: bool, normalize: bool,
         reverse: bool) -> Array:
-    frequencies = np.atleast_1d(np.asarray(frequencies_hz, float))
-    if frequencies.ndim != 1 or not np.isfinite(frequencies).all():
-        raise ConfigError("frequencies_hz: give hertz relative to the carrier, a number or one row of numbers")
+    frequencies = numbers(frequencies_hz, "frequencies_hz, in hertz relative to the carrier")
     places = dense(paths)
     antennas = Antennas(paths, places, normalize_delays)
     h = _summed(places, antennas, antennas.at(paths, time_s), lambda delay, f: turns(-delay[..., None] * f), frequencies,
@@ -150,17 +146,18 @@ def cfr(paths: Paths, frequencies_hz: ArrayLike, time_s: ArrayLike | None, norma
     return _reversed(h, reverse)
 
 
-def taps(paths: Paths, bandwidth_hz: float, numbers: tuple[int, int], time_s: ArrayLike | None, normalize_delays: bool,
+def taps(paths: Paths, bandwidth_hz: float, window: tuple[int, int], time_s: ArrayLike | None, normalize_delays: bool,
          normalize: bool, reverse: bool) -> Array:
-    first, count = numbers
-    if not bandwidth_hz > 0 or not np.isfinite(bandwidth_hz):
+    first, count = integer(window[0], "first"), integer(window[1], "count")
+    bandwidth_hz = number(bandwidth_hz, "bandwidth_hz")
+    if not bandwidth_hz > 0:
         raise ConfigError(f"bandwidth_hz is {bandwidth_hz}: give a number of hertz above 0")
     if count < 1:
         raise ConfigError(f"count is {count}: give at least one tap")
     places = dense(paths)
     antennas = Antennas(paths, places, normalize_delays)
     h = _summed(places, antennas, antennas.at(paths, time_s),
-                lambda delay, number: np.sinc(number - bandwidth_hz * delay[..., None]),
+                lambda delay, tap: np.sinc(tap - bandwidth_hz * delay[..., None]),
                 np.arange(first, first + count, dtype=float), "the taps")
     if normalize:
         h = _normalized(h, (np.abs(h) ** 2).sum(axis=-1).mean(axis=(1, 3, 4)))

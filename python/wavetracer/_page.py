@@ -9,6 +9,7 @@ import webbrowser
 from typing import Union
 
 from . import _program
+from ._arguments import each, integer, path
 from .runs import Run
 
 Shown = Union[Run, str, "os.PathLike[str]"]
@@ -30,7 +31,7 @@ class Page:
 
     def save(self, file: str | os.PathLike[str]) -> None:
         """Writes the page; a browser opens it from the disk."""
-        pathlib.Path(file).write_text(self.html, encoding="utf-8")
+        pathlib.Path(path(file, "file")).write_text(self.html, encoding="utf-8")
 
     def browse(self) -> None:
         """Opens the page in the browser of this machine."""
@@ -42,7 +43,12 @@ class Page:
 def view(run: Shown, *, height: int = 640, options: tuple[str, ...] = ()) -> Page:
     """The page of a saved run: a Run, or its folder. height: in pixels. options: those of the command, as
     `wavetracer help view` lists them, such as ("--frames", "0:10")."""
-    folder = run.folder if isinstance(run, Run) else pathlib.Path(run)
+    folder = run.folder if isinstance(run, Run) else pathlib.Path(path(run, "the folder of a run"))
+    height = integer(height, "height, in pixels,")
+    options = tuple(each(options, 'options are words of the command in a list, such as ("--frames", "0:10")'))
+    for option in options:
+        if not isinstance(option, str):
+            raise TypeError(f"options are words of the command, and {option!r} is none")
     with tempfile.TemporaryDirectory(prefix="wavetracer-") as work:
         file = pathlib.Path(work) / "view.html"
         _program.call("view", folder, "-o", file, *options)

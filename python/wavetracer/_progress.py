@@ -27,6 +27,8 @@ def _has_widgets() -> bool:
 
 def bar(wanted: Wanted, total: int) -> Any | None:
     """An object of tqdm's interface that counts frames; None where none is wanted."""
+    if wanted is not None and not callable(wanted) and not isinstance(wanted, bool):
+        raise TypeError(f"progress is True, False, None or a class with tqdm's interface, not {wanted!r}")
     make: Any = wanted if callable(wanted) else None
     if make is None and (wanted or (wanted is None and (_in_notebook() or sys.stderr.isatty()))):
         try:

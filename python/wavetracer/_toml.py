@@ -7,8 +7,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from .errors import ConfigError
 
 _CONTROL = re.compile(r"[\x00-\x1f\x7f\"\\]")
@@ -30,8 +28,8 @@ def _float(value: float) -> str:
 
 def text_of(value: Any, where: str) -> str:
     """One value in TOML. `where` is the key that it belongs to, for messages."""
-    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
-        value = value.item()
+    if type(value).__module__ == "numpy" and hasattr(value, "tolist"):
+        value = value.tolist()  # of an array a list, of a number one of Python's; NumPy itself is not needed here
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
@@ -42,7 +40,7 @@ def text_of(value: Any, where: str) -> str:
         return _string(os.fspath(value))
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_key(k)} = {text_of(v, f'{where}.{k}')}" for k, v in value.items()) + "}"
-    if isinstance(value, np.ndarray) or (isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray))):
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return "[" + ", ".join(text_of(each, f"{where}[{i}]") for i, each in enumerate(value)) + "]"
     raise ConfigError(f"configuration: {where} is {value!r}; give a number, a text, True or False, a list or a dict")
 
@@ -74,6 +72,7 @@ def document(config: Mapping[str, Any]) -> str:
 def sets(keys: Mapping[str, Any], where: str = "") -> Iterator[str]:
     """The texts "key=value" of --set: {"trace": {"rays": 5}} and {"trace.rays": 5} are the same."""
     for key, value in keys.items():
+        _key(key)
         name = f"{where}.{key}" if where else key
         if isinstance(value, Mapping):
             yield from sets(value, name)

@@ -34,6 +34,7 @@ import subprocess
 import sys
 import threading
 import uuid
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 __all__ = ["DriveError", "Job", "cancel", "merge", "run", "submit", "submit_slurm"]
@@ -57,13 +58,27 @@ class DriveError(RuntimeError):
         return str(self.args[0])
 
 
+def _texts(sets: Any) -> tuple[str, ...]:
+    """The texts KEY=VALUE of what is set over a configuration, in TOML."""
+    if isinstance(sets, Mapping):
+        from . import _toml
+        return tuple(_toml.sets(sets))
+    if isinstance(sets, (str, bytes)) or not isinstance(sets, Iterable):
+        raise TypeError(f"sets is a dict, or a list of texts KEY=VALUE, not {sets!r}")
+    out = tuple(sets)
+    for text in out:
+        if not isinstance(text, str) or "=" not in text:
+            raise TypeError(f"sets has {text!r}, which is no text KEY=VALUE; a dict may have values of Python")
+    return out
+
+
 @dataclasses.dataclass(frozen=True)
 class Job:
     """A drive and the number of its parts. Two jobs with the same fields compute the same.
 
     config, output  the TOML file, and the folder of the results; made absolute here
     parts           number of parts, N of `--shard K/N`; parts that the drive is too short for are empty
-    sets            texts KEY=VALUE, as after --set
+    sets            texts KEY=VALUE, as after --set, or a dict; kept as texts
     frames          text A:B, as after --frames; empty: all frames
     device          text, as after --device; empty: the program chooses
     program         the command to start, a text or a sequence of words
@@ -80,11 +95,16 @@ class Job:
     environment: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
+        if isinstance(self.parts, bool) or not isinstance(self.parts, int):
+            raise TypeError(f"parts is the number of parts, not {self.parts!r}")
         if self.parts < 1:
             raise ValueError(f"parts = {self.parts}: a drive has at least one part")
+        for name in ("frames", "device"):
+            if not isinstance(getattr(self, name), str):
+                raise TypeError(f"{name} is a text, as after --{name}, not {getattr(self, name)!r}")
         program = shlex.split(self.program) if isinstance(self.program, str) else self.program
         for name, value in (("config", str(pathlib.Path(self.config).absolute())),
-                            ("output", str(pathlib.Path(self.output).absolute())), ("sets", tuple(self.sets)),
+                            ("output", str(pathlib.Path(self.output).absolute())), ("sets", _texts(self.sets)),
                             ("program", tuple(map(str, program))),
                             ("environment", tuple(dict(self.environment).items()))):
             object.__setattr__(self, name, value)
@@ -283,7 +303,8 @@ def run(config: Any, output: Any, *, client: Any = None, parts: int | None = Non
     client          a dask.distributed.Client; None: the current one
     parts           into how many parts the drive is cut; None: four for every thread of the cluster. More parts than
                     shards (frames / output.shard_frames) are empty, and each part loads the scene anew
-    sets            texts KEY=VALUE, or a dict, as after --set
+    sets            texts KEY=VALUE, as after --set; or a dict of keys and values of Python, as Simulation takes them:
+                    {"trace.rays": 10**6, "trace": {"diffraction": True}, "scene.file": "a.xml"}
     frames, device, program, environment   as in Job
     retries, options                       as in submit
     keep_parts      whether the folder OUTPUT/parts stays
@@ -293,10 +314,8 @@ def run(config: Any, output: Any, *, client: Any = None, parts: int | None = Non
     refuses those of another configuration, and names the keys that changed. Ctrl-C ends the processes on all workers.
     Raises DriveError."""
     client = _client(client)
-    if isinstance(sets, dict):
-        sets = [f"{key}={value}" for key, value in sets.items()]
-    job = Job(str(config), str(output), parts or _default_parts(client), tuple(sets), frames, device, program,
-              tuple(dict(environment).items()))
+    job = Job(str(config), str(output), _default_parts(client) if parts is None else parts, sets, frames,
+              device, program, environment)
     futures, whole = submit(job, client=client, retries=retries, keep_parts=keep_parts, **options)
     try:
         _wait(job, futures, progress)
@@ -349,9 +368,7 @@ def submit_slurm(config: Any, output: Any, *, parts: int, sets: Any = (), frames
     array                 tasks to start, such as "3,7", where others are finished; empty: all
 
     A task that is preempted or reaches its time limit goes on where it was when it is started again. Raises DriveError."""
-    if isinstance(sets, dict):
-        sets = [f"{key}={value}" for key, value in sets.items()]
-    job = Job(str(config), str(output), parts, tuple(sets), frames, device, program, tuple(dict(environment).items()))
+    job = Job(str(config), str(output), parts, sets, frames, device, program, environment)
     array_words, script, merge_words, whole = slurm_commands(job, sbatch, array)
     job.folder.mkdir(parents=True, exist_ok=True)
     number = _sbatch(array_words, script)

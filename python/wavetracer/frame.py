@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arguments import Unique, encoded, shown
 from ._library import Column, Counts, Handle, call, library
 from .errors import ConfigError
 from .links import Ends, Links
@@ -22,8 +23,10 @@ _TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex1
 Elements = Callable[[int, Array, tuple[int, int]], tuple[Array, Array]]
 
 
-class _Columns:
+class _Columns(Unique):
     """The columns of wavetracer.h by their names: views of the library's memory, which they keep."""
+
+    _instead = "pickle the paths, or columns as arrays"
 
     def __init__(self, handle: int):
         self.handle = handle
@@ -32,8 +35,11 @@ class _Columns:
         weakref.finalize(self, library.wavetracer_frame_free, handle)
 
     def __call__(self, name: str) -> Array:
+        if not isinstance(name, str):
+            raise TypeError(f"a column has a name, such as \"delay_s\", and is not {shown(name)}; wavetracer.columns() "
+                            "lists them")
         column = Column()
-        call(library.wavetracer_frame_column, self.handle, name.encode(), ctypes.byref(column))
+        call(library.wavetracer_frame_column, self.handle, encoded(name, "the name of a column"), ctypes.byref(column))
         dtype: np.dtype[Any] = np.dtype(_TYPES[column.type])
         memory: Any = (ctypes.c_uint8 * (column.rows * column.width * dtype.itemsize)).from_address(column.data)
         memory.columns = self  # the view keeps its memory, and that keeps the frame
@@ -44,9 +50,14 @@ class _Columns:
         return values if column.width == 1 else values.reshape(column.rows, column.width)
 
 
-class Frame:
+class Frame(Unique):
     """The results of one frame: `paths`, `links`, `counts`, `missed`, `warnings`. frame["delay_s"] is any column of
-    wavetracer.h. A frame may outlive its simulation."""
+    wavetracer.h. A frame may outlive its simulation. It cannot be pickled or copied; its paths, links and columns can.
+    """
+
+    _instead = ("pickle frame.paths, frame.links or columns such as frame[\"delay_s\"], or write the frame with "
+                "Simulation.write() and open the folder")
+    __iter__ = None  # it has columns by name, and no order
 
     def __init__(self, handle: int, ends: Ends, elements: Elements | None = None):
         self._columns = _Columns(handle)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arguments import each as listed, integer
 from .errors import ConfigError
 
 if TYPE_CHECKING:
@@ -35,11 +36,13 @@ def places_of(names: Sequence[str], wanted: Chosen, what: str) -> list[int]:
     if wanted is None:
         return list(range(len(names)))
     out: list[int] = []
-    for each in [wanted] if isinstance(wanted, (str, int, np.integer)) else wanted:
+    asked = f"{what}s: give names, patterns or places in the list, one or several"
+    for each in [wanted] if isinstance(wanted, (str, int, np.integer)) else listed(wanted, asked):
         if isinstance(each, str):
             found = [i for i, name in enumerate(names) if name == each or fnmatch.fnmatchcase(name, each)]
         else:
-            found = [int(each)] if 0 <= each < len(names) else []
+            place = integer(each, f"a {what} is a name or a place in the list, which")
+            found = [place] if 0 <= place < len(names) else []
         if not found:
             some = ", ".join(names[:8]) + (", ..." if len(names) > 8 else "")
             raise ConfigError(f"there is no {what} {each!r}; there are {len(names)}: {some}")
@@ -69,7 +72,7 @@ class Links:
     def __getitem__(self, name: str) -> Array:
         try:
             return self._values[name]
-        except KeyError:
+        except (KeyError, TypeError):
             raise ConfigError(f'there is no column "{name}" of links; there are {", ".join(self._values)}') from None
 
     def __repr__(self) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _channel, _figures
+from ._arguments import each, integer
 from .errors import ConfigError
 from .links import Chosen, Ends, Links, places_of
 
@@ -23,13 +24,39 @@ Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 # What a path is called, the most special of its interactions deciding, and the bits of its interactions that say so.
 KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2}
 _SPECIAL = (2, 8, 4, 1)
+_COLUMNS = ("tx", "rx", "depth", "delay_s", "gain_db", "a", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad",
+            "doppler_hz", "vertex_offset", "vertex_position_m", "vertex_interaction", "vertex_surface", "vertex_instance")
+_AT_CARRIERS = ("carrier_a", "carrier_gain_db", "carrier_doppler_hz")
+
+
+class _Kept:
+    """Columns, and what paths are between elements, as arrays."""
+
+    def __init__(self, columns: dict[str, Array], between: tuple[Array, Array] | str | None):
+        self.columns, self.between = columns, between  # a text: why it is not known
+
+    def column(self, name: str) -> Array:
+        self.columns[name].flags.writeable = False
+        return self.columns[name]
+
+    def elements(self, rows: Array, shape: tuple[int, int]) -> tuple[Array, Array]:
+        if isinstance(self.between, str):
+            raise ConfigError(self.between)
+        assert self.between is not None
+        delay_s, amplitude = (values[rows, :shape[0], :shape[1]] for values in self.between)
+        return delay_s, amplitude
+
+
+def _kept_paths(kept: _Kept, ends: Ends, places: tuple[list[int], list[int]], links: Links | None) -> Paths:
+    return Paths(kept.column, ends, places, links, None if kept.between is None else kept.elements)
 
 
 class Paths:
     """The propagation paths of one frame: one row per path, sorted by transmitter, receiver and delay.
 
     Every column is an attribute, a read-only NumPy array. Columns of a frame that was just computed are views of the
-    library's memory, without a copy; they stay valid when the frame and the simulation are gone.
+    library's memory, without a copy; they stay valid when the frame and the simulation are gone. Paths that are pickled
+    or copied have columns of their own.
     """
 
     def __init__(self, column: Callable[[str], Array], ends: Ends, places: tuple[list[int], list[int]] | None = None,
@@ -158,6 +185,17 @@ class Paths:
     def __len__(self) -> int:
         return len(self.delay_s)
 
+    def __reduce__(self) -> Any:
+        names = _COLUMNS + (_AT_CARRIERS if len(self._ends.carriers_hz) > 1 else ())
+        between: tuple[Array, Array] | str | None = None
+        if self._elements is not None:
+            try:
+                between = self.elements()
+            except ConfigError as error:
+                between = str(error)
+        kept = _Kept({name: np.array(self._column(name)) for name in names}, between)
+        return _kept_paths, (kept, self._ends, (self._tx, self._rx), self._links)
+
     def __repr__(self) -> str:
         words, counts = np.unique(self.kind, return_counts=True)
         return (f"<wavetracer.Paths: {len(self):,} paths of {len(self.transmitters)} transmitters and "
@@ -166,6 +204,9 @@ class Paths:
 
     def points(self, path: int) -> Array:
         """The interactions of a path in their order, shape (depth, 3), metres; its ends are not among them."""
+        path = integer(path, "the place of a path")
+        if not 0 <= path < len(self):
+            raise ConfigError(f"there is no path {path}, only {len(self)} counted from 0")
         first, last = self.vertex_offset[path:path + 2].astype(int)
         return self.vertex_position_m[first:last]
 
@@ -179,7 +220,7 @@ class Paths:
         places = (places_of(self._ends.transmitters, tx, "transmitter"), places_of(self._ends.receivers, rx, "receiver"))
         places = (sorted(set(places[0]) & set(self._tx)), sorted(set(places[1]) & set(self._rx)))
         mask = np.isin(self.tx, places[0]) & np.isin(self.rx, places[1])
-        kinds = None if kind is None else [kind] if isinstance(kind, str) else list(kind)
+        kinds = None if kind is None else [kind] if isinstance(kind, str) else each(kind, f"kind: give {', '.join(KINDS)}")
         if kinds is not None:
             for word in kinds:
                 if word not in KINDS:
@@ -200,6 +241,7 @@ class Paths:
     def at_carrier(self, index: int) -> Paths:
         """The same paths at another of the run's carriers: 0 is radio.frequency_hz, others are those of
         radio.frequencies_hz in their order. Coefficients, gains, Doppler shifts, links and channels are those there."""
+        index = integer(index, "the number of a carrier")
         if not 0 <= index < max(1, len(self._ends.carriers_hz)):
             raise ConfigError(f"there is no carrier {index}; there are {len(self._ends.carriers_hz)}: "
                               f"{', '.join(f'{f:g} Hz' for f in self._ends.carriers_hz)}")

@@ -18,7 +18,7 @@ class Responses:
     def __init__(self, folder: pathlib.Path):
         import h5py
 
-        self.name = folder / "responses.h5"
+        self.name = folder.absolute() / "responses.h5"
         if not self.name.exists():
             raise ConfigError(f"{self.name}: there is no such file: the run had no response.bandwidth_hz")
         try:
@@ -32,6 +32,9 @@ class Responses:
                              self._read(f"{side}/ports").astype(np.int64)) for side in ("receivers", "transmitters")]
         except (OSError, KeyError) as error:
             raise InputError(f"{self.name}: it cannot be read: {error}") from None
+
+    def __reduce__(self) -> Any:
+        return Responses, (self.name.parent,)  # is opened again
 
     def _read(self, name: str) -> Array:
         return np.asarray(self._file[name][:])

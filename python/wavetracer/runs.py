@@ -13,6 +13,7 @@ from typing import Any, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arguments import integer, path
 from .errors import ConfigError, InputError
 from .links import Ends, Links
 from .paths import Paths
@@ -39,6 +40,9 @@ class SavedFrame:
         self._first, self._last = int(offset[row]), int(offset[row + 1])
         self._known: dict[str, Array] = {}
 
+    def __reduce__(self) -> Any:
+        return _frame_of, (self._run, self._row)
+
     def __len__(self) -> int:
         """The number of paths in the file."""
         return self._last - self._first
@@ -63,6 +67,8 @@ class SavedFrame:
 
     def __getitem__(self, name: str) -> Array:
         """A column of /paths, of /vertices ("vertex_position_m"), or the complex "a"; rows of this frame."""
+        if not isinstance(name, str):
+            raise TypeError(f"a column has a name, such as \"delay_s\", and is not {name!r}")
         if name not in self._known:
             self._known[name] = self._read(name)
             self._known[name].flags.writeable = False
@@ -82,7 +88,9 @@ class SavedFrame:
         for end, what in zip(of, ("transmitter", "receiver")):
             if isinstance(end, str):
                 raise ConfigError(f"there is no {what} {end!r}")
-        return self._run.responses.of(self.number, int(of[0]), int(of[1]))
+        tx_place, rx_place = (integer(end, f"a {what} is a name or a place in the list, which")
+                              for end, what in zip(of, ("transmitter", "receiver")))
+        return self._run.responses.of(self.number, tx_place, rx_place)
 
     @property
     def links(self) -> Links:
@@ -100,6 +108,10 @@ class SavedFrame:
         return np.asarray(self._run._file["frames/receiver_position_m"][self._row])
 
 
+def _frame_of(run: Run, row: int) -> SavedFrame:
+    return run[row]
+
+
 class Run:
     """A saved run. run[0] is its first frame, len(run) their number, `for frame in run` goes through them.
 
@@ -110,7 +122,7 @@ class Run:
     def __init__(self, folder: Folder):
         import h5py
 
-        self.folder = pathlib.Path(folder)
+        self.folder = pathlib.Path(path(folder, "the folder of a run"))
         name = self.folder / "paths.h5"
         if not name.exists():
             unfinished = " The run is not complete: `wavetracer run --resume` continues it." \
@@ -138,6 +150,9 @@ class Run:
     def _group(self, name: str) -> Any:
         return self._file[name]
 
+    def __reduce__(self) -> Any:
+        return Run, (self.folder.absolute(),)  # is opened again
+
     def __enter__(self) -> Run:
         return self
 
@@ -163,6 +178,7 @@ class Run:
 
     def __getitem__(self, row: int) -> SavedFrame:
         """A frame, counted from 0; negative ones from the end."""
+        row = integer(row, "the place of a frame")
         if not -len(self) <= row < len(self):
             raise IndexError(f"there is no frame {row} in {self.folder}, which has {len(self)}")
         return SavedFrame(self, row % len(self))

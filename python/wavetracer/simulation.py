@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _progress, _toml
+from ._arguments import Unique, each, encoded, integer, path, shown
 from ._library import Doubles, Observer, Sizes, Text, call, library, text
+from ._session import Session
 from .errors import ConfigError, FrameStopped, InputError
 from .frame import Frame, handles
 from .links import Ends
@@ -25,12 +27,14 @@ Array = NDArray[Any]
 def read_config(config: str | os.PathLike[str] | Mapping[str, Any], folder: str | os.PathLike[str] | None
                 ) -> tuple[str, str | None]:
     """The TOML text of a configuration, and the folder where its relative paths start."""
-    where = os.fspath(folder) if folder is not None else None
+    where = path(folder, "folder") if folder is not None else None
     if isinstance(config, Mapping):
         return _toml.document(config), where
+    if not isinstance(config, (str, os.PathLike)):
+        raise TypeError(f"config is the path of a TOML file, TOML text or a dict, not {shown(config)}")
     if isinstance(config, str) and ("\n" in config or "=" in config or not config.strip()):
         return config, where
-    file = pathlib.Path(config)
+    file = pathlib.Path(path(config, "config"))
     try:
         return file.read_text(encoding="utf-8"), where if where is not None else str(file.parent)
     except (OSError, UnicodeDecodeError) as error:
@@ -38,7 +42,7 @@ def read_config(config: str | os.PathLike[str] | Mapping[str, Any], folder: str 
                          ) from None
 
 
-class Simulation:
+class Simulation(Unique):
     """A scene on an OpenCL device.
 
     config: the path of a TOML file, TOML text, or a dict of the same form, such as
@@ -47,19 +51,24 @@ class Simulation:
     current one. device: part of a device's or platform's name, or its index; see wavetracer.devices().
     sets: keys that are set over the configuration: trace={"rays": 100_000}, **{"radio.frequency_hz": 28e9}.
 
-    A simulation belongs to one thread at a time. It holds memory of its device until close(), or the end of a `with`.
+    Threads that use one simulation take turns: each waits until the frame of the one before is there. Processes that
+    are forked cannot use it (multiprocessing: "spawn"), nor can it be pickled or copied. It holds memory of its device
+    until close(), or the end of a `with`.
     """
+
+    _instead = "pickle what it was made of (its attribute `config` is TOML text), and open it again"
 
     def __init__(self, config: str | os.PathLike[str] | Mapping[str, Any], *,
                  folder: str | os.PathLike[str] | None = None, device: str | int | None = None, **sets: Any):
-        self._handle: int | None = None
         content, where = read_config(config, folder)
-        lines = [line.encode() for line in _toml.sets(sets)]
+        lines = [encoded(line, line.split("=")[0]) for line in _toml.sets(sets)]
         texts = (Text * len(lines))(*lines)
-        self._handle = call(library.wavetracer_open, content.encode(), os.fsencode(where) if where else None, texts,
-                            len(lines), str(device).encode() if device is not None else None)
-        self._close = weakref.finalize(self, library.wavetracer_close, self._handle)
-        handle = self._handle
+        if device is not None and (isinstance(device, bool) or not isinstance(device, (str, int, np.integer))):
+            raise TypeError(f"device is a part of a device's name, or its index, not {shown(device)}")
+        handle = call(library.wavetracer_open, encoded(content, "config"), os.fsencode(where) if where else None, texts,
+                      len(lines), encoded(str(device), "device") if device is not None else None)
+        self._session = Session(handle)
+        weakref.finalize(self, self._session.close)
         self.transmitters: list[str] = [text(library.wavetracer_transmitter_name(handle, i))
                                         for i in range(library.wavetracer_transmitter_count(handle))]
         self.receivers: list[str] = [text(library.wavetracer_receiver_name(handle, i))
@@ -86,10 +95,8 @@ class Simulation:
         self.close()
 
     def close(self) -> None:
-        """Gives the device back; frames stay."""
-        if self._handle is not None:
-            self._close()
-        self._handle = None
+        """Gives the device back; frames stay. Another thread's frame is waited for."""
+        self._session.close()
 
     def __len__(self) -> int:
         """The number of frames."""
@@ -105,12 +112,11 @@ class Simulation:
         return self._solve(number, None)
 
     def _solve(self, number: int, bar: Any) -> Frame:
-        if self._handle is None:
-            raise ConfigError("the simulation was closed: its device was given back")
-        if not 0 <= number < 2**32:
+        number = integer(number, "the number of a frame")
+        if not 0 <= number < len(self):
             raise ConfigError(f"there is no frame {number}, only {len(self)} counted from 0")
         failed: list[BaseException] = []
-        with _progress.interruptible() as stopped:
+        with self._session.use("run_frame") as handle, _progress.interruptible() as stopped:
             watch = _progress.watcher(bar, stopped)
 
             def observe(_: Any, stage: bytes, done: int, total: int) -> int:
@@ -121,16 +127,16 @@ class Simulation:
                     return 0
 
             observer = Observer(observe)
-            library.wavetracer_observe(self._handle, observer, None)
+            library.wavetracer_observe(handle, observer, None)
             try:
-                return Frame(call(library.wavetracer_run_frame, self._handle, number), self._ends,
+                return Frame(call(library.wavetracer_run_frame, handle, number), self._ends,
                              self._between_elements if self._arrays else None)
             except FrameStopped:
                 if failed:
                     raise failed[0] from None
                 raise
             finally:
-                library.wavetracer_observe(self._handle, _NOBODY, None)
+                library.wavetracer_observe(handle, _NOBODY, None)
 
     def frames(self, numbers: Iterable[int] | None = None, *, progress: _progress.Wanted = None) -> Iterator[Frame]:
         """Frames in their order, each computed when it is asked for. numbers: some of them, such as range(0, 10).
@@ -138,7 +144,8 @@ class Simulation:
         progress: True shows a bar of tqdm; a class of tqdm's interface shows that; None shows one where somebody looks
         on (a notebook, a terminal) and tqdm is installed.
         """
-        chosen = list(range(len(self)) if numbers is None else numbers)
+        chosen = each(range(len(self)) if numbers is None else numbers,
+                      "numbers are those of frames, such as [0, 2] or range(0, 10)")
         bar = _progress.bar(progress, len(chosen))
         try:
             for number in chosen:
@@ -154,7 +161,8 @@ class Simulation:
             progress: _progress.Wanted = None) -> Run:
         """Computes frames, all of them or some, writes them into a folder, and opens it. All of them are in memory at
         a time: for drives that are larger than that, use the command `wavetracer run`."""
-        return self.write(folder, list(self.frames(numbers, progress=progress)))
+        where = path(folder, "folder")
+        return self.write(where, list(self.frames(numbers, progress=progress)))
 
     def element_positions_m(self, name: str) -> Array:
         """Where the elements of a transmitter's or receiver's [[array]] are: metres from its position in the axes of its
@@ -163,31 +171,32 @@ class Simulation:
                                     ("receiver", self.receivers, self._ends.rx_elements)):
             if name in names:
                 out = np.zeros((counts[names.index(name)], 3))
-                call(getattr(library, f"wavetracer_{side}_element_positions"), self._handle, names.index(name),
-                     out.ctypes.data_as(Doubles), out.size)
+                with self._session.use("element_positions_m") as handle:
+                    call(getattr(library, f"wavetracer_{side}_element_positions"), handle, names.index(name),
+                         out.ctypes.data_as(Doubles), out.size)
                 return out
         raise ConfigError(f"there is no transmitter or receiver {name!r}")
 
     def _between_elements(self, frame: int, rows: Array, shape: tuple[int, int]) -> tuple[Array, Array]:
         """Delays (s) and amplitudes of these rows of a frame between all pairs of elements, each of shape
         (rows, rx elements, tx elements); amplitudes are 0 where an end has fewer elements than shape says."""
-        if self._handle is None:
-            raise ConfigError("the simulation was closed: it computes what paths are between the elements of arrays")
         wanted = np.ascontiguousarray(rows, np.uintp)
         delay_s, amplitude = np.zeros((2, len(wanted), *shape))
-        call(library.wavetracer_element_paths, self._handle, frame, wanted.ctypes.data_as(Sizes), len(wanted), *shape,
-             delay_s.ctypes.data_as(Doubles), amplitude.ctypes.data_as(Doubles))
+        with self._session.use("paths between the elements of arrays") as handle:
+            call(library.wavetracer_element_paths, handle, frame, wanted.ctypes.data_as(Sizes), len(wanted), *shape,
+                 delay_s.ctypes.data_as(Doubles), amplitude.ctypes.data_as(Doubles))
         return delay_s, amplitude
 
     def forget(self) -> None:
         """The next frame is cold: it reuses nothing of earlier ones."""
-        library.wavetracer_forget(self._handle)
+        with self._session.use("forget") as handle:
+            library.wavetracer_forget(handle)
 
     def write(self, folder: str | os.PathLike[str], frames: Iterable[Frame]) -> Run:
         """Writes paths.h5, links.csv and summary.json of these frames, sorted by their number, as the program writes
         them, and opens the folder."""
-        if self._handle is None:
-            raise ConfigError("the simulation was closed: write its frames before")
-        chosen = list(frames)
-        call(library.wavetracer_write, self._handle, os.fsencode(folder), handles(chosen), len(chosen))
-        return Run(folder)
+        where = path(folder, "folder")
+        chosen = each(frames, "write: give frames that this simulation has computed, in a list")
+        with self._session.use("write") as handle:
+            call(library.wavetracer_write, handle, os.fsencode(where), handles(chosen), len(chosen))
+        return Run(where)

@@ -65,6 +65,22 @@ TEST_CASE_FIXTURE(Fixture, "transfers outside a buffer name it and move nothing"
   CHECK_FALSE(none);
   CHECK_THROWS_AS(none.read_one(0), std::logic_error);
   CHECK_THROWS_AS(context.fill(none, 0u), std::logic_error);
+  CHECK_THROWS_AS(none.read(1, 0), std::logic_error);
+}
+
+TEST_CASE_FIXTURE(Fixture, "over no elements nothing is launched or moved, with a buffer or without") {
+  gpu::Buffer<uint32_t> none, to;
+  CHECK(none.read().empty());
+  CHECK_NOTHROW(none.write(std::vector<uint32_t>()));
+  CHECK_NOTHROW(context.copy(none, to, 0));
+  auto out = context.buffer(std::vector<uint32_t>(4, 7u), "out");
+  gpu::Kernel add = kernel("add");
+  for (const gpu::Range& range : {gpu::Range{0, 4}, gpu::Range({4, 0, 1}, {4, 1, 1}, 2)}) {
+    CHECK_NOTHROW(add(range, "test", out, 1u, float4{}, 1.0));
+    CHECK_NOTHROW(add(range, "test", none, 1u, float4{}, 1.0));
+    CHECK_THROWS_AS(add(range, "test", out), std::logic_error);
+  }
+  CHECK(out.read() == std::vector<uint32_t>(4, 7u));
 }
 
 TEST_CASE_FIXTURE(Fixture, "a buffer of no elements has no elements and can still be an argument") {
