@@ -3,6 +3,7 @@
 #include "app/live_page.hpp"
 #include <fmt/format.h>
 #include "base/file.hpp"
+#include "base/times.hpp"
 #include "viewer/view.hpp"
 #include "wavetracer/error.hpp"
 
@@ -75,7 +76,7 @@ void LivePage::write(const LiveFrame& frame) {
     write_outputs(folder_, run, std::span(&frame.result, 1));
     const SavedRun saved(folder_);
     if (!drawn_) drawn_ = load_saved_world(saved, true);
-    const std::string title = fmt::format("Live world, {:g} s", frame.result.world.time_s);
+    const std::string title = fmt::format("Live world, {} s", time_text(frame.result.world.time_s));
     const ViewPage page = make_view(saved, *drawn_, {.title = title, .reload_s = reload_s});
     write_file(file_, page.html);
     failed_ = false;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 #include "base/digits.hpp"
+#include "base/times.hpp"
 #include "output/run_advice.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -31,9 +32,9 @@ std::string frame_line(const Run& run, const Totals& totals) {
                            ? fmt::format("median of {}", repeats)
                            : "the first frame, which includes start-up work; --repeat 5 gives the median of five");
   const double span_s = totals.end_s - totals.start_s;
-  std::string line =
-      fmt::format("frames     {} from {:g} to {:g} s in steps of {:.6g} s; median {}", totals.frames, totals.start_s,
-                  totals.end_s, span_s / static_cast<double>(totals.frames - 1), duration(median_s));
+  std::string line = fmt::format("frames     {} from {} to {} s in steps of {:.6g} s; median {}", totals.frames,
+                                 time_text(totals.start_s), time_text(totals.end_s),
+                                 span_s / static_cast<double>(totals.frames - 1), duration(median_s));
   if (sum_s > 0) line += fmt::format(", {:.3g} frames/s", static_cast<double>(totals.frames) / sum_s);
   if (repeats > 1)
     line += fmt::format("; each {} times{}", repeats,

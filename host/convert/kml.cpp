@@ -1,5 +1,6 @@
 // KML 2.2: ends, vehicles and paths, frame by frame. Longitudes and latitudes are those of WGS 84; heights are those of
-// the scene, taken as heights above the ground of the earth there. The run's 0 s is the first second of the year 2000.
+// the scene, taken as heights above the ground of the earth there. The run's 0 s is the first second of the year 2000,
+// and times from 1e9 s on count from 1970.
 #include <fmt/format.h>
 #include <chrono>
 #include <cmath>
@@ -18,8 +19,9 @@ namespace {
 
 // Google Earth shows some ten thousand lines and stops being of use: so many paths are written, evenly by frame.
 constexpr size_t max_paths_frame = 1000, max_paths = 50000;
-constexpr size_t gain_classes = 12;  // of 5 dB
-constexpr double latest_s = 1e9;     // 31 years
+constexpr size_t gain_classes = 12;   // of 5 dB
+constexpr double since_1970_s = 1e9;  // from this time on, in 2001, times are taken as seconds since 1970
+constexpr double latest_s = 2e11;     // the year 8307
 
 Georeference place_of(const SavedWorld& world, const ExportOptions& options) {
   if (!options.projection.empty()) return {options.projection, {0, 0}, {}, {}};
@@ -36,7 +38,8 @@ std::string date(double time_s) {
   if (!(std::abs(time_s) < latest_s))
     throw InputError(fmt::format("kml: a frame is at {} s, which is no date", time_s));
   using namespace std::chrono;
-  const auto time = sys_days(year(2000) / 1 / 1) + milliseconds(std::llround(time_s * 1000));
+  const auto begin = sys_days(year(time_s < since_1970_s ? 2000 : 1970) / 1 / 1);
+  const auto time = begin + milliseconds(std::llround(time_s * 1000));
   const auto day = floor<days>(time);
   const year_month_day d(day);
   const hh_mm_ss clock(time - day);

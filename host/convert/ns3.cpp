@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include "base/pending_folder.hpp"
+#include "base/times.hpp"
 #include "convert/convert.hpp"
 #include "convert/ns3_nodes.hpp"
 #include "radio/link_groups.hpp"
@@ -103,10 +104,12 @@ double step_s(const SavedRun& run, const ExportOptions& options, Warnings& warni
     warnings.push_back("ns3: one frame is one step, of 1 s");
     return 1;
   }
-  const double step = (run.time_s(options.last_row) - run.time_s(options.first_row)) / static_cast<double>(steps);
+  const double last_s = run.time_s(options.last_row), rounding_s = 2 * time_spacing_s(last_s);  // of differences
+  const double step = simplest_decimal((last_s - run.time_s(options.first_row)) / static_cast<double>(steps),
+                                       rounding_s / static_cast<double>(steps));
   if (!(step > 0)) throw InputError("ns3: the times of the frames do not go up");
   for (size_t row = options.first_row; row < options.last_row; ++row)
-    if (std::abs(run.time_s(row + 1) - run.time_s(row) - step) > 1e-6 * step) {
+    if (std::abs(run.time_s(row + 1) - run.time_s(row) - step) > std::max(1e-6 * step, rounding_s)) {
       warnings.push_back(
           fmt::format("ns3: its steps are of equal length; frames are not, and become steps of {} s", step));
       break;

@@ -96,11 +96,12 @@ class OsiWriter {
       version.add_uint32(osi::interface_version::patch, osi::version[2]);
     }
     {
-      const auto nanos = std::llround(frame.time_s * 1e9);
-      const int64_t seconds = (nanos - (nanos < 0 ? 999999999 : 0)) / 1000000000;
+      const double whole_s = std::floor(frame.time_s);
+      const int64_t nanos = std::llround((frame.time_s - whole_s) * 1e9), carry = nanos / 1000000000;
+      const int64_t seconds = static_cast<int64_t>(whole_s) + carry;
       pbf_writer time(writer, osi::ground_truth::timestamp);
       time.add_int64(osi::timestamp::seconds, seconds);
-      time.add_uint32(osi::timestamp::nanos, static_cast<uint32_t>(nanos - seconds * 1000000000));
+      time.add_uint32(osi::timestamp::nanos, static_cast<uint32_t>(nanos - carry * 1000000000));
     }
     for (const SavedPose& pose : frame.poses) {
       if (is_finite(pose))

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/times.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -17,13 +18,21 @@ FrameClock::FrameClock(double first_time_s, double last_time_s, double step_s)
     throw ConfigError(fmt::format("the time step of frames is {:g} s; it must be positive", step_s));
   }
   if (!(last_time_s >= first_time_s) || !std::isfinite(last_time_s - first_time_s)) {
-    throw ConfigError(fmt::format("frames from {:g} s to {:g} s: the end must not be before the beginning",
-                                  first_time_s, last_time_s));
+    throw ConfigError(fmt::format("frames from {} s to {} s: the end must not be before the beginning",
+                                  time_text(first_time_s), time_text(last_time_s)));
   }
   const double steps = (last_time_s - first_time_s) / step_s;
   constexpr double most = 9007199254740992;  // 2^53: beyond, doubles do not count in ones
   if (!(steps < most - 1)) throw ConfigError(fmt::format("{:g} frames are too many: use a longer time step", steps));
-  frame_count_ = static_cast<uint64_t>(std::floor(steps + 1e-9 * std::max(1.0, steps))) + 1;
+  const double largest_s = std::max(std::abs(first_time_s), std::abs(last_time_s)),
+               rounding_s = time_spacing_s(largest_s);
+  if (steps > 0 && !(step_s >= 4 * rounding_s)) {
+    throw ConfigError(fmt::format(
+        "the time step of frames is {:g} s, but times near {} s are only known to {:.2g} s: use a longer time step, or "
+        "subtract the time of the beginning from all times",
+        step_s, time_text(largest_s), rounding_s));
+  }
+  frame_count_ = static_cast<uint64_t>(std::floor(steps + 1e-9 * std::max(1.0, steps) + rounding_s / step_s)) + 1;
 }
 
 double FrameClock::time_s(uint64_t frame) const {
@@ -37,7 +46,7 @@ std::vector<PresentVehicle> vehicles_at(const Trajectories& trajectories, double
   std::vector<PresentVehicle> out;
   for (size_t i = 0; i < trajectories.tracks.size(); ++i) {
     const Track& track = trajectories.tracks[i];
-    if (track.samples.front().time_s > time_s + time_tolerance_s) break;
+    if (track.samples.front().time_s > time_s + time_tolerance_s(time_s)) break;
     if (const auto pose = pose_at(track, time_s)) out.push_back({static_cast<uint32_t>(i), *pose});
   }
   return out;

@@ -8,10 +8,12 @@
 
 namespace wavetracer {
 
-// Frames at first_time_s + k * step_s up to last_time_s, which is a frame itself where only rounding says no.
+// Frames at first_time_s + k * step_s up to last_time_s, which is a frame itself where only rounding says no: that of
+// the sum, and that of both times, which doubles keep the worse the larger they are.
 class FrameClock {
  public:
-  // Throws ConfigError unless the step is positive, the end not before the beginning, and frames fewer than 2^53.
+  // Throws ConfigError unless the step is positive, the end not before the beginning, frames fewer than 2^53, and times
+  // precise enough for the step.
   FrameClock(double first_time_s, double last_time_s, double step_s);
 
   uint64_t frame_count() const { return frame_count_; }

@@ -9,7 +9,6 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "motion/input_text.hpp"
@@ -23,7 +22,7 @@ namespace {
 constexpr size_t longest_text = 4096;  // of a name or a time
 
 struct TrackPoint {
-  double utc_s;
+  std::optional<UtcTime> time;
   glm::dvec3 position;  // longitude and latitude in degrees, height above the ground
   uint64_t line;
 };
@@ -40,16 +39,16 @@ class GpxReader : private XmlStream {
 
   Trajectories read() {
     parse_all("the file ends before </gpx>: save it again from the program that wrote it");
-    double first_s = std::numeric_limits<double>::infinity();
+    std::optional<UtcTime> first;
     for (const GpxTrack& track : found_)
-      if (!track.points.empty()) first_s = std::min(first_s, track.points.front().utc_s);
-    if (!(first_s < std::numeric_limits<double>::infinity()))
+      if (!track.points.empty() && !(first && *first <= *track.points.front().time)) first = track.points.front().time;
+    if (!first)
       throw InputError(
           fmt::format("{}: the file has no <trkpt>, so nothing would move; routes (<rte>) and waypoints (<wpt>) have "
                       "no times and are not read",
                       file()));
     tracks_.in_degrees();
-    for (const GpxTrack& track : found_) add(track, first_s);
+    for (const GpxTrack& track : found_) add(track, *first);
     if (repeated_ > 0)
       tracks_.warn(fmt::format("{}: {} points have the time of the point before and were left out", file(), repeated_));
     if (elevations_ > 0)
@@ -74,7 +73,7 @@ class GpxReader : private XmlStream {
       found_.emplace_back();
     } else if (name == "trkpt" && inside("trkseg")) {
       if (found_.empty()) fail("<trkpt> is outside of a <trk>");
-      point_ = {not_given, {degrees(attributes, "lon", 180), degrees(attributes, "lat", 90), 0}, line()};
+      point_ = {{}, {degrees(attributes, "lon", 180), degrees(attributes, "lat", 90), 0}, line()};
     }
   }
 
@@ -96,10 +95,9 @@ class GpxReader : private XmlStream {
     if (name == "name" && inside("trk") && !found_.empty()) {
       found_.back().name = trimmed(text_);
     } else if (name == "time" && inside("trkpt")) {
-      const std::optional<double> utc_s = utc_seconds(trimmed(text_));
-      if (!utc_s)
+      point_.time = utc_time(trimmed(text_));
+      if (!point_.time)
         fail(fmt::format("<time> '{}' is not a time such as 2026-11-24T10:00:00Z", trimmed(text_).substr(0, 60)));
-      point_.utc_s = *utc_s;
     } else if (name == "ele" && inside("trkpt")) {
       ++elevations_;
     } else if (name == "trkpt" && inside("trkseg")) {
@@ -109,24 +107,24 @@ class GpxReader : private XmlStream {
   }
 
   void end_point() {
-    if (std::isnan(point_.utc_s))
+    if (!point_.time)
       fail(
           "<trkpt> has no <time>; a track that was planned and not recorded has none: use [[track]] with "
           "waypoints_wgs84 instead");
     std::vector<TrackPoint>& points = found_.back().points;
-    if (!points.empty() && points.back().utc_s == point_.utc_s)
+    if (!points.empty() && points.back().time == point_.time)
       ++repeated_;
     else
       points.push_back(point_);
   }
 
-  void add(const GpxTrack& track, double first_s) {
+  void add(const GpxTrack& track, const UtcTime& first) {
     std::string id = track.name.empty() ? "track" : track.name;
     for (int k = 2; !ids_.insert(id).second; ++k)
       id = fmt::format("{} {}", track.name.empty() ? "track" : track.name, k);
     for (const TrackPoint& point : track.points) {
       Sample sample;
-      sample.time_s = point.utc_s - first_s;
+      sample.time_s = point.time->since_s(first);
       sample.position_m = point.position;
       tracks_.add(id, "passenger", sample, point.line, fmt::format("track '{}'", id));
     }
@@ -171,7 +169,7 @@ std::optional<int> zone_seconds(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> utc_seconds(std::string_view text) {
+std::optional<UtcTime> utc_time(std::string_view text) {
   std::array<int, 6> parts{};  // year, month, day, hour, minute, second
   constexpr std::array<char, 6> after = {'-', '-', 'T', ':', ':', 0};
   for (size_t k = 0; k < parts.size(); ++k) {
@@ -194,7 +192,7 @@ std::optional<double> utc_seconds(std::string_view text) {
   const std::optional<int> zone_s = zone_seconds(text);
   if (!zone_s) return {};
   const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return 86400.0 * static_cast<double>(days) + (hour * 3600 + minute * 60 + second - *zone_s) + fraction;
+  return UtcTime{86400 * int64_t{days} + (hour * 3600 + minute * 60 + second - *zone_s), fraction};
 }
 
 Trajectories read_gpx(ByteStream& stream, const TrajectoryOptions& options) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/times.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -69,12 +71,13 @@ std::optional<Pose> pose_at(const Track& track, double time_s) {
   const std::vector<Sample>& samples = track.samples;
   const auto later = std::upper_bound(samples.begin(), samples.end(), time_s,
                                       [](double time, const Sample& s) { return time < s.time_s; });
+  const double tolerance_s = time_tolerance_s(time_s);
   const size_t after = static_cast<size_t>(later - samples.begin());
   const bool has_before = after > 0, has_after = after < samples.size();
   if (has_before && samples[after - 1].time_s == time_s) return sample_pose(track, after - 1);
   if (has_before && has_after && !starts_segment(track, after)) return pose_between(track, after - 1, time_s);
-  if (has_before && time_s <= samples[after - 1].time_s + time_tolerance_s) return sample_pose(track, after - 1);
-  if (has_after && time_s >= samples[after].time_s - time_tolerance_s) return sample_pose(track, after);
+  if (has_before && time_s <= samples[after - 1].time_s + tolerance_s) return sample_pose(track, after - 1);
+  if (has_after && time_s >= samples[after].time_s - tolerance_s) return sample_pose(track, after);
   return std::nullopt;
 }
 

@@ -25,13 +25,11 @@ struct Cubic {
         rate((6 * u * (1 - u) / duration_s) * rise + ((1 - u) * (1 - 3 * u)) * a + (u * (3 * u - 2)) * b) {}
 };
 
-// A time this near to an end of a segment is that end: k * step is not the decimal number of a file to the last bit.
-inline constexpr double time_tolerance_s = 1e-6;
-
 // Between samples the position is the cubic that has their positions and velocities, so position and velocity are
 // continuous. Yaw goes the shorter way round; yaw and pitch are monotone cubics with continuous rates (F. N. Fritsch
 // and J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984), which never turn farther than the samples do.
-// Absent before the vehicle appears, after it vanishes, and between segments.
+// Absent before the vehicle appears, after it vanishes, and between segments; a time within time_tolerance_s() of an
+// end of a segment is that end.
 std::optional<Pose> pose_at(const Track& track, double time_s);
 
 }  // namespace wavetracer

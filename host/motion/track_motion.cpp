@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/times.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -27,6 +29,26 @@ void append_steps(const Track& track, std::vector<double>& steps_s) {
   for (size_t k = 1; k < track.samples.size(); ++k) {
     steps_s.push_back(track.samples[k].time_s - track.samples[k - 1].time_s);
   }
+}
+
+// The step without rounding. Near 1.7e9 s a step of 0.1 s reads as 0.10000014 s, and after some hundred thousand frames
+// none would be where a sample is. Where that is so, the step is the mean of the longest run of samples so far apart,
+// in as few digits as its error allows.
+double unrounded_step(const std::vector<Track>& tracks, double step_s, double largest_s) {
+  constexpr double negligible = 1e-9;  // of a step
+  const double error_s = time_spacing_s(largest_s);
+  if (!(error_s > negligible * step_s)) return step_s;
+  double run_s = step_s, steps = 1;
+  for (const Track& track : tracks) {
+    size_t first = 0;
+    for (size_t k = 1; k < track.samples.size(); ++k) {
+      if (std::abs(track.samples[k].time_s - track.samples[k - 1].time_s - step_s) > 2 * error_s) first = k;
+      if (static_cast<double>(k - first) <= steps) continue;
+      steps = static_cast<double>(k - first);
+      run_s = track.samples[k].time_s - track.samples[first].time_s;
+    }
+  }
+  return simplest_decimal(run_s / steps, error_s / steps);
 }
 
 bool is_jump(const Sample& a, const Sample& b, double max_speed_m_s) {
@@ -109,7 +131,8 @@ void set_order(Trajectories& trajectories) {
   for (const Track& track : tracks) {
     trajectories.last_time_s = std::max(trajectories.last_time_s, track.samples.back().time_s);
   }
-  trajectories.step_s = median_step(tracks);
+  const double largest_s = std::max(std::abs(trajectories.first_time_s), std::abs(trajectories.last_time_s));
+  trajectories.step_s = unrounded_step(tracks, median_step(tracks), largest_s);
 }
 
 std::optional<double> split_segments(Track& track, double step_s, double max_speed_m_s) {

@@ -14,7 +14,8 @@ glm::dvec3 heading(double yaw_rad, double pitch_rad);
 // The median time between samples of a vehicle, 0 where no vehicle has two.
 double median_step(const std::vector<Track>& tracks);
 
-// Sorts the tracks, and sets the times and the step. There must be a track.
+// Sorts the tracks, and sets the times and the step: the median without what doubles have added to it by rounding.
+// There must be a track.
 void set_order(Trajectories& trajectories);
 
 // Cuts the track at gaps and at jumps, by the rule of read.hpp. step_s is that of the whole file; a track of at least

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "base/times.hpp"
 #include "plots/gnuplot.hpp"
 #include "radio/link_budget.hpp"
 #include "simulation/receiver_grid.hpp"
@@ -155,7 +156,7 @@ Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::
   const std::string by = tx                               ? run.transmitters()[*tx].name
                          : run.transmitters().size() == 1 ? run.transmitters()[0].name
                                                           : fmt::format("the best of {}", run.transmitters().size());
-  const std::string time = run.frame_count() > 1 ? fmt::format(", {:g} s", frame.time_s) : "";
+  const std::string time = run.frame_count() > 1 ? fmt::format(", {} s", time_text(frame.time_s)) : "";
   Figure out{name,
              fmt::format("Coverage of {} by {}{}", grid, by, time),
              {{name + ".csv", cell_table(run, cells, radio)}},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include "base/times.hpp"
 #include "output/path_kinds.hpp"
 #include "plots/gnuplot.hpp"
 #include "radio/link_budget.hpp"
@@ -17,7 +18,8 @@ constexpr double shown_span_db = 80;  // below the strongest path
 std::string first_link(const SavedRun& run, const LinkSeries& series) { return link_name(run, series.links.front()); }
 
 std::string frame_title(const char* what, const SavedRun& run, const LinkSeries& series) {
-  std::string at = run.frame_count() > 1 ? fmt::format(", frame {} at {:g} s", series.frame, series.frame_time_s) : "";
+  std::string at =
+      run.frame_count() > 1 ? fmt::format(", frame {} at {} s", series.frame, time_text(series.frame_time_s)) : "";
   return fmt::format("{}, {}{}", what, first_link(run, series), at);
 }
 
@@ -77,12 +79,31 @@ std::string power_axis(const RadioConfig& radio) {
       *radio.transmit_power_dbm, noise);
 }
 
+// The axis of times. Its zero is the first one, where the six digits of gnuplot's labels would not tell times apart.
+struct TimeAxis {
+  double zero_s;
+  explicit TimeAxis(const std::vector<LinkMoment>& moments) {
+    const double first_s = moments.front().time_s, last_s = moments.back().time_s;
+    zero_s = last_s > first_s && std::abs(first_s) > 1e4 * (last_s - first_s) ? std::floor(first_s) : 0;
+  }
+  std::string label() const {
+    return zero_s == 0 ? "set xlabel 'time (s)'\n"
+                       : fmt::format("set xlabel 'time after {} s (s)'\n", time_text(zero_s));
+  }
+  // The column of times as gnuplot has to take it.
+  std::string column(int number) const {
+    return zero_s == 0 ? fmt::format("${}", number) : fmt::format("(${} - {})", number, zero_s);
+  }
+};
+
 }  // namespace
 
 Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioConfig& radio) {
   std::string table =
       "link,tx,rx,frame,time_s,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
       "narrowband_gain_db,received_dbm,snr_db\n";
+  const TimeAxis axis(series.moments.front());
+  const std::string time = axis.column(5);
   std::string plot = "plot ";
   for (size_t k = 0; k < series.links.size(); ++k) {
     const Link& link = series.links[k];
@@ -96,16 +117,17 @@ Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioCon
     }
     const std::string_view colour = colours[k % colours.size()];
     plot += fmt::format(
-        "{}'gain.csv' using ($1 == {} ? $5 : NaN):7 with lines linecolor '{}' linewidth 1.5 title '{}' noenhanced, \\\n"
-        "  '' using ($1 == {} ? $5 : NaN):12 with lines linecolor '{}' linewidth 0.6 dashtype 3 notitle, \\\n"
-        "  '' using ($1 == {} && $11 == 1 ? $5 : NaN):7 with points pointtype 7 pointsize 0.5 linecolor '{}' notitle",
-        k == 0 ? "" : ", \\\n  ", k + 1, colour, quoted(link_name(run, link)), k + 1, colour, k + 1, colour);
+        "{0}'gain.csv' using ($1 == {1} ? {4} : NaN):7 with lines linecolor '{2}' linewidth 1.5 title '{3}' "
+        "noenhanced, \\\n"
+        "  '' using ($1 == {1} ? {4} : NaN):12 with lines linecolor '{2}' linewidth 0.6 dashtype 3 notitle, \\\n"
+        "  '' using ($1 == {1} && $11 == 1 ? {4} : NaN):7 with points pointtype 7 pointsize 0.5 linecolor '{2}' "
+        "notitle",
+        k == 0 ? "" : ", \\\n  ", k + 1, colour, quoted(link_name(run, link)), time);
   }
   return {"gain",
           "Path gain along the drive",
           {{"gain.csv", table}},
-          power_axis(radio) +
-              "set xlabel 'time (s)'\n"
+          power_axis(radio) + axis.label() +
               "set ylabel 'path gain (dB)'\n"
               "set key outside right top Left reverse samplen 2\n" +
               plot +
@@ -163,6 +185,7 @@ Figure delay_time_figure(const SavedRun& run, const LinkSeries& series) {
         power[column_of(k) * rows + static_cast<size_t>(row)] += std::pow(10, series.paths[i].gain_db / 10);
     }
   }
+  const TimeAxis axis(moments);
   const double from_s = moments.front().time_s, to_s = moments.back().time_s;
   const double column_s = columns > 1 ? (to_s - from_s) / static_cast<double>(columns - 1) : 1;
   std::string table = "time_s,delay_s,gain_db\n";
@@ -177,15 +200,15 @@ Figure delay_time_figure(const SavedRun& run, const LinkSeries& series) {
   return {"delay-time",
           "Power by delay along the drive, " + first_link(run, series),
           {{"delay-time.csv", table}},
-          colour_range(cells, shown_span_db) +
+          colour_range(cells, shown_span_db) + axis.label() +
               "unset grid\n"
-              "set xlabel 'time (s)'\n"
               "set ylabel 'delay (ns)'\n"
               "set cblabel 'path gain (dB)'\n"
               "set autoscale fix\n"
               "set yrange [0<*:]\n"
               "set key off\n"
-              "plot 'delay-time.csv' using 1:(1e9 * $2):3 with image\n"};
+              "plot 'delay-time.csv' using (" +
+              axis.column(1) + "):(1e9 * $2):3 with image\n"};
 }
 
 Figure doppler_figure(const SavedRun& run, const LinkSeries& series) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include "base/spelling.hpp"
+#include "base/times.hpp"
 #include "plots/coverage_plot.hpp"
 #include "plots/link_plots.hpp"
 #include "plots/rays_plot.hpp"
@@ -131,7 +132,8 @@ class Plotter {
       report_.warnings.push_back(
           fmt::format("rays: none of the sampled rays of frame {} meets anything", run_.number(row)));
     else
-      add(rays_figure(rows, run_.frame_count() > 1 ? fmt::format(", {:g} s", run_.time_s(row)) : "", world_.scene));
+      add(rays_figure(rows, run_.frame_count() > 1 ? fmt::format(", {} s", time_text(run_.time_s(row))) : "",
+                      world_.scene));
   }
 };
 

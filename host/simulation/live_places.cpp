@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/spelling.hpp"
+#include "base/times.hpp"
 #include "simulation/name_pattern.hpp"
 #include "wavetracer/names.hpp"
 
@@ -194,7 +195,8 @@ std::vector<PlacedPose> LivePlaces::between(const LiveTraffic& traffic, double t
   const double duration_s = traffic.time_s - traffic.earlier_s;
   if (traffic.frames < 2 || !(duration_s > 0))
     throw PoseError("out_of_time", "there are no two frames of poses yet, the later one after the earlier one");
-  if (!(time_s >= traffic.earlier_s && time_s <= traffic.time_s))
+  const double tolerance_s = std::min(time_tolerance_s(traffic.time_s), duration_s / 4);
+  if (!(time_s >= traffic.earlier_s - tolerance_s && time_s <= traffic.time_s + tolerance_s))
     throw PoseError("out_of_time", fmt::format("time_s is {}, and the last two frames of poses are of {} and {} s",
                                                time_s, traffic.earlier_s, traffic.time_s));
   std::vector<PlacedPose> out;
@@ -206,9 +208,9 @@ std::vector<PlacedPose> LivePlaces::between(const LiveTraffic& traffic, double t
                         vehicle.velocity_m_s.value_or(glm::dvec3(0)), glm::dvec3(0)},
                        id});
   };
-  if (time_s == traffic.earlier_s) alone(traffic.earlier, traffic.vehicles);
-  if (time_s == traffic.time_s) alone(traffic.vehicles, traffic.earlier);
-  const double u = (time_s - traffic.earlier_s) / duration_s;
+  if (time_s <= traffic.earlier_s + tolerance_s) alone(traffic.earlier, traffic.vehicles);
+  if (time_s >= traffic.time_s - tolerance_s) alone(traffic.vehicles, traffic.earlier);
+  const double u = std::clamp((time_s - traffic.earlier_s) / duration_s, 0.0, 1.0);
   for (const auto& [id, to] : traffic.vehicles) {
     const auto from = traffic.earlier.find(id);
     if (from == traffic.earlier.end()) continue;

@@ -106,8 +106,8 @@ std::vector<std::string> Simulation::warnings() const {
                     s.config.cache.kind.text(), s.config.trace.reception == "sphere" ? " or wrong" : "",
                     s.config.cache.kind == "thesis" ? "open" : "chained"));
   if (frame_count() > 1 && !s.world.live())
-    if (const auto text = unmeasured_warning(s.trace.discover_every_s, time_s(1) - time_s(0), frame_count(),
-                                             s.config.output.shard_frames))
+    if (const auto text =
+            unmeasured_warning(s.trace.discover_every_s, s.world.step_s(), frame_count(), s.config.output.shard_frames))
       out.push_back(*text);
   for (const std::vector<std::string>* more : {&s.world.warnings(), &s.place_warnings})
     out.insert(out.end(), more->begin(), more->end());

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/times.hpp"
 #include "motion/pose.hpp"
 #include "simulation/place_warnings.hpp"
 
@@ -53,7 +54,7 @@ std::optional<Finding> look(const Surroundings& around, bool grounded, const Pos
 template <class Visit>
 void visit_frames(const World& world, const Track& track, uint64_t most, const Visit& visit) {
   const uint64_t frames = world.frame_count();
-  const double start_s = world.time_s(0), step_s = frames > 1 ? world.time_s(1) - start_s : 1;
+  const double start_s = world.time_s(0), step_s = world.step_s();
   const auto frame_at = [&](double time_s) {
     return static_cast<uint64_t>(std::clamp((time_s - start_s) / step_s, 0.0, static_cast<double>(frames - 1)));
   };
@@ -93,8 +94,8 @@ class Drive {
     std::vector<std::string> out;
     const auto say = [&](const Count& c, VehicleFault kind) {
       if (c.vehicles > 0)
-        out.push_back(fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {:g} s on: {}", c.vehicles,
-                                  vehicles, fault_words[kind], c.id, c.text, c.time_s, advice[kind]));
+        out.push_back(fmt::format("{} of {} vehicles {}, the first one \"{}\" {} from {} s on: {}", c.vehicles,
+                                  vehicles, fault_words[kind], c.id, c.text, time_text(c.time_s), advice[kind]));
     };
     for (int kind = 0; kind < vehicle_faults; ++kind)
       say(counts_[static_cast<size_t>(kind)], static_cast<VehicleFault>(kind));

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/spelling.hpp"
+#include "base/times.hpp"
 #include "motion/frame_clock.hpp"
 #include "radio/antenna.hpp"
 #include "simulation/live_places.hpp"
@@ -44,9 +45,9 @@ VehicleState vehicle_at(const Track& track, double time_s) {
 }
 
 std::string range_in_words(const TimeConfig& config) {
-  if (!config.start_s) return fmt::format("ends at {:g} s", config.end_s.value_or(0));
-  if (!config.end_s) return fmt::format("begins at {:g} s", *config.start_s);
-  return fmt::format("goes from {:g} to {:g} s", *config.start_s, *config.end_s);
+  if (!config.start_s) return fmt::format("ends at {} s", time_text(config.end_s.value_or(0)));
+  if (!config.end_s) return fmt::format("begins at {} s", time_text(*config.start_s));
+  return fmt::format("goes from {} to {} s", time_text(*config.start_s), time_text(*config.end_s));
 }
 
 // A place on a vehicle: an antenna, or the origin of its model. Axes as the vehicle's: ahead, left, up.
@@ -257,23 +258,23 @@ void World::State::set_clock(const TimeConfig& config) {
   }
   const double first_s = trajectories.first_time_s, last_s = trajectories.last_time_s;
   const double start_s = config.start_s.value_or(first_s), end_s = config.end_s.value_or(last_s);
-  if (start_s > last_s + time_tolerance_s || end_s < first_s - time_tolerance_s)
+  if (start_s > last_s + time_tolerance_s(last_s) || end_s < first_s - time_tolerance_s(first_s))
     throw ConfigError(
-        fmt::format("[time] {}, and the trajectories go from {:g} to {:g} s: no frame would have a vehicle; "
+        fmt::format("[time] {}, and the trajectories go from {} to {} s: no frame would have a vehicle; "
                     "give a time.start_s and a time.end_s within that range, or leave both out",
-                    range_in_words(config), first_s, last_s));
+                    range_in_words(config), time_text(first_s), time_text(last_s)));
   const double step_s = config.step_s.value_or(trajectories.step_s);
   if (!(step_s > 0) && start_s != end_s)
     throw ConfigError(
         "time.step_s is not given, and no vehicle has two samples from which it follows: give time.step_s");
   clock.emplace(start_s, end_s, step_s > 0 ? step_s : 1);
   const double frames = static_cast<double>(clock->frame_count()), step = clock->step_s();
-  const double before = std::clamp(std::ceil((first_s - time_tolerance_s - start_s) / step), 0.0, frames);
-  const double until = std::clamp(std::floor((last_s + time_tolerance_s - start_s) / step) + 1, before, frames);
+  const double before = std::clamp(std::ceil((first_s - time_tolerance_s(first_s) - start_s) / step), 0.0, frames);
+  const double until = std::clamp(std::floor((last_s + time_tolerance_s(last_s) - start_s) / step) + 1, before, frames);
   if (const double empty = frames - (until - before); empty > 0)
     warnings.push_back(
-        fmt::format("{} of {} frames have no vehicle: [time] {}, and the trajectories go from {:g} to {:g} s", empty,
-                    frames, range_in_words(config), first_s, last_s));
+        fmt::format("{} of {} frames have no vehicle: [time] {}, and the trajectories go from {} to {} s", empty,
+                    frames, range_in_words(config), time_text(first_s), time_text(last_s)));
 }
 
 // How far the ground below an antenna may be from its vehicle.
@@ -358,6 +359,7 @@ const Trajectories& World::trajectories() const { return state_->trajectories; }
 bool World::any_link_allowed() const { return state_->links.any_allowed(); }
 uint64_t World::frame_count() const { return state_->clock->frame_count(); }
 double World::time_s(uint64_t frame) const { return state_->clock->time_s(frame); }
+double World::step_s() const { return state_->clock->step_s(); }
 double World::reach_m() const { return state_->reach_m; }
 const std::vector<uint32_t>& World::receiver_of_transmitter() const { return state_->receiver_of_transmitter; }
 const std::vector<uint32_t>& World::transmitter_of_receiver() const { return state_->transmitter_of_receiver; }

@@ -43,6 +43,7 @@ class World {
 
   uint64_t frame_count() const;
   double time_s(uint64_t frame) const;
+  double step_s() const;  // between frames
   // Vehicles that are absent, and their antennas, are where they were last or will be first. Throws ConfigError for a
   // frame that there is not.
   WorldState state(uint64_t frame) const;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/times.hpp"
 #include "simulation/world_trajectories.hpp"
 
 namespace wavetracer {
@@ -42,9 +43,9 @@ void Reach::add_track(const Track& track, double radius_m) {
   const std::string who = fmt::format("vehicle \"{}\"", track.id);
   for (const Sample& sample : track.samples)
     if (const double distance_m = farthest(sample.position_m); !(distance_m <= farthest_m))
-      throw InputError(
-          fmt::format("{}: {}", too_far(fmt::format("{} at {:g} s", who, sample.time_s), sample.position_m, distance_m),
-                      check_trajectories));
+      throw InputError(fmt::format(
+          "{}: {}", too_far(fmt::format("{} at {} s", who, time_text(sample.time_s)), sample.position_m, distance_m),
+          check_trajectories));
   const Bounds bounds = bounds_of(track);
   const double distance_m = std::max(farthest(bounds.lower), farthest(bounds.upper));
   if (!(distance_m <= farthest_m))

@@ -115,7 +115,7 @@ class Frame(Unique):
                        "high": getattr(of, what + "_high")} for what in ("paths", "power_share")}
 
     def __repr__(self) -> str:
-        return f"<wavetracer.Frame {self.number} at {self.time_s:g} s: {len(self):,} paths of {len(self.links):,} links>"
+        return f"<wavetracer.Frame {self.number} at {self.time_s:.15g} s: {len(self):,} paths of {len(self.links):,} links>"
 
 
 def handles(frames: list[Frame]) -> Any:

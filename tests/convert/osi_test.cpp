@@ -44,6 +44,30 @@ TEST_CASE("the traffic of a run, written as a trace of OSI and read again") {
   CHECK(samples == poses);
 }
 
+TEST_CASE("times since 1970, and far beyond what nanoseconds of 64 bits reach, come back") {
+  const SampleRun sample;
+  const test::TemporaryFolder folder;
+  for (const double zero_s : {-1.5, 1.7e9, 1e11}) {
+    std::vector<FrameResult> frames = sample.drive(5, 12);
+    for (size_t k = 0; k < frames.size(); ++k) frames[k].world.time_s = zero_s + 0.1 * static_cast<double>(k);
+    const std::filesystem::path drive = folder.path() / std::to_string(zero_s);
+    write_outputs(drive, sample.run(), frames);
+    const SavedRun run(drive);
+    std::vector<std::string> warnings;
+    const ExportOptions options{.output = drive / "drive.osi", .last_row = run.frame_count() - 1};
+    export_osi(run, options, warnings);
+    const Trajectories back = read_trajectories(options.output);
+    CHECK(back.first_time_s >= zero_s);
+    CHECK(back.last_time_s <= zero_s + 1.1 + 1e-4);
+    CHECK(back.step_s == doctest::Approx(0.1));
+    for (const Track& track : back.tracks)
+      for (const Sample& s : track.samples) {
+        const double steps = (s.time_s - zero_s) / 0.1;
+        CHECK(std::abs(steps - std::round(steps)) < 1e-3);
+      }
+  }
+}
+
 TEST_CASE("a run without vehicles has no traffic to write") {
   SampleRun sample;
   sample.instances.clear();

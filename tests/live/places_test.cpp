@@ -258,6 +258,8 @@ TEST_CASE("between two poses: cars on their cubic, with the Doppler shifts of th
     REQUIRE(last.contains(key));
     CHECK(last.at(key).first == doctest::Approx(values.first).epsilon(1e-14));
   }
+  const auto beside = named(live.run_between(traffic, std::nextafter(10.1, 11)));  // a rounding after it
+  CHECK(beside.size() == same.size());
   CHECK(traffic.frames == before.frames);
   CHECK(traffic.time_s == before.time_s);
   for (const double outside : {9.999, 10.101, std::nan("")}) {

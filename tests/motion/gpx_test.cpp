@@ -66,14 +66,14 @@ TEST_CASE("what GPSBabel writes, a track without a name") {
 }
 
 TEST_CASE("times of XML Schema; seconds since 1970 as date -u -d ... +%s counts them") {
-  CHECK(utc_seconds("1970-01-01T00:00:00Z") == 0);
-  CHECK(utc_seconds("2026-11-24T10:00:00.25Z") == 1795514400.25);
-  CHECK(utc_seconds("2024-02-29T23:59:59+01:30") == 1709245799);
-  CHECK(utc_seconds("2024-02-29T23:59:59") == 1709251199);
+  CHECK(utc_time("1970-01-01T00:00:00Z") == UtcTime{0, 0});
+  CHECK(utc_time("2026-11-24T10:00:00.25Z") == UtcTime{1795514400, 0.25});
+  CHECK(utc_time("2024-02-29T23:59:59+01:30") == UtcTime{1709245799, 0});
+  CHECK(utc_time("2024-02-29T23:59:59") == UtcTime{1709251199, 0});
   for (const char* bad : {"", "2026-11-24", "2026-13-01T00:00:00Z", "2025-02-29T00:00:00Z", "2026-11-24T24:00:00Z",
                           "2026-11-24T10:00:00.Z", "2026-11-24T10:00:00 Z", "2026-11-24T10:00:00+1", "x"}) {
     CAPTURE(std::string(bad));
-    CHECK_FALSE(utc_seconds(bad));
+    CHECK_FALSE(utc_time(bad));
   }
 }
 

@@ -151,6 +151,22 @@ TEST_CASE("the series of a named link holds its paths, frame by frame") {
   CHECK(series.paths.size() == next);
 }
 
+TEST_CASE("the axis of times counts from the first one where labels could not tell times apart") {
+  const Written written(SampleRun().drive(0, 12));
+  const SavedRun run = written.run();
+  LinkSeries series = link_series(run, {}, {}, 6);
+  const auto commands_of = [&](double zero_s) {
+    for (auto& moments : series.moments)
+      for (size_t k = 0; k < moments.size(); ++k) moments[k].time_s = zero_s + 0.1 * static_cast<double>(k);
+    return gain_figure(run, series, {}).commands + delay_time_figure(run, series).commands;
+  };
+  check_contains(commands_of(0), "set xlabel 'time (s)'");
+  check_contains(commands_of(0), "using ($1 == 1 ? $5 : NaN):7");
+  check_contains(commands_of(1.7e9), "set xlabel 'time after 1700000000 s (s)'");
+  check_contains(commands_of(1.7e9), "using ($1 == 1 ? ($5 - 1700000000) : NaN):7");
+  check_contains(commands_of(1.7e9), "using (($1 - 1700000000)):(1e9 * $2):3 with image");
+}
+
 TEST_CASE("the table of the gain figure is the run's, with nothing where there is no path") {
   const Written written(SampleRun().drive(0, 12));
   const SavedRun run = written.run();

@@ -36,6 +36,15 @@ TEST_CASE("rays are launched when the interval has passed, to a rounding error, 
   CHECK(clock.due(world_at(2), false, last));  // time may go back
 }
 
+TEST_CASE("intervals hold for times since 1970, which doubles keep to a fraction of a microsecond") {
+  for (const double zero_s : {1.7e9, 1.7e9 + 0.3}) {
+    DiscoveryClock clock(0.1);
+    DiscoveryMark last;
+    for (int frame = 0; frame <= 1000; ++frame)
+      CHECK(clock.due(world_at(zero_s + frame * 0.01), frame == 0, last) == (frame % 10 == 0));
+  }
+}
+
 TEST_CASE("without an interval every frame launches rays") {
   DiscoveryClock clock(0);
   DiscoveryMark last;

@@ -54,6 +54,12 @@ class Chart {
 
 const tick_text = (value) => signed(String(+value.toPrecision(6)));
 
+// The time that the axis of times counts from: the first one, where the digits of ticks would not tell times apart.
+function axis_zero() {
+  const first = meta.frames[0][1] || 0, last = meta.frames[meta.frames.length - 1][1] || 0;
+  return Math.abs(first) > (last > first ? 1e4 * (last - first) : 1e9) ? Math.floor(first) : 0;
+}
+
 // Round numbers from low to high, `most` or so.
 function ticks(low, high, most) {
   const raw = (high - low) / most, power = 10 ** Math.floor(Math.log10(raw));
@@ -83,7 +89,7 @@ class Charts {
     this.gain = new Chart("gain_chart");
     this.series = {key: "", rows: [], gains: []};
     this.gain.canvas.addEventListener("click", (event) => {
-      const x = event.offsetX, time = (row) => meta.frames[row][1] || 0;
+      const x = event.offsetX, time = (row) => (meta.frames[row][1] || 0) - axis_zero();
       if (!this.series.gains.some(Number.isFinite)) return;
       const away = (row) => Math.abs(this.gain.x(time(row)) - x);
       jump(this.series.rows.reduce((best, row) => (away(row) < away(best) ? row : best)));
@@ -199,10 +205,11 @@ class Charts {
   draw_gain(frame, tx, rx) {
     const pen = this.gain.begin();
     if (!pen) return;
-    const {rows, gains} = this.gains(tx, rx), time = (row) => meta.frames[row][1] || 0;
+    const zero = axis_zero(), time = (row) => (meta.frames[row][1] || 0) - zero;
+    const {rows, gains} = this.gains(tx, rx);
     if (!gains.some(Number.isFinite)) return this.say(pen, this.gain, "no path in any frame");
     const {top, bottom} = this.gain.axes(pen, [time(0), Math.max(time(meta.frames.length - 1), time(0) + 1e-6)],
-                                         span_of(gains, 5), "time, s", "path gain, dB");
+                                         span_of(gains, 5), zero ? `time after ${zero} s, s` : "time, s", "path gain, dB");
     pen.strokeStyle = pen.fillStyle = theme().accent;
     pen.lineWidth = 1.5;
     pen.beginPath();
