@@ -8,49 +8,51 @@ namespace wavetracer::config {
 
 Table trajectories_table() {
   const auto t = [](auto member) { return at(&Config::trajectories, member); };
-  return {.name = "trajectories",
-          .doc =
-              "How vehicles move: from a file, generated, or by [[track]] tables. Without any of them there are no "
-              "vehicles.",
-          .fields = {
-              {.name = "file",
-               .slot = t(&TrajectoriesConfig::file),
-               .form = Form::input_file,
-               .doc = "Floating car data of SUMO (--fcd-output), a GPX track, or CSV with a header that names the "
-                      "columns time, id, x, y (or lat, lon in degrees) and optionally z, yaw, speed, type; plain or "
-                      "compressed with gzip. Positions in degrees need a georeference.json beside the scene file, and "
-                      "their heights are above the ground. docs/scenarios.md lists the other formats."},
-              {.name = "generate",
-               .slot = t(&TrajectoriesConfig::generate),
-               .doc = "Generated traffic instead of a file, in the streets of the city that scene.generate makes: "
-                      "--blocks, --block-m and --street-m must be the same in both.",
-               .example = "\"--seed 1 --blocks 4 --vehicles 10 --seconds 1 --step 0.1\""},
-              {.name = "offset_m",
-               .slot = t(&TrajectoriesConfig::offset_m),
-               .unit = "m",
-               .doc = "Scene file coordinates = scale * coordinates of trajectories.file + offset_m. SUMO moves its "
-                      "networks by a netOffset; its negative value here moves them back."},
-              {.name = "scale",
-               .slot = t(&TrajectoriesConfig::scale),
-               .range = {0, 1e6, true},
-               .doc = "Factor for the positions in trajectories.file only: SUMO's sizes and speeds are in metres."},
-              {.name = "above",
-               .slot = t(&TrajectoriesConfig::above),
-               .doc = "What z in trajectories.file is measured from. zero: the zero of the scene file. ground: the "
-                      "ground of the scene, so that vehicles of a flat network drive over hills; slopes in the file "
-                      "are then not used."},
-              {.name = "persons",
-               .slot = t(&TrajectoriesConfig::persons),
-               .doc = "Read the persons of the file too, as person:ID, with the body of a pedestrian."},
-              {.name = "containers",
-               .slot = t(&TrajectoriesConfig::containers),
-               .doc = "Read the containers of the file too, as container:ID."},
-              {.name = "default_type",
-               .slot = t(&TrajectoriesConfig::default_type),
-               .doc = "Vehicle type of vehicles whose own type is neither a [[vehicle_type]] nor a vehicle class of "
-                      "SUMO. If this is empty, such a vehicle is an error, because a guess of its size could be wrong "
-                      "without anybody noticing."},
-          }};
+  return {
+      .name = "trajectories",
+      .doc =
+          "How vehicles move: from a file, generated, or by [[track]] tables. Without any of them there are no "
+          "vehicles.",
+      .fields = {
+          {.name = "file",
+           .slot = t(&TrajectoriesConfig::file),
+           .form = Form::input_file,
+           .doc =
+               "Floating car data of SUMO (--fcd-output, XML or CSV), a GPX track, or CSV with a header that names the "
+               "columns time, id, x, y (or lat, lon in degrees) and optionally z, yaw, speed, type; plain or "
+               "compressed with gzip. Positions in degrees need a georeference.json beside the scene file, and "
+               "their heights are above the ground. docs/scenarios.md lists the other formats."},
+          {.name = "generate",
+           .slot = t(&TrajectoriesConfig::generate),
+           .doc = "Generated traffic instead of a file, in the streets of the city that scene.generate makes: "
+                  "--blocks, --block-m and --street-m must be the same in both.",
+           .example = "\"--seed 1 --blocks 4 --vehicles 10 --seconds 1 --step 0.1\""},
+          {.name = "offset_m",
+           .slot = t(&TrajectoriesConfig::offset_m),
+           .unit = "m",
+           .doc = "Scene file coordinates = scale * coordinates of trajectories.file + offset_m. SUMO moves its "
+                  "networks by a netOffset; its negative value here moves them back."},
+          {.name = "scale",
+           .slot = t(&TrajectoriesConfig::scale),
+           .range = {0, 1e6, true},
+           .doc = "Factor for the positions in trajectories.file only: SUMO's sizes and speeds are in metres."},
+          {.name = "above",
+           .slot = t(&TrajectoriesConfig::above),
+           .doc = "What z in trajectories.file is measured from. zero: the zero of the scene file. ground: the "
+                  "ground of the scene, so that vehicles of a flat network drive over hills; slopes in the file "
+                  "are then not used."},
+          {.name = "persons",
+           .slot = t(&TrajectoriesConfig::persons),
+           .doc = "Read the persons of the file too, as person:ID, with the body of a pedestrian."},
+          {.name = "containers",
+           .slot = t(&TrajectoriesConfig::containers),
+           .doc = "Read the containers of the file too, as container:ID."},
+          {.name = "default_type",
+           .slot = t(&TrajectoriesConfig::default_type),
+           .doc = "Vehicle type of vehicles whose own type is neither a [[vehicle_type]] nor a vehicle class of "
+                  "SUMO. If this is empty, such a vehicle is an error, because a guess of its size could be wrong "
+                  "without anybody noticing."},
+      }};
 }
 
 Table time_table() {

@@ -11,8 +11,8 @@ namespace wavetracer {
 
 bool CsvRows::next() {
   while (lines_.next()) {
-    text_ = trimmed(lines_.line());
-    if (text_.empty() || text_.front() == '#') continue;
+    text_ = separator_ == '\t' ? lines_.line() : trimmed(lines_.line());  // cells at the ends may be empty
+    if (trimmed(text_).empty() || text_.front() == '#') continue;
     split(text_);
     return true;
   }
@@ -29,14 +29,14 @@ void CsvRows::split(std::string_view line) {
     if (start < line.size() && line[start] == '"') {
       at = quoted(line, start + 1, cell);
     } else {
-      const size_t end = std::min(line.find(',', at), line.size());
+      const size_t end = std::min(line.find(separator_, at), line.size());
       cell = trimmed(line.substr(at, end - at));
       at = end;
     }
   } while (at++ < line.size());
 }
 
-// A quoted cell whose text begins at `at`; returns the place of the comma after it, or the end of the line.
+// A quoted cell whose text begins at `at`; returns the place of the separator after it, or the end of the line.
 size_t CsvRows::quoted(std::string_view line, size_t at, std::string& cell) const {
   for (;; ++at) {
     const size_t quote = line.find('"', at);
@@ -47,7 +47,8 @@ size_t CsvRows::quoted(std::string_view line, size_t at, std::string& cell) cons
     cell += '"';  // "" is a quote inside of quotes
   }
   const size_t end = std::min(line.find_first_not_of(" \t", at), line.size());
-  if (end < line.size() && line[end] != ',') fail(fmt::format("column {}: text after the quotes", cells_.size()));
+  if (end < line.size() && line[end] != separator_)
+    fail(fmt::format("column {}: text after the quotes", cells_.size()));
   return end;
 }
 

@@ -1,4 +1,4 @@
-// Comma-separated values row by row; blank lines and comments are passed over.
+// Values separated by commas, or by another character, row by row; blank lines and comments are passed over.
 // Assumes RFC 4180 without line breaks in quotes.
 #pragma once
 #include <string>
@@ -11,7 +11,7 @@ namespace wavetracer {
 
 class CsvRows {
  public:
-  explicit CsvRows(ByteStream& stream) : lines_(stream) {}
+  explicit CsvRows(ByteStream& stream, char separator = ',') : lines_(stream), separator_(separator) {}
 
   // The next row; false at the end of the file.
   bool next();
@@ -28,6 +28,7 @@ class CsvRows {
   size_t quoted(std::string_view line, size_t at, std::string& cell) const;
 
   TextLines lines_;
+  char separator_;
   std::string text_;
   std::vector<std::string> cells_;
 };

@@ -48,6 +48,7 @@ Trajectories read_trajectories(const std::filesystem::path& path, const Trajecto
   if (is_esmini_log(text)) return read_esmini_log(stream, options);
   if (is_carla_recording(text)) return read_carla(stream, options);
   if (is_esmini_recording(text)) return read_esmini_recording(stream, options);
+  if (is_fcd_csv(text)) return read_fcd_csv(stream, options);
   return read_csv(stream, options);
 }
 

@@ -43,7 +43,9 @@ struct TrajectoryOptions {
 //
 // FCD, as SUMO writes it with --fcd-output: time, id, x, y are needed; angle, speed, z, slope and type are used where
 // they are, other attributes are not. angle is in degrees clockwise from north; (x, y, z) is the centre of the front
-// bumper, from which the centre of the vehicle follows by its length.
+// bumper, from which the centre of the vehicle follows by its length. Coordinates may be degrees (--fcd-output.geo); z
+// is then above the ground where the file has none. The same as CSV, as SUMO and its xml2csv.py write it, with columns
+// such as timestep_time, vehicle_id and person_x, is read as well.
 //
 // CSV: a header names the columns, in any order: time (s), id, x, y (m) are needed; z (m), yaw (degrees
 // counter-clockwise from +x), speed (m/s) and type are optional, also cell by cell. (x, y, z) is the centre of the

@@ -96,8 +96,9 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line, const st
   return index;
 }
 
-void TrackBuilder::in_degrees() {
+void TrackBuilder::in_degrees(bool above_ground) {
   degrees_ = true;
+  above_ground_ = above_ground;
   if (!options_.from_degrees)
     throw InputError(
         fmt::format("{}: positions are latitude and longitude, which need a georeference.json beside the scene file "
@@ -113,7 +114,7 @@ void TrackBuilder::in_degrees() {
 // File coordinates to those of the scene; heights above the ground to z. A place without a ground below has the one of
 // the sample before.
 void TrackBuilder::place(Track& track) {
-  const bool on_ground = (degrees_ || options_.above_ground) && options_.ground;
+  const bool on_ground = (above_ground_ || options_.above_ground) && options_.ground;
   double ground_m = 0;
   for (Sample& s : track.samples) {
     if (degrees_)

@@ -36,9 +36,9 @@ class TrackBuilder {
     off_network_ += off;
     return off;
   }
-  // Positions are (longitude, latitude) in degrees and the height above the ground. Throws where the options have
-  // nothing to place them with.
-  void in_degrees();
+  // Positions are (longitude, latitude) in degrees and the height, which is above the ground unless the file has
+  // heights of its own. Throws where the options have nothing to place them with.
+  void in_degrees(bool above_ground = true);
   void warn(std::string message) { out_.warnings.push_back(std::move(message)); }
   // The samples so far, by first appearance in the file, in file coordinates.
   const std::vector<Track>& tracks() const { return out_.tracks; }
@@ -64,7 +64,7 @@ class TrackBuilder {
   ByName<uint32_t> track_of_, type_of_;
   std::vector<std::string> unknown_types_;
   uint64_t changed_types_ = 0, off_network_ = 0, off_ground_ = 0;
-  bool degrees_ = false;
+  bool degrees_ = false, above_ground_ = false;
 };
 
 }  // namespace wavetracer
