@@ -148,7 +148,9 @@ void import_map(const ConvertOptions& options) {
   if (!options.traffic.empty()) map.traffic = extent_of_traffic(options);
   Progress progress;
   map.at = [&progress](uint64_t done, uint64_t total) { progress.bar("writing", done, total, "meshes"); };
+  std::optional<RemoveOnInterrupt> guard(map.output / "meshes");
   const ImportSummary summary = import_city(options.input, map);
+  guard.reset();
   progress.end();
   for (const std::string& warning : summary.warnings) std::cerr << "warning: " << warning << "\n";
   std::cout << describe(summary);

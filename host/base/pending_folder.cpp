@@ -25,9 +25,10 @@ fs::path without_slash(const fs::path& path) { return path.has_filename() ? path
 
 }  // namespace
 
-PendingFolder::PendingFolder(fs::path path) : path_(without_slash(path)) {
+PendingFolder::PendingFolder(fs::path path, Earlier earlier) : path_(without_slash(path)) {
   std::error_code error;
-  if (fs::exists(path_, error) && !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
+  const bool may_be_full = earlier == Earlier::kept;
+  if (fs::exists(path_, error) && !(fs::is_directory(path_, error) && (may_be_full || fs::is_empty(path_, error))))
     throw InputError(fmt::format("{}: exists already; remove it or choose another folder with -o", path_.string()));
   fs::path temporary = path_;
   temporary += fmt::format(".{}.tmp", ::getpid());
@@ -54,18 +55,30 @@ void PendingFolder::append(const fs::path& name, std::span<const std::byte> byte
   if (!out) fail(path_ / name, errno != 0 ? errno : EIO);
 }
 
+void PendingFolder::move_into_place() {
+  const auto hold = hold_pending();
+  std::error_code error;
+  if (!fs::exists(path_, error) || fs::is_empty(path_, error)) {
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
+  } else {
+    for (const fs::directory_entry& file : fs::directory_iterator(temporary_)) {
+      const fs::path place = path_ / file.path().filename();
+      if (std::rename(file.path().c_str(), place.c_str()) != 0) fail(place, errno);
+    }
+    sync_folder(path_);
+    fs::remove(temporary_, error);
+  }
+  temporary_.clear();
+  ++final_names();
+}
+
 fs::path PendingFolder::commit() {
   const int descriptor = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) fail(path_, errno);
   const int error = ::syncfs(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   if (error != 0) fail(path_, error);
-  {
-    const auto hold = hold_pending();
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
-    temporary_.clear();
-    ++final_names();
-  }
+  move_into_place();
   sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
   return path_;
 }

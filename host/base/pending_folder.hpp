@@ -1,5 +1,7 @@
-// A folder of files that appears whole or not at all: filled beside its place, synced, then renamed.
-// Never replaces a folder with something in it: what an earlier export left there would be read as part of this one.
+// A folder of files that appears whole or not at all: filled beside its place, synced, then renamed. However many files
+// there are, the disk is waited for once.
+// Unless it is asked to, it never touches a folder with something in it: what an earlier export left there would be
+// read as part of this one.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -10,8 +12,12 @@ namespace wavetracer {
 
 class PendingFolder {
  public:
-  // Throws InputError where the path is there already and no empty folder, RuntimeError where it cannot be made.
-  explicit PendingFolder(std::filesystem::path path);
+  enum class Earlier { refused, kept };  // files that are in the folder already
+
+  // Throws InputError where the path is there already and no empty folder, RuntimeError where it cannot be made. With
+  // Earlier::kept the files join those of the folder, or replace them, one by one once all are on the disk; names are
+  // then without folders.
+  explicit PendingFolder(std::filesystem::path path, Earlier earlier = Earlier::refused);
   ~PendingFolder();
   PendingFolder(const PendingFolder&) = delete;
   PendingFolder& operator=(const PendingFolder&) = delete;
@@ -26,6 +32,8 @@ class PendingFolder {
   std::filesystem::path commit();
 
  private:
+  void move_into_place();
+
   std::filesystem::path path_, temporary_;  // temporary_ is empty once committed
 };
 

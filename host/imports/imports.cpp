@@ -117,25 +117,12 @@ void add_counts(ImportSummary& summary, const imports::Plan& plan) {
   summary.guessed = plan.guessed;
 }
 
-void write_reference(const std::filesystem::path& folder, const Georeference& georeference) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw RuntimeError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
-  const std::filesystem::path file = folder / "georeference.json";
-  if (georeference.projection.empty()) {
-    std::filesystem::remove(file, error);  // of an earlier import
-  } else {
-    write_georeference(file, georeference);
-  }
-}
-
 // Writes the files of a scene; what they are goes to the summary.
 ImportSummary write_city(const std::vector<imports::SceneMesh>& meshes, const Georeference& georeference,
                          ImportSummary summary, const ImportOptions& options) {
   for (const imports::SceneMesh& mesh : meshes) summary.triangles += mesh.triangles.size();
   summary.attribution = georeference.attribution;
-  write_reference(options.output, georeference);
-  imports::write_scene(meshes, options, georeference.attribution);
+  imports::write_scene(meshes, georeference, options);
   summary.scene = options.output / "city.xml";
   summary.net = options.net;
   return summary;
@@ -156,6 +143,7 @@ ImportSummary import_map(const imports::Map& map, const std::string& name, const
   georeference.offset_m += plan.offset_m;
   ImportSummary summary;
   summary.warnings = map.warnings;
+  summary.warnings.insert(summary.warnings.end(), plan.warnings.begin(), plan.warnings.end());
   summary.ground = imports::ground_extent(plan, options);
   std::optional<imports::Terrain> terrain;
   if (!options.terrain.empty() && !plan.solids.empty()) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/file.hpp"
+#include "base/pending_folder.hpp"
 #include "scene/ply.hpp"
 #include "wavetracer/error.hpp"
 
@@ -67,6 +68,17 @@ void append(pugi::xml_node parent, const char* tag, const char* name, const std:
   pugi::xml_node node = parent.append_child(tag);
   node.append_attribute("name") = name;
   node.append_attribute("value") = value.c_str();
+}
+
+// Of an earlier import it goes.
+void write_reference(const std::filesystem::path& folder, const Georeference& georeference) {
+  const std::filesystem::path file = folder / "georeference.json";
+  std::error_code error;
+  if (georeference.projection.empty()) {
+    std::filesystem::remove(file, error);
+  } else {
+    write_georeference(file, georeference);
+  }
 }
 
 }  // namespace
@@ -136,17 +148,15 @@ std::vector<SceneMesh> build_scene(const Plan& plan, const Terrain* terrain, con
   return out;
 }
 
-void write_scene(const std::vector<SceneMesh>& meshes, const ImportOptions& options, const std::string& attribution) {
+void write_scene(const std::vector<SceneMesh>& meshes, const Georeference& georeference, const ImportOptions& options) {
   const std::filesystem::path& folder = options.output;
   std::error_code error;
-  std::filesystem::create_directories(folder / "meshes", error);
-  if (error) {
-    throw RuntimeError(fmt::format("{}: cannot be created: {}", (folder / "meshes").string(), error.message()));
-  }
+  std::filesystem::create_directories(folder, error);
+  if (error) throw RuntimeError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+  PendingFolder files(folder / "meshes", PendingFolder::Earlier::kept);
   pugi::xml_document document;
-  if (!attribution.empty()) {
+  if (const std::string& attribution = georeference.attribution; !attribution.empty())
     document.append_child(pugi::node_comment).set_value((" Map data: " + attribution + " ").c_str());
-  }
   pugi::xml_node scene = document.append_child("scene");
   scene.append_attribute("version") = "2.1.0";
   std::set<std::string> materials;
@@ -161,17 +171,19 @@ void write_scene(const std::vector<SceneMesh>& meshes, const ImportOptions& opti
   uint64_t written = 0;
   for (const SceneMesh& mesh : meshes) {
     if (options.at) options.at(written++, meshes.size());
-    const std::string file = "meshes/" + mesh.file + ".ply";
-    write_file(folder / file, format_ply(mesh.vertices, mesh.triangles));
+    const std::string file = mesh.file + ".ply";
+    files.append(file, format_ply(mesh.vertices, mesh.triangles));
     pugi::xml_node shape = scene.append_child("shape");
     shape.append_attribute("type") = "ply";
     shape.append_attribute("id") = ("mesh-" + mesh.name).c_str();
-    append(shape, "string", "filename", file);
+    append(shape, "string", "filename", "meshes/" + file);
     append(shape, "boolean", "face_normals", "true");
     pugi::xml_node reference = shape.append_child("ref");
     reference.append_attribute("id") = ("mat-itu_" + mesh.material).c_str();
     reference.append_attribute("name") = "bsdf";
   }
+  files.commit();
+  write_reference(folder, georeference);
   std::ostringstream text;
   document.save(text, "  ");
   write_file(folder / "city.xml", text.str());

@@ -5,6 +5,7 @@
 
 #include "imports/plan.hpp"
 #include "imports/terrain.hpp"
+#include "scene/georeference.hpp"
 #include "scene/raw_scene.hpp"
 
 namespace wavetracer::imports {
@@ -34,7 +35,8 @@ std::vector<SceneMesh> build_ground(const Extent& extent, const Terrain* terrain
 // The ground first, if it is asked for, then all solids. Names of meshes are unique.
 std::vector<SceneMesh> build_scene(const Plan& plan, const Terrain* terrain, const ImportOptions& options);
 
-// meshes/*.ply in the folder options.output, then city.xml, which names `attribution`. Throws RuntimeError.
-void write_scene(const std::vector<SceneMesh>& meshes, const ImportOptions& options, const std::string& attribution);
+// meshes/*.ply in the folder options.output, all at once, then georeference.json, and city.xml last, which names the
+// attribution. Throws RuntimeError.
+void write_scene(const std::vector<SceneMesh>& meshes, const Georeference& georeference, const ImportOptions& options);
 
 }  // namespace wavetracer::imports

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/file.hpp"
+#include "base/pending_folder.hpp"
 #include "scene/city_building.hpp"
 #include "scene/ply.hpp"
 #include "wavetracer/error.hpp"
@@ -218,9 +219,9 @@ RawScene generate_city(const CityOptions& options) { return CityBuilder(options)
 void write_city(const CityOptions& options, const std::filesystem::path& folder) {
   const RawScene city = generate_city(options);
   std::error_code error;
-  std::filesystem::create_directories(folder / "meshes", error);
-  if (error)
-    throw RuntimeError(fmt::format("{}: cannot be created: {}", (folder / "meshes").string(), error.message()));
+  std::filesystem::create_directories(folder, error);
+  if (error) throw RuntimeError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+  PendingFolder files(folder / "meshes", PendingFolder::Earlier::kept);
   std::string xml = "<scene version=\"2.1.0\">\n";
   for (const RawMaterial& m : city.materials) {
     xml += fmt::format(
@@ -229,13 +230,14 @@ void write_city(const CityOptions& options, const std::filesystem::path& folder)
         m.name);
   }
   for (const RawMesh& mesh : city.meshes) {
-    write_file(folder / "meshes" / (mesh.name + ".ply"), format_ply(mesh.vertices, mesh.triangles));
+    files.append(mesh.name + ".ply", format_ply(mesh.vertices, mesh.triangles));
     xml += fmt::format(
         "  <shape type=\"ply\" id=\"mesh-{0}\">\n    <string name=\"filename\" value=\"meshes/{0}.ply\"/>\n"
         "    <boolean name=\"face_normals\" value=\"true\"/>\n    <ref id=\"mat-itu_{1}\" name=\"bsdf\"/>\n"
         "  </shape>\n",
         mesh.name, city.materials[mesh.material].name);
   }
+  files.commit();
   write_file(folder / "city.xml", xml + "</scene>\n");
 }
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include "base/pending_folder.hpp"
 #include "convert/unicode.hpp"
 #include "output/sample_run.hpp"
@@ -68,6 +69,27 @@ TEST_CASE("every format writes a run with two ports, a run without paths, and on
   }
 }
 
+TEST_CASE("times since 1970: steps are even but for rounding, and dates are those of the clock") {
+  const SampleRun sample;
+  const test::TemporaryFolder folder;
+  std::vector<FrameResult> frames = sample.drive(0, 5);
+  for (size_t k = 0; k < frames.size(); ++k) frames[k].world.time_s = 1.7e9 + 0.1 * static_cast<double>(k);
+  const SavedRun run(write_run(folder.path() / "run", sample, frames));
+  std::vector<std::string> warnings;
+  exporter("ns3").write(run, {folder.path() / "ns3", 0, 4, ""}, warnings);
+  CHECK_FALSE(mentions(warnings, "steps are of equal length"));
+  const auto text_of = [](const fs::path& file) {
+    std::ostringstream out;
+    out << std::ifstream(file).rdbuf();
+    return out.str();
+  };
+  CHECK(text_of(folder.path() / "ns3/Input/paraCfgCurrent.txt").find("totalTimeDuration\t0.5\n") != std::string::npos);
+  ExportOptions kml{folder.path() / "run.kml", 0, 4, "+proj=tmerc +lat_0=48.14 +lon_0=11.57 +ellps=WGS84 +units=m"};
+  exporter("kml").write(run, kml, warnings);
+  CHECK(text_of(kml.output).find("<begin>2023-11-14T22:13:20.400Z</begin><end>2023-11-14T22:13:20.500Z</end>") !=
+        std::string::npos);
+}
+
 TEST_CASE("padded arrays beyond some gigabytes are refused before they are made") {
   SampleRun sample;
   sample.config.transmitters.resize(8000);
@@ -100,6 +122,28 @@ TEST_CASE("a folder appears whole or not at all, and replaces nothing") {
   CHECK(fs::file_size(folder.path() / "new/a/b.txt") == 2);
   CHECK_THROWS_WITH_AS(PendingFolder(folder.path() / "new"), doctest::Contains("exists already"), InputError);
   fs::create_directory(folder.path() / "void");
+  // Files may join those of a folder, once all are on the disk; a name that is there already is replaced.
+  {
+    PendingFolder pending(folder.path() / "new", PendingFolder::Earlier::kept);
+    pending.append("more.txt", "more");
+    pending.append("file.txt", "again");
+    CHECK_FALSE(fs::exists(folder.path() / "new/more.txt"));
+  }
+  CHECK_FALSE(fs::exists(folder.path() / "new/more.txt"));
+  {
+    PendingFolder pending(folder.path() / "new", PendingFolder::Earlier::kept);
+    pending.append("more.txt", "more");
+    pending.commit();
+  }
+  CHECK(fs::file_size(folder.path() / "new/more.txt") == 4);
+  {
+    PendingFolder pending(folder.path() / "new", PendingFolder::Earlier::kept);
+    pending.append("more.txt", "longer");
+    pending.commit();
+  }
+  CHECK(fs::file_size(folder.path() / "new/more.txt") == 6);
+  CHECK(fs::file_size(folder.path() / "new/a/b.txt") == 2);
+  for (const auto& entry : fs::directory_iterator(folder.path())) CHECK_FALSE(entry.path().string().ends_with(".tmp"));
   PendingFolder(folder.path() / "void").commit();
   CHECK_THROWS_AS(PendingFolder(folder.path() / "no/parent"), RuntimeError);
 }
