@@ -2,16 +2,20 @@
 // Assumes heights of up to 1000 m and 300 levels: more is a slip of the pen.
 #include "imports/building_tags.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <utility>
 
 #include "imports/vegetation_tags.hpp"
 
 namespace wavetracer::imports {
 namespace {
 
-constexpr double highest_m = 1000, most_levels = 300;
+constexpr double least_m = 1e-3, highest_m = 1000, most_levels = 300;
 constexpr double foot_m = 0.3048, inch_m = 0.0254;
 
 void skip_blanks(std::string_view& text) {
@@ -37,10 +41,54 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
+// Levels may be below the ground, as building:min_level says.
 std::optional<double> parse_levels(std::string_view text) {
   skip_blanks(text);
   const auto value = take_number(text);
-  return value && text.empty() && *value >= 0 && *value <= most_levels ? value : std::nullopt;
+  return value && text.empty() && std::abs(*value) <= most_levels ? value : std::nullopt;
+}
+
+struct Unit {
+  std::string_view name;
+  double metres;
+};
+constexpr auto units = std::to_array<Unit>({{"m", 1},
+                                            {"metre", 1},
+                                            {"metres", 1},
+                                            {"meter", 1},
+                                            {"meters", 1},
+                                            {"mtr", 1},
+                                            {"cm", 0.01},
+                                            {"'", foot_m},
+                                            {"ft", foot_m},
+                                            {"foot", foot_m},
+                                            {"feet", foot_m},
+                                            {"\"", inch_m},
+                                            {"in", inch_m},
+                                            {"inch", inch_m},
+                                            {"inches", inch_m}});
+
+// Takes a unit from the front of the text: letters, or one sign of feet or inches. 0: there is none.
+double take_unit(std::string_view& text) {
+  size_t end = 0;
+  while (end < text.size() && text[end] >= 'a' && text[end] <= 'z') ++end;
+  if (end == 0 && !text.empty()) end = 1;
+  const auto* const found = std::ranges::find(units, text.substr(0, end), &Unit::name);
+  if (found == units.end()) return 0;
+  text.remove_prefix(end);
+  skip_blanks(text);
+  return found->metres;
+}
+
+// Small letters, and the signs of feet and inches as they are on every keyboard.
+std::string plain(std::string_view text) {
+  std::string out(text);
+  for (const auto& [from, to] :
+       {std::pair<std::string_view, const char*>{"\u2032", "'"}, {"\u2019", "'"}, {"\u2033", "\""}, {"\u201D", "\""}})
+    for (size_t at = out.find(from); at != out.npos; at = out.find(from, at)) out.replace(at, from.size(), to);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
 }
 
 struct Entry {
@@ -122,20 +170,17 @@ bool says_yes(const Tags& tags, std::string_view key) {
   return !value.empty() && value != "no";
 }
 
-std::optional<double> parse_length_m(std::string_view text) {
+std::optional<double> parse_length_m(std::string_view given) {
+  const std::string lower = plain(given);
+  std::string_view text = lower;
   skip_blanks(text);
   const auto value = take_number(text);
-  if (!value) return {};
-  if (text.empty() || text == "m" || text == "metres" || text == "meters" || text == "metre" || text == "meter") {
-    return value;
-  }
-  if (text == "ft" || text == "feet" || text == "foot") return *value * foot_m;
-  if (text.front() != '\'') return {};
-  text.remove_prefix(1);
-  skip_blanks(text);
-  if (text.empty()) return *value * foot_m;
+  if (!value || text.empty()) return value;
+  const double unit_m = take_unit(text);
+  if (unit_m == 0) return {};
+  if (text.empty()) return *value * unit_m;
   const auto inches = take_number(text);
-  if (!inches || text != "\"") return {};
+  if (unit_m != foot_m || !inches || take_unit(text) != inch_m || !text.empty()) return {};
   return *value * foot_m + *inches * inch_m;
 }
 
@@ -144,35 +189,85 @@ std::string_view itu_material(std::string_view value) {
   return found == materials.end() ? std::string_view{} : found->itu;
 }
 
+std::optional<double> tagged_value(const Tags& tags, const TaggedValue& what,
+                                   std::map<std::string, uint64_t>& guessed) {
+  for (const std::string_view key : what.keys) {
+    std::string_view text = tag(tags, key);
+    if (text.empty()) continue;
+    std::optional<double> largest;
+    size_t count = 0;
+    for (; !text.empty(); ++count) {
+      const size_t end = std::min(text.find(';'), text.size());
+      const auto value = what.parse(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+      largest = value && *value >= what.least && *value <= what.most ? std::max(largest.value_or(*value), *value)
+                                                                     : std::optional<double>();
+      if (!largest) break;
+    }
+    if (largest && count > 1) ++guessed[fmt::format("several values of {}: the largest is used", what.name)];
+    if (largest) return largest;
+    ++guessed[fmt::format("{} that cannot be read", what.name)];
+  }
+  return {};
+}
+
+namespace {
+
+// Where the whole building is below the ground; empty where it is not.
+std::string_view below_ground(const Tags& tags) {
+  const std::string_view location = tag(tags, "location");
+  if (location == "underground") return "underground";
+  const auto levels = [&](std::string_view key) { return parse_levels(tag(tags, key)); };
+  if (location.empty() && levels("layer").value_or(0) < 0) return "underground: its layer is below 0";
+  const bool none_above = levels("building:levels") == 0.0 && tag(tags, "height").empty() &&
+                          levels("roof:levels").value_or(0) == 0 && tag(tags, "roof:height").empty();
+  if (none_above && (levels("building:levels:underground").value_or(0) > 0 || levels("building:min_level") < 0.0))
+    return "underground: all of its levels are";
+  return {};
+}
+
+// The height of the roof's ridge, from the tags alone.
+double top_of(const Tags& tags, const ImportOptions& options, std::map<std::string, uint64_t>& guessed) {
+  const auto height = tagged_value(
+      tags, {"height", {"height", "building:height", "est_height"}, parse_length_m, least_m, highest_m}, guessed);
+  if (height) return *height;
+  const auto levels = tagged_value(tags, {"levels", {"building:levels"}, parse_levels, 0, most_levels}, guessed);
+  const auto roof = tagged_value(tags, {"roof:height", {"roof:height"}, parse_length_m, 0, highest_m}, guessed);
+  const auto roof_levels = tagged_value(tags, {"roof:levels", {"roof:levels"}, parse_levels, 0, most_levels}, guessed);
+  if (levels) {
+    const double top_m =
+        *levels * options.level_height_m + roof.value_or(roof_levels.value_or(0) * options.level_height_m);
+    if (top_m > 0) return top_m;
+  }
+  const bool given = !tag(tags, "height").empty() || !tag(tags, "building:levels").empty();
+  ++guessed[given ? "neither height nor levels that can be used: default height used"
+                  : "neither height nor levels given: default height used"];
+  return options.default_height_m;
+}
+
+double bottom_of(const Tags& tags, const ImportOptions& options, std::map<std::string, uint64_t>& guessed) {
+  const auto height = tagged_value(
+      tags, {"min_height", {"min_height", "building:min_height"}, parse_length_m, -highest_m, highest_m}, guessed);
+  const auto level = tagged_value(
+      tags, {"building:min_level", {"building:min_level"}, parse_levels, -most_levels, most_levels}, guessed);
+  return std::max(0.0, height.value_or(level.value_or(0) * options.level_height_m));
+}
+
+}  // namespace
+
 std::optional<Shape> building_shape(const Tags& tags, const ImportOptions& options,
                                     std::map<std::string, uint64_t>& guessed,
                                     std::map<std::string, uint64_t>& left_out) {
   if (says_yes(tags, "vegetation")) return vegetation_shape(tags, guessed);
-  if (tag(tags, "location") == "underground") {
-    ++left_out["underground"];
+  if (const std::string_view below = below_ground(tags); !below.empty()) {
+    ++left_out[std::string(below)];
     return {};
   }
   if (tag(tags, "building") == "roof" || tag(tags, "building:part") == "roof") {
     ++left_out["roof on posts"];
     return {};
   }
-  Shape shape;
-  const auto levels = parse_levels(tag(tags, "building:levels"));
-  const std::string_view height_text = tag(tags, "height");
-  const auto height = parse_length_m(height_text);
-  const bool height_is_good = height && *height > 0 && *height <= highest_m;
-  if (!height_text.empty() && !height_is_good) ++guessed["height that cannot be read"];
-  if (height_is_good) {
-    shape.top_m = *height;
-  } else if (levels && *levels > 0) {
-    shape.top_m = (*levels + parse_levels(tag(tags, "roof:levels")).value_or(0)) * options.level_height_m;
-  } else {
-    shape.top_m = options.default_height_m;
-    ++guessed["neither height nor levels given: default height used"];
-  }
-  const auto min_height = parse_length_m(tag(tags, "min_height"));
-  const auto min_level = parse_levels(tag(tags, "building:min_level"));
-  shape.bottom_m = std::max(0.0, min_height.value_or(min_level.value_or(0) * options.level_height_m));
+  Shape shape{bottom_of(tags, options, guessed), top_of(tags, options, guessed), {}, {}};
   if (shape.bottom_m >= shape.top_m) {
     ++left_out["min_height is above the height"];
     return {};

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "imports/imports.hpp"
 
@@ -18,8 +19,19 @@ std::string_view tag(const Tags& tags, std::string_view key);
 // Whether a tag of this kind says that there is something: it is there, and not "no".
 bool says_yes(const Tags& tags, std::string_view key);
 
-// "12", "12.5 m", "12,5m", "40 ft", "40'", "5'6\"" in metres; empty for anything else.
+// "12", "12.5 m", "12,5m", "1250 cm", "40 ft", "40'", "5'6\"", "5 ft 6 in" in metres; empty for anything else.
 std::optional<double> parse_length_m(std::string_view text);
+
+// A number that a tag says.
+struct TaggedValue {
+  std::string_view name;               // in the report
+  std::vector<std::string_view> keys;  // the first that can be read counts
+  std::optional<double> (*parse)(std::string_view);
+  double least, most;  // what is beyond cannot be read
+};
+// Of several values, "2;3", as of a house whose wings differ, the largest. Empty where there is none; what cannot be
+// read, and what has several values, is counted.
+std::optional<double> tagged_value(const Tags& tags, const TaggedValue& what, std::map<std::string, uint64_t>& guessed);
 
 // The ITU material of a value of building:material or roof:material, such as "brick" of "roof_tiles"; empty: unknown.
 std::string_view itu_material(std::string_view value);

@@ -80,17 +80,32 @@ double lod_limit(const std::string& lod) {
   return short_form ? whole + 1 : whole + (lod[2] - '0') / 10.0 + 0.05;
 }
 
+// A building and its parts are one body, so they have one level of detail: what is there at the highest level of an
+// object and its parts is built. Parts beside each other may differ, since they have no volume in common.
 void choose_levels(CityModel& model) {
-  std::vector<double> of_parts(model.objects.size(), 0);  // the highest level of the parts of each
-  for (size_t i = model.objects.size(); i-- > 0;) {
-    ModelObject& object = model.objects[i];
-    const double own = object.faces.empty() ? 0 : object.faces.rbegin()->first;
+  std::vector<ModelObject>& objects = model.objects;
+  const auto own_level = [](const ModelObject& object) {
+    return object.faces.empty() ? 0 : object.faces.rbegin()->first;
+  };
+  std::vector<double> of_parts(objects.size(), 0);  // the highest level of the parts of each
+  for (size_t i = objects.size(); i-- > 0;) {
+    const ModelObject& object = objects[i];
     if (object.parent != no_parent && object.part)
-      of_parts[object.parent] = std::max({of_parts[object.parent], own, of_parts[i]});
+      of_parts[object.parent] = std::max({of_parts[object.parent], own_level(object), of_parts[i]});
+  }
+  std::vector<double> around(objects.size(), 0);  // the level of the building that an object is a part of
+  for (size_t i = 0; i < objects.size(); ++i) {
+    ModelObject& object = objects[i];
+    const double own = own_level(object);
+    if (object.parent != no_parent && object.part) around[i] = around[object.parent];
     if (own > 0 && own < of_parts[i]) {
       object.faces.clear();
       ++model.left_out["building whose parts are built in more detail instead"];
+    } else if (own > 0 && own < around[i]) {
+      object.faces.clear();
+      ++model.left_out["part of a building that is built in more detail instead"];
     }
+    if (!object.faces.empty()) around[i] = std::max(around[i], own);
     while (object.faces.size() > 1) object.faces.erase(object.faces.begin());
   }
 }

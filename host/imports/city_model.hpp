@@ -54,7 +54,8 @@ std::optional<Role> role_of(std::string_view type, CityModel& model);
 // The level of detail below which geometry is asked for: "2" asks for everything below 3, "1.2" for 1.2 and less.
 // Throws ConfigError.
 double lod_limit(const std::string& lod);
-// Keeps one level of each object, the highest, and nothing of a building whose parts are there in more detail.
+// Keeps one level of each object, the highest; nothing of a building whose parts are there in more detail, and nothing
+// of parts that are there in less detail than the building around them.
 void choose_levels(CityModel& model);
 // Text of a file as a message may show it.
 std::string printable(std::string_view text);

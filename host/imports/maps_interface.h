@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { WT_MAPS_VERSION = 1, WT_MAPS_ERROR_SIZE = 2048 };
+enum { WT_MAPS_VERSION = 2, WT_MAPS_ERROR_SIZE = 2048 };
 
 /* A polygon of a feature. */
 struct wt_maps_polygon {
@@ -25,7 +25,7 @@ struct wt_maps_polygon {
 
 struct wt_maps_query {
   const char* layer;         /* NULL: all layers */
-  const char* const* fields; /* names, compared without regard to case */
+  const char* const* fields; /* names; where a layer has no field of exactly that name, case is ignored */
   size_t field_count;
   size_t most_points; /* of a polygon; larger ones are counted, not handed over */
 };
@@ -38,6 +38,7 @@ struct wt_maps_layers {
   char driver[64];      /* the format, as GDAL calls it */
   char fields[1024];    /* all fields of the layers, separated by ", " */
   uint32_t found;       /* bit i: a layer has the field i of the query */
+  uint32_t ambiguous;   /* bit i: a layer has several fields that may be the field i of the query; the first was read */
 };
 
 /* Calls visit for every polygon, until it does not return 0. 0: all was read; else `error` says why not. */

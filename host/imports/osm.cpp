@@ -1,17 +1,19 @@
 // Buildings of OpenStreetMap files, XML or PBF, by libosmium; its assembler makes areas of ways and multipolygons.
-// Objects may come in any order, as Overpass writes them. Memory is bounded by the size of the file.
+// Objects may come in any order, as Overpass writes them, and in several versions, of which the last one counts. Memory
+// is bounded by the size of the file.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <osmium/area/assembler.hpp>
-#include <osmium/index/map/sparse_mem_array.hpp>
 #include <osmium/io/pbf_input.hpp>
 #include <osmium/io/reader.hpp>
 #include <osmium/io/xml_input.hpp>
 #include <set>
 
 #include "imports/map.hpp"
+#include "imports/osm_deleted.hpp"
+#include "imports/osm_tags.hpp"
+#include "imports/osm_versions.hpp"
 #include "imports/projecting.hpp"
 #include "imports/rings.hpp"
 #include "imports/vegetation_tags.hpp"
@@ -20,33 +22,11 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr auto kept_tags = std::to_array<const char*>(
-    {"building", "building:part", "height", "min_height", "building:levels", "building:min_level", "roof:levels",
-     "roof:shape", "building:material", "roof:material", "location", "diameter_crown", "leaf_type"});
-
 // The assembler compares each edge with all others beside it: 10^6 corners would take days. As many corners as a
 // polygon may have (rings.hpp), and several rings in a multipolygon; each way in a few multipolygons.
 constexpr size_t most_way_nodes = max_corners + 1, most_relation_nodes = 4 * max_corners, most_repeated = 4;
 constexpr const char* too_many_corners = "more than 5000 corners";
-
-bool is_yes(const osmium::TagList& tags, const char* key) {
-  const char* const value = tags.get_value_by_key(key);
-  return value && std::string_view(value) != "no";
-}
-bool is_tree(const osmium::TagList& tags) { return tags.has_tag("natural", "tree"); }
-bool is_row(const osmium::TagList& tags) { return tags.has_tag("natural", "tree_row"); }
-bool is_wood(const osmium::TagList& tags) {
-  return tags.has_tag("natural", "wood") || tags.has_tag("landuse", "forest");
-}
-// What stands in the way of waves besides buildings, in words; empty: nothing of this kind. It is built if it is asked
-// for (ImportOptions::vegetation).
-std::string_view greenery(const osmium::TagList& tags) {
-  if (is_tree(tags)) return "tree (natural=tree)";
-  if (is_row(tags)) return "row of trees (natural=tree_row)";
-  if (is_wood(tags)) return "forest (landuse=forest, natural=wood)";
-  return {};
-}
-bool is_building(const osmium::TagList& tags) { return is_yes(tags, "building") || is_yes(tags, "building:part"); }
+constexpr const char* deleted_object = "deleted in the editor or in a later version (action='delete', visible='false')";
 
 class OsmReader {
  public:
@@ -58,33 +38,27 @@ class OsmReader {
 
   // Footprints in degrees (longitude, latitude): projected by the caller, who knows the middle only now.
   Map read() {
+    if (!is_pbf_) deleted_ = deleted_in_editor(content_);
     read_entities(osmium::osm_entity_bits::relation,
                   [this](const osmium::OSMObject& object) { relation(static_cast<const osmium::Relation&>(object)); });
+    keep_last_versions(relations_);
+    for (const ObjectVersion& one : relations_)
+      if (one.kept) take_members(kept_relations_.get<const osmium::Relation>(one.offset));
     read_entities(osmium::osm_entity_bits::node | osmium::osm_entity_bits::way, [this](osmium::OSMObject& object) {
-      if (object.type() == osmium::item_type::node) {
-        node(static_cast<const osmium::Node&>(object));
-      } else {
-        way(static_cast<const osmium::Way&>(object));
-      }
+      if (object.type() == osmium::item_type::node) return node(static_cast<const osmium::Node&>(object));
+      way(static_cast<const osmium::Way&>(object));
     });
-    locations_.sort();
-    std::sort(ways_.begin(), ways_.end(), by_id);
-    std::sort(relations_.begin(), relations_.end(), by_id);
-    ways_.erase(std::unique(ways_.begin(), ways_.end(), same_id), ways_.end());
-    relations_.erase(std::unique(relations_.begin(), relations_.end(), same_id), relations_.end());
-    for (const Entry& entry : ways_) locate(kept_ways_.get<osmium::Way>(entry.offset));
-    for (const Entry& entry : relations_) assemble(kept_relations_.get<osmium::Relation>(entry.offset));
-    for (const Entry& entry : ways_) assemble(kept_ways_.get<osmium::Way>(entry.offset));
+    places_.sort();
+    keep_last_versions(ways_);
+    for (const ObjectVersion& tree : trees_) plant_last(tree);
+    for (const ObjectVersion& one : ways_)
+      if (one.kept) locate(kept_ways_.get<osmium::Way>(one.offset));
+    assemble_all<osmium::Relation>(relations_, kept_relations_);
+    assemble_all<osmium::Way>(ways_, kept_ways_);
     return std::move(map_);
   }
 
  private:
-  struct Entry {
-    osmium::object_id_type id;
-    size_t offset;  // into the buffer
-  };
-  static bool by_id(const Entry& a, const Entry& b) { return a.id < b.id; }
-  static bool same_id(const Entry& a, const Entry& b) { return a.id == b.id; }
   static constexpr auto growing = osmium::memory::Buffer::auto_grow::yes;
 
   template <class Visit>
@@ -104,15 +78,26 @@ class OsmReader {
     }
   }
 
+  // Notes a version of an object, and keeps it if something is made of it.
+  template <class Object>
+  void note(const Object& object, bool gone, bool wanted, bool built, osmium::memory::Buffer& kept,
+            std::vector<ObjectVersion>& versions) {
+    versions.push_back({object.id(), object.version(), wanted && !gone, built && gone, kept.committed()});
+    if (!versions.back().kept) return;
+    kept.add_item(object);
+    kept.commit();
+  }
+
   void node(const osmium::Node& node) {
     // Every node takes a byte at least, compressed ones perhaps half of it: more of them are a trap for the memory.
     if (++nodes_ > 1000000 + 8 * content_.size()) {
       throw InputError(fmt::format("{}: the file contains far more nodes than its size allows: it is damaged", name_));
     }
-    count_greenery(node);
-    if (vegetation_ && node.visible() && node.location().valid() && is_tree(node.tags()))
-      plant({node.location().lon(), node.location().lat()}, fmt::format("node_{}", node.id()), node.tags());
-    if (node.visible() && node.location().valid()) locations_.set(index_id(node.id()), node.location());
+    const bool gone = !node.visible() || deleted_.nodes.contains(node.id());
+    places_.add(node.id(), node.version(), gone || !node.location().valid() ? osmium::Location() : node.location());
+    if (gone || node.tags().empty()) return;
+    check_tags(node);
+    if (is_tree(node.tags())) note(node, false, true, false, kept_trees_, trees_);
   }
 
   // Texts of PBF may hold zero bytes, which end a text for libosmium: a key would be left without its value, and what
@@ -127,14 +112,20 @@ class OsmReader {
   }
 
   void count_greenery(const osmium::OSMObject& object) {
-    if (!object.visible() || object.tags().empty()) return;
-    check_tags(object);
     if (vegetation_) return;
     if (const std::string_view kind = greenery(object.tags()); !kind.empty()) ++map_.left_out[std::string(kind)];
   }
 
   // Whether a closed way or a multipolygon with these tags is built.
   bool is_area(const osmium::TagList& tags) const { return is_building(tags) || (vegetation_ && is_wood(tags)); }
+
+  void plant_last(const ObjectVersion& tree) {
+    if (!places_.is_last(tree.id, tree.version) || !planted_.insert(tree.id).second) return;
+    const auto& node = kept_trees_.get<const osmium::Node>(tree.offset);
+    count_greenery(node);
+    if (!vegetation_) return;
+    plant({node.location().lon(), node.location().lat()}, fmt::format("node_{}", node.id()), node.tags());
+  }
 
   // A tree, as the outline of its crown.
   void plant(const glm::dvec2& place_deg, const std::string& id, const osmium::TagList& tags) {
@@ -158,42 +149,52 @@ class OsmReader {
   }
 
   void way(const osmium::Way& way) {
+    const bool gone = !way.visible() || deleted_.ways.contains(way.id());
     check_tags(way);
-    count_greenery(way);
-    const bool building = is_area(way.tags()), row = vegetation_ && is_row(way.tags());
-    if (!way.visible() || (!building && !row && !member_ways_.contains(way.id()))) return;
-    if (building && (way.nodes().size() < 4 || !way.is_closed()) && !member_ways_.contains(way.id())) {
-      ++map_.left_out["way that is not closed, as if clipped at the border of an extract"];
-      return;
-    }
-    way_nodes_ += way.nodes().size();
-    ways_.push_back({way.id(), kept_ways_.committed()});
-    kept_ways_.add_item(way);
-    kept_ways_.commit();
+    const bool built = is_area(way.tags()) || !greenery(way.tags()).empty();
+    note(way, gone, built || member_ways_.contains(way.id()), built, kept_ways_, ways_);
+    if (ways_.back().kept) way_nodes_ += way.nodes().size();
   }
 
   void relation(const osmium::Relation& relation) {
+    const bool gone = !relation.visible() || deleted_.relations.contains(relation.id());
     check_tags(relation);
-    count_greenery(relation);
-    const char* const type = relation.tags().get_value_by_key("type");
-    if (!relation.visible() || !type || std::string_view(type) != "multipolygon" || !is_area(relation.tags())) {
-      return;
-    }
-    for (const auto& member : relation.members()) {
+    const bool built = is_multipolygon(relation) || !greenery(relation.tags()).empty();
+    note(relation, gone, built, built, kept_relations_, relations_);
+  }
+
+  // Whether an area is made of the relation.
+  bool is_multipolygon(const osmium::Relation& relation) const {
+    return relation.tags().has_tag("type", "multipolygon") && is_area(relation.tags());
+  }
+
+  void take_members(const osmium::Relation& relation) {
+    if (!is_multipolygon(relation)) return;
+    for (const auto& member : relation.members())
       if (member.type() == osmium::item_type::way) member_ways_.insert(member.ref());
-    }
-    relations_.push_back({relation.id(), kept_relations_.committed()});
-    kept_relations_.add_item(relation);
-    kept_relations_.commit();
   }
 
   void locate(osmium::Way& way) {
-    for (osmium::NodeRef& node : way.nodes()) node.set_location(locations_.get_noexcept(index_id(node.ref())));
+    for (osmium::NodeRef& node : way.nodes()) node.set_location(places_.place(node.ref()));
+  }
+
+  template <class Object>
+  void assemble_all(const std::vector<ObjectVersion>& versions, const osmium::memory::Buffer& kept) {
+    for (const ObjectVersion& one : versions) {
+      if (one.kept) assemble(kept.get<const Object>(one.offset));
+      if (one.deleted) ++map_.left_out[deleted_object];
+    }
   }
 
   void assemble(const osmium::Way& way) {
+    count_greenery(way);
     if (vegetation_ && is_row(way.tags())) return plant_row(way);
-    if (!is_area(way.tags()) || way.nodes().size() < 4 || !way.is_closed()) return;
+    if (!is_area(way.tags())) return;
+    if (way.nodes().size() < 4 || !way.is_closed()) {
+      if (!member_ways_.contains(way.id()))
+        ++map_.left_out["way that is not closed, as if clipped at the border of an extract"];
+      return;
+    }
     if (way.nodes().size() > most_way_nodes) {
       ++map_.left_out[too_many_corners];
       return;
@@ -202,12 +203,14 @@ class OsmReader {
   }
 
   void assemble(const osmium::Relation& relation) {
+    count_greenery(relation);
+    if (!is_multipolygon(relation)) return;
     std::vector<const osmium::Way*> members;
     size_t nodes = 0;
     for (const auto& member : relation.members()) {
       if (member.type() != osmium::item_type::way) continue;
-      const auto found = std::lower_bound(ways_.begin(), ways_.end(), Entry{member.ref(), 0}, by_id);
-      if (found == ways_.end() || found->id != member.ref()) {
+      const auto found = std::ranges::lower_bound(ways_, member.ref(), {}, &ObjectVersion::id);
+      if (found == ways_.end() || found->id != member.ref() || !found->kept) {
         ++map_.left_out["multipolygon with a missing way, as if clipped at the border of an extract"];
         return;
       }
@@ -257,15 +260,9 @@ class OsmReader {
   }
 
   static void set_tags(Footprint& footprint, const osmium::TagList& tags) {
-    for (const char* key : kept_tags) {
-      if (const char* const value = tags.get_value_by_key(key)) footprint.tags[key] = value;
-    }
+    footprint.tags = kept_of(tags);
     footprint.name = tags.get_value_by_key("name", "");
     if (!is_building(tags) && is_wood(tags)) footprint.tags["vegetation"] = "wood";
-  }
-
-  static osmium::unsigned_object_id_type index_id(osmium::object_id_type id) {
-    return static_cast<osmium::unsigned_object_id_type>(id);
   }
 
   std::string_view content_;
@@ -275,17 +272,19 @@ class OsmReader {
   size_t nodes_ = 0, row_trees_ = 0;
   size_t way_nodes_ = 0, member_nodes_ = 0;  // of the ways that are kept; of multipolygons so far, each time anew
   const osmium::area::AssemblerConfig assembler_config_{};
-  osmium::index::map::SparseMemArray<osmium::unsigned_object_id_type, osmium::Location> locations_;
-  std::set<osmium::object_id_type> member_ways_;
-  osmium::memory::Buffer kept_ways_{1 << 16, growing}, kept_relations_{1 << 16, growing};
-  std::vector<Entry> ways_, relations_;
+  DeletedObjects deleted_;
+  NodePlaces places_;
+  std::set<osmium::object_id_type> member_ways_, planted_;
+  osmium::memory::Buffer kept_trees_{1 << 16, growing}, kept_ways_{1 << 16, growing}, kept_relations_{1 << 16, growing};
+  std::vector<ObjectVersion> trees_, ways_, relations_;
 };
 
 }  // namespace
 
 bool is_osm(std::string_view first_bytes) {
   // PBF: the length of a BlobHeader, then its field 1, "OSMHeader".
-  return root_element(first_bytes) == "osm" || first_bytes.substr(0, 15).ends_with("\x0a\x09OSMHeader");
+  const std::string_view root = root_element(first_bytes);
+  return root == "osm" || root == "osmChange" || first_bytes.substr(0, 15).ends_with("\x0a\x09OSMHeader");
 }
 
 Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options) {

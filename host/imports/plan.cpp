@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "imports/box_index.hpp"
+#include "imports/coverage.hpp"
 #include "imports/triangulate.hpp"
 #include "wavetracer/error.hpp"
 
@@ -38,7 +39,8 @@ Ring canonical(Ring ring) {
 
 class Planner {
  public:
-  Planner(const Map& map, const std::string& name, const ImportOptions& options) : map_(map), options_(options) {
+  Planner(const Map& map, const std::string& name, const ImportOptions& options)
+      : map_(map), name_(name), options_(options) {
     plan_.left_out = map.left_out;
     Extent extent;
     for (const Footprint& footprint : map.footprints)
@@ -168,24 +170,67 @@ class Planner {
         index.add(candidates_[i].box, i);
     }
     index.sort();
-    std::vector<size_t> dropped;
+    std::map<size_t, std::vector<Candidate*>> parts_of;  // by the place of their outline
     for (Candidate& part : candidates_) {
       if (part.gone || !part.solid.part) continue;
       const Point inside = point_inside(part.solid);
       const bool all = index.containing({inside, inside}, [&](size_t i) {
         const Polygon& outline = candidates_[i].solid.polygon;
-        if (candidates_[i].gone || !contains(outline.outer, inside)) return;
+        if (!contains(outline.outer, inside)) return;
         for (const Ring& hole : outline.holes) {
           if (contains(hole, inside)) return;
         }
         part.solid.outline = outline.outer;
-        dropped.push_back(i);
+        parts_of[i].push_back(&part);
       });
       if (!all) drop(part, too_many_around);
     }
-    for (const size_t i : dropped)
-      if (!candidates_[i].gone) drop(candidates_[i], "outline whose parts are built instead");
+    for (const auto& [i, parts] : parts_of) choose_outline_or_parts(candidates_[i], parts);
+    warn_of_gaps();
   }
+
+  // Parts shall fill their outline. Where they hardly do, as the chimney alone of a house, the house is built as well.
+  // A part that begins in the upper half of the house fills nothing: it stands on it.
+  void choose_outline_or_parts(Candidate& house, const std::vector<Candidate*>& parts) {
+    constexpr double full = 0.95, least = 0.5;
+    std::vector<const Polygon*> all, filling;
+    for (const Candidate* part : parts) {
+      if (part->gone) continue;
+      all.push_back(&part->solid.polygon);
+      if (part->solid.shape.bottom_m < house.solid.shape.top_m / 2) filling.push_back(all.back());
+    }
+    double share = covered_share(house.solid.polygon, all);
+    if (share >= least) share = covered_share(house.solid.polygon, filling);
+    if (share >= full) return drop(house, "outline whose parts are built instead");
+    Gaps& gaps = share < least ? standing_ : open_;
+    ++gaps.outlines;
+    if (share < gaps.share) gaps = {gaps.outlines, share, house.solid.id};
+    if (share >= least) return drop(house, "outline whose parts are built instead, though they leave gaps in it");
+    ++plan_.guessed["outline of which parts fill less than half: built as well as what of its parts is above it"];
+    for (Candidate* part : parts) set_onto(house.solid, *part);
+  }
+
+  // A part of a house that is built itself: what is inside of the house is there already.
+  void set_onto(const Solid& house, Candidate& part) {
+    constexpr double inside = 0.99;
+    const Polygon* const around = &house.polygon;
+    if (part.gone || covered_share(part.solid.polygon, {&around, 1}) < inside) return;
+    Shape& shape = part.solid.shape;
+    if (shape.top_m <= house.shape.top_m) return drop(part, "part inside of its outline, which is built itself");
+    shape.bottom_m = std::max(shape.bottom_m, house.shape.top_m);
+  }
+
+  void warn_of_gaps() {
+    const auto warn = [this](const Gaps& gaps, const char* what, const char* then) {
+      if (gaps.outlines == 0) return;
+      plan_.warnings.push_back(fmt::format("{}: parts (building:part) fill {} {} {}, as little as {:.1f}% of {}: {}",
+                                           name_, what, gaps.outlines, gaps.outlines == 1 ? "outline" : "outlines",
+                                           100 * gaps.share, gaps.id, then));
+    };
+    warn(open_, "only a part of", "the parts alone are built, and nothing stands in the gaps between them");
+    warn(standing_, "less than half of", "the whole house is built, and its parts as far as they are above it");
+  }
+
   // The centroid of the largest triangle.
   static Point point_inside(const Solid& solid) {
     std::vector<Point> corners = solid.polygon.outer;
@@ -197,9 +242,18 @@ class Planner {
             (corners[t[0]].y + corners[t[1]].y + corners[t[2]].y) / 3};
   }
 
+  // Outlines that parts do not fill.
+  struct Gaps {
+    uint64_t outlines = 0;
+    double share = 2;  // the smallest that parts cover, of the outline of this id
+    std::string id = {};
+  };
+
   const Map& map_;
+  const std::string& name_;
   const ImportOptions& options_;
   Plan plan_;
+  Gaps open_, standing_;
   std::vector<Candidate> candidates_;
 };
 

@@ -29,6 +29,7 @@ struct Plan {
   glm::dvec2 offset_m{0, 0};  // coordinates of the solids = those of the map + this; zero where they are small enough
   Extent traffic;             // what the ground has to reach besides the solids, in their coordinates
   std::map<std::string, uint64_t> left_out, guessed;
+  std::vector<std::string> warnings;
 };
 
 // The shift by whole metres that brings all that is built near the origin; none where it is there already, since the

@@ -33,7 +33,8 @@ std::vector<TagField> tag_fields(const ImportOptions& options) {
   if (!any || !options.height_field.empty()) add(options.height_field, "height", {"height"});
   if (!any || !options.levels_field.empty())
     add(options.levels_field, "building:levels", {"building:levels", "levels", "num_floors"});
-  add({}, "min_height", {"min_height"});
+  for (const char* name : {"roof:height", "roof:levels", "min_height", "building:min_level", "building:part"})
+    add({}, name, {name});
   add({}, "building:material", {"building:material"});
   add({}, "roof:material", {"roof:material"});
   add({}, "name", {"name"});
@@ -101,6 +102,13 @@ void check_fields(const std::string& name, const std::vector<TagField>& fields, 
     if (!found && (fields[k].field == options.height_field || fields[k].field == options.levels_field))
       throw InputError(fmt::format("{}: there is no field '{}'; fields are {}", name, fields[k].field,
                                    *layers.fields ? layers.fields : "none"));
+    if ((layers.ambiguous >> k & 1) == 0) continue;
+    const std::string several =
+        fmt::format("{}: several fields are called '{}', or differ from that by case alone; fields are {}", name,
+                    fields[k].field, layers.fields);
+    if (fields[k].field == options.height_field || fields[k].field == options.levels_field)
+      throw InputError(several + "; name one of them as it is written there, or rename all but one");
+    map.warnings.push_back(several + "; the first of them is used");
   }
   if (!heights)
     map.warnings.push_back(

@@ -12,9 +12,18 @@ namespace {
 constexpr double highest_tree_m = 100, widest_crown_m = 50, usual_tree_m = 10, usual_wood_m = 15;
 constexpr double m_per_degree = 111195;
 
-double length_or(const Tags& tags, std::string_view key, double most_m, double otherwise_m) {
-  const std::optional<double> value = parse_length_m(tag(tags, key));
-  return value && *value > 0 && *value <= most_m ? *value : otherwise_m;
+using Counts = std::map<std::string, uint64_t>;
+constexpr double least_m = 1e-3;
+
+std::optional<double> tree_height_m(const Tags& tags, Counts& guessed) {
+  return tagged_value(
+      tags, {"height of a tree or wood", {"height", "est_height"}, parse_length_m, least_m, highest_tree_m}, guessed);
+}
+
+double tree_crown_m(const Tags& tags, double height_m, Counts& guessed) {
+  const double slender = tag(tags, "leaf_type") == "needleleaved" ? 1.0 / 3 : 0.5;
+  return tagged_value(tags, {"diameter_crown", {"diameter_crown"}, parse_length_m, least_m, widest_crown_m}, guessed)
+      .value_or(slender * height_m);
 }
 
 // Metres of a degree of longitude and of latitude.
@@ -27,9 +36,9 @@ glm::dvec2 metres_at(const glm::dvec2& place_deg) {
 bool is_vegetation(std::string_view material) { return material.ends_with("vegetation"); }
 
 TreeSize tree_size(const Tags& tags) {
-  const double height_m = length_or(tags, "height", highest_tree_m, usual_tree_m);
-  const double slender = tag(tags, "leaf_type") == "needleleaved" ? 1.0 / 3 : 0.5;
-  return {height_m, length_or(tags, "diameter_crown", widest_crown_m, slender * height_m)};
+  Counts counted_later;  // by vegetation_shape()
+  const double height_m = tree_height_m(tags, counted_later).value_or(usual_tree_m);
+  return {height_m, tree_crown_m(tags, height_m, counted_later)};
 }
 
 std::vector<glm::dvec2> crown_ring(const glm::dvec2& place_deg, double crown_m) {
@@ -60,10 +69,11 @@ std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg) {
 Shape vegetation_shape(const Tags& tags, std::map<std::string, uint64_t>& guessed) {
   const bool tree = tag(tags, "vegetation") == "tree";
   Shape shape;
-  shape.top_m = tree ? tree_size(tags).height_m : length_or(tags, "height", highest_tree_m, usual_wood_m);
+  const std::optional<double> height_m = tree_height_m(tags, guessed);
+  shape.top_m = height_m.value_or(tree ? usual_tree_m : usual_wood_m);
   shape.bottom_m = tree ? shape.top_m / 3 : 0;
-  if (!parse_length_m(tag(tags, "height")))
-    ++guessed[tree ? "tree without a height: 10 m used" : "wood without a height: 15 m used"];
+  if (tree) tree_crown_m(tags, shape.top_m, guessed);  // counted here, though the outline has it already
+  if (!height_m) ++guessed[tree ? "tree without a height: 10 m used" : "wood without a height: 15 m used"];
   shape.walls = shape.roof = tag(tags, "leaf_type") == "broadleaved" ? "deciduous_vegetation" : "vegetation";
   return shape;
 }

@@ -45,18 +45,31 @@ class LayerReader {
 
  private:
   void find_fields(OGRFeatureDefnH definition) {
+    std::vector<std::string> names;
     std::string all = layers_.fields;
-    columns_.assign(query_.field_count, -1);
     for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i) {
-      const std::string field = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
-      all += (all.empty() ? "" : ", ") + field;
-      for (size_t k = 0; k < query_.field_count; ++k)
-        if (columns_[k] < 0 && EQUAL(field.c_str(), query_.fields[k])) {
-          columns_[k] = i;
-          layers_.found |= 1u << k;
-        }
+      names.emplace_back(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
+      all += (all.empty() ? "" : ", ") + names.back();
     }
     put(layers_.fields, all);
+    columns_.assign(query_.field_count, -1);
+    for (size_t k = 0; k < query_.field_count; ++k) {
+      columns_[k] = find_field(names, k);
+      if (columns_[k] >= 0) layers_.found |= 1u << k;
+    }
+  }
+
+  // The field of exactly this name; without one, that which differs by case alone. Of several it is the first.
+  int find_field(const std::vector<std::string>& names, size_t k) {
+    const char* const wanted = query_.fields[k];
+    int exact = -1, alike = -1;
+    size_t exact_count = 0, alike_count = 0;
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (names[i] == wanted && exact_count++ == 0) exact = static_cast<int>(i);
+      if (EQUAL(names[i].c_str(), wanted) && alike_count++ == 0) alike = static_cast<int>(i);
+    }
+    if ((exact_count > 0 ? exact_count : alike_count) > 1) layers_.ambiguous |= 1u << k;
+    return exact_count > 0 ? exact : alike;
   }
 
   bool take(OGRFeatureH feature) {

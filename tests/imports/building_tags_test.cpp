@@ -29,9 +29,16 @@ TEST_CASE("lengths with units, commas and feet") {
   CHECK(*parse_length_m("40 ft") == doctest::Approx(12.192).epsilon(1e-12));
   CHECK(*parse_length_m("40'") == doctest::Approx(12.192).epsilon(1e-12));
   CHECK(*parse_length_m("5'6\"") == doctest::Approx(1.6764).epsilon(1e-12));
+  CHECK(*parse_length_m("7'4\"") == doctest::Approx(2.2352).epsilon(1e-12));
+  CHECK(*parse_length_m("7 ft 4 in") == doctest::Approx(2.2352).epsilon(1e-12));
+  CHECK(*parse_length_m("7\u20324\u2033") == doctest::Approx(2.2352).epsilon(1e-12));
+  CHECK(*parse_length_m("12 M") == 12);
+  CHECK(*parse_length_m("40 Feet") == doctest::Approx(12.192).epsilon(1e-12));
+  CHECK(*parse_length_m("66\"") == doctest::Approx(1.6764).epsilon(1e-12));
+  CHECK(*parse_length_m("250 cm") == doctest::Approx(2.5).epsilon(1e-12));
   CHECK(parse_length_m("-2") == -2);
-  for (const char* bad :
-       {"", "m", "high", "12 km", "1.000,5", "12;15", "1e3", "nan", "inf", "40''", "5'6", "--3", "."}) {
+  for (const char* bad : {"", "m", "high", "12 km", "1.000,5", "12;15", "1e3", "nan", "inf", "40''", "5'6", "--3", ".",
+                          "~12", "12-15", "12 m high", "5 m 6 in", "3 storeys", "5'6'"}) {
     CAPTURE(bad);
     CHECK_FALSE(parse_length_m(bad).has_value());
   }
@@ -55,6 +62,70 @@ TEST_CASE("heights: height, then levels, then the default") {
     CHECK(answer.shape->top_m == 9);
     CHECK(answer.guessed.at("height that cannot be read") == 1);
   }
+}
+
+TEST_CASE("roofs on levels, several values, and what cannot be read") {
+  const auto top = [](const Tags& tags) { return ask(tags).shape->top_m; };
+  CHECK(top({{"building:levels", "2"}, {"roof:height", "5"}}) == 11);
+  CHECK(top({{"building:levels", "2"}, {"roof:height", "16 ft"}}) == doctest::Approx(6 + 16 * 0.3048));
+  CHECK(top({{"building:levels", "2"}, {"roof:height", "5"}, {"roof:levels", "1"}}) == 11);
+  CHECK(top({{"building:levels", "2"}, {"roof:height", "high"}, {"roof:levels", "1"}}) == 9);
+  CHECK(top({{"building:levels", "0"}, {"roof:levels", "2"}}) == 6);
+  CHECK(top({{"height", "9"}, {"building:levels", "2"}, {"roof:height", "5"}}) == 9);
+  CHECK(top({{"building:levels", "2;3"}}) == 9);
+  CHECK(top({{"building:levels", "3; 2"}}) == 9);
+  CHECK(top({{"height", "12 m;40 ft"}}) == doctest::Approx(12.192));
+  CHECK(top({{"est_height", "17"}}) == 17);
+  CHECK(top({{"height", "tall"}, {"est_height", "17"}}) == 17);
+  CHECK(ask({{"building:levels", "2;3"}}).guessed.at("several values of levels: the largest is used") == 1);
+  CHECK(ask({{"height", "tall"}, {"est_height", "17"}}).guessed.at("height that cannot be read") == 1);
+  for (const char* bad : {"2;x", "-1", "many", "301", "2+1"}) {
+    CAPTURE(bad);
+    const Answer answer = ask({{"building:levels", bad}});
+    CHECK(answer.shape->top_m == 10);
+    CHECK(answer.guessed.at("levels that cannot be read") == 1);
+    CHECK(answer.guessed.at("neither height nor levels that can be used: default height used") == 1);
+  }
+  for (const char* key : {"roof:height", "roof:levels", "min_height", "building:min_level"}) {
+    CAPTURE(key);
+    const Answer answer = ask({{"building:levels", "3"}, {key, "some"}});
+    CHECK(answer.shape->top_m == 9);
+    CHECK(answer.shape->bottom_m == 0);
+    CHECK(answer.guessed.at(std::string(key) + " that cannot be read") == 1);
+  }
+}
+
+TEST_CASE("what is below the ground is not built above it") {
+  for (const Tags& tags : {Tags{{"building:levels", "2"}, {"layer", "-1"}}, Tags{{"height", "5"}, {"layer", "-2"}},
+                           Tags{{"building:levels", "0"}, {"building:levels:underground", "1"}},
+                           Tags{{"building:levels", "0"}, {"building:min_level", "-1"}},
+                           Tags{{"location", "underground"}, {"height", "4"}}}) {
+    const Answer answer = ask(tags);
+    CHECK_FALSE(answer.shape);
+    CHECK(answer.left_out.size() == 1);
+    CHECK(answer.left_out.begin()->first.starts_with("underground"));
+  }
+  for (const Tags& tags : {Tags{{"building:levels", "2"}, {"layer", "1"}},
+                           Tags{{"building:levels", "2"}, {"layer", "-1"}, {"location", "surface"}},
+                           Tags{{"building:levels", "2"}, {"building:levels:underground", "3"}},
+                           Tags{{"building:levels", "2"}, {"building:min_level", "-1"}}}) {
+    const Answer answer = ask(tags);
+    REQUIRE(answer.shape);
+    CHECK(answer.shape->bottom_m == 0);
+    CHECK(answer.shape->top_m == 6);
+    CHECK(answer.guessed.empty());
+  }
+}
+
+TEST_CASE("trees whose tags cannot be read are counted") {
+  for (const auto& [key, reason] : {std::pair{"height", "height of a tree or wood that cannot be read"},
+                                    std::pair{"diameter_crown", "diameter_crown that cannot be read"}}) {
+    const Answer answer = ask({{"vegetation", "tree"}, {key, "large"}});
+    CHECK(answer.shape->top_m == 10);
+    CHECK(answer.guessed.at(reason) == 1);
+  }
+  CHECK(ask({{"vegetation", "tree"}, {"height", "300"}}).guessed.size() == 2);
+  CHECK(ask({{"vegetation", "tree"}, {"height", "20"}, {"diameter_crown", "6 m"}}).guessed.empty());
 }
 
 TEST_CASE("parts above the ground, and what is not built") {

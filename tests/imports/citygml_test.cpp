@@ -69,6 +69,26 @@ TEST_CASE("CityGML: solids and surfaces of every kind are the same cube") {
     CHECK(cube_volume(gml(gml_building(content))) == doctest::Approx(1000));
 }
 
+TEST_CASE("CityGML: a part that is there in less detail than its building is left out, in more detail it replaces it") {
+  const TemporaryFolder folder;
+  const auto town = [&](int of_building, int of_part) {
+    const auto body = [](int lod) {
+      return fmt::format("<bldg:lod{0}Solid>{1}</bldg:lod{0}Solid>", lod, solid_gml(cube_surface()));
+    };
+    return import_text(gml(gml_building(body(of_building) + "<bldg:consistsOfBuildingPart><bldg:BuildingPart>" +
+                                        body(of_part) + "</bldg:BuildingPart></bldg:consistsOfBuildingPart>")),
+                       folder, without_ground())
+        .summary;
+  };
+  CHECK(town(2, 1).buildings == 1);
+  CHECK(town(2, 1).parts == 0);
+  CHECK(town(2, 1).left_out.at("part of a building that is built in more detail instead") == 1);
+  CHECK(town(1, 2).buildings == 0);
+  CHECK(town(1, 2).left_out.at("building whose parts are built in more detail instead") == 1);
+  CHECK(town(2, 2).parts == 1);
+  CHECK(town(2, 2).left_out.empty());
+}
+
 TEST_CASE("CityGML: rings of every kind are the same cube") {
   for (int kind = 0; kind < 6; ++kind) {
     CAPTURE(kind);

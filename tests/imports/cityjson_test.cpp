@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -99,6 +100,43 @@ TEST_CASE("the highest level of detail that is asked for is built, and parts ins
   CHECK(parts.summary.left_out.at("building whose parts are built in more detail instead") == 1);
   CHECK(parts.summary.left_out.at("object of the type 'BuildingRoom'") == 1);
   CHECK(parts.summary.left_out.at("object of the type '+Odd'") == 1);
+}
+
+TEST_CASE("a building and its parts have one level of detail; parts beside each other may differ") {
+  const TemporaryFolder folder;
+  const std::string box = "[[[[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]";
+  // A block and two parts, each with geometry of these levels; the gable is the finest.
+  const auto town = [&](const std::vector<std::string>& levels) {
+    std::string objects;
+    const std::array<std::string, 3> names = {"block", "a", "b"};
+    for (size_t i = 0; i < 3; ++i) {
+      std::string geometries;
+      for (size_t begin = 0; begin < levels[i].size(); begin += 4)
+        geometries += (begin > 0 ? "," : "") +
+                      solid(levels[i].substr(begin, 3), levels[i].substr(begin, 3) == "2.2" ? gable_solid : box);
+      objects += (i > 0 ? "," : "") + building(names[i], geometries, i == 0 ? "Building" : "BuildingPart",
+                                               i == 0 ? R"("children":["a","b"],)" : R"("parents":["block"],)");
+    }
+    return import_text(city_json(objects), folder, without_ground());
+  };
+  constexpr uint64_t gable = 16, block = 12;  // triangles
+  const auto less = "part of a building that is built in more detail instead";
+  const auto more = "building whose parts are built in more detail instead";
+  const Imported finer = town({"2.2", "1.2", "1.2"});
+  CHECK(finer.summary.buildings == 1);
+  CHECK(finer.summary.parts == 0);
+  CHECK(finer.summary.left_out.at(less) == 2);
+  CHECK(finer.summary.triangles == gable);
+  const Imported coarser = town({"1.2", "2.2", "2.2"});
+  CHECK(coarser.summary.left_out.at(more) == 1);
+  CHECK(coarser.summary.triangles == 2 * gable);
+  const Imported mixed = town({"1.2", "2.2", "1.2"});
+  CHECK(mixed.summary.left_out == std::map<std::string, uint64_t>{{more, 1}});
+  CHECK(mixed.summary.triangles == gable + block);
+  const Imported alike = town({"1.2 2.2", "1.2 2.2", "1.2"});
+  CHECK(alike.summary.left_out == std::map<std::string, uint64_t>{{less, 1}});
+  CHECK(alike.summary.triangles == 2 * gable);
+  CHECK(town({"1.2", "1.2", "1.2"}).summary.left_out.empty());
 }
 
 TEST_CASE("all kinds of geometry of CityJSON") {

@@ -10,6 +10,7 @@
 
 #include "base/file.hpp"
 #include "imported.hpp"
+#include "map_files.hpp"
 #include "scene/georeference.hpp"
 #include "scene/ground.hpp"
 #include "scene/load.hpp"
@@ -20,34 +21,6 @@ using namespace wavetracer::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-const Georeference middle{"+proj=tmerc +lat_0=48.137 +lon_0=11.575 +ellps=WGS84 +units=m", {0, 0}, {}, {}};
-
-bool run(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
-
-bool has_gdal() {
-  const bool there = *WAVETRACER_OGR2OGR && *WAVETRACER_GDAL_TRANSLATE && fs::exists(WAVETRACER_MAPS_FILE);
-  if (!there) MESSAGE("skipped: no GDAL (Debian: libgdal-dev, gdal-bin)");
-  setenv("WAVETRACER_MAPS_MODULE", WAVETRACER_MAPS_FILE, 1);
-  return there;
-}
-
-// A ring in degrees of points in metres about the middle.
-std::string ring(const Points& points) {
-  static const Projection projection(middle);
-  std::string out = "[";
-  for (size_t i = 0; i <= points.size(); ++i) {
-    const auto& [x, y] = points[i % points.size()];
-    const glm::dvec2 p = projection.geographic({x, y});
-    out += fmt::format("{}[{:.12f}, {:.12f}]", i > 0 ? ", " : "", p.x, p.y);
-  }
-  return out + "]";
-}
-
-std::string feature(const std::string& type, const std::string& coordinates, const std::string& properties) {
-  return fmt::format(R"({{"type": "Feature", "properties": {{{}}}, "geometry": {{"type": "{}", "coordinates": {}}}}})",
-                     properties, type, coordinates);
-}
 
 // A house, one with a courtyard and storeys alone, two houses of one feature, a tree, and an outline that crosses
 // itself.
@@ -62,34 +35,6 @@ std::string town() {
          feature("MultiPolygon", list(pair), R"("h_m": 7, "floors": 9)") + ",\n" +
          feature("Polygon", list(ring({{70, 0}, {80, 10}, {80, 0}, {70, 12}})), R"("h_m": 5)") + ",\n" +
          feature("Point", "[11.575, 48.137]", R"("h_m": 5)") + "]}\n";
-}
-
-Imported import_file(const fs::path& file, ImportOptions options) {
-  options.output = file.string() + " scene";
-  const ImportSummary summary = import_city(file, options);
-  return {summary, load_scene_file(summary.scene, SceneConfig{})};
-}
-
-ImportOptions fields(const char* height = "h_m", const char* levels = "floors") {
-  ImportOptions options;
-  options.height_field = height;
-  options.levels_field = levels;
-  return options;
-}
-
-std::string refusal(const fs::path& file, const ImportOptions& options) {
-  try {
-    import_file(file, options);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
-void check_contains(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CAPTURE(part);
-  CHECK(text.find(part) != text.npos);
 }
 
 }  // namespace

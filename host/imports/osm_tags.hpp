@@ -1,0 +1,45 @@
+// Which objects of OpenStreetMap are built, by their tags.
+// Keys are those of https://wiki.openstreetmap.org/wiki/Map_features.
+#pragma once
+#include <array>
+#include <osmium/osm/tag.hpp>
+#include <string_view>
+
+#include "imports/building_tags.hpp"
+
+namespace wavetracer::imports {
+
+constexpr auto kept_tags = std::to_array<const char*>(
+    {"building", "building:part", "height", "building:height", "est_height", "min_height", "building:min_height",
+     "building:levels", "building:min_level", "building:levels:underground", "roof:levels", "roof:height", "roof:shape",
+     "layer", "building:material", "roof:material", "location", "diameter_crown", "leaf_type"});
+
+inline bool is_yes(const osmium::TagList& tags, const char* key) {
+  const char* const value = tags.get_value_by_key(key);
+  return value && std::string_view(value) != "no";
+}
+inline bool is_tree(const osmium::TagList& tags) { return tags.has_tag("natural", "tree"); }
+inline bool is_row(const osmium::TagList& tags) { return tags.has_tag("natural", "tree_row"); }
+inline bool is_wood(const osmium::TagList& tags) {
+  return tags.has_tag("natural", "wood") || tags.has_tag("landuse", "forest");
+}
+inline Tags kept_of(const osmium::TagList& tags) {
+  Tags out;
+  for (const char* key : kept_tags)
+    if (const char* const value = tags.get_value_by_key(key)) out[key] = value;
+  return out;
+}
+
+// What stands in the way of waves besides buildings, in words; empty: nothing of this kind. It is built if it is asked
+// for (ImportOptions::vegetation).
+inline std::string_view greenery(const osmium::TagList& tags) {
+  if (is_tree(tags)) return "tree (natural=tree)";
+  if (is_row(tags)) return "row of trees (natural=tree_row)";
+  if (is_wood(tags)) return "forest (landuse=forest, natural=wood)";
+  return {};
+}
+inline bool is_building(const osmium::TagList& tags) {
+  return is_yes(tags, "building") || is_yes(tags, "building:part");
+}
+
+}  // namespace wavetracer::imports
