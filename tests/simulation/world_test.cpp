@@ -107,6 +107,26 @@ TEST_CASE("absent vehicles stay where they were last, finite, and have no links"
   CHECK(world.state(10).links == std::vector<Link>{{0, 0}, {0, 1}, {1, 1}, {2, 0}});
 }
 
+TEST_CASE("frames of [time] are the same whatever times count from, up to the last one, and messages tell them apart") {
+  const TemporaryFolder folder;
+  for (const double zero_s : {0.0, 1.7e9, 1e12}) {
+    CAPTURE(zero_s);
+    Config config = drive(folder);
+    config.trajectories.file.clear();
+    config.tracks = {{"a", "passenger", {{zero_s, 0, 0, 0}, {zero_s + 0.05, 0.7, 0, 0}}}};
+    config.time = {.start_s = zero_s, .end_s = zero_s + 0.05, .step_s = 0.01};
+    const World world(config, static_scene());
+    REQUIRE(world.frame_count() == 6);
+    for (const std::string& warning : world.warnings()) CHECK(warning.find("have no vehicle") == warning.npos);
+    for (uint64_t frame = 0; frame < 6; ++frame) CHECK(world.state(frame).instances.at(0).present);
+    config.time.start_s = zero_s + 2;
+    config.time.end_s = zero_s + 3;
+    check_contains(
+        error_of<ConfigError>(config),
+        fmt::format("goes from {0} to {1} s, and the trajectories go from {2} to {2}", zero_s + 2, zero_s + 3, zero_s));
+  }
+}
+
 TEST_CASE("bodies: one model a kind and size, placed on the vehicle, surfaces numbered on") {
   const TemporaryFolder folder;
   Config config = drive(folder);
