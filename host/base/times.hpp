@@ -6,17 +6,17 @@
 
 namespace wavetracer {
 
-// From this time to the next double.
+// The distance from this time to the next double.
 double time_spacing_s(double time_s);
 
 // Two times that differ by no more are one instant: a microsecond, since k * step is not the decimal number of a file
 // to the last bit, or two spacings where doubles are coarser than that.
 double time_tolerance_s(double time_s);
 
-// The number of fewest decimal digits within `error` of a value; the value itself where none of 17 digits is.
+// The number with the fewest decimal digits within `error` of a value, or the value itself if it needs all of them.
 double simplest_decimal(double value, double error);
 
-// "1700000000.1": to a microsecond, and a time that is less than that by its first digits.
+// "1700000000.1": the time, rounded to a microsecond; below a millisecond it is rounded to six digits instead.
 std::string time_text(double time_s);
 
 }  // namespace wavetracer

@@ -68,7 +68,8 @@ constexpr auto units = std::to_array<Unit>({{"m", 1},
                                             {"inch", inch_m},
                                             {"inches", inch_m}});
 
-// Takes a unit from the front of the text: letters, or one sign of feet or inches. 0: there is none.
+// Takes a unit from the front of the text, letters or one sign of feet or inches, and returns its metres; 0 if there is
+// none.
 double take_unit(std::string_view& text) {
   size_t end = 0;
   while (end < text.size() && text[end] >= 'a' && text[end] <= 'z') ++end;
@@ -80,7 +81,7 @@ double take_unit(std::string_view& text) {
   return found->metres;
 }
 
-// Small letters, and the signs of feet and inches as they are on every keyboard.
+// Returns the text in lower case, with the printed signs of feet and inches replaced by those of a keyboard.
 std::string plain(std::string_view text) {
   std::string out(text);
   for (const auto& [from, to] :

@@ -29,8 +29,8 @@ struct TaggedValue {
   std::optional<double> (*parse)(std::string_view);
   double least, most;  // what is beyond cannot be read
 };
-// Of several values, "2;3", as of a house whose wings differ, the largest. Empty where there is none; what cannot be
-// read, and what has several values, is counted.
+// The number, or the largest of several, "2;3", as mappers write them for a house whose wings differ. Empty where there
+// is none. What cannot be read, and what has several values, is counted.
 std::optional<double> tagged_value(const Tags& tags, const TaggedValue& what, std::map<std::string, uint64_t>& guessed);
 
 // The ITU material of a value of building:material or roof:material, such as "brick" of "roof_tiles"; empty: unknown.

@@ -1,5 +1,5 @@
 // Lines parallel to x, each cut by all edges that it meets: lengths inside of the polygon, and inside of others as
-// well. No line goes through a corner but by chance, and then an edge counts by its lower end alone.
+// well. Where a line meets a corner, each edge counts by its lower end alone.
 #include "imports/coverage.hpp"
 
 #include <algorithm>

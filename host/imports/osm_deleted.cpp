@@ -1,5 +1,5 @@
-// One more pass of expat, over files that hold the words alone.
-// Entities are not expanded: whoever declares one is refused by libosmium.
+// Reads the text once more with expat, if it contains the words at all.
+// Entities are not expanded: libosmium refuses a file that declares one.
 #include "imports/osm_deleted.hpp"
 
 #include <expat.h>

@@ -11,7 +11,8 @@ struct DeletedObjects {
   std::unordered_set<int64_t> nodes, ways, relations;  // their ids
 };
 
-// Those of an OSM XML text. A text that is not well-formed gives what comes before its fault.
+// Returns the objects of an OSM XML text that have action='delete'. If the text is not well-formed, these are the ones
+// before its fault.
 DeletedObjects deleted_in_editor(std::string_view content);
 
 }  // namespace wavetracer::imports

@@ -36,7 +36,7 @@ class NodePlaces {
     const auto before = [](const Node& a, const Node& b) { return a.id != b.id ? a.id < b.id : a.version < b.version; };
     if (!std::is_sorted(nodes_.begin(), nodes_.end(), before)) std::stable_sort(nodes_.begin(), nodes_.end(), before);
   }
-  // Of the last version; without a place where there is none.
+  // The place of the last version; an invalid one where the node is unknown or deleted.
   osmium::Location place(int64_t id) const {
     const Node* const node = last(id);
     return node ? node->place : osmium::Location();

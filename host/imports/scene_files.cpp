@@ -70,7 +70,7 @@ void append(pugi::xml_node parent, const char* tag, const char* name, const std:
   node.append_attribute("value") = value.c_str();
 }
 
-// Of an earlier import it goes.
+// Writes georeference.json, or removes that of an earlier import where this one has none.
 void write_reference(const std::filesystem::path& folder, const Georeference& georeference) {
   const std::filesystem::path file = folder / "georeference.json";
   std::error_code error;

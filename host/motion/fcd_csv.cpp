@@ -126,16 +126,19 @@ class FcdCsvReader {
 
 bool is_fcd_csv(std::string_view text) {
   const std::string_view header = header_of(text);
-  if (header.find("timestep_time") != header.npos) return true;
-  if (separator_of(header) != ';') return false;
+  const char separator = separator_of(header);
   std::set<std::string, std::less<>> names;
   for (size_t begin = 0; begin <= header.size();) {
-    const size_t end = std::min(header.find(';', begin), header.size());
-    names.emplace(trimmed(header.substr(begin, end - begin)));
+    const size_t end = std::min(header.find(separator, begin), header.size());
+    std::string_view name = trimmed(header.substr(begin, end - begin));
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    names.emplace(name);
     begin = end + 1;
   }
   const auto has = [&](const char* name) { return names.contains(name); };
-  return has("time") && has("id") && has("x") && has("y") &&
+  if (has("timestep_time")) return true;
+  if (!has("id")) return has("vehicle_id") || has("person_id") || has("container_id");  // another output, to be named
+  return separator == ';' && has("time") && has("x") && has("y") &&
          (has("angle") || has("lane") || has("slope") || has("edge"));
 }
 

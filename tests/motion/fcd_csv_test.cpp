@@ -110,6 +110,8 @@ TEST_CASE("rows of persons and of riders") {
 TEST_CASE("what is wrong with such a file is said with its line, and what to do") {
   check_contains(problem_of("timestep_time;vehicle_id;vehicle_speed\n0;a;3\n"),
                  "fcd.csv:1: the header has no column 'vehicle_x'; the CSV of SUMO's --fcd-output has timestep_time");
+  check_contains(problem_of("vehicle_arrival;vehicle_depart;vehicle_id\n9;0;a\n"),
+                 "fcd.csv:1: the header has no column 'timestep_time'; the CSV of SUMO's --fcd-output has");
   check_contains(problem_of("timestep_time;edge_id;lane_id\n0;a;3\n"),
                  "fcd.csv:1: the header has no column 'vehicle_id'");
   check_contains(problem_of(sumo_header + "0.00;90.00;a;e_0\n"), "fcd.csv:2: the row has 4 cells, the header 10");
