@@ -1,6 +1,7 @@
 // The file is looked at, not opened: opening a pipe waits for its writer.
 #include "base/input_file.hpp"
 #include <fmt/format.h>
+#include <algorithm>
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -22,11 +23,22 @@ const char* kind_of(std::filesystem::file_type type) {
 
 }  // namespace
 
+std::string backslash_hint(const std::filesystem::path& path) {
+  std::string text = path.string();
+  if (text.find('\\') == std::string::npos) return "";
+  std::ranges::replace(text, '\\', '/');
+  std::error_code unnameable;
+  const bool there = std::filesystem::exists(text, unnameable);
+  return fmt::format("; {}write / instead of \\ between the names of folders",
+                     there ? fmt::format("did you mean '{}'? ", text) : "");
+}
+
 std::string input_file_problem(const std::filesystem::path& path, const char* what, uint64_t most_bytes) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) return "no such file; paths are relative to the file that names them";
+  if (status.type() == fs::file_type::not_found)
+    return "no such file; paths are relative to the file that names them" + backslash_hint(path);
   if (status.type() == fs::file_type::none) return fmt::format("cannot be opened: {}", error.message());
   if (fs::is_directory(status)) return fmt::format("is a folder; name {} inside it", what);
   if (!fs::is_regular_file(status))

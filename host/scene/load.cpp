@@ -27,10 +27,7 @@ RawScene read_single_ply(const std::filesystem::path& path) {
   RawScene raw;
   raw.file = path.string();
   raw.files = {raw.file};
-  if (ply.small_faces > 0) {
-    raw.warnings.push_back(
-        fmt::format("{}: {} faces of fewer than three vertices were left out", raw.file, ply.small_faces));
-  }
+  raw.warnings = std::move(ply.warnings);
   raw.meshes.push_back(
       {path.stem().string(), raw.file, std::move(ply.vertices), std::move(ply.triangles), no_material});
   return raw;

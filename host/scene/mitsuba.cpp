@@ -1,20 +1,17 @@
-// Mitsuba 3 XML: shapes of type ply and obj with to_world, bsdfs by reference or inline, <default> parameters.
-// Radio bsdfs are those of Sionna RT 1.x (itu-radio-material, radio-material); of any other bsdf only the outermost id
-// counts.
+// Mitsuba 3 XML: shapes of type ply, obj, rectangle, cube, merge, shapegroup and instance with to_world.
 #include "scene/mitsuba.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
-#include <pugixml.hpp>
 #include <set>
 #include <string_view>
 
-#include "base/file.hpp"
 #include "base/input_file.hpp"
+#include "scene/mitsuba_files.hpp"
+#include "scene/mitsuba_materials.hpp"
+#include "scene/mitsuba_properties.hpp"
 #include "scene/mitsuba_transform.hpp"
 #include "scene/model.hpp"
 #include "scene/ply.hpp"
@@ -23,202 +20,166 @@
 namespace wavetracer {
 namespace {
 
+// What the properties of shapes of a type may be. Normals and texture coordinates are light's alone: a surface is the
+// same from both sides. The last five are those of Mitsuba 0.6.
+const std::vector<std::string>* properties_of(std::string_view type) {
+  static const std::vector<std::string> mesh = {
+      "filename",       "to_world", "face_normals", "flip_normals",     "flip_tex_coords",
+      "vertex_normals", "collapse", "srgb",         "max_smooth_angle", "silhouette_sampling_weight"};
+  static const std::vector<std::string> plain = {"to_world", "flip_normals", "silhouette_sampling_weight"};
+  static const std::vector<std::string> placed = {"to_world"}, none;
+  if (type == "ply" || type == "obj") return &mesh;
+  if (type == "rectangle" || type == "cube") return &plain;
+  if (type == "instance") return &placed;
+  if (type == "shapegroup" || type == "merge") return &none;
+  return nullptr;
+}
+
+// Of Mitsuba: a square of two units on z = 0, and a cube of two units.
+RawMesh rectangle() {
+  RawMesh out;
+  out.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  out.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return out;
+}
+
+RawMesh cube() {
+  RawMesh out;
+  for (uint32_t i = 0; i < 8; ++i)
+    out.vertices.emplace_back((i & 1u) != 0 ? 1 : -1, (i & 2u) != 0 ? 1 : -1, (i & 4u) != 0 ? 1 : -1);
+  out.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return out;
+}
+
 class MitsubaReader {
  public:
-  explicit MitsubaReader(const std::filesystem::path& path) : path_(path), text_(read_file(path)) {
+  explicit MitsubaReader(const std::filesystem::path& path) : files_(path) {
     raw_.file = path.string();
-    raw_.files = {raw_.file};
+    raw_.files = files_.names();
   }
 
   RawScene read() {
-    pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_buffer(text_.data(), text_.size());
-    if (!parsed) {
-      throw InputError(fmt::format("{}: not well-formed XML: {}", position(parsed.offset), parsed.description()));
-    }
-    const pugi::xml_node scene = document.document_element();
-    if (const std::string_view root = scene.name(); root == "osm" || root == "additional" || root == "polygons") {
-      throw InputError(
-          fmt::format("{}: the root element is <{}>: this is a map; `wavetracer convert {} -o FOLDER` converts it to a "
-                      "scene, FOLDER/city.xml",
-                      where(scene), scene.name(), path_.string()));
-    }
-    if (std::string_view(scene.name()) != "scene") {
-      throw InputError(fmt::format("{}: the root element is <{}>, but that of a Mitsuba scene is <scene>", where(scene),
-                                   scene.name()));
-    }
-    for (const pugi::xml_node node : scene.children("default"))
-      defaults_[attribute(node, "name")] = attribute(node, "value");
-    for (const pugi::xml_node node : scene.children("bsdf")) {  // before the shapes: references may point forward
-      const uint32_t index = add_material(node, "");
-      material_of_[raw_.materials[index].name] = index;
-    }
-    for (const pugi::xml_node node : scene.children()) {
-      static const std::set<std::string_view> skipped = {"default", "bsdf",   "integrator", "sensor",
-                                                         "emitter", "medium", "texture",    "film"};
-      if (node.type() != pugi::node_element) continue;
-      const std::string_view tag = node.name();
-      if (tag == "shape") {
-        add_shape(node);
-      } else if (tag == "include") {
-        throw InputError(fmt::format("{}: <include> is not supported: put its content into this file", where(node)));
-      } else if (!skipped.contains(tag)) {
-        raw_.warnings.push_back(fmt::format("{}: <{}> is unknown and was skipped", where(node), tag));
-      }
-    }
+    MitsubaMaterials materials(files_, raw_);
+    materials_ = &materials;
+    for (const pugi::xml_node node : files_.elements())  // before instances, which may point forward
+      if (is_group(node)) add_group(node);
+    for (const pugi::xml_node node : files_.elements()) add_element(node);
     return std::move(raw_);
   }
 
  private:
-  std::string position(std::ptrdiff_t offset) const {
-    const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-    return fmt::format("{}:{}", raw_.file, 1 + std::count(text_.begin(), end, '\n'));
-  }
-  std::string where(const pugi::xml_node node) const { return position(node.offset_debug()); }
-
-  // "<shape type="ply" id="mesh-floor">", for messages.
-  static std::string describe(const pugi::xml_node node) {
-    std::string out = fmt::format("<{}", node.name());
-    for (const char* key : {"type", "id"}) {
-      if (const auto a = node.attribute(key)) out += fmt::format(" {}=\"{}\"", key, a.value());
-    }
-    return out + ">";
+  bool is_group(pugi::xml_node node) const {
+    return std::string_view(node.name()) == "shape" && files_.attribute(node, "type") == "shapegroup";
   }
 
-  // An attribute with its $parameters replaced; the empty string where it is absent.
-  std::string attribute(const pugi::xml_node node, const char* name) const {
-    std::string value = node.attribute(name).value();
-    const size_t at = value.find('$');
-    if (at == std::string::npos) return value;
-    // The longest parameter wins, as $resx before $res.
-    const std::pair<const std::string, std::string>* best = nullptr;
-    for (const auto& entry : defaults_) {
-      if (value.compare(at + 1, entry.first.size(), entry.first) != 0) continue;
-      if (!best || entry.first.size() > best->first.size()) best = &entry;
-    }
-    if (!best) {
-      throw InputError(
-          fmt::format("{}: {}: the parameter '{}' has no <default>", where(node), describe(node), value.substr(at)));
-    }
-    return value.replace(at, best->first.size() + 1, best->second);
-  }
-
-  // The child <tag name="name">, or an empty node.
-  static pugi::xml_node property(const pugi::xml_node node, const char* tag, std::string_view name) {
-    for (const pugi::xml_node child : node.children(tag)) {
-      if (child.attribute("name").value() == name) return child;
-    }
-    return {};
-  }
-
-  std::optional<double> number(const pugi::xml_node node, std::string_view name, double least, bool infinite) const {
-    pugi::xml_node child = property(node, "float", name);
-    if (!child) child = property(node, "integer", name);
-    if (!child) return std::nullopt;
-    const std::string text = attribute(child, "value");
-    const size_t last = text.find_last_not_of(" \t\r\n") + 1;  // 0 where there are blanks alone, or nothing
-    const size_t first = std::min(text.find_first_not_of(" \t\r\n"), last);
-    const char* const end = text.data() + last;
-    double value = 0;
-    const auto [stop, error] = std::from_chars(text.data() + first, end, value);
-    if (error != std::errc() || stop != end || !(value >= least) || (!infinite && std::isinf(value))) {
-      throw InputError(fmt::format("{}: {}: {} = '{}' must be a number of at least {}", where(child), describe(node),
-                                   name, text, least));
-    }
-    return value;
-  }
-
-  // Index into raw_.materials. fallback names a material without an id.
-  uint32_t add_material(const pugi::xml_node node, const std::string& fallback) {
-    const auto is_radio = [](const pugi::xml_node n) {
-      const std::string_view type = n.attribute("type").value();
-      return type == "itu-radio-material" || type == "radio-material";
-    };
-    pugi::xml_node core = node;
-    while (!is_radio(core) && core.child("bsdf")) core = core.child("bsdf");
-    RawMaterial material;
-    material.name = attribute(node, "id");
-    material.where = where(node);
-    if (is_radio(core)) read_radio(core, material);
-    if (material.name.empty()) material.name = material.itu_type.value_or(fallback);
-    raw_.materials.push_back(std::move(material));
-    return static_cast<uint32_t>(raw_.materials.size() - 1);
-  }
-
-  void read_radio(const pugi::xml_node node, RawMaterial& material) {
-    constexpr double thinnest_m = 1e-9;  // zero would make a slab that is not there
-    material.thickness_m = number(node, "thickness", thinnest_m, true);
-    if (number(node, "scattering_coefficient", 0, false).value_or(0) > 0) {
-      raw_.warnings.push_back(fmt::format("{}: {}: scattering_coefficient is not used", where(node), describe(node)));
-    }
-    if (std::string_view(node.attribute("type").value()) == "itu-radio-material") {
-      material.itu_type = attribute(property(node, "string", "type"), "value");
-      if (material.itu_type->empty()) {
-        throw InputError(
-            fmt::format("{}: {} needs <string name=\"type\" value=\"concrete\"/>", where(node), describe(node)));
-      }
-    } else {  // Sionna RT's defaults are those of vacuum
-      material.permittivity = number(node, "relative_permittivity", 1, false).value_or(1);
-      material.conductivity_s_m = number(node, "conductivity", 0, false).value_or(0);
+  void add_element(pugi::xml_node node) {
+    // What no surface comes from, and what belongs into other elements.
+    static const std::set<std::string_view> skipped = {"bsdf",   "integrator", "sensor", "emitter",
+                                                       "medium", "texture",    "film",   "alias"};
+    static const std::set<std::string_view> misplaced = {"volume", "phase", "sampler", "rfilter", "ref"};
+    const std::string_view tag = node.name();
+    if (tag == "shape") {
+      if (!is_group(node)) add_meshes(read_shape(node));
+    } else if (misplaced.contains(tag) || is_mitsuba_property(node)) {
+      raw_.warnings.push_back(fmt::format("{}: <{}> is not used here and was skipped", files_.where(node), tag));
+    } else if (!skipped.contains(tag)) {
+      files_.fail(node, ": Mitsuba has no such element; correct its name, or remove it");
     }
   }
 
-  uint32_t material_of(const pugi::xml_node shape, const std::string& name) {
-    for (const pugi::xml_node child : shape.children()) {
-      const std::string_view tag = child.name(), role = child.attribute("name").value();
-      if (tag == "bsdf") return add_material(child, name);
-      if (tag == "ref" && (role == "bsdf" || role.empty())) {
-        const std::string id = attribute(child, "id");
-        const auto found = material_of_.find(id);
-        if (found != material_of_.end()) return found->second;
-        throw InputError(fmt::format("{}: {} refers to the material '{}', but no <bsdf> of this file defines it",
-                                     where(child), describe(shape), id));
-      }
-    }
-    return no_material;
+  void add_meshes(std::vector<RawMesh> meshes) {
+    std::move(meshes.begin(), meshes.end(), std::back_inserter(raw_.meshes));
   }
 
-  void add_shape(const pugi::xml_node shape) {
-    const std::string type = attribute(shape, "type");
-    if (type != "ply" && type != "obj") {
-      throw InputError(
-          fmt::format("{}: {}: shapes of this type are not supported; export the shape as a mesh (ply or obj)",
-                      where(shape), describe(shape)));
+  void add_group(pugi::xml_node node) {
+    const std::string id = files_.attribute(node, "id");
+    check_shape(node, "shapegroup", {"shape"});
+    std::vector<RawMesh> meshes = read_parts(node);
+    if (!groups_.try_emplace(id, std::move(meshes)).second)
+      files_.fail(node, ": another shapegroup of this file has this id; keep one");
+  }
+
+  void check_shape(pugi::xml_node shape, std::string_view type, const std::vector<std::string_view>& objects) const {
+    files_.check_attributes(shape, {"type", "id", "name"});
+    check_properties(files_, shape, *properties_of(type), objects);
+  }
+
+  std::vector<RawMesh> read_shape(pugi::xml_node shape) {
+    const std::string type = files_.attribute(shape, "type");
+    if (properties_of(type) == nullptr)
+      files_.fail(shape, ": shapes of this type are not supported; export the shape as a mesh (ply or obj)");
+    if (type == "shapegroup") files_.fail(shape, ": a shapegroup must be an element of <scene>");
+    if (type == "merge") {
+      check_shape(shape, type, {"shape"});
+      return read_parts(shape);
     }
-    const std::string filename = attribute(property(shape, "string", "filename"), "value");
-    if (filename.empty()) {
-      throw InputError(
-          fmt::format("{}: {} needs <string name=\"filename\" value=\"...\"/>", where(shape), describe(shape)));
+    if (type == "instance") return read_instance(shape);
+    check_shape(shape, type, {"bsdf", "ref", "emitter", "sensor", "medium", "texture", "subsurface"});
+    return read_mesh(shape, type);
+  }
+
+  std::vector<RawMesh> read_parts(pugi::xml_node shape) {
+    std::vector<RawMesh> out;
+    for (const pugi::xml_node child : shape.children("shape")) {
+      std::vector<RawMesh> part = read_shape(child);
+      std::move(part.begin(), part.end(), std::back_inserter(out));
     }
-    const std::filesystem::path file = path_.parent_path() / filename;
-    std::error_code unnameable;  // such as a name that is too long
-    if (!std::filesystem::exists(file, unnameable)) {
-      throw InputError(fmt::format("{}: {}: there is no file {}", where(shape), describe(shape), file.string()));
-    }
-    if (const std::string problem = input_file_problem(file, "the mesh"); !problem.empty()) {
-      throw InputError(fmt::format("{}: {}: {}: {}", where(shape), describe(shape), file.string(), problem));
-    }
-    std::string name = attribute(shape, "id");
+    return out;
+  }
+
+  std::vector<RawMesh> read_instance(pugi::xml_node shape) {
+    check_shape(shape, "instance", {"ref"});
+    const pugi::xml_node ref = shape.child("ref");
+    const auto group = groups_.find(files_.attribute(ref, "id"));
+    if (!ref || group == groups_.end() || ref.next_sibling("ref"))
+      files_.fail(shape, " needs one <ref id=\"...\"/> to a shape of type shapegroup");
+    std::vector<RawMesh> out = group->second;
+    move(shape, out);
+    return out;
+  }
+
+  void move(pugi::xml_node shape, std::vector<RawMesh>& meshes) const {
+    const pugi::xml_node node = mitsuba_property(files_, shape, "to_world", {"transform"});
+    if (!node) return;
+    const glm::dmat4 to_world = read_transform(node, files_);
+    for (RawMesh& mesh : meshes)
+      for (glm::dvec3& v : mesh.vertices) v = glm::dvec3(to_world * glm::dvec4(v, 1));
+  }
+
+  std::vector<RawMesh> read_mesh(pugi::xml_node shape, const std::string& type) {
+    const bool of_file = type == "ply" || type == "obj";
+    std::string name = files_.attribute(shape, "id");
     if (name.starts_with("mesh-")) name.erase(0, 5);  // as Sionna RT names its objects
-    if (name.empty()) name = std::filesystem::path(filename).stem().string();
-    std::optional<glm::dmat4> to_world;
-    if (const pugi::xml_node node = property(shape, "transform", "to_world")) {
-      to_world = read_transform(
-          node, [this](pugi::xml_node n, const char* key) { return attribute(n, key); },
-          [this](pugi::xml_node n) { return where(n); });
+    std::filesystem::path file;
+    if (of_file) file = file_of(shape);
+    if (name.empty()) name = of_file ? file.stem().string() : type;
+    const uint32_t material = materials_->of_shape(shape, name);
+    std::vector<RawMesh> out = of_file ? read_file_meshes(file, type) : std::vector<RawMesh>(1);
+    if (!of_file) {
+      out[0] = type == "cube" ? cube() : rectangle();
+      out[0].where = files_.where(shape);
     }
-    const uint32_t material = material_of(shape, name);
-    for (RawMesh& mesh : read_meshes(file, type)) {
+    for (RawMesh& mesh : out) {
       mesh.name = name;
       mesh.material = material;
-      if (to_world) {
-        for (glm::dvec3& v : mesh.vertices) v = glm::dvec3(*to_world * glm::dvec4(v, 1));
-      }
-      raw_.meshes.push_back(std::move(mesh));
     }
+    move(shape, out);
+    return out;
   }
 
-  std::vector<RawMesh> read_meshes(const std::filesystem::path& file, const std::string& type) {
+  std::filesystem::path file_of(pugi::xml_node shape) const {
+    const pugi::xml_node node = mitsuba_property(files_, shape, "filename", {"string"});
+    if (node) files_.check_attributes(node, {"name", "value"});
+    const std::string filename = files_.attribute(node, "value");
+    if (filename.empty()) files_.fail(shape, " needs <string name=\"filename\" value=\"...\"/>");
+    std::filesystem::path file = files_.find(shape, filename);
+    if (const std::string problem = input_file_problem(file, "the mesh"); !problem.empty())
+      files_.fail(shape, fmt::format(": {}: {}", file.string(), problem));
+    return file;
+  }
+
+  std::vector<RawMesh> read_file_meshes(const std::filesystem::path& file, const std::string& type) {
     if (type == "obj") {
       RawScene model = read_model(file, ModelFormat::obj);
       std::move(model.warnings.begin(), model.warnings.end(), std::back_inserter(raw_.warnings));
@@ -227,10 +188,7 @@ class MitsubaReader {
     }
     PlyMesh ply = read_ply(file);
     raw_.files.push_back(file.string());
-    if (ply.small_faces > 0) {
-      raw_.warnings.push_back(
-          fmt::format("{}: {} faces of fewer than three vertices were left out", file.string(), ply.small_faces));
-    }
+    std::move(ply.warnings.begin(), ply.warnings.end(), std::back_inserter(raw_.warnings));
     std::vector<RawMesh> out(1);
     out[0].where = file.string();
     out[0].vertices = std::move(ply.vertices);
@@ -238,11 +196,10 @@ class MitsubaReader {
     return out;
   }
 
-  std::filesystem::path path_;
-  std::string text_;
+  MitsubaFiles files_;
   RawScene raw_;
-  std::map<std::string, std::string> defaults_;
-  std::map<std::string, uint32_t> material_of_;  // id -> index into raw_.materials
+  MitsubaMaterials* materials_ = nullptr;
+  std::map<std::string, std::vector<RawMesh>> groups_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// OBJ and glTF through assimp. Node transforms are applied here, in double.
+// OBJ and glTF 1.0 through assimp. Node transforms are applied here, in double.
 // Vertices are left as assimp reads them, one a corner: welding is one step for all formats (weld.hpp), and knows its
 // tolerance.
 #include "scene/model.hpp"
@@ -16,7 +16,8 @@
 #include <glm/mat4x4.hpp>
 #include <set>
 
-#include "scene/gltf_check.hpp"
+#include "scene/gltf.hpp"
+#include "scene/gltf_extensions.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -137,6 +138,14 @@ class PlainFiles : public Assimp::DefaultIOSystem {
   std::vector<std::string>& opened_;
 };
 
+// Of which nodes have names in the place of numbers.
+bool is_version_1(const GltfFile& file) {
+  const auto asset = file.document.find("asset");
+  if (asset == file.document.end() || !asset->is_object()) return false;
+  const auto version = asset->find("version");
+  return version != asset->end() && version->is_string() && version->get<std::string>().starts_with("1");
+}
+
 }  // namespace
 
 ModelFormat model_format(const std::filesystem::path& path) {
@@ -147,7 +156,11 @@ ModelFormat model_format(const std::filesystem::path& path) {
 
 RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
   const bool obj = format == ModelFormat::obj, fits = model_format(path) == format;
-  if (!obj) check_gltf(path);
+  if (!obj) {
+    const GltfFile file = read_gltf_file(path);
+    if (!is_version_1(file)) return read_gltf(file);
+    check_gltf_extensions(file);
+  }
   const std::string name = path.string() + (fits ? "" : obj ? ".obj" : ".glb");
   std::vector<std::string> files;
   Assimp::Importer importer;

@@ -1,6 +1,5 @@
-// OBJ and glTF models through assimp: meshes in the frame of the file's root, materials by name only.
-// Assumes models near their origin: assimp keeps coordinates as float32, and a warning says so where that costs over 1
-// mm.
+// OBJ and glTF models: meshes in the frame of the file's root, materials by name only. OBJ and glTF 1.0 are read by
+// assimp, which keeps coordinates as float32: a warning says so where that costs over 1 mm.
 #pragma once
 #include <filesystem>
 

@@ -1,127 +1,23 @@
-// The body of a PLY file, as its header describes it.
-// Assumes IEEE 754 numbers on a little or big endian host; every access to the file is bounds checked.
+// The mesh in the body of a PLY file, as its header describes it.
 #include "scene/ply.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "base/file.hpp"
-#include "scene/ply_header.hpp"
+#include "scene/ply_body.hpp"
 #include "scene/polygon.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
 
-using ply::Element, ply::Format, ply::Header, ply::Property, ply::Type;
-
-// The values after the header, in file order.
-class PlyBody {
- public:
-  PlyBody(std::string_view bytes, Format format, const std::string& file)
-      : next_(bytes.data()), end_(bytes.data() + bytes.size()), format_(format), file_(file) {}
-
-  // Starts an element; refuses counts that the rest of the file cannot hold.
-  void begin(const Element& element) {
-    element_ = &element;
-    index_ = 0;
-    uint64_t least = 0;  // bytes of one entry; a number in ascii needs a digit and a separator
-    for (const Property& p : element.properties) {
-      least += format_ == Format::ascii ? 2 : ply::size_of(p.count ? *p.count : p.type);
-    }
-    const uint64_t left = static_cast<uint64_t>(end_ - next_) + 1;  // the last separator of an ascii file may be absent
-    if (least > 0 && element.count > left / least) {
-      throw InputError(
-          fmt::format("{}: the header declares {} entries of element '{}', at least {} bytes each, but only {} bytes "
-                      "are left: the file is incomplete or its header is wrong",
-                      file_, element.count, element.name, least, left - 1));
-    }
-  }
-  void at(uint64_t index) { index_ = index; }
-
-  double scalar(Type type) {
-    if (format_ == Format::ascii) return word(type);
-    switch (type) {
-      case Type::i8:
-        return raw<int8_t>();
-      case Type::u8:
-        return raw<uint8_t>();
-      case Type::i16:
-        return raw<int16_t>();
-      case Type::u16:
-        return raw<uint16_t>();
-      case Type::i32:
-        return raw<int32_t>();
-      case Type::u32:
-        return raw<uint32_t>();
-      case Type::f32:
-        return static_cast<double>(raw<float>());
-      case Type::f64:
-        break;
-    }
-    return raw<double>();
-  }
-
-  // The length of a list, checked against what is left of the file.
-  size_t length(const Property& property) {
-    const double n = scalar(*property.count);
-    const size_t bytes = format_ == Format::ascii ? 1 : ply::size_of(property.type);
-    if (!(n >= 0) || n * static_cast<double>(bytes) > static_cast<double>(end_ - next_)) {
-      fail(fmt::format("property '{}' has the length {}, which is more than the file contains", property.name, n));
-    }
-    return static_cast<size_t>(n);
-  }
-
-  void skip(const Property& property) {
-    size_t n = property.count ? length(property) : 1;
-    while (n-- > 0) scalar(property.type);
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(fmt::format("{}: {} {} of {}: {}", file_, element_->name, index_, element_->count, what));
-  }
-
- private:
-  template <class T>
-  T raw() {
-    if (static_cast<size_t>(end_ - next_) < sizeof(T)) fail("the file ends here: it is incomplete");
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), next_, sizeof(T));
-    next_ += sizeof(T);
-    const bool host_little = std::endian::native == std::endian::little;
-    if ((format_ == Format::little) != host_little) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<T>(bytes);
-  }
-
-  double word(Type type) {
-    while (next_ < end_ && ply::is_space(*next_)) ++next_;
-    if (next_ == end_) fail("the file ends here: it is incomplete");
-    const char* begin = next_;
-    while (next_ < end_ && !ply::is_space(*next_)) ++next_;
-    const std::string_view text(begin, static_cast<size_t>(next_ - begin));
-    if (*begin == '+') ++begin;
-    double value = 0;
-    const auto [stop, error] = std::from_chars(begin, next_, value);
-    const bool whole = type >= Type::f32 || value == std::floor(value);
-    if (error != std::errc() || stop != next_ || !whole) {
-      fail(fmt::format("'{}' is not a{} number", text, type >= Type::f32 ? "" : " whole"));
-    }
-    return value;
-  }
-
-  const char* next_;
-  const char* end_;
-  Format format_;
-  const std::string& file_;
-  const Element* element_ = nullptr;
-  uint64_t index_ = 0;
-};
+using ply::Element, ply::Header, ply::PlyBody, ply::Property, ply::Type;
 
 void read_vertices(PlyBody& body, const Element& element, const std::string& file, std::vector<glm::dvec3>& vertices) {
   std::vector<int> axis(element.properties.size(), -1);  // property -> coordinate
@@ -157,70 +53,129 @@ struct Faces {
   std::vector<size_t> first{0};
 };
 
-// Corners are checked later: an element 'face' may come before 'vertex'.
-Faces read_faces(PlyBody& body, const Element& element, const std::string& file) {
-  size_t list = element.properties.size();
-  for (size_t i = 0; i < element.properties.size(); ++i) {
+// The property that lists the corners of faces or strips; Turk's files call it vertex_indices, others vertex_index.
+size_t corner_list(const Element& element, const std::string& file) {
+  const size_t none = element.properties.size();
+  size_t list = none;
+  for (size_t i = 0; i < none; ++i) {
     const Property& p = element.properties[i];
-    if (p.count && (p.name == "vertex_indices" || p.name == "vertex_index")) list = i;
+    if (!p.count || (p.name != "vertex_indices" && p.name != "vertex_index")) continue;
+    if (list != none)
+      throw InputError(
+          fmt::format("{}: element '{}' has two lists of vertices; keep 'vertex_indices'", file, element.name));
+    list = i;
   }
-  if (list == element.properties.size() || element.properties[list].type >= Type::f32) {
-    throw InputError(
-        fmt::format("{}: element 'face' needs a list of integers 'vertex_indices' (or 'vertex_index')", file));
+  if (list == none || element.properties[list].type >= Type::f32) {
+    throw InputError(fmt::format("{}: element '{}' needs a list of integers 'vertex_indices' (or 'vertex_index')", file,
+                                 element.name));
   }
-  Faces faces;
-  for (uint64_t f = 0; f < element.count; ++f) {
-    body.at(f);
+  return list;
+}
+
+// Calls take(index) for every number of the lists of vertices, and end(entry) after each list.
+template <class Take, class End>
+void read_lists(PlyBody& body, const Element& element, const std::string& file, const Take& take, const End& end) {
+  const size_t list = corner_list(element, file);
+  for (uint64_t entry = 0; entry < element.count; ++entry) {
+    body.at(entry);
     for (size_t i = 0; i < element.properties.size(); ++i) {
       const Property& p = element.properties[i];
       if (i != list) {
         body.skip(p);
         continue;
       }
-      for (size_t n = body.length(p); n > 0; --n) {
-        const double index = body.scalar(p.type);
-        if (index < 0 || index > std::numeric_limits<uint32_t>::max()) {
-          body.fail(fmt::format("vertex index {} is out of range", index));
-        }
-        faces.corners.push_back(static_cast<uint32_t>(index));
-      }
+      for (size_t n = body.length(p); n > 0; --n) take(body.scalar(p.type));
     }
-    faces.first.push_back(faces.corners.size());
+    end();
   }
-  return faces;
 }
 
-}  // namespace
+uint32_t corner_of(const PlyBody& body, double index) {
+  if (!(index >= 0) || index > std::numeric_limits<uint32_t>::max())
+    body.fail(fmt::format("vertex index {} is out of range", index));
+  return static_cast<uint32_t>(index);
+}
 
-PlyMesh read_ply(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const std::string content = read_file(path);
-  const Header header = ply::parse_header(content, file);
-  PlyBody body(std::string_view(content).substr(header.size), header.format, file);
-  PlyMesh mesh;
-  std::optional<Faces> faces;
-  bool has_vertices = false;
-  for (const Element& element : header.elements) {
+// Corners are checked later: an element 'face' may come before 'vertex'.
+void read_faces(PlyBody& body, const Element& element, const std::string& file, Faces& faces) {
+  read_lists(
+      body, element, file, [&](double index) { faces.corners.push_back(corner_of(body, index)); },
+      [&] { faces.first.push_back(faces.corners.size()); });
+}
+
+// Strips of triangles, of which -1 ends one: every corner after the second makes a triangle with the two before it, and
+// every other one is turned. A triangle with a corner twice joins strips, and is none.
+void read_strips(PlyBody& body, const Element& element, const std::string& file, Faces& faces) {
+  std::vector<uint32_t> strip;
+  read_lists(
+      body, element, file,
+      [&](double index) {
+        if (index == -1) {
+          strip.clear();
+          return;
+        }
+        strip.push_back(corner_of(body, index));
+        const size_t n = strip.size();
+        if (n < 3 || strip[n - 1] == strip[n - 2] || strip[n - 2] == strip[n - 3] || strip[n - 1] == strip[n - 3])
+          return;
+        const bool turned = n % 2 == 0;
+        faces.corners.insert(faces.corners.end(),
+                             {strip[n - 3], strip[turned ? n - 1 : n - 2], strip[turned ? n - 2 : n - 1]});
+        faces.first.push_back(faces.corners.size());
+      },
+      [&] { strip.clear(); });
+}
+
+// The elements of the body that make a mesh; what of the others is lost becomes a warning.
+struct Elements {
+  const std::string& file;
+  PlyMesh& mesh;
+  bool has_vertices = false, has_faces = false, has_strips = false;
+  Faces faces = {};
+
+  void once(bool& seen, const Element& element) const {
+    if (seen) throw InputError(fmt::format("{}: the header has the element '{}' twice", file, element.name));
+    seen = true;
+  }
+
+  void read(PlyBody& body, const Element& element) {
     body.begin(element);
-    if (element.name == "vertex" && !has_vertices) {
-      has_vertices = true;
+    if (element.name == "vertex") {
+      once(has_vertices, element);
       read_vertices(body, element, file, mesh.vertices);
-    } else if (element.name == "face" && !faces) {
-      faces = read_faces(body, element, file);
-    } else if (!element.properties.empty()) {
+    } else if (element.name == "face") {
+      once(has_faces, element);
+      read_faces(body, element, file, faces);
+    } else if (element.name == "tristrips") {
+      once(has_strips, element);
+      read_strips(body, element, file, faces);
+    } else {
+      skip(body, element);
+    }
+  }
+
+  void skip(PlyBody& body, const Element& element) const {
+    // Edges are those of faces, or wires; the others are how a picture of the mesh is made.
+    constexpr std::array<std::string_view, 6> harmless = {"edge", "material", "camera",
+                                                          "user", "texture",  "range_grid"};
+    if (!element.properties.empty()) {
       for (uint64_t i = 0; i < element.count; ++i) {
         body.at(i);
         for (const Property& p : element.properties) body.skip(p);
       }
     }
+    if (element.count > 0 && std::ranges::find(harmless, element.name) == harmless.end())
+      mesh.warnings.push_back(
+          fmt::format("{}: {} entries of the element '{}' were left out: only vertex, face and "
+                      "tristrips make surfaces",
+                      file, element.count, element.name));
   }
-  if (!has_vertices) throw InputError(fmt::format("{}: the PLY file has no element 'vertex'", file));
-  if (!faces)
-    throw InputError(fmt::format("{}: the PLY file has no element 'face': a point cloud is not a mesh", file));
-  const size_t face_count = faces->first.size() - 1;
+};
+
+void add_triangles(const Faces& faces, const std::string& file, PlyMesh& mesh) {
+  const size_t face_count = faces.first.size() - 1;
   for (size_t f = 0; f < face_count; ++f) {
-    const std::span<const uint32_t> polygon(faces->corners.data() + faces->first[f],
-                                            faces->first[f + 1] - faces->first[f]);
+    const std::span<const uint32_t> polygon(faces.corners.data() + faces.first[f], faces.first[f + 1] - faces.first[f]);
     for (uint32_t v : polygon) {
       if (v >= mesh.vertices.size()) {
         throw InputError(fmt::format("{}: face {} of {}: vertex index {} is out of range, the file has {} vertices",
@@ -233,6 +188,30 @@ PlyMesh read_ply(const std::filesystem::path& path) {
       triangulate_polygon(mesh.vertices, polygon, mesh.triangles);
     }
   }
+}
+
+}  // namespace
+
+PlyMesh read_ply(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string whole = read_file(path);
+  std::string_view content = whole;
+  if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);  // a byte order mark
+  const Header header = ply::parse_header(content, file);
+  PlyBody body(content.substr(header.size), header.format, file);
+  PlyMesh mesh;
+  Elements elements{file, mesh};
+  for (const Element& element : header.elements) elements.read(body, element);
+  if (!elements.has_vertices) throw InputError(fmt::format("{}: the PLY file has no element 'vertex'", file));
+  if (!elements.has_faces && !elements.has_strips)
+    throw InputError(fmt::format("{}: the PLY file has no element 'face': a point cloud is not a mesh", file));
+  add_triangles(elements.faces, file, mesh);
+  if (mesh.small_faces > 0)
+    mesh.warnings.push_back(
+        fmt::format("{}: {} faces of fewer than three vertices were left out", file, mesh.small_faces));
+  if (const size_t left = body.left(); left > 0)
+    mesh.warnings.push_back(fmt::format(
+        "{}: {} bytes follow what the header declares, and were left out: are its counts right?", file, left));
   return mesh;
 }
 

@@ -12,9 +12,10 @@
 namespace wavetracer {
 
 struct PlyMesh {
-  std::vector<glm::dvec3> vertices;  // as stored: float coordinates become double unchanged
-  std::vector<Triangle> triangles;   // polygons are triangulated
-  uint64_t small_faces = 0;          // faces of fewer than three vertices, left out
+  std::vector<glm::dvec3> vertices;        // as stored: float coordinates become double unchanged
+  std::vector<Triangle> triangles;         // polygons are triangulated
+  uint64_t small_faces = 0;                // faces of fewer than three vertices, left out
+  std::vector<std::string> warnings = {};  // of them, and of what else of the file is left out
 };
 
 // Throws InputError that names the file and the element.

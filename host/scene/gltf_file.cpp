@@ -1,6 +1,5 @@
 // GLB: glTF 2.0, section 4.4. Version 1 has its JSON in the same place, and names nodes where version 2 counts them.
-// Only the JSON is read, of GLB files not the binary data.
-#include "scene/gltf_check.hpp"
+#include "scene/gltf_file.hpp"
 
 #include <fmt/format.h>
 
@@ -34,9 +33,13 @@ std::optional<uint64_t> chunk_length(std::ifstream& in, uint64_t at) {
   return out;
 }
 
-std::string glb_json(std::ifstream& in, const std::filesystem::path& path) {
+struct Chunks {
+  std::string json, binary;
+};
+
+Chunks glb_chunks(std::ifstream& in, const std::filesystem::path& path) {
   const uint64_t size = std::filesystem::file_size(path);
-  std::string out;
+  Chunks out;
   uint64_t at = 12;
   for (const bool first : {true, false}) {  // JSON, then binary data; further chunks are passed over
     const std::optional<uint64_t> length = chunk_length(in, at);
@@ -47,13 +50,12 @@ std::string glb_json(std::ifstream& in, const std::filesystem::path& path) {
           "{}: a chunk of {} bytes begins at byte {} of {}: the file is incomplete or damaged; copy it again",
           path.string(), *length, at, size));
     }
-    if (first) {
-      out.resize(*length);
-      in.read(out.data(), static_cast<std::streamsize>(out.size()));
-    }
+    std::string& text = first ? out.json : out.binary;
+    text.resize(*length);
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
     at += (*length + 3) / 4 * 4;
   }
-  out.resize(out.find_last_not_of('\0') + 1);  // some writers fill the chunk up with zeros
+  out.json.resize(out.json.find_last_not_of('\0') + 1);  // some writers fill the chunk up with zeros
   return out;
 }
 
@@ -126,11 +128,15 @@ void add_once(Parents& parents, const json& owner, const char* list, const std::
 
 }  // namespace
 
-void check_gltf(const std::filesystem::path& path) {
+GltfFile read_gltf_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::array<char, 4> magic{};
-  const bool glb = in.read(magic.data(), magic.size()) && std::string_view(magic.data(), magic.size()) == "glTF";
-  const json document = parse(glb ? glb_json(in, path) : read_file(path), path.string());
+  GltfFile out{.path = path, .document = {}, .binary = {}};
+  out.is_glb = in.read(magic.data(), magic.size()) && std::string_view(magic.data(), magic.size()) == "glTF";
+  Chunks chunks = out.is_glb ? glb_chunks(in, path) : Chunks{read_file(path), ""};
+  out.binary = std::move(chunks.binary);
+  out.document = parse(chunks.json, path.string());
+  const json& document = out.document;
   Parents parents;
   if (document.contains("nodes")) {
     for (const auto& [name, node] : document["nodes"].items()) add_once(parents, node, "children", name, path.string());
@@ -142,6 +148,7 @@ void check_gltf(const std::filesystem::path& path) {
       add_once(roots, scene, "nodes", name, path.string());
     }
   }
+  return out;
 }
 
 }  // namespace wavetracer

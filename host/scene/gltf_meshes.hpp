@@ -1,0 +1,45 @@
+// Primitives of glTF 2.0 meshes as triangles: modes, indices, morph targets, skins and KHR_draco_mesh_compression.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_data.hpp"
+#include "scene/raw_scene.hpp"
+
+namespace wavetracer {
+
+// Where the vertices of a node go: by the node, or by the joints of its skin.
+struct GltfPlace {
+  glm::dmat4 world{1};
+  std::vector<glm::dmat4> joints = {};     // world times inverse bind matrix; none without a skin
+  std::vector<double> morph_weights = {};  // of the node; none: those of the mesh
+};
+
+class GltfMeshes {
+ public:
+  GltfMeshes(const GltfFile& file, GltfData& data) : file_(file), data_(data) {}
+
+  // The primitives of the mesh that are surfaces, with material indices of the file.
+  std::vector<RawMesh> read(const nlohmann::json& mesh, const GltfPlace& place);
+  // Primitives that were left out so far: points and lines, and those without positions.
+  uint64_t not_surfaces() const { return not_surfaces_; }
+
+ private:
+  struct Primitive;
+
+  bool read_primitive(const nlohmann::json& from, Primitive& to);
+  void read_draco(const nlohmann::json& from, const nlohmann::json& extension, Primitive& to);
+  void read_indices(const nlohmann::json& from, int64_t mode, Primitive& to);
+  void morph(const nlohmann::json& from, const std::vector<double>& weights, Primitive& to);
+  void place(const nlohmann::json& from, const GltfPlace& by, Primitive& to);
+  std::vector<double> attribute(const nlohmann::json& from, const char* name, size_t components, const Primitive& of);
+
+  const GltfFile& file_;
+  GltfData& data_;
+  uint64_t not_surfaces_ = 0;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,35 @@
+// The <bsdf> elements of a Mitsuba scene as radio materials, by id. Radio bsdfs are those of Sionna RT 1.x
+// (itu-radio-material, radio-material); of any other bsdf only the outermost id counts.
+#pragma once
+#include <map>
+#include <set>
+#include <string>
+
+#include "scene/mitsuba_files.hpp"
+#include "scene/raw_scene.hpp"
+
+namespace wavetracer {
+
+class MitsubaMaterials {
+ public:
+  // Adds materials and warnings to raw. Those at the top of the file are added at once: references may point forward.
+  MitsubaMaterials(const MitsubaFiles& files, RawScene& raw);
+
+  // What a shape is made of: by its <bsdf>, or by a reference to one. no_material where it has neither. name: of the
+  // shape, for a material without an id.
+  uint32_t of_shape(pugi::xml_node shape, const std::string& name);
+
+ private:
+  uint32_t add(pugi::xml_node node, const std::string& fallback);
+  void add_alias(pugi::xml_node node);
+  void read_radio(pugi::xml_node node, RawMaterial& material);
+  void warn_of_scattering(pugi::xml_node node);
+  void warn_of_bsdf(pugi::xml_node node);
+
+  const MitsubaFiles& files_;
+  RawScene& raw_;
+  std::map<std::string, uint32_t> index_;  // id -> index into raw_.materials
+  std::set<std::string> others_;           // ids of what is no material, such as a medium
+};
+
+}  // namespace wavetracer
