@@ -1,4 +1,5 @@
-// vegetation: metres of each visible path inside of each kind of vegetation, over all of its legs.
+// vegetation: metres of each visible path inside of each kind of vegetation, over all of its legs. Where volumes
+// overlap, the space is that of the first.
 // Consumes visible paths and the tree over the volumes; writes wt_vegetation_arguments::kinds lengths per path.
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
@@ -20,13 +21,17 @@ inline double wt_over(double x) { return fabs(x) > 1e-30 ? 1.0 / x : 1e30; }
 
 // One path per work-item.
 kernel void vegetation(const global wt_bvh2_node* nodes, const global wt_volume* volumes,
-                       const global double* triangles, const global double4* transmitters,
+                       const global double* triangles, const global uint* earlier, const global double4* transmitters,
                        const global double4* receivers, const global wt_solved* visible, const global double* vertices,
                        const global wt_counters* counters, global double* lengths, wt_vegetation_arguments args) {
   const uint i = get_global_id(0);
   if (i >= wt_length(counters, args.visible_counter, args.visible_count)) return;
   ulong inside[WT_MOST_KINDS];
   for (uint kind = 0; kind < WT_MOST_KINDS; ++kind) inside[kind] = 0;
+  wt_volumes all;
+  all.volumes = volumes;
+  all.triangles = triangles;
+  all.earlier = earlier;
   const global double* v = vertices + 3 * (size_t)args.max_depth * i;
   const uint depth = visible[i].depth;
   double3 from = transmitters[visible[i].transmitter].xyz;
@@ -47,7 +52,7 @@ kernel void vegetation(const global wt_bvh2_node* nodes, const global wt_volume*
           continue;
         }
         for (uint k = wt_leaf_first(child); k < wt_leaf_end(child); ++k)
-          inside[volumes[k].kind] += wt_parts_of_length(wt_length_inside(volumes + k, triangles, from, to));
+          inside[volumes[k].kind] += wt_parts_of_length(wt_length_in_space(all, k, from, to));
       }
       if (waiting == 0) break;
       next = stack[--waiting];

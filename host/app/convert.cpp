@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
+#include "base/input_file.hpp"
 #include "base/pending_file.hpp"
 #include "base/spelling.hpp"
 #include "imports/imports.hpp"
@@ -131,8 +132,9 @@ Extent extent_of_traffic(const ConvertOptions& options) {
 void check_input(const fs::path& input) {
   std::error_code error;
   if (!fs::exists(input, error))
-    throw InputError(fmt::format(
-        "{}: there is no such file or folder; name the folder of a run, its paths.h5, or a map", input.string()));
+    throw InputError(
+        fmt::format("{}: there is no such file or folder; name the folder of a run, its paths.h5, or a map{}",
+                    input.string(), backslash_hint(input)));
 }
 
 void import_map(const ConvertOptions& options) {

@@ -24,9 +24,14 @@ const char* kind_of(std::filesystem::file_type type) {
 }  // namespace
 
 std::string backslash_hint(const std::filesystem::path& path) {
-  std::string text = path.string();
-  if (text.find('\\') == std::string::npos) return "";
-  std::ranges::replace(text, '\\', '/');
+  // "\t" of a folder "\town" is a tab to TOML, and so are four others.
+  constexpr std::string_view coded = "\\\t\b\n\f\r", letters = "\\tbnfr";
+  std::string text;
+  for (const char c : path.string()) {
+    const size_t at = coded.find(c);
+    text += at == coded.npos ? std::string(1, c) : at == 0 ? "/" : std::string{'/', letters[at]};
+  }
+  if (text == path.string()) return "";
   std::error_code unnameable;
   const bool there = std::filesystem::exists(text, unnameable);
   return fmt::format("; {}write / instead of \\ between the names of folders",

@@ -86,7 +86,9 @@ class Parser {
     try {
       document_ = toml::parse(text, file_);
     } catch (const toml::parse_error& e) {
-      fail(place(e.source()), std::string(e.description()));
+      const bool escape = e.description().find("escape") != std::string_view::npos;
+      fail(place(e.source()),
+           fmt::format("{}{}", e.description(), escape ? "; write / instead of \\ between the names of folders" : ""));
       finish();
     }
     read_document();

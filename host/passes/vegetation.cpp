@@ -25,6 +25,16 @@ Box box_of(const device::wt_volume& volume) {
   return out;
 }
 
+// The same lists for volumes in another order, by their new numbers.
+std::vector<uint32_t> earlier_in(const std::vector<uint32_t>& order, const std::vector<uint32_t>& moved,
+                                 const std::vector<uint32_t>& earlier) {
+  std::vector<uint32_t> out(1, static_cast<uint32_t>(order.size() + 1));
+  for (const uint32_t volume : order) out.push_back(out.back() + earlier[volume + 1] - earlier[volume]);
+  for (const uint32_t volume : order)
+    for (uint32_t i = earlier[volume]; i < earlier[volume + 1]; ++i) out.push_back(moved[earlier[i]]);
+  return out;
+}
+
 }  // namespace
 
 Vegetation::Vegetation(gpu::Context& context, const VolumeTable& table)
@@ -37,7 +47,12 @@ Vegetation::Vegetation(gpu::Context& context, const VolumeTable& table)
   for (const device::wt_volume& volume : table.volumes) boxes.push_back(box_of(volume));
   const TopLevel tree = build_top_level(boxes);
   std::vector<device::wt_volume> ordered;
-  for (const uint32_t volume : tree.order) ordered.push_back(table.volumes[volume]);
+  std::vector<uint32_t> moved(table.volumes.size());
+  for (const uint32_t volume : tree.order) {
+    moved[volume] = static_cast<uint32_t>(ordered.size());
+    ordered.push_back(table.volumes[volume]);
+  }
+  earlier_ = context.buffer(earlier_in(tree.order, moved, table.earlier), "overlaps of vegetation");
   nodes_ = context.buffer(tree.nodes, "tree of vegetation");
   volumes_ = context.buffer(ordered, "vegetation");
 }
@@ -47,8 +62,8 @@ const gpu::Buffer<double>& Vegetation::operator()(const RadioEnds& ends, const S
   const size_t lengths = size_t{visible.count} * kinds_;
   if (lengths_.size() < lengths) lengths_ = context_.buffer<double>(lengths + lengths / 4, "lengths in vegetation");
   if (lengths > 0)
-    kernel_(work_.range(visible.count), "vegetation", nodes_, volumes_, triangles_, ends.transmitters, ends.receivers,
-            visible.headers, visible.vertices, counters.buffer(), lengths_,
+    kernel_(work_.range(visible.count), "vegetation", nodes_, volumes_, triangles_, earlier_, ends.transmitters,
+            ends.receivers, visible.headers, visible.vertices, counters.buffer(), lengths_,
             wt_vegetation_arguments{.visible_count = visible.count,
                                     .visible_counter = visible.counter,
                                     .max_depth = visible.max_depth,

@@ -24,6 +24,7 @@ class Vegetation {
   gpu::Buffer<wt_bvh2_node> nodes_;
   gpu::Buffer<device::wt_volume> volumes_;  // in the order of leaves
   gpu::Buffer<double> triangles_, lengths_;
+  gpu::Buffer<uint32_t> earlier_;
 };
 
 }  // namespace wavetracer

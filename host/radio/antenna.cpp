@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/input_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -23,8 +24,8 @@ std::pair<uint32_t, PatternGrid> pattern_of(const RadioEnd& end) {
   if (std::filesystem::is_regular_file(end.antenna, unnameable)) return {WT_PATTERN_GRID, load_pattern(end.antenna)};
   throw ConfigError(
       fmt::format("\"{}\": antenna = \"{}\" is neither isotropic, short-dipole, dipole or tr38901 nor a "
-                  "pattern file that exists",
-                  end.name, end.antenna));
+                  "pattern file that exists{}",
+                  end.name, end.antenna, backslash_hint(end.antenna)));
 }
 
 std::vector<double> slants_of(const RadioEnd& end) {

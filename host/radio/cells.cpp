@@ -53,6 +53,11 @@ double boxes_in(const Counts& n) {
   return static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
 }
 
+// Is the upright leg from here, of a micrometre, inside?
+bool holds(const device::wt_volume& record, const double* triangles, const dvec3& centre) {
+  return device::wt_length_inside(&record, triangles, centre, centre + dvec3(0, 0, probe_m)) > probe_m / 2;
+}
+
 // Of the boxes whose centres are inside.
 std::vector<dvec3> centres_inside(const Volume& volume, const device::wt_volume& record, const double* triangles,
                                   const Counts& n) {
@@ -66,8 +71,7 @@ std::vector<dvec3> centres_inside(const Volume& volume, const device::wt_volume&
         const dvec3 p = share * volume.half_size;
         const dvec3 centre = volume.centre + dvec3(record.cosine * p.x - record.sine * p.y,
                                                    record.sine * p.x + record.cosine * p.y, p.z);
-        const double inside_m = device::wt_length_inside(&record, triangles, centre, centre + dvec3(0, 0, probe_m));
-        if (inside_m > probe_m / 2) out.push_back(centre);
+        if (holds(record, triangles, centre)) out.push_back(centre);
       }
   return out;
 }
@@ -104,7 +108,14 @@ std::vector<Cell> make_cells(const Scene& scene, double cell_m, uint64_t most) {
       if (static_cast<double>(centres.size()) * box_m3 > volume_m3 / 2) break;
       for (uint64_t& count : n) count *= 2;
     }
-    for (const dvec3& centre : centres) out.push_back({centre, volume_m3 / static_cast<double>(centres.size()), i});
+    const device::wt_volumes all = table.all();
+    const auto earlier_holds = [&](const dvec3& centre) {
+      for (uint32_t k = table.earlier[i]; k < table.earlier[i + 1]; ++k)
+        if (holds(*device::wt_earlier(all, k), table.triangles.data(), centre)) return true;
+      return false;
+    };
+    for (const dvec3& centre : centres)
+      if (!earlier_holds(centre)) out.push_back({centre, volume_m3 / static_cast<double>(centres.size()), i});
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // Cells of vegetation that scatters: its volumes are cut along their axes into boxes whose sides are at most as long as
 // trace.tile_m, and boxes whose centre is inside are cells. They share the volume evenly, so all of it is there however
-// few they are. Cells of the world are numbered after its tiles (scene/tiles.hpp).
+// few they are. A centre that a volume before holds, too, is no cell of this one. Cells of the world are numbered after
+// its tiles (scene/tiles.hpp).
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>

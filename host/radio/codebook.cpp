@@ -80,6 +80,7 @@ Weights read_weights(const std::string& file, uint32_t elements) {
   std::string text;
   bool header_seen = false;
   for (size_t number = 1; std::getline(stream, text); ++number) {
+    if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark, as Excel writes it
     if (text.ends_with('\r')) text.pop_back();
     if (text.empty() || text.front() == '#') continue;
     const CodebookLine line{file, number};

@@ -114,6 +114,7 @@ OrderedRows ordered_rows(const device::wt_path_list& list, const device::wt_fiel
 // Metres that each path is inside of each kind of vegetation.
 std::vector<double> lengths_inside(const VolumeTable& table, const device::wt_path_list& list, size_t count) {
   const size_t kinds = table.material.size();
+  const device::wt_volumes all = table.all();
   std::vector<double> out(count * kinds);
   tbb::parallel_for(size_t{0}, count, [&](size_t i) {
     std::vector<uint64_t> inside(kinds);
@@ -121,9 +122,8 @@ std::vector<double> lengths_inside(const VolumeTable& table, const device::wt_pa
     glm::dvec3 from = path.from;
     for (uint32_t leg = 0; leg <= path.depth; ++leg) {
       const glm::dvec3 to = leg < path.depth ? device::wt_vertex(&path, leg) : path.to;
-      for (const device::wt_volume& volume : table.volumes)
-        inside[volume.kind] +=
-            device::wt_parts_of_length(device::wt_length_inside(&volume, table.triangles.data(), from, to));
+      for (uint32_t k = 0; k < table.volumes.size(); ++k)
+        inside[table.volumes[k].kind] += device::wt_parts_of_length(device::wt_length_in_space(all, k, from, to));
       from = to;
     }
     std::ranges::transform(inside, out.begin() + static_cast<ptrdiff_t>(i * kinds), device::wt_length_of_parts);

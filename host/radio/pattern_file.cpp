@@ -78,6 +78,7 @@ Samples read_samples(const std::string& file) {
   std::string text;
   bool header_seen = false;
   for (size_t line = 1; std::getline(stream, text); ++line) {
+    if (line == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark, as Excel writes it
     const std::string_view content = trimmed(text);
     if (content.empty() || content.front() == '#') continue;
     if (header_seen) {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/volume_overlaps.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -55,6 +56,10 @@ VolumeTable volume_table(const Scene& scene) {
         out.triangles.insert(out.triangles.end(), {corner.x, corner.y, corner.z});
     out.volumes.push_back(record);
   }
+  const std::vector<std::vector<uint32_t>> earlier = earlier_volumes(scene.volumes);
+  out.earlier.assign(1, static_cast<uint32_t>(earlier.size() + 1));
+  for (const auto& list : earlier) out.earlier.push_back(out.earlier.back() + static_cast<uint32_t>(list.size()));
+  for (const auto& list : earlier) out.earlier.insert(out.earlier.end(), list.begin(), list.end());
   return out;
 }
 

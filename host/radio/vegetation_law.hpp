@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "wavetracer/device/field_records.h"
+#include "wavetracer/device/volumes.h"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
@@ -20,6 +20,10 @@ struct VolumeTable {
   std::vector<device::wt_volume> volumes;
   std::vector<double> triangles;   // of meshes, nine each
   std::vector<uint32_t> material;  // of each kind: its index in Scene::materials
+  std::vector<uint32_t> earlier;   // as wt_volumes has it
+
+  // For functions of wavetracer/device/volumes.h, while this is not changed.
+  device::wt_volumes all() const { return {volumes.data(), triangles.data(), earlier.data()}; }
 };
 // Throws ConfigError for more than WT_MOST_KINDS kinds.
 VolumeTable volume_table(const Scene& scene);

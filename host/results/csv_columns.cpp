@@ -21,6 +21,7 @@ CsvColumns::CsvColumns(const std::vector<std::string>& names) {
 }
 
 void CsvColumns::end_field() {
+  if (header_ && field_ == 0 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // a byte order mark
   for (Column& column : columns_) {
     if (header_ && column.field == no_field && text_ == column.name) column.field = field_;
     if (!header_ && field_ == column.field) column.values.push_back(number_of(text_));

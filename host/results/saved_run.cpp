@@ -52,8 +52,8 @@ fs::path paths_file(const fs::path& path) {
   const fs::path file = folder ? path / "paths.h5" : path;
   if (!fs::exists(file, ignored))
     throw InputError(
-        fmt::format("{}: {}; name the folder that `wavetracer run -o` has written to, or the paths.h5 in it",
-                    path.string(), folder ? "holds no paths.h5" : "there is no such file"));
+        fmt::format("{}: {}; name the folder that `wavetracer run -o` has written to, or the paths.h5 in it{}",
+                    path.string(), folder ? "holds no paths.h5" : "there is no such file", backslash_hint(path)));
   check_input_file(file, "the paths.h5 of a run");
   return file;
 }

@@ -9,8 +9,11 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "scene/earlier_faces.hpp"
 #include "scene/scene_wedges.hpp"
 #include "scene/topology.hpp"
+#include "scene/unit_check.hpp"
+#include "scene/volume_overlaps.hpp"
 #include "scene/volumes.hpp"
 #include "scene/weld.hpp"
 #include "wavetracer/error.hpp"
@@ -159,7 +162,7 @@ void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>&
     triangle_material.push_back(mesh_material[soup.object[i]]);
   }
   const Duplicates duplicates = find_duplicates(scene.triangles, triangle_material);
-  scene.report.duplicate_triangles = duplicates.count;
+  scene.report.duplicate_triangles += duplicates.count;
   if (duplicates.other_material > 0) {
     scene.report.warnings.push_back(
         fmt::format("{} triangles repeat another one in a different material; the first of each was kept",
@@ -195,6 +198,15 @@ void compact_vertices(Scene& scene) {
   }
 }
 
+// What several triangles of one plane cover scatters once (earlier_faces.hpp).
+void warn_of_covered_faces(Scene& scene) {
+  if (std::ranges::none_of(scene.materials, [](const Material& m) { return m.scattering > 0 && !m.vegetation; }))
+    return;
+  if (const uint64_t covered = EarlierFaces(scene).count(); covered > 0)
+    scene.report.warnings.push_back(fmt::format(
+        "{} triangles lie on others of their plane; where they do, the first in the file scatters", covered));
+}
+
 void gather_volumes(Scene& scene, const RawScene& raw, const ResolvedMaterials& resolved) {
   for (size_t i = 0; i < raw.volumes.size(); ++i) {
     scene.volumes.push_back(raw.volumes[i].volume);
@@ -203,9 +215,10 @@ void gather_volumes(Scene& scene, const RawScene& raw, const ResolvedMaterials& 
   for (size_t m = 0; m < raw.meshes.size(); ++m) {
     const uint32_t material = resolved.mesh_material[m];
     if (!scene.materials[material].vegetation) continue;
-    const std::vector<Volume> parts = mesh_volumes(raw.meshes[m], material);
+    const std::vector<Volume> parts = mesh_volumes(raw.meshes[m], material, &scene.report);
     scene.volumes.insert(scene.volumes.end(), parts.begin(), parts.end());
   }
+  settle_overlaps(scene.volumes, scene.report.warnings);
   for (Volume& volume : scene.volumes) {
     volume.centre -= scene.origin_m;
     for (auto& triangle : volume.triangles)
@@ -243,6 +256,8 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch ed
     scene.upper = glm::max(scene.upper, v);
   }
   warn_small(scene);
+  if (std::string warning = unit_warning(scene); !warning.empty()) scene.report.warnings.push_back(std::move(warning));
+  warn_of_covered_faces(scene);
   return scene;
 }
 

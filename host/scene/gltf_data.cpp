@@ -224,7 +224,7 @@ std::vector<double> GltfData::numbers(const json& index, size_t components) {
     out.resize(count * components);
   }
   if (accessor.contains("sparse")) put_sparse(accessor, components, out);
-  if (accessor.value("normalized", false))
+  if (accessor.value("normalized", false) && largest_of(type) > 1)
     for (double& x : out) x = std::max(x / largest_of(type), -1.0);
   return out;
 }

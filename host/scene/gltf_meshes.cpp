@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "scene/gltf_draco.hpp"
 
@@ -34,8 +35,13 @@ std::vector<Triangle> triangles_of(const std::vector<uint32_t>& corners, int64_t
 
 // Keeps the vertices that triangles use: meshes often share one long list.
 void drop_unused(std::vector<glm::dvec3>& vertices, std::vector<Triangle>& triangles) {
-  if (vertices.size() <= 3 * triangles.size() / 2) return;
   std::vector<uint32_t> moved(vertices.size(), unused_vertex);
+  size_t used = 0;
+  for (const Triangle& t : triangles)
+    for (const uint32_t v : t)
+      if (std::exchange(moved[v], 0) == unused_vertex) ++used;
+  if (used == vertices.size()) return;
+  std::ranges::fill(moved, unused_vertex);
   std::vector<glm::dvec3> kept;
   for (Triangle& t : triangles)
     for (uint32_t& v : t) {
@@ -106,6 +112,7 @@ bool GltfMeshes::read_primitive(const json& from, Primitive& to) {
     if (to.count() >= unused_vertex) data_.fail("a mesh has too many vertices for 32-bit indices");
     read_indices(from, mode, to);
   }
+  for (const double x : to.positions) largest_ = std::max(largest_, std::abs(x));
   for (const Triangle& t : to.triangles)
     for (const uint32_t v : t)
       if (v >= to.count())

@@ -26,6 +26,8 @@ class GltfMeshes {
   std::vector<RawMesh> read(const nlohmann::json& mesh, const GltfPlace& place);
   // Primitives that were left out so far: points and lines, and those without positions.
   uint64_t not_surfaces() const { return not_surfaces_; }
+  // The largest coordinate of positions so far, as the file has them.
+  double largest_coordinate() const { return largest_; }
 
  private:
   struct Primitive;
@@ -40,6 +42,7 @@ class GltfMeshes {
   const GltfFile& file_;
   GltfData& data_;
   uint64_t not_surfaces_ = 0;
+  double largest_ = 0;
 };
 
 }  // namespace wavetracer

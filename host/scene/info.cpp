@@ -8,6 +8,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "scene/volume_overlaps.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -91,6 +93,12 @@ std::string describe_scene(const Scene& scene) {
   }
   out += fmt::format("dropped    {} degenerate and {} duplicate triangles; {} vertices welded into others\n",
                      report.degenerate_triangles, report.duplicate_triangles, report.welded_vertices);
+  if (!scene.volumes.empty()) {
+    const auto earlier = earlier_volumes(scene.volumes);
+    out += fmt::format("vegetation {} volumes, {} of which may overlap earlier ones: what volumes share counts once\n",
+                       scene.volumes.size(),
+                       std::ranges::count_if(earlier, [](const auto& list) { return !list.empty(); }));
+  }
   for (const std::string& warning : report.warnings) out += fmt::format("warning    {}\n", warning);
   return out;
 }

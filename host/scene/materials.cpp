@@ -253,9 +253,11 @@ uint32_t index_in(std::vector<Material>& materials, const Material& material) {
 
 }  // namespace
 
+bool says_unused(std::string_view warning) { return warning.ends_with(unused); }
+
 void drop_used(std::vector<std::string>& warnings, const std::vector<Scene>& models) {
   std::erase_if(warnings, [&](const std::string& warning) {
-    return warning.ends_with(unused) && std::ranges::any_of(models, [&](const Scene& model) {
+    return says_unused(warning) && std::ranges::any_of(models, [&](const Scene& model) {
              return std::ranges::find(model.report.warnings, warning) == model.report.warnings.end();
            });
   });

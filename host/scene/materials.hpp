@@ -2,6 +2,7 @@
 // Assumes nothing about frequency except where one name has several laws: the range that holds it is taken.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/itu_materials.hpp"
@@ -18,6 +19,8 @@ struct ResolvedMaterials {
   std::vector<std::string> warnings;
 };
 
+// Does a warning say that no mesh has a material?
+bool says_unused(std::string_view warning);
 // Takes what says that no mesh of a scene has a material out of its warnings, where a model has it.
 void drop_used(std::vector<std::string>& warnings, const std::vector<Scene>& models);
 

@@ -18,6 +18,7 @@
 
 #include "scene/gltf.hpp"
 #include "scene/gltf_extensions.hpp"
+#include "scene/obj_check.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -156,10 +157,13 @@ ModelFormat model_format(const std::filesystem::path& path) {
 
 RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
   const bool obj = format == ModelFormat::obj, fits = model_format(path) == format;
-  if (!obj) {
+  std::vector<std::string> warnings;
+  if (obj) {
+    warnings = check_obj(path);
+  } else {
     const GltfFile file = read_gltf_file(path);
     if (!is_version_1(file)) return read_gltf(file);
-    check_gltf_extensions(file);
+    warnings = check_gltf_extensions(file);
   }
   const std::string name = path.string() + (fits ? "" : obj ? ".obj" : ".glb");
   std::vector<std::string> files;
@@ -172,6 +176,7 @@ RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
   }
   RawScene raw = ModelReader(*scene, path.string()).read();
   raw.files = std::move(files);
+  raw.warnings.insert(raw.warnings.begin(), warnings.begin(), warnings.end());
   return raw;
 }
 

@@ -31,8 +31,8 @@ void PlyBody::begin(const Element& element) {
 }
 
 size_t PlyBody::left() const {
-  if (format_ == Format::ascii && std::all_of(next_, end_, is_space)) return 0;
-  return static_cast<size_t>(end_ - next_);
+  const char* const next = format_ == Format::ascii ? std::find_if_not(next_, end_, is_space) : next_;
+  return static_cast<size_t>(end_ - next);
 }
 
 template <class T>

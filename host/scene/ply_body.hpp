@@ -18,7 +18,7 @@ class PlyBody {
   void begin(const Element& element);
   // The entry of the element that is read next, for messages.
   void at(uint64_t index) { index_ = index; }
-  // Bytes that no element has taken; blanks at the end of an ascii file are none.
+  // Bytes that no element has taken; blanks before them are none in an ascii file.
   size_t left() const;
 
   double scalar(Type type);

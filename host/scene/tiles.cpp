@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "scene/earlier_faces.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -31,28 +32,30 @@ bool cut(const Corners& c, double tile_m, const Visit& visit) {
   return cut({a, middle, opposite}, tile_m, visit) && cut({middle, b, opposite}, tile_m, visit);
 }
 
-// Calls visit(surface, corners) for every triangle that scatters.
+// Calls visit(surface, triangle, corners) for every triangle that scatters.
 template <class Visit>
 void for_scattering_triangles(const Scene& scene, const Visit& visit) {
   for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
     const Surface& surface = scene.surfaces[s];
     if (!(scene.materials[surface.material].scattering > 0)) continue;
     for (uint32_t k = 0; k < surface.triangle_count; ++k) {
-      const auto& t = scene.triangles[scene.surface_triangles[surface.first_triangle + k]];
-      visit(s, Corners{scene.vertices[t[0]], scene.vertices[t[1]], scene.vertices[t[2]]});
+      const uint32_t triangle = scene.surface_triangles[surface.first_triangle + k];
+      const auto& t = scene.triangles[triangle];
+      visit(s, triangle, Corners{scene.vertices[t[0]], scene.vertices[t[1]], scene.vertices[t[2]]});
     }
   }
 }
 
-// The number of tiles of a scene, or, where it is beyond `most`, a number beyond `most` that it is not below.
+// The number of tiles of a scene before those on earlier triangles are left out, or, where it is beyond `most`, a
+// number beyond `most` that it is not below.
 uint64_t tile_count(const Scene& scene, double tile_m, uint64_t most) {
   double area = 0;
-  for_scattering_triangles(scene, [&](uint32_t, const Corners& corners) { area += area_m2(corners); });
+  for_scattering_triangles(scene, [&](uint32_t, uint32_t, const Corners& corners) { area += area_m2(corners); });
   // No triangle with sides of at most tile_m has more area than the equilateral one.
   const double least = area / (std::numbers::sqrt3 / 4 * tile_m * tile_m);
   if (least > static_cast<double>(most)) return static_cast<uint64_t>(std::min(least, 1e18));
   uint64_t count = 0;
-  for_scattering_triangles(scene, [&](uint32_t, const Corners& corners) {
+  for_scattering_triangles(scene, [&](uint32_t, uint32_t, const Corners& corners) {
     if (count <= most) cut(corners, tile_m, [&](const Corners&) { return ++count <= most; });
   });
   return count;
@@ -62,11 +65,13 @@ uint64_t tile_count(const Scene& scene, double tile_m, uint64_t most) {
 
 std::vector<Tile> make_tiles(const Scene& scene, double tile_m) {
   std::vector<Tile> tiles;
-  for_scattering_triangles(scene, [&](uint32_t surface, const Corners& corners) {
+  const EarlierFaces earlier(scene);
+  for_scattering_triangles(scene, [&](uint32_t surface, uint32_t triangle, const Corners& corners) {
     const glm::dvec3& normal = scene.surfaces[surface].normal;
     const double offset_m = scene.surfaces[surface].offset_m;
     cut(corners, tile_m, [&](const Corners& c) {
       const glm::dvec3 centre = (c[0] + c[1] + c[2]) / 3.0;
+      if (earlier.hold(triangle, centre)) return true;
       tiles.push_back({centre - (glm::dot(normal, centre) - offset_m) * normal, area_m2(c), surface});
       return true;
     });

@@ -18,7 +18,8 @@ struct Tile {
 };
 
 // The tiles of all surfaces whose material has scattering > 0, ordered by surface, then by triangle; they depend on
-// nothing but the scene and tile_m > 0.
+// nothing but the scene and tile_m > 0. Where triangles of one plane overlap, only the first one has tiles
+// (earlier_faces.hpp).
 std::vector<Tile> make_tiles(const Scene& scene, double tile_m);
 
 // A tile of the world, as its scene has it.

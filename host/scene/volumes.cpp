@@ -1,5 +1,4 @@
-// A part is closed where every edge is passed as often one way as the other; the sign of its volume says which side of
-// its triangles is outside.
+// The sign of the volume of a closed part says which side of its triangles is outside.
 #include "scene/volumes.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "scene/volume_faces.hpp"
 #include "scene/weld.hpp"
 #include "wavetracer/error.hpp"
 
@@ -25,21 +25,12 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t vertex) {
   return vertex;
 }
 
-void check_closed(const RawMesh& mesh, const std::vector<Triangle>& triangles) {
-  std::map<std::array<uint32_t, 2>, int> passes;  // of an edge, from its lower vertex less to it
-  for (const Triangle& t : triangles)
-    for (int i = 0; i < 3; ++i) {
-      const uint32_t a = t[i], b = t[(i + 1) % 3];
-      passes[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-    }
-  size_t open = 0;
-  for (const auto& [edge, count] : passes) open += count != 0;
-  if (open > 0)
-    throw InputError(
-        fmt::format("{}: mesh '{}' is vegetation, which must be a closed mesh, but {} of its {} edges have no "
-                    "triangle on one side, or triangles that are turned differently: close it, turn all of its "
-                    "triangles outwards, or give it another material",
-                    mesh.where, mesh.name, open, passes.size()));
+[[noreturn]] void fail_open(const RawMesh& mesh, const ClosedFaces& faces) {
+  throw InputError(
+      fmt::format("{}: mesh '{}' is vegetation, which must be a closed mesh, but {} of its {} edges have no "
+                  "triangle on one side, or triangles that are turned differently: close it, turn all of its "
+                  "triangles outwards, or give it another material",
+                  mesh.where, mesh.name, faces.open_edges, faces.edges));
 }
 
 Volume volume_of(const std::vector<dvec3>& positions, const std::vector<Triangle>& triangles, uint32_t material) {
@@ -81,7 +72,7 @@ void add_volumes(RawScene& raw, const std::vector<VegetationConfig>& vegetation)
   }
 }
 
-std::vector<Volume> mesh_volumes(const RawMesh& mesh, uint32_t material) {
+std::vector<Volume> mesh_volumes(const RawMesh& mesh, uint32_t material, LoadReport* report) {
   const Weld weld = weld_vertices(mesh.vertices, weld_tolerance_m);
   std::vector<uint32_t> parent(weld.positions.size());
   std::iota(parent.begin(), parent.end(), 0u);
@@ -92,11 +83,19 @@ std::vector<Volume> mesh_volumes(const RawMesh& mesh, uint32_t material) {
     triangles.push_back(welded);
     for (int i = 1; i < 3; ++i) parent[root_of(parent, welded[i])] = root_of(parent, welded[0]);
   }
-  check_closed(mesh, triangles);
   std::map<uint32_t, std::vector<Triangle>> parts;
   for (const Triangle& t : triangles) parts[root_of(parent, t[0])].push_back(t);
   std::vector<Volume> out;
-  for (const auto& [root, part] : parts) out.push_back(volume_of(weld.positions, part, material));
+  ClosedFaces not_closed;
+  for (const auto& [root, part] : parts) {
+    const ClosedFaces faces = closed_faces(weld.positions, part);
+    not_closed.edges += faces.edges;
+    not_closed.open_edges += faces.open_edges;
+    if (report != nullptr) report->duplicate_triangles += faces.repeated;
+    if (!faces.triangles.empty()) out.push_back(volume_of(weld.positions, faces.triangles, material));
+    if (faces.triangles.empty()) not_closed.triangles = part;
+  }
+  if (!not_closed.triangles.empty()) fail_open(mesh, not_closed);
   return out;
 }
 

@@ -1,5 +1,5 @@
 // Volumes of vegetation: those that the configuration lists, and closed meshes whose material is vegetation.
-// Where volumes overlap, both count.
+// Where volumes overlap, the space counts once (volume_overlaps.hpp).
 #pragma once
 #include <vector>
 
@@ -12,7 +12,8 @@ namespace wavetracer {
 void add_volumes(RawScene& raw, const std::vector<VegetationConfig>& vegetation);
 
 // The parts of a mesh that hang together, each a volume of this material, in the coordinates of the mesh. Vertices
-// within weld_tolerance_m are one. Throws InputError for a mesh that is not closed.
-std::vector<Volume> mesh_volumes(const RawMesh& mesh, uint32_t material);
+// within weld_tolerance_m are one, and so are triangles of the same corners, which the report counts. Throws InputError
+// for a mesh that is not closed.
+std::vector<Volume> mesh_volumes(const RawMesh& mesh, uint32_t material, LoadReport* report = nullptr);
 
 }  // namespace wavetracer

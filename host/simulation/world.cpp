@@ -339,6 +339,7 @@ World::World(const Config& config, const Scene& scene) : state_(std::make_unique
   s.add_standing(s.transmitters, standing_transmitters(config, places), scene.origin_m);
   s.add_standing(s.receivers, standing_receivers(config, scene, places), scene.origin_m);
   s.add_instances(vehicles, scene);
+  for (std::string& warning : model_warnings(s.models, scene)) s.warnings.push_back(std::move(warning));
   s.add_mounts(config.mounts, scene.origin_m);
   s.set_links(config.links);
   s.set_twins();

@@ -11,6 +11,7 @@
 #include "motion/input_text.hpp"
 #include "motion/vehicle_types.hpp"
 #include "scene/load.hpp"
+#include "scene/materials.hpp"
 #include "scene/scene_wedges.hpp"
 #include "scene/vehicle_model.hpp"
 #include "wavetracer/error.hpp"
@@ -182,6 +183,25 @@ std::optional<uint32_t> VehicleModels::model_of(const VehicleType& type, std::st
                                     material_rules(), config_.materials, config_.radio.frequency_hz));
   }
   return found->second;
+}
+
+std::vector<std::string> model_warnings(const std::vector<Scene>& models, const Scene& scene) {
+  constexpr double longest_m = 400;  // no train is longer
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& warning) {
+    const std::vector<std::string>& said = scene.report.warnings;
+    if (std::ranges::find(said, warning) == said.end() && std::ranges::find(out, warning) == out.end())
+      out.push_back(warning);
+  };
+  for (const Scene& model : models) {
+    if (model.files.empty()) continue;  // built in
+    for (const std::string& warning : model.report.warnings)
+      if (!says_unused(warning)) add(warning);
+    const glm::dvec3 size = model.upper - model.lower;
+    if (const double most_m = std::max({size.x, size.y, size.z}); most_m > longest_m)
+      add(fmt::format("{}: the model of a vehicle is {:.0f} m long: is it in metres?", model.file, most_m));
+  }
+  return out;
 }
 
 }  // namespace wavetracer

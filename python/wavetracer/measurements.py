@@ -109,7 +109,7 @@ def gains_of_pairs(config: pathlib.Path, routes: Sequence[Route], device: str | 
 
 def read_text(config: pathlib.Path) -> str:
     try:
-        return config.read_text(encoding="utf-8")
+        return config.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{config}: the configuration cannot be read: {getattr(error, 'strerror', None) or error}"
                          ) from None

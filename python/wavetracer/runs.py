@@ -199,7 +199,7 @@ class Run:
     def links(self) -> dict[str, Array]:
         """The columns of links.csv for all frames, with `frame`, `tx` and `rx` as numbers: of a drive in one table."""
         if self._table is None:
-            with open(self.folder / "links.csv", newline="", encoding="utf-8") as file:
+            with open(self.folder / "links.csv", newline="", encoding="utf-8-sig") as file:
                 rows = list(csv.reader(file))
             names, group = rows[0], self._group("links")
             if len(rows) - 1 != len(group["frame"]):

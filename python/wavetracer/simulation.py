@@ -36,7 +36,7 @@ def read_config(config: str | os.PathLike[str] | Mapping[str, Any], folder: str 
         return config, where
     file = pathlib.Path(path(config, "config"))
     try:
-        return file.read_text(encoding="utf-8"), where if where is not None else str(file.parent)
+        return file.read_text(encoding="utf-8-sig"), where if where is not None else str(file.parent)
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{file}: the configuration cannot be read: {getattr(error, 'strerror', None) or error}"
                          ) from None

@@ -65,10 +65,10 @@ std::vector<double> by_all_volumes(const VolumeTable& table, const std::vector<P
   std::vector<uint64_t> parts(rows.size() * kinds);
   for (size_t i = 0; i < rows.size(); ++i)
     for (size_t leg = 0; leg <= rows[i].points.size(); ++leg)
-      for (const device::wt_volume& volume : table.volumes)
-        parts[i * kinds + volume.kind] += device::wt_parts_of_length(
-            device::wt_length_inside(&volume, table.triangles.data(), leg == 0 ? rows[i].from : rows[i].points[leg - 1],
-                                     leg == rows[i].points.size() ? rows[i].to : rows[i].points[leg]));
+      for (uint32_t k = 0; k < table.volumes.size(); ++k)
+        parts[i * kinds + table.volumes[k].kind] += device::wt_parts_of_length(
+            device::wt_length_in_space(table.all(), k, leg == 0 ? rows[i].from : rows[i].points[leg - 1],
+                                       leg == rows[i].points.size() ? rows[i].to : rows[i].points[leg]));
   std::vector<double> out;
   for (const uint64_t sum : parts) out.push_back(device::wt_length_of_parts(sum));
   return out;

@@ -111,6 +111,9 @@ TEST_CASE("Lambert's law scatters all that arrives, a lobe the stated share of i
                          {10, .849, .830, .825, .885},
                          {50, .962, .904, .864, .845}}) {
     CAPTURE(k.alpha);
+    MESSAGE("a lobe of exponent " << k.alpha << " sends " << share(k.alpha, 0) << ", " << share(k.alpha, 45) << ", "
+                                  << share(k.alpha, 60) << " and " << share(k.alpha, 80)
+                                  << " of what is scattered at 0, 45, 60 and 80 degrees of incidence");
     CHECK(share(k.alpha, 0) == test::near(k.at_0, 2e-3));
     CHECK(share(k.alpha, 45) == test::near(k.at_45, 2e-3));
     CHECK(share(k.alpha, 60) == test::near(k.at_60, 2e-3));

@@ -117,6 +117,130 @@ TEST_CASE("a shape is read as its type says, whatever the suffix of its file") {
   }
 }
 
+TEST_CASE("files of Mitsuba before 2.0: names in camelCase are read as their new names") {
+  const Files files;
+  const auto corner = [&](const std::string& version, const std::string& transform) {
+    const RawScene raw = read_mitsuba(files.folder.write(
+        "old.xml", "<scene version=\"" + version + "\">" + twosided + square(brick + transform) + "</scene>"));
+    return raw.meshes.at(0).vertices.at(2);
+  };
+  const std::string lifted = "<transform name=\"toWorld\"><translate z=\"3\"/></transform>",
+                    flags =
+                        "<boolean name=\"faceNormals\" value=\"true\"/><float name=\"maxSmoothAngle\" value=\"3\"/>";
+  check_near(corner("0.6.0", lifted + flags), {1, 1, 3});
+  check_near(corner("1.9", lifted), {1, 1, 3});
+  check_near(
+      corner("0.5", "<transform name=\"toWorld\"><lookAt origin=\"0 0 5\" target=\"0 1 5\" up=\"0 0 1\"/></transform>"),
+      {-1, 0, 6});
+  for (const char* version : {"2.0.0", "3.5.2", "3"})
+    CHECK_THROWS_WITH_AS(corner(version, lifted), Contains("has no property 'toWorld'; did you mean \"to_world\"?"),
+                         InputError);
+  CHECK_THROWS_WITH_AS(corner("3.0.0", lifted), Contains("begins with <scene version=\"0.6.0\">"), InputError);
+  CHECK_THROWS_WITH_AS(corner("new", ""), Contains("version=\"new\" is no version"), InputError);
+}
+
+TEST_CASE("lookat, as a camera has its axes") {
+  check_near(corner_after("<lookat origin=\"1 2 3\" target=\"1 2 9\" up=\"0 1 0\"/>"), {2, 3, 3});
+  check_near(corner_after("<lookat origin=\"0 0 0\" target=\"4 0 0\" up=\"0 0 1\"/>"), {0, 1, 1});
+}
+
+TEST_CASE("rectangles, cubes, merged shapes, groups and their instances") {
+  const Files files;
+  const auto moved = [](int x) {
+    return "<transform name=\"to_world\"><translate x=\"" + std::to_string(x) + "\"/></transform>";
+  };
+  const RawScene raw = read_mitsuba(
+      files.scene(twosided + "<shape type=\"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/>" + brick +
+                  "</shape>" + "<shape type=\"instance\"><ref id=\"group\"/>" + moved(50) + "</shape>" +
+                  "<shape type=\"shapegroup\" id=\"group\">" + "<shape type=\"cube\" id=\"box\">" + brick + moved(5) +
+                  "</shape>" + square(brick) + "</shape>" + "<shape type=\"instance\"><ref id=\"group\"/>" + moved(90) +
+                  "</shape>" + "<shape type=\"merge\">" + square(brick, "a") + square(brick, "b") + "</shape>"));
+  REQUIRE(raw.meshes.size() == 7);
+  CHECK(raw.meshes[0].name == "rectangle");
+  CHECK(raw.meshes[0].vertices.at(0) == glm::dvec3(-1, -1, 0));
+  CHECK(raw.meshes[1].name == "box");
+  CHECK(raw.meshes[1].triangles.size() == 12);
+  CHECK(raw.meshes[1].vertices.at(7) == glm::dvec3(56, 1, 1));
+  CHECK(raw.meshes[2].vertices.at(2) == glm::dvec3(51, 1, 0));
+  CHECK(raw.meshes[3].vertices.at(0) == glm::dvec3(94, -1, -1));
+  CHECK(raw.meshes[5].name == "a");
+  CHECK(raw.meshes[6].name == "b");
+  for (const RawMesh& mesh : raw.meshes) CHECK(raw.materials.at(mesh.material).name == "mat-itu_brick");
+  SceneConfig config;
+  CHECK(
+      load_scene_file(files.scene(twosided + "<shape type=\"cube\">" + brick + "</shape>"), config).report.free_edges ==
+      0);
+}
+
+TEST_CASE("included files, aliases, search paths, several parameters in one value") {
+  const Files files;
+  std::filesystem::create_directories(files.folder.path() / "parts/meshes");
+  files.folder.write("parts/meshes/far.ply", test::square_ply("4 0 1 2 3\n", 1));
+  files.folder.write("parts/more.xml",
+                     "<scene version=\"0.6.0\">\n<shape type=\"ply\"><string name=\"filename\" "
+                     "value=\"$dir/$file\"/><ref id=\"other name\" name=\"any\"/>"
+                     "<transform name=\"toWorld\"><scale value=\"2\"/></transform></shape></scene>");
+  files.folder.write("one.xml", "<shape type=\"rectangle\" id=\"alone\">" + brick + "</shape>");
+  const RawScene raw = read_mitsuba(
+      files.scene("<default name=\"dir\" value=\"meshes\"/><default name=\"dir\" value=\"elsewhere\"/>"
+                  "<default name=\"file\" value=\"far.ply\"/><alias id=\"mat-itu_brick\" as=\"other name\"/>"
+                  "<include filename=\"parts/more.xml\"/><include filename=\"one.xml\"/>" +
+                  twosided));
+  REQUIRE(raw.meshes.size() == 2);
+  CHECK(raw.meshes[0].name == "far");
+  CHECK(raw.meshes[0].vertices.at(2) == glm::dvec3(2, 2, 0));
+  CHECK(raw.materials.at(raw.meshes[0].material).name == "mat-itu_brick");
+  CHECK(raw.meshes[1].name == "alone");
+  CHECK(raw.files.size() == 4);
+  const RawScene found =
+      read_mitsuba(files.scene("<path value=\"parts/meshes\"/><shape type=\"ply\"><string "
+                               "name=\"filename\" value=\"far.ply\"/></shape>"));
+  CHECK(found.meshes.size() == 1);
+  files.folder.write("parts/bad.xml", "<scene version=\"3.0.0\">\n\n<shape type=\"sphere\"/></scene>");
+  CHECK_THROWS_WITH_AS(read_mitsuba(files.scene("<include filename=\"parts/bad.xml\"/>")),
+                       Contains("parts/bad.xml:3: <shape type=\"sphere\">"), InputError);
+}
+
+TEST_CASE("what a Mitsuba file says and this program does not know is refused by name") {
+  const Files files;
+  const auto fails = [&](const std::string& body, const char* message) {
+    CAPTURE(message);
+    CHECK_THROWS_WITH_AS(read_mitsuba(files.scene("\n" + body)), Contains(message), InputError);
+  };
+  fails("<Shape type=\"ply\"/>", "scene.xml:3: <Shape type=\"ply\">: Mitsuba has no such element");
+  fails(square(brick + "<transform name=\"to_wrld\"/>"), "has no property 'to_wrld'; did you mean \"to_world\"?");
+  fails(twosided + square(brick + "<float name=\"scale\" value=\"2\"/>"), "has no property 'scale'; known: filename");
+  fails(twosided + square(brick + "<translate x=\"3\"/>"), "<translate> is not known inside of <shape type=\"ply\"");
+  fails(twosided + square(brick + "<float name=\"to_world\" value=\"2\"/>"),
+        "to_world of <shape type=\"ply\" id=\"mesh-square\"> must be a <transform>");
+  fails(twosided + square(brick + brick), "is a second material");
+  fails(twosided + square(brick + "<string name=\"filename\" value=\"b.ply\"/>"), "has the property 'filename' twice");
+  fails("<shape type=\"ply\" to_world=\"1\"/>", "has the attribute to_world, which is not known here");
+  fails(twosided + twosided, "another <bsdf> of this file has this id");
+  fails("<bsdf type=\"radio-material\" id=\"m\"><float name=\"permittivity\" value=\"5\"/></bsdf>",
+        "has no property 'permittivity'");
+  fails("<bsdf type=\"radio-material\" id=\"m\"><string name=\"thickness\" value=\"5\"/></bsdf>",
+        "thickness of <bsdf type=\"radio-material\" id=\"m\"> must be a <float> or <integer>");
+  fails("<shape type=\"instance\"><ref id=\"none\"/></shape>",
+        "needs one <ref id=\"...\"/> to a shape of type shapegroup");
+  fails("<alias id=\"a\" as=\"b\"/>", "names nothing that this file defines");
+  fails("<shape type=\"ply\"><string name=\"filename\" value=\"parts\\square.ply\"/></shape>",
+        "write / instead of \\ between");
+  std::filesystem::create_directory(files.folder.path() / "here");
+  files.folder.write("here/square.ply", "");
+  fails("<shape type=\"ply\"><string name=\"filename\" value=\"here\\square.ply\"/></shape>",
+        "/here/square.ply'? write /");
+}
+
+TEST_CASE("a bsdf of an unknown type counts by its id, with a word") {
+  const Files files;
+  const RawScene raw = read_mitsuba(
+      files.scene("<bsdf type=\"my-material\" id=\"mat-itu_brick\"><float name=\"thickness\" value=\"3\"/></bsdf>" +
+                  square(brick)));
+  REQUIRE(raw.warnings.size() == 1);
+  CHECK(raw.warnings[0].find("this type of bsdf is not known") != std::string::npos);
+}
+
 TEST_CASE("Mitsuba errors name file, line and element") {
   const Files files;
   const auto fails = [&](const std::string& body, const char* message) {
@@ -152,11 +276,16 @@ TEST_CASE("Mitsuba errors name file, line and element") {
           "thickness = '");
   fails("<bsdf type=\"radio-material\" id=\"m\"><float name=\"thickness\" value=\"$t\"/></bsdf>",
         "'$t' has no <default>");
-  fails("<include filename=\"other.xml\"/>", "<include> is not supported");
+  fails("<include filename=\"other.xml\"/>", "<include>: there is no file");
+  fails("<include filename=\"scene.xml\"/>", "scene.xml includes itself");
   const auto transform = [](const std::string& op) {
     return twosided + square(brick + "<transform name=\"to_world\">" + op + "</transform>");
   };
-  fails(transform("<lookat origin=\"0 0 0\"/>"), "<lookat> of a transform is not supported");
+  fails(transform("<lookat origin=\"0 0 0\"/>"), "<lookat> of a transform needs three numbers in each of origin");
+  fails(transform("<look_at origin=\"0 0 0\"/>"), "<look_at> of a transform is not supported");
+  fails(transform("<rotate z=\"1\" ang=\"90\"/>"), "<rotate> has the attribute ang, which is not known here");
+  fails(transform("<translate X=\"3\"/>"), "<translate> has the attribute X");
+  fails(transform("<translate value=\"1 2 3\" z=\"3\"/>"), "has a value beside x, y or z");
   fails(transform("<matrix value=\"1 2 3\"/>"), "needs 16 numbers");
   fails(transform("<matrix value=\"1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1\"/>"), "row 0 0 0 1");
   fails(transform("<rotate angle=\"3\"/>"), "needs an axis");

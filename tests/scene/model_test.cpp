@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "scene/info.hpp"
+#include "scene/model.hpp"
 #include "scene_files.hpp"
 #include "wavetracer/error.hpp"
 
@@ -84,6 +85,33 @@ TEST_CASE("OBJ: objects, materials without a library, quadrilaterals, scale") {
   CHECK(scene.materials[0].name == "glass");
   CHECK(scene.materials[1].name == "brick");
   CHECK(scene.upper - scene.lower == glm::dvec3(10, 10, 10));
+}
+
+TEST_CASE("OBJ: what is no polygon is told or refused, with its line") {
+  const test::TemporaryFolder folder;
+  const std::string square = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n";
+  const auto warning = [&](const std::string& more) {
+    const RawScene raw = read_model(folder.write("a.obj", square + more), ModelFormat::obj);
+    REQUIRE(raw.warnings.size() == 1);
+    CHECK(raw.meshes.at(0).triangles.size() == 2);
+    return raw.warnings[0];
+  };
+  CHECK(warning("# p\nl 1 2\np 3\n").ends_with("a.obj:7: 2 lines and points were left out: they are no surfaces"));
+  CHECK(warning("f 1 2\n").ends_with("a.obj:6: 1 faces of fewer than three vertices were left out"));
+  CHECK(warning("cstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 4 3\nparm u 0 1\nend\n")
+            .ends_with("a.obj:8: 1 curves and curved surfaces were left out: export them as polygons"));
+  CHECK(warning("F 1 2 3\n").ends_with("a.obj:6: 1 statements 'F' are not known and were left out"));
+  CHECK(warning("mtllib parts\\a.mtl\n").find("write / instead of \\") != std::string::npos);
+  const auto refused = [&](const std::string& more, const char* message) {
+    CHECK_THROWS_WITH_AS(read_model(folder.write("a.obj", square + more), ModelFormat::obj), Contains(message),
+                         InputError);
+  };
+  refused("  v 0 0 5\n", "a.obj:6: blanks stand before 'v'");
+  refused("v 0 0 1D3\n", "a.obj:6: 'v 0 0 1D3' is not a vertex of numbers");
+  refused("call more.obj\n", "a.obj:6: 'call' reads another file");
+  for (const char* plain : {"vt 0 0\nvn 0 0 1\ns off\ng a b\n", "f -4 -3 \\\n -2 -1\n", "v 0 0 0 1 0.5 0 # red\n",
+                            "\n\t\n  # note\n", "mtllib gone.mtl\n"})
+    CHECK(read_model(folder.write("a.obj", square + plain), ModelFormat::obj).warnings.empty());
 }
 
 TEST_CASE("models: errors and warnings") {

@@ -90,6 +90,33 @@ TEST_CASE("ascii PLY") {
   CHECK(read(test::square_ply("2 0 1\n1 0\n3 0 1 2\n", 3)).small_faces == 2);
 }
 
+TEST_CASE("PLY: strips of triangles, elements that are not known, elements twice, bytes that are left over") {
+  const auto with = [](const std::string& elements, const std::string& body) {
+    const std::string square = test::square_ply("", 0);
+    const size_t faces = square.find("element face"), end = square.find("end_header");
+    return read(square.substr(0, faces) + elements + square.substr(end) + body);
+  };
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+  CHECK(with(strips, "10 0 1 3 2 -1 0 1 2 2 3\n").triangles == std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}, {0, 1, 2}});
+  CHECK_THROWS_WITH_AS(with(strips, "3 0 1 9\n"), Contains("vertex index 9 is out of range"), InputError);
+  CHECK_THROWS_WITH_AS(with(strips, "3 0 -2 1\n"), Contains("tristrips 0 of 1: vertex index -2"), InputError);
+  const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+  const PlyMesh odd = with(face + "element patch 2\nproperty list uchar int corners\nelement edge 1\nproperty int a\n",
+                           "3 0 1 2\n1 0\n2 0 1\n5\n");
+  REQUIRE(odd.warnings.size() == 1);
+  CHECK(odd.warnings[0].find("2 entries of the element 'patch' were left out") != std::string::npos);
+  CHECK_THROWS_WITH_AS(with(face + face, "3 0 1 2\n3 0 2 3\n"), Contains("the element 'face' twice"), InputError);
+  CHECK_THROWS_WITH_AS(
+      with("element face 1\nproperty list uchar int vertex_index\nproperty list uchar int vertex_indices\n",
+           "3 0 1 2 3 0 1 2\n"),
+      Contains("has two lists of vertices"), InputError);
+  const PlyMesh longer = with(face, "3 0 1 2\n3 0 2 3\n");
+  REQUIRE(longer.warnings.size() == 1);
+  CHECK(longer.warnings[0].find("8 bytes follow what the header declares") != std::string::npos);
+  CHECK(with(face, "3 0 1 2\n \n\n").warnings.empty());
+  CHECK(read("\xEF\xBB\xBF" + test::square_ply("3 0 1 2\n", 1)).triangles.size() == 1);
+}
+
 TEST_CASE("PLY errors name the element") {
   const auto fails = [](const std::string& content, const char* message) {
     CAPTURE(message);

@@ -152,3 +152,25 @@ TEST_CASE("too many tiles: an error that names the key and a value that would do
   CHECK_NOTHROW(TileTable(smooth, models, std::vector<Instance>(4095, {"v", "t", 0, 1}), 0.0626));
   CHECK_THROWS_AS(TileTable(smooth, models, std::vector<Instance>(4097, {"v", "t", 0, 1}), 0.0626), ConfigError);
 }
+
+TEST_CASE("where triangles of one plane overlap, each place has the tiles of the first one alone") {
+  const auto area = [](const Scene& scene, uint32_t surface) {
+    double out = 0;
+    for (const Tile& tile : make_tiles(scene, 0.5)) out += tile.surface == surface ? tile.area_m2 : 0;
+    return out;
+  };
+  const dvec3 a{0, 0, 0}, b{8, 0, 0}, c{8, 8, 0}, d{0, 8, 0};
+  const Patch other_diagonal{{{a, b, d}, {b, c, d}}, 0.5}, turned{{{a, c, b}, {a, d, c}}, 0.5};
+  for (const Patch& again : {square(8, 0.5), other_diagonal, turned}) {
+    const Scene scene = scene_of({square(8, 0.5), again});
+    CHECK(area(scene, 0) == doctest::Approx(64));
+    CHECK(area(scene, 1) == 0);
+  }
+  CHECK(area(scene_of({square(4, 0.2), square(8, 0.5)}), 1) == doctest::Approx(48));
+  CHECK(area(scene_of({square(4, 0), square(8, 0.5)}), 1) == doctest::Approx(64));  // the first does not scatter
+  CHECK(area(scene_of({square(8, 0.5), square(4, 0)}), 0) == doctest::Approx(64));
+  CHECK(area(scene_of({square(8, 0.5), square(8, 0.5, 0.01)}), 1) == doctest::Approx(64));  // another plane
+  const Patch beside{{{b, {16, 0, 0}, {16, 8, 0}}, {b, {16, 8, 0}, c}}, 0.5};
+  CHECK(make_tiles(scene_of({square(8, 0.5), beside}), 0.5).size() ==
+        2 * make_tiles(scene_of({square(8, 0.5)}), 0.5).size());
+}

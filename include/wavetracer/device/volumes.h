@@ -52,10 +52,13 @@ inline int wt_left_of(wt_double2 a, wt_double2 b, double area) {
   return a.x < b.x;
 }
 
-// How much nearer than its end the leg leaves (or, negative, enters) a closed mesh by this triangle. Summed over all
-// triangles that is the length inside: what enters before the leg begins counts 0, what leaves after its end all of it.
-inline double wt_leaves_at(const WT_GLOBAL double* triangle, wt_double3 from, wt_double3 along, double length_m,
-                           wt_uint axis) {
+// Where the line of a leg passes a triangle of a closed mesh, in metres from the beginning of the leg, and which way.
+typedef struct {
+  double at_m;
+  int side;  // 1: it leaves the mesh there, -1: it enters, 0: it passes the triangle by
+} wt_crossing;
+
+inline wt_crossing wt_crossing_at(const WT_GLOBAL double* triangle, wt_double3 from, wt_double3 along, wt_uint axis) {
   const wt_uint right = (axis + 1u) % 3u, up = (axis + 2u) % 3u;
   const double depth = wt_axis(along, axis);
   const double shear_x = wt_axis(along, right) / depth, shear_y = wt_axis(along, up) / depth;
@@ -73,18 +76,33 @@ inline double wt_leaves_at(const WT_GLOBAL double* triangle, wt_double3 from, wt
     area[i] = a.x * b.y - a.y * b.x;
     left += wt_left_of(a, b, area[i]);
   }
-  if (left != 0 && left != 3) return 0.0;
+  wt_crossing out = {0.0, 0};
   const double whole = area[0] + area[1] + area[2];
-  if (whole == 0.0) return 0.0;
-  const double t = (area[0] * z[0] + area[1] * z[1] + area[2] * z[2]) / (whole * depth);
-  const double reached = fmin(fmax(t, 0.0), length_m);
-  return (left == 3) == (depth > 0.0) ? reached : -reached;
+  if ((left != 0 && left != 3) || whole == 0.0) return out;
+  out.at_m = (area[0] * z[0] + area[1] * z[1] + area[2] * z[2]) / (whole * depth);
+  out.side = (left == 3) == (depth > 0.0) ? 1 : -1;
+  return out;
+}
+
+// How much nearer than its end the leg leaves (or, negative, enters) a closed mesh by this triangle. Summed over all
+// triangles that is the length inside: what enters before the leg begins counts 0, what leaves after its end all of it.
+inline double wt_leaves_at(const WT_GLOBAL double* triangle, wt_double3 from, wt_double3 along, double length_m,
+                           wt_uint axis) {
+  const wt_crossing c = wt_crossing_at(triangle, from, along, axis);
+  if (c.side == 0) return 0.0;
+  const double reached = fmin(fmax(c.at_m, 0.0), length_m);
+  return c.side > 0 ? reached : -reached;
+}
+
+// The axis that a line is closest to.
+inline wt_uint wt_main_axis(wt_double3 along) {
+  const double x = fabs(along.x), y = fabs(along.y), z = fabs(along.z);
+  return x > y && x > z ? 0u : y > z ? 1u : 2u;
 }
 
 inline double wt_length_in_mesh(const WT_GLOBAL double* triangles, wt_uint count, wt_double3 from, wt_double3 along,
                                 double length_m) {
-  const double x = fabs(along.x), y = fabs(along.y), z = fabs(along.z);
-  const wt_uint axis = x > y && x > z ? 0u : y > z ? 1u : 2u;
+  const wt_uint axis = wt_main_axis(along);
   double inside = 0.0;
   for (wt_uint i = 0; i < count; ++i) inside += wt_leaves_at(triangles + 9 * (wt_ulong)i, from, along, length_m, axis);
   return fmin(fmax(inside, 0.0), length_m);
@@ -94,15 +112,9 @@ inline double wt_length_in_mesh(const WT_GLOBAL double* triangles, wt_uint count
 inline wt_ulong wt_parts_of_length(double length_m) { return (wt_ulong)(length_m * 1099511627776.0 + 0.5); }
 inline double wt_length_of_parts(wt_ulong parts) { return (double)parts / 1099511627776.0; }
 
-// How much of the leg is inside of the volume, in metres. triangles: nine doubles each, of all meshes.
-inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_double3 from,
-                               wt_double3 to) {
-  const wt_double3 leg = to - from;
-  const double length_m = wt_length3(leg);
-  if (!(length_m > 0.0)) return 0.0;
-  if (volume->shape == WT_VOLUME_MESH)
-    return wt_length_in_mesh(triangles + 9 * (wt_ulong)volume->first_triangle, volume->triangle_count, from,
-                             leg / length_m, length_m);
+// The share of a leg that is inside of a volume, of a mesh inside of its box. It is empty where it does not end behind
+// its beginning.
+inline wt_share wt_share_inside(const WT_GLOBAL wt_volume* volume, wt_double3 from, wt_double3 leg) {
   const wt_double3 size = wt_vector(volume->half_size), away = from - wt_vector(volume->centre);
   const double c = volume->cosine, s = volume->sine;
   const wt_double3 p =
@@ -120,7 +132,130 @@ inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBA
       share = wt_between_planes(share, p.y, q.y);
     }
   }
+  return share;
+}
+
+// How much of the leg is inside of the volume, in metres. triangles: nine doubles each, of all meshes.
+inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_double3 from,
+                               wt_double3 to) {
+  const wt_double3 leg = to - from;
+  const double length_m = wt_length3(leg);
+  if (!(length_m > 0.0)) return 0.0;
+  if (volume->shape == WT_VOLUME_MESH)
+    return wt_length_in_mesh(triangles + 9 * (wt_ulong)volume->first_triangle, volume->triangle_count, from,
+                             leg / length_m, length_m);
+  const wt_share share = wt_share_inside(volume, from, leg);
   return share.last > share.first ? (share.last - share.first) * length_m : 0.0;
+}
+
+// A leg, for questions about where on it volumes are.
+typedef struct {
+  wt_double3 from, leg, along;
+  double length_m;
+  wt_uint axis;
+} wt_leg;
+
+inline wt_leg wt_leg_between(wt_double3 from, wt_double3 to) {
+  wt_leg out;
+  out.from = from;
+  out.leg = to - from;
+  out.length_m = wt_length3(out.leg);
+  out.along = out.leg / out.length_m;
+  out.axis = wt_main_axis(out.along);
+  return out;
+}
+
+// From where to where, in metres, the leg is in the volume or in hollows of it.
+inline wt_share wt_reach_of(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_leg leg) {
+  wt_share out = wt_share_inside(volume, leg.from, leg.leg);
+  out.first *= leg.length_m;
+  out.last *= leg.length_m;
+  if (volume->shape != WT_VOLUME_MESH || !(out.last > out.first)) return out;
+  const WT_GLOBAL double* own = triangles + 9 * (wt_ulong)volume->first_triangle;
+  out.first = leg.length_m;
+  out.last = 0.0;
+  for (wt_uint i = 0; i < volume->triangle_count; ++i) {
+    const wt_crossing c = wt_crossing_at(own + 9 * (wt_ulong)i, leg.from, leg.along, leg.axis);
+    if (c.side < 0) out.first = fmin(out.first, fmax(c.at_m, 0.0));
+    if (c.side > 0) out.last = fmax(out.last, fmin(c.at_m, leg.length_m));
+  }
+  return out;
+}
+
+// The next place behind after_m where the leg enters or leaves the volume; last_m where there is none before it.
+inline double wt_next_border(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_leg leg,
+                             double after_m, double last_m) {
+  double out = last_m;
+  if (volume->shape != WT_VOLUME_MESH) {
+    const wt_share share = wt_share_inside(volume, leg.from, leg.leg);
+    const double first = share.first * leg.length_m, last = share.last * leg.length_m;
+    if (!(last > first)) return out;
+    if (last > after_m) out = fmin(out, last);
+    return first > after_m ? fmin(out, first) : out;
+  }
+  const WT_GLOBAL double* own = triangles + 9 * (wt_ulong)volume->first_triangle;
+  for (wt_uint i = 0; i < volume->triangle_count; ++i) {
+    const wt_crossing c = wt_crossing_at(own + 9 * (wt_ulong)i, leg.from, leg.along, leg.axis);
+    if (c.side != 0 && c.at_m > after_m) out = fmin(out, c.at_m);
+  }
+  return out;
+}
+
+// Is the leg inside of the volume at_m from its beginning? That is no border.
+inline int wt_is_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_leg leg, double at_m) {
+  if (volume->shape != WT_VOLUME_MESH) {
+    const wt_share share = wt_share_inside(volume, leg.from, leg.leg);
+    return at_m > share.first * leg.length_m && at_m < share.last * leg.length_m;
+  }
+  const WT_GLOBAL double* own = triangles + 9 * (wt_ulong)volume->first_triangle;
+  int left = 0;  // how often the line leaves behind at_m, less how often it enters
+  for (wt_uint i = 0; i < volume->triangle_count; ++i) {
+    const wt_crossing c = wt_crossing_at(own + 9 * (wt_ulong)i, leg.from, leg.along, leg.axis);
+    if (c.at_m > at_m) left += c.side;
+  }
+  return left > 0;
+}
+
+// The volumes of a scene. Space that several of them hold is that of the first. earlier[k] to earlier[k + 1] - 1 are
+// where in this same list the numbers of those before volume k are whose boxes meet its own.
+typedef struct {
+  const WT_GLOBAL wt_volume* volumes;
+  const WT_GLOBAL double* triangles;
+  const WT_GLOBAL wt_uint* earlier;
+} wt_volumes;
+
+inline const WT_GLOBAL wt_volume* wt_earlier(wt_volumes all, wt_uint i) { return all.volumes + all.earlier[i]; }
+
+// Does the leg go through anything earlier between two places?
+inline int wt_meets_earlier(wt_volumes all, wt_uint volume, wt_leg leg, wt_share own) {
+  for (wt_uint i = all.earlier[volume]; i < all.earlier[volume + 1u]; ++i) {
+    const wt_share reach = wt_reach_of(wt_earlier(all, i), all.triangles, leg);
+    if (reach.last > own.first && reach.first < own.last && reach.last > reach.first) return 1;
+  }
+  return 0;
+}
+
+// How much of the leg is in the space of this volume, in metres: inside of it, and of none before it.
+inline double wt_length_in_space(wt_volumes all, wt_uint volume, wt_double3 from, wt_double3 to) {
+  const WT_GLOBAL wt_volume* own = all.volumes + volume;
+  const double whole_m = wt_length_inside(own, all.triangles, from, to);
+  const wt_uint first = all.earlier[volume], end = all.earlier[volume + 1u];
+  if (first == end || !(whole_m > 0.0)) return whole_m;
+  const wt_leg leg = wt_leg_between(from, to);
+  const wt_share reach = wt_reach_of(own, all.triangles, leg);
+  if (!wt_meets_earlier(all, volume, leg, reach)) return whole_m;
+  double sum_m = 0.0;
+  for (double at_m = reach.first; at_m < reach.last;) {
+    double next_m = wt_next_border(own, all.triangles, leg, at_m, reach.last);
+    for (wt_uint i = first; i < end; ++i) next_m = wt_next_border(wt_earlier(all, i), all.triangles, leg, at_m, next_m);
+    const double middle_m = 0.5 * (at_m + next_m);
+    int mine = wt_is_inside(own, all.triangles, leg, middle_m);
+    for (wt_uint i = first; i < end && mine; ++i)
+      mine = !wt_is_inside(wt_earlier(all, i), all.triangles, leg, middle_m);
+    if (mine) sum_m += next_m - at_m;
+    at_m = next_m;
+  }
+  return fmin(sum_m, whole_m);
 }
 
 #ifndef __OPENCL_VERSION__

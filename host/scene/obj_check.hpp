@@ -1,0 +1,14 @@
+// What of an OBJ file assimp passes over without a word: statements that it does not know, curves, lines and points.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace wavetracer {
+
+// Returns warnings, each with a count and the first line that it is about. Throws InputError that names the line where
+// triangles would be lost or moved: numbers that are none, statements that do not begin their line, and files that are
+// called.
+std::vector<std::string> check_obj(const std::filesystem::path& path);
+
+}  // namespace wavetracer
