@@ -12,8 +12,8 @@ std::string input_file_problem(const std::filesystem::path& path, const char* wh
 // Throws InputError with the path and the problem.
 void check_input_file(const std::filesystem::path& path, const char* what, uint64_t most_bytes = ~uint64_t{0});
 
-// "; did you mean 'a/b.ply'? ..." for a name that is not there and has backslashes, which part folders on Windows alone,
-// or the characters that TOML makes of them; empty for any other name.
+// "; did you mean 'a/b.ply'? ..." for a name that is not there and has backslashes, which part folders on Windows
+// alone, or the characters that TOML makes of them; empty for any other name.
 std::string backslash_hint(const std::filesystem::path& path);
 
 }  // namespace wavetracer

@@ -46,6 +46,10 @@ TEST_CASE("a codebook file: weights of unit power, and errors that name the line
   const Codebook book =
       load_codebook(file("beam,element,re,im\r\n# a comment\n\n1,0, 3,0\n1,2,0,-4\n0,1,1e-200,0\n"), 3);
   REQUIRE(book.beams == 2);
+  CHECK(load_codebook(file("\xEF\xBB\xBF"
+                           "beam,element,re,im\n1,0, 3,0\n1,2,0,-4\n0,1,1e-200,0\n"),
+                      3)
+            .weights == book.weights);  // with a byte order mark
   const std::vector<Complex> wanted{0, 1, 0, 0.6, 0, Complex(0, -0.8)};
   for (size_t i = 0; i < 6; ++i) CHECK(std::abs(book.weights[i] - wanted[i]) < 1e-15);
   const auto error = [&](const std::string& text) -> std::string {

@@ -43,7 +43,7 @@ TEST_CASE("volumes that overlap: every metre is that of the first that holds it,
       CHECK(std::abs(length - device::wt_length_in_space(table.all(), k, to, from)) < 1e-9);
     }
   }
-  CHECK(shared > 60000);
+  CHECK(shared > 30000);
 }
 
 TEST_CASE("volumes that only touch, or that a leg meets one after the other, have their lengths to the last bit") {

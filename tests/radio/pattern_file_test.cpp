@@ -115,3 +115,17 @@ TEST_CASE("errors of a pattern file name the file, the line and the fault") {
         ": the direction theta_deg = 180, phi_deg = 180 is missing from the grid");
   CHECK_THROWS_AS(load_pattern("/no/such/file.csv"), InputError);
 }
+
+TEST_CASE("a byte order mark, as of Excel's \"CSV UTF-8\", is passed over") {
+  const PatternFile plain(header + "0,0,1,0,0,0\n180,0,2,0,0,0\n");
+  const std::vector<double> samples = load_pattern(plain.path).samples;
+  const PatternFile marked("\xEF\xBB\xBF" + header + "0,0,1,0,0,0\n180,0,2,0,0,0\n");
+  CHECK(load_pattern(marked.path).samples == samples);
+}
+
+TEST_CASE("a pattern that is named with backslashes gets a hint") {
+  RadioEnd end;
+  end.antenna = "patterns\\horn.csv";
+  CHECK_THROWS_WITH_AS(make_antenna(end), doctest::Contains("write / instead of \\ between the names of folders"),
+                       ConfigError);
+}

@@ -186,6 +186,14 @@ TEST_CASE("a world that cannot be loaded again leaves a warning and room for eve
   CHECK(world.instance_model == std::vector<uint32_t>(2, no_instance));
 }
 
+TEST_CASE("a byte order mark is not part of the first column's name") {
+  CsvColumns out({"time_s"});
+  out.read("\xEF\xBB\xBFtime_s,tx\n0.5,0\n");
+  out.finish();
+  REQUIRE(out.has(0));
+  CHECK(out.values(0) == std::vector<double>{0.5});
+}
+
 TEST_CASE("a column of a CSV file by RFC 4180, in pieces of any size") {
   const std::string text =
       "name,\"a, \"\"b\"\"\",value\r\n\"x,\ny\",1,2.5\r\nz,,\nshort\n\"q\"\"q\",1,-inf\nlast,7,nan";

@@ -160,6 +160,52 @@ TEST_CASE("models: errors and warnings") {
   CHECK(far.report.warnings[0].find("float32 keeps only") != std::string::npos);
 }
 
+TEST_CASE("a house in millimetres gets a word, mountains and towers do not") {
+  const test::TemporaryFolder folder;
+  const auto warnings = [&](const std::string& content, double scale = 1) {
+    SceneConfig config = test::of_concrete();
+    config.scale = scale;
+    return load_scene_file(folder.write("house.ply", content), config).report.warnings;
+  };
+  const std::string house = test::box_ply({0, 0, 0}, {10000, 12000, 8000});
+  REQUIRE(warnings(house).size() == 1);
+  CHECK(warnings(house)[0].starts_with("\"house\" has walls and is 8000 m high: is scene.scale right?"));
+  CHECK(warnings(house, 0.001).empty());
+  CHECK(warnings(test::box_ply({0, 0, 0}, {50, 50, 828})).empty());
+  const auto mountain = [](const char* high) {
+    return std::string(
+               "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z\n"
+               "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n9000 0 0\n9000 9000 0\n"
+               "0 9000 0\n4500 4500 ") +
+           high + "\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
+  };
+  CHECK(warnings(mountain("4800")).empty());
+  REQUIRE(warnings(mountain("12000")).size() == 1);
+  CHECK(warnings(mountain("12000"))[0].starts_with("the scene is 12000 m high"));
+  // Walls of many small triangles in one mesh.
+  std::string wall =
+      "ply\nformat ascii 1.0\nelement vertex 42\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face 20\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i < 21; ++i) wall += "0 0 " + std::to_string(400 * i) + "\n9000 0 " + std::to_string(400 * i) + "\n";
+  for (int i = 0; i < 20; ++i)
+    wall += "4 " + std::to_string(2 * i) + " " + std::to_string(2 * i + 1) + " " + std::to_string(2 * i + 3) + " " +
+            std::to_string(2 * i + 2) + "\n";
+  CHECK(warnings(wall).size() == 1);
+}
+
+TEST_CASE("names with backslashes, and what TOML makes of them, get a hint") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "town");
+  folder.write("town/a.ply", test::square_ply("4 0 1 2 3\n", 1));
+  const std::string base = folder.path().string();
+  for (const std::string& name : {base + "\\town\\a.ply", base + "\town\\a.ply"})
+    CHECK_THROWS_WITH_AS(load_scene_file(name, test::of_concrete()),
+                         Contains(("did you mean '" + base + "/town/a.ply'? write / instead of").c_str()), InputError);
+  CHECK_THROWS_WITH_AS(load_scene_file(base + "/b\\c.ply", test::of_concrete()),
+                       Contains("no such file; paths are relative to the file that names them; write / instead of"),
+                       InputError);
+}
+
 TEST_CASE("scene keys of the configuration") {
   const test::TemporaryFolder folder;
   Config config;

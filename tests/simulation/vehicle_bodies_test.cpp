@@ -139,3 +139,24 @@ TEST_CASE("a parked vehicle of no known type, or of a name that is taken, is an 
   config.mounts[0].on = "*";
   check_contains(error_of<ConfigError>(config), "the trajectories have a vehicle \"kerb/0\" too");
 }
+
+TEST_CASE("what is left out of the file of a vehicle is told, once for all that have it; so is one of kilometres") {
+  const TemporaryFolder folder;
+  const std::string box =
+      "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 0 0 1\nv 4 0 1\nv 4 2 1\nv 0 2 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 "
+      "7 "
+      "6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";
+  Config config = ego();
+  config.materials.clear();
+  config.vehicle_types = {{.name = "passenger", .model = folder.write("car.obj", box).string()}};
+  const auto count = [&](const char* text) {
+    const World world(config, static_scene());
+    return std::ranges::count_if(world.warnings(), [&](const std::string& w) { return w.find(text) != w.npos; });
+  };
+  CHECK(count("car.obj:15: 1 lines and points were left out") == 1);
+  CHECK(count("is it in metres?") == 0);
+  std::string large = box;
+  for (size_t at = large.find("v 4"); at != large.npos; at = large.find("v 4", at + 1)) large.replace(at, 3, "v 4000");
+  config.vehicle_types[0].model = folder.write("large.obj", large).string();
+  CHECK(count("the model of a vehicle is 4000 m long: is it in metres?") == 1);
+}
