@@ -98,6 +98,7 @@ class HeaderParser {
     } else {
       fail(fmt::format("unknown PLY format '{}'; known: ascii, binary_little_endian, binary_big_endian", name));
     }
+    if (word.size() > 2 && word[2] != "1.0") fail(fmt::format("PLY of version {} is not known; known: 1.0", word[2]));
     has_format_ = true;
   }
 

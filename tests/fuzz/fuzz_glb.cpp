@@ -1,4 +1,4 @@
-// Fuzz target: GLB models through assimp, whose own code is as Debian builds it.
+// Fuzz target: glTF models, those of version 1.0 through assimp and compressed ones through draco, as Debian builds both.
 #include "fuzz/fuzz.hpp"
 #include "scene/model.hpp"
 

@@ -144,6 +144,7 @@ TEST_CASE("PLY errors name the element") {
         "mesh.ply:3: element 'vertex' has the count 'many'");
   fails("ply\nformat ascii 1.0\nelement vertex 18446744073709551616\nend_header\n", "is not an integer");
   fails("ply\nformat binary 1.0\nend_header\n", "mesh.ply:2: unknown PLY format 'binary'");
+  fails("ply\nformat ascii 2.0\nend_header\n", "mesh.ply:2: PLY of version 2.0 is not known");
   fails("ply\nelement vertex 1\nend_header\n", "no 'format' line");
   fails("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "before the first element");
   fails("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n", "unknown property type 'half'");
