@@ -14,14 +14,13 @@ inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const gl
                   double4 from, double4 to, const double3* points) {
   const uint noted = blockers[wt_blocker_slot(node, receiver, mask)], k = noted >> WT_BLOCKER_SHIFT;
   if (noted == WT_NONE || k > depth) return 0;
-  const uint first = k == 0, last = k == depth;
-  wt_leg leg;
-  leg.from = first ? from.xyz : points[k - 1];
-  leg.to = last ? to.xyz : points[k];
-  leg.source = first ? WT_NONE : chain[k - 1];
-  leg.goal = last ? WT_NONE : chain[k];
-  leg.own_from = leg.own_to = WT_NONE;  // of vehicles, which are not remembered
-  return wt_obstructed_at(triangles, triangle_slots, surfaces, &leg, noted & (WT_BLOCKER_PLACES - 1));
+  const wt_step_tables tables = {surfaces, 0, 0, 0};
+  const wt_stop start = k == 0 ? wt_end_stop(from) : wt_vertex_stop(&tables, points[k - 1], chain[k - 1]);
+  const wt_stop end = k == depth ? wt_end_stop(to) : wt_vertex_stop(&tables, points[k], chain[k]);
+  const double3 before = k > 1 ? points[k - 2] : from.xyz;
+  // Vehicles are not remembered, so those of the antennas need not be passed over.
+  const wt_leg leg = wt_leg_between(&tables, start, end, before, k > 1 ? wt_rounding(before) : WT_ON_SURFACE_M);
+  return wt_obstructed_at(triangles, triangle_slots, surfaces, leg, noted & (WT_BLOCKER_PLACES - 1));
 }
 
 inline void prefetch_blocker(const global uint* blockers, uint mask, const global wt_candidate* candidate) {

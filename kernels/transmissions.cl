@@ -36,8 +36,8 @@ inline int passes_before(const global wt_exact_surface* surfaces, const global w
                          const wt_crossing* a, const wt_crossing* b) {
   const double3 apart = a->point - b->point;
   if (wt_dot(apart, apart) <= WT_ON_SURFACE_M * WT_ON_SURFACE_M) {
-    const int behind_a = behind(surfaces + a->surface, boxes + b->surface, l->from);
-    const int behind_b = behind(surfaces + b->surface, boxes + a->surface, l->from);
+    const int behind_a = behind(surfaces + a->surface, boxes + b->surface, l->from.p);
+    const int behind_b = behind(surfaces + b->surface, boxes + a->surface, l->from.p);
     if (behind_a != behind_b) return behind_a;
   }
   return a->along < b->along;
@@ -48,22 +48,35 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
                           const global double4* transmitters, const global double4* receivers,
                           const global wt_exact_surface* surfaces, const global wt_surface* boxes,
                           global wt_solved* solved, global double* vertices, global uint* sequences,
+                          const global wt_wedge* wedges, const global uint* surface_of_tile,
                           const global wt_counters* counters, wt_legs_arguments args) {
   const uint i = get_global_id(0);
   if (i >= wt_length(counters, args.solved_counter, args.solved_count)) return;
   const uint depth = solved[i].depth, allowed = min(args.most, args.max_depth - depth);
   global double* v = vertices + 3 * (size_t)args.max_depth * i;
   global uint* s = sequences + (size_t)args.max_depth * i;
+  const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
   wt_crossing crossings[WT_MAX_DEPTH];  // in order along the path
   uint count = 0;
   for (uint leg = 0; leg <= depth; ++leg) {
-    const wt_leg l = wt_leg_of(solved + i, leg, v, s, transmitters, receivers);
+    wt_leg l = wt_leg_of(&tables, solved + i, leg, v, s, transmitters, receivers);
     const uint first = count;
-    wt_walk walk = {0.0f, WT_NONE};
+    wt_walk walk = wt_walk_from_start();
+    uint tries = 0, turned = 0;
     for (;;) {
       const uint surface =
           wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &walk);
       if (surface == WT_NONE) break;
+      // As wt_obstructed has it.
+      const int aside =
+          tries < WT_RIM_TRIES && wt_step_aside(triangles, args.triangle_slots, walk.place, surfaces + surface, &l);
+      if (aside || (!turned && wt_turn(&l))) {
+        tries += aside;
+        turned |= !aside;
+        count = first;
+        walk = wt_walk_from_start();
+        continue;
+      }
       uint known = first;
       while (known < count && !one_wall(surfaces, crossings + known, surface)) ++known;
       if (known < count) continue;
@@ -71,9 +84,10 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
         solved[i].blocked = 1;
         return;
       }
-      const double a = wt_above(surfaces + surface, l.from), b = wt_above(surfaces + surface, l.to), u = a / (a - b);
+      const double a = wt_above(surfaces + surface, l.from.p), b = wt_above(surfaces + surface, l.to.p);
+      const double u = fmin(fmax(a / (a - b), 0.0), 1.0);
       // Distances of the traversal are float32: of walls that are near each other it may take the second for the first.
-      const wt_crossing c = {l.from + u * (l.to - l.from), u, surface, leg};
+      const wt_crossing c = {l.from.p + u * (l.to.p - l.from.p), u, surface, leg};
       uint k = count++;
       for (; k > first && passes_before(surfaces, boxes, &l, &c, crossings + k - 1); --k)
         crossings[k] = crossings[k - 1];

@@ -9,17 +9,19 @@ Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
     : work_(tuning_of(context.info()).exact), kernel_(context.kernel("occlusion", "occlusion", scene.definitions)) {}
 
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
-                           Blockers* blockers) {
+                           Blockers* blockers, const StepTables& steps) {
   kernel_(work_.range(size_t{solved.count} * (solved.max_depth + 1)), "occlusion", scene.leg_nodes(),
           scene.leg_leaves(), scene.moving, ends.transmitters, ends.receivers, scene.exact_surfaces, solved.headers,
-          solved.vertices, solved.sequences, blockers ? &blockers->places : nullptr, counters.buffer(),
+          solved.vertices, solved.sequences, steps.wedges, steps.surface_of_tile,
+          blockers ? &blockers->places : nullptr, counters.buffer(),
           wt_legs_arguments{.triangle_slots = scene.triangle_slots,
                             .extent_m = scene.extent_m,
                             .solved_count = solved.count,
                             .solved_counter = solved.counter,
                             .max_depth = solved.max_depth,
                             .most = 0,
-                            .blocker_mask = Blockers::mask});
+                            .blocker_mask = Blockers::mask,
+                            .tile_count = steps.tile_count()});
 }
 
 }  // namespace wavetracer

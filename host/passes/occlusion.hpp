@@ -1,11 +1,12 @@
 // occlusion: marks solved paths of which a leg is obstructed.
-// A surface blocks a leg whose ends lie on opposite sides of it, both farther than 0.1 mm from its plane.
+// kernels/lib/leg.clh has the rule.
 #pragma once
 #include "passes/blockers.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/step_tables.hpp"
 #include "passes/tuning.hpp"
 
 namespace wavetracer {
@@ -15,7 +16,7 @@ class Occlusion {
   Occlusion(gpu::Context& context, const DeviceScene& scene);
   // blockers: where what hides a path is noted, or null.
   void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
-                  Blockers* blockers = nullptr);
+                  Blockers* blockers = nullptr, const StepTables& steps = {});
 
  private:
   Work work_;

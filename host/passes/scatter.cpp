@@ -27,10 +27,11 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
     for (const Tile& tile : tiles.tiles(part))
       centres.insert(centres.end(), {tile.centre_m.x, tile.centre_m.y, tile.centre_m.z});
   }
-  std::vector<uint32_t> tiles_of(4 * size_t{surface_count}, 0);
+  std::vector<uint32_t> tiles_of(4 * size_t{surface_count}, 0), surface_of_tile(tiles.size());
   const auto enter = [&](uint32_t part, uint32_t first_surface, uint32_t first_tile) {
     for (uint32_t k = 0; k < tiles.tiles(part).size(); ++k) {
-      uint32_t* entry = &tiles_of[4 * (size_t{first_surface} + tiles.tiles(part)[k].surface)];
+      const uint32_t surface = surface_of_tile[first_tile + k] = first_surface + tiles.tiles(part)[k].surface;
+      uint32_t* entry = &tiles_of[4 * size_t{surface}];
       if (entry[2]++ > 0) continue;  // tiles of a surface follow each other
       entry[0] = first_tile + k;
       entry[1] = first_centre[part] + k;
@@ -40,6 +41,7 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
   for (uint32_t i = 0; i < tiles.instances().size(); ++i)
     enter(1 + tiles.instances()[i].model, tiles.instances()[i].first_surface, tiles.first_tile(i));
   tiles_of_ = context.buffer(tiles_of, "tiles of surfaces");
+  surface_of_tile_ = context.buffer(surface_of_tile, "surfaces of tiles");
   centres_ = context.buffer(centres, "tiles");
   solved_.max_depth = std::max(max_depth, 1u);
   solved_.reserve(context, 1 << 12);

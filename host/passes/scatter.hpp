@@ -24,6 +24,9 @@ class Scatter {
                          const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                          Counters& counters);
 
+  // In the world, of each tile.
+  const gpu::Buffer<uint32_t>& surface_of_tile() const { return surface_of_tile_; }
+
  private:
   // Fills entries_, all of them; their number.
   uint32_t find_lit(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
@@ -36,6 +39,7 @@ class Scatter {
   uint32_t local_;
   Work tiles_work_;
   gpu::Buffer<uint32_t> tiles_of_;  // four words per surface, see scatter.cl
+  gpu::Buffer<uint32_t> surface_of_tile_;
   gpu::Buffer<double> centres_;
   gpu::Buffer<uint32_t> entries_, first_row_, count_;  // four words per entry
   SolvedList solved_;

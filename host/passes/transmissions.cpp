@@ -10,18 +10,19 @@ Transmissions::Transmissions(gpu::Context& context, const DeviceScene& scene, ui
       work_(tuning_of(context.info()).exact),
       kernel_(context.kernel("transmissions", "transmissions", scene.definitions)) {}
 
-void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved,
-                               Counters& counters) {
+void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
+                               const StepTables& steps) {
   kernel_(work_.range(solved.count), "transmissions", scene.leg_nodes(), scene.leg_leaves(), scene.moving,
           ends.transmitters, ends.receivers, scene.exact_surfaces, scene.surfaces, solved.headers, solved.vertices,
-          solved.sequences, counters.buffer(),
+          solved.sequences, steps.wedges, steps.surface_of_tile, counters.buffer(),
           wt_legs_arguments{.triangle_slots = scene.triangle_slots,
                             .extent_m = scene.extent_m,
                             .solved_count = solved.count,
                             .solved_counter = solved.counter,
                             .max_depth = solved.max_depth,
                             .most = most_,
-                            .blocker_mask = 0});
+                            .blocker_mask = 0,
+                            .tile_count = steps.tile_count()});
 }
 
 }  // namespace wavetracer

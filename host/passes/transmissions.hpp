@@ -5,6 +5,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/step_tables.hpp"
 #include "passes/tuning.hpp"
 
 namespace wavetracer {
@@ -14,7 +15,8 @@ class Transmissions {
   // most: transmissions of a path, no more than interactions of all kinds, of which a row of the list has room for the
   // most (or for one, where there is none).
   Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most);
-  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
+  void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
+                  const StepTables& steps = {});
 
  private:
   uint32_t most_;

@@ -43,10 +43,12 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
 }
 
 void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters) {
+  const StepTables steps{diffraction ? &diffraction->wedges.list().wedges : nullptr,
+                         scatter ? &scatter->surface_of_tile() : nullptr};
   if (transmissions)
-    (*transmissions)(scene, ends, solved, counters);
+    (*transmissions)(scene, ends, solved, counters, steps);
   else
-    (*occlusion)(scene, ends, solved, counters, blockers ? &*blockers : nullptr);
+    (*occlusion)(scene, ends, solved, counters, blockers ? &*blockers : nullptr, steps);
 }
 
 }  // namespace wavetracer

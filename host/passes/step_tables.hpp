@@ -1,0 +1,16 @@
+// What the steps of solved paths name besides surfaces, for the passes that check legs (kernels/lib/leg.clh).
+#pragma once
+#include "gpu/gpu.hpp"
+#include "wavetracer/device/records.h"
+
+namespace wavetracer {
+
+// A null pointer where paths have no such steps.
+struct StepTables {
+  const gpu::Buffer<wt_wedge>* wedges = nullptr;           // of the world, as they are placed
+  const gpu::Buffer<uint32_t>* surface_of_tile = nullptr;  // of each tile of a surface; cells of vegetation follow
+
+  uint32_t tile_count() const { return surface_of_tile ? static_cast<uint32_t>(surface_of_tile->size()) : 0; }
+};
+
+}  // namespace wavetracer
