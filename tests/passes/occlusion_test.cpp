@@ -1,5 +1,5 @@
-// occlusion: a surface blocks a leg whose ends lie on opposite sides of its plane, both farther from it than 0.1 mm.
-// Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg, boxes that touch.
+// occlusion: a surface blocks a leg that crosses it, if the ends lie on opposite sides of its plane and are not on it.
+// Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg; touching_test.cpp has what touches.
 #include "passes/occlusion.hpp"
 
 #include <doctest/doctest.h>
@@ -112,18 +112,34 @@ TEST_CASE("every leg of a path is tested") {
   CHECK_FALSE(path(screen_between((*points)[1], b)));
 }
 
-TEST_CASE("a vertex exempts the surface that reflects there, and no wedge or tile exempts the surface of its number") {
-  const Scene scene = reference::scene_of_quads({wall(0)});
+TEST_CASE("a vertex is on the surfaces that its step names, and on no other surface of that number") {
+  const Scene scene = reference::scene_of_quads({wall(0), wall(7), wall(9)});
   const DeviceScene uploaded = make_device_scene(context(), scene, false, 10);
+  wt_wedge wedge{};
+  wedge.face[1] = wedge.normal[0] = wedge.along[2] = 1;
+  wedge.cosine = 0, wedge.sine = -1, wedge.exterior = 1.5 * 3.14159265358979;
+  wedge.surfaces[0] = 2, wedge.surfaces[1] = 0;  // edge and tile number 0 are on wall 0, edge and tile 1 are not
+  wt_wedge other = wedge;
+  other.surfaces[1] = 1;
+  const gpu::Buffer<wt_wedge> wedges = context().buffer(std::vector{wedge, other}, "wedges");
+  const gpu::Buffer<uint32_t> tiles = context().buffer(std::vector<uint32_t>{0, 1}, "tiles");
   std::vector<PathRow> rows;
   for (const uint32_t kind : {WT_STEP_REFLECTION, WT_STEP_DIFFRACTION, WT_STEP_SCATTERING})
-    for (const double x : {0.01, 5e-5}) rows.push_back({{-3, -1, 0}, {-3, 1, 0}, {kind | 0u}, {{x, 0, 0}}});
+    for (const uint32_t number : {0u, 1u, 2u})
+      for (const double x : {0.01, 5e-5, 0.0})
+        if (kind != WT_STEP_DIFFRACTION || number < 2)
+          rows.push_back({{-3, -1, 0}, {-3, 1, 0}, {kind | number}, {{x, 0, 0}}});
   SolvedList list = upload_rows(rows, 1);
   Occlusion occlusion(context(), uploaded);
   Counters counters(context());
-  occlusion(uploaded, ends_of(rows), list, counters);
+  occlusion(uploaded, ends_of(rows), list, counters, nullptr, {&wedges, &tiles});
   std::vector<bool> blocked;
   for (const PathRow& row : download_rows(list)) blocked.push_back(row.blocked);
-  // An edge lies on the planes of its faces, which then do not hide it.
-  CHECK(blocked == std::vector{false, false, true, false, true, false});
+  // Behind wall 0 by 10 mm, by 0.05 mm and in its plane. What lies in one plane with a surface of the step, to 0.1 mm,
+  // counts as that surface; the faces of edge 1 are parallel to wall 0 here. Tile 2 is a cell of vegetation.
+  const std::vector<bool> none{false, false, false}, far{true, false, false}, third{true, true, false};
+  std::vector<bool> expected;
+  for (const auto& part : {none, far, far, none, far, none, far, third})
+    expected.insert(expected.end(), part.begin(), part.end());
+  CHECK(blocked == expected);
 }

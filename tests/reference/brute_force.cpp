@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -118,13 +119,28 @@ bool bends_rightly(const Scene& scene, const Vertex& vertex, const dvec3& before
   return in_free_sector(wedge, vertex.point, before) && in_free_sector(wedge, vertex.point, after);
 }
 
+// Where the leg between a vertex and its neighbour begins: away from the face of a wedge that it is nearer to.
+Stop stop_at(const Scene& scene, const Vertex& vertex, const dvec3& neighbour) {
+  if (vertex.kind == reflection) {
+    const Surface& surface = scene.surfaces[vertex.number];
+    return {vertex.point, false, {vertex.number}, height(surface, neighbour) < 0 ? -surface.normal : surface.normal};
+  }
+  const Wedge& wedge = scene.wedges[vertex.number];
+  const dvec3 way = neighbour - vertex.point;
+  double azimuth = std::atan2(glm::dot(way, wedge.normal), glm::dot(way, wedge.face));
+  if (azimuth < -1e-6) azimuth += 2 * std::numbers::pi;
+  const double end = wedge.exterior_rad;
+  const dvec3 front = azimuth <= end / 2 ? wedge.normal : std::sin(end) * wedge.face - std::cos(end) * wedge.normal;
+  return {vertex.point, false, {wedge.surface[0], wedge.surface[1]}, front};
+}
+
 // The path with its transmissions, or nothing if it is none.
 std::optional<Path> checked(const Scene& scene, const Limits& limits, const dvec3& tx, const Path& bends,
                             const dvec3& rx) {
   if (bends.empty() && tx == rx) return std::nullopt;
   const auto point = [&](size_t k) { return k == 0 ? tx : k > bends.size() ? rx : bends[k - 1].point; };
-  const auto surface = [&](size_t k) {
-    return k == 0 || k > bends.size() || bends[k - 1].kind != reflection ? no_surface : bends[k - 1].number;
+  const auto stop = [&](size_t k, size_t neighbour) {
+    return k == 0 || k > bends.size() ? Stop{point(k)} : stop_at(scene, bends[k - 1], point(neighbour));
   };
   // Legs of no length, in corners, are passed over.
   const auto same = [&](size_t j, size_t k) {
@@ -143,7 +159,8 @@ std::optional<Path> checked(const Scene& scene, const Limits& limits, const dvec
   Path path;
   for (size_t k = 0; k <= bends.size(); ++k) {
     if (k > 0) path.push_back(bends[k - 1]);
-    const auto passed = passages(scene, point(k), surface(k), point(k + 1), surface(k + 1));
+    if (point(k) == point(k + 1)) continue;  // in a corner
+    const auto passed = passages(scene, stop(k > 0 ? k - 1 : 0, k), stop(k, k + 1), stop(k + 1, k));
     if (passed.size() > transmissions) return std::nullopt;
     transmissions -= passed.size();
     for (const Passage& passage : passed) path.push_back({transmission, passage.surface, passage.point});

@@ -34,9 +34,9 @@ struct Limits {
 //   space, faces included (to 1e-9 rad), and off the edge's line by more than 1e-4 m;
 // - no leg that begins or ends at a wedge is shorter than 1e-4 m;
 // - no leg is blocked. A surface blocks a leg when the leg crosses one of its triangles, both ends of the leg lie on
-//   opposite sides of its plane and farther than 1e-4 m from it, and the leg neither starts nor ends on that surface.
-//   With transmission such a surface is passed instead, and is an interaction of the path; crossings within 1e-4 m of
-//   parallel planes are one, of the first surface;
+//   opposite sides of its plane, and the leg neither starts nor ends on that surface (reference/planes.hpp has the
+//   rule for what touches). With transmission such a surface is passed instead, and is an interaction of the path;
+//   crossings within 1e-4 m of parallel planes are one, of the first surface;
 // - of paths of one transmitter, receiver and kind whose vertices agree within 1e-4 m, the first is kept: a point on
 //   the border of two coplanar surfaces is one path.
 // Positions should be generic: whether a leg passes an edge exactly on it is left to rounding.

@@ -28,10 +28,23 @@ struct Passage {
   glm::dvec3 point{0};
 };
 
-// The surfaces between a and b, nearest to a first; a_surface and b_surface, on which the leg starts and ends, never
-// count, nor does a surface whose plane is within plane_distance_m of a or b. Surfaces that lie on one another, or side
-// by side in one plane, are passed once: crossings of parallel planes within same_vertex_m are one, of the first
-// surface.
+// Where a leg begins or ends.
+struct Stop {
+  glm::dvec3 point{0};
+  bool antenna = true;            // else an interaction
+  std::vector<uint32_t> on = {};  // the surfaces that it is on: of a reflection one, of a wedge two
+  glm::dvec3 front{0};            // of an interaction on surfaces: a unit vector from them towards the leg
+};
+
+// The surfaces between a and b, nearest to a first; `before` is the point before a on the path, or a. None that a or b
+// is on counts, nor, for an antenna, one whose plane is within plane_distance_m of it, nor, for an interaction, one
+// that lies within plane_distance_m of it in one plane with a surface that it is on. An interaction in the plane of any
+// other surface is on the side of `before`. Where the leg is inside of a surface is asked half a millimetre in front of
+// interactions. Surfaces that lie on one another, or side by side in one plane, are passed once: crossings of parallel
+// planes within same_vertex_m are one, of the first surface.
+std::vector<Passage> passages(const Scene& scene, const Stop& before, const Stop& a, const Stop& b);
+
+// The same between two points that are on one surface each, or none, if no other is near them.
 std::vector<Passage> passages(const Scene& scene, const glm::dvec3& a, uint32_t a_surface, const glm::dvec3& b,
                               uint32_t b_surface);
 

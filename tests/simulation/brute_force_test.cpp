@@ -13,7 +13,17 @@ using namespace wavetracer::test;
 
 namespace {
 
-using Key = std::tuple<uint32_t, uint32_t, std::vector<uint32_t>>;  // tx, rx, surfaces
+// tx, rx, kinds of interactions, surfaces and wedges
+using Key = std::tuple<uint32_t, uint32_t, std::vector<uint8_t>, std::vector<uint32_t>>;
+
+// Of the path whose vertices are first to end.
+Key key_of(uint32_t tx, uint32_t rx, const std::vector<uint8_t>& kinds, const std::vector<uint32_t>& surfaces,
+           uint64_t first, uint64_t end) {
+  const auto part = [&](const auto& values) {
+    return std::vector(values.begin() + static_cast<ptrdiff_t>(first), values.begin() + static_cast<ptrdiff_t>(end));
+  };
+  return {tx, rx, part(kinds), part(surfaces)};
+}
 
 struct Difference {
   size_t found = 0, missed = 0, invented = 0;
@@ -21,8 +31,12 @@ struct Difference {
 };
 
 Difference compare(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
-                   uint64_t rays, uint32_t order) {
-  Config config = config_of(scene_file, transmitters, receivers, rays, order);
+                   uint64_t rays, const reference::Limits& limits) {
+  Config config = config_of(scene_file, transmitters, receivers, rays, limits.max_depth);
+  config.trace.transmission = limits.transmission;
+  config.trace.max_transmissions = limits.max_transmissions;
+  config.trace.diffraction = limits.diffraction;
+  config.trace.max_diffractions = limits.max_diffractions;
   Simulation simulation(config);
   const Paths paths = simulation.run_frame(0).paths;
   const Scene& scene = simulation.scene();
@@ -30,20 +44,15 @@ Difference compare(const std::filesystem::path& scene_file, const Points& transm
   Points tx = transmitters, rx = receivers;
   for (glm::dvec3& p : tx) p -= scene.origin_m;
   for (glm::dvec3& p : rx) p -= scene.origin_m;
-  const PathGeometry slow = reference::brute_force_paths(scene, tx, rx, order);
+  const PathGeometry slow = reference::brute_force_all(scene, tx, rx, limits);
 
   std::map<Key, size_t> expected;
   for (size_t i = 0; i < slow.size(); ++i)
-    expected[{slow.tx[i],
-              slow.rx[i],
-              {slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i]),
-               slow.surface.begin() + static_cast<ptrdiff_t>(slow.first[i + 1])}}] = i;
+    expected[key_of(slow.tx[i], slow.rx[i], slow.interaction, slow.surface, slow.first[i], slow.first[i + 1])] = i;
   Difference out;
   for (size_t i = 0; i < paths.size(); ++i) {
-    const auto first = static_cast<ptrdiff_t>(paths.vertex_offset[i]),
-               end = static_cast<ptrdiff_t>(paths.vertex_offset[i + 1]);
-    const auto at = expected.find(
-        {paths.tx[i], paths.rx[i], {paths.vertex_surface.begin() + first, paths.vertex_surface.begin() + end}});
+    const auto at = expected.find(key_of(paths.tx[i], paths.rx[i], paths.vertex_interaction, paths.vertex_surface,
+                                         paths.vertex_offset[i], paths.vertex_offset[i + 1]));
     if (at == expected.end()) {
       ++out.invented;
       continue;
@@ -63,13 +72,18 @@ Difference compare(const std::filesystem::path& scene_file, const Points& transm
 }
 
 void check_identical(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
-                     uint64_t rays, uint32_t order, size_t at_least) {
-  const Difference d = compare(scene_file, transmitters, receivers, rays, order);
+                     uint64_t rays, const reference::Limits& limits, size_t at_least) {
+  const Difference d = compare(scene_file, transmitters, receivers, rays, limits);
   CHECK(d.missed == 0);
   CHECK(d.invented == 0);
   CHECK(d.found >= at_least);
   CHECK(d.length_error < 1e-9);
   CHECK(d.vertex_error_m < 1e-6);
+}
+
+void check_identical(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
+                     uint64_t rays, uint32_t order, size_t at_least) {
+  check_identical(scene_file, transmitters, receivers, rays, reference::Limits{.max_depth = order}, at_least);
 }
 
 std::vector<Quad> operator+(std::vector<Quad> a, const std::vector<Quad>& b) {
@@ -167,5 +181,57 @@ TEST_CASE("loose panels in every direction, order 3") {
     Points receivers;
     for (int i = 0; i < 12; ++i) receivers.push_back(random.in_cube(8));
     check_identical(file.path(), {random.in_cube(8), random.in_cube(8)}, receivers, 1000000, 3, 12);
+  }
+}
+
+namespace {
+
+// Closed houses side by side, wall to wall, on a ground. Heights differ or not.
+std::vector<Quad> terrace(const std::vector<double>& heights) {
+  std::vector<Quad> quads{{{-40, -40, 0}, {100, 0, 0}, {0, 90, 0}}};
+  for (size_t i = 0; i < heights.size(); ++i) {
+    const double x = 7.25 * static_cast<double>(i);
+    quads = quads + reference::box_walls({x, 0, 0}, {x + 7.25, 9.5, heights[i]});
+  }
+  return quads;
+}
+
+// Every face twice: as it is, from another corner on, so that its diagonal is another one, and the middle of it.
+std::vector<Quad> doubled(const std::vector<Quad>& quads, bool middles) {
+  std::vector<Quad> out = quads;
+  for (const Quad& q : quads) {
+    out.push_back({q.corner + q.u, q.v, -q.u});
+    if (middles) out.push_back({q.corner + 0.25 * q.u + 0.375 * q.v, 0.5 * q.u, 0.25 * q.v});
+  }
+  return out;
+}
+
+const Points before_terrace{{3.1, -12.3, 1.7}, {14.7, -8.9, 14.2}};
+const Points behind_terrace{{5.3, 21.9, 1.5}, {12.9, 17.7, 2.3}, {17.1, 31.3, 1.1}, {-6.3, 4.1, 2.9}, {9.9, 4.7, 3.1}};
+
+}  // namespace
+
+TEST_CASE("houses that touch, wall to wall: reflections of order 3, and up to two edges") {
+  for (const std::vector<double>& heights : {std::vector<double>{8, 8, 8}, {8, 10.5, 8}}) {
+    CAPTURE(heights[1]);
+    const SceneFile file(terrace(heights));
+    check_identical(file.path(), before_terrace, behind_terrace, 400000, 3, 6);
+    check_identical(file.path(), before_terrace, behind_terrace, 400000,
+                    {.max_depth = 2, .diffraction = true, .max_diffractions = 2}, 60);
+    check_identical(file.path(), before_terrace, behind_terrace, 400000,
+                    {.max_depth = 3, .transmission = true, .max_transmissions = 2}, 12);
+  }
+}
+
+TEST_CASE("faces that are there twice, with another diagonal or in part, are one") {
+  for (const bool middles : {false, true}) {
+    CAPTURE(middles);
+    const SceneFile houses(doubled(terrace({8, 10.5}), middles));
+    check_identical(houses.path(), before_terrace, behind_terrace, 400000, 2, 6);
+    check_identical(houses.path(), before_terrace, behind_terrace, 400000,
+                    {.max_depth = 2, .transmission = true, .max_transmissions = 2}, 8);
+    if (!middles)
+      check_identical(houses.path(), before_terrace, behind_terrace, 400000,
+                      {.max_depth = 2, .diffraction = true, .max_diffractions = 2}, 40);
   }
 }
