@@ -79,8 +79,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
       }
       uint known = first;
       while (known < count && !one_wall(surfaces, crossings + known, surface)) ++known;
-      if (known < count) continue;
-      if (count == allowed || surfaces[surface].opaque) {
+      if ((known == count && count == allowed) || surfaces[surface].opaque) {
         solved[i].blocked = 1;
         return;
       }
@@ -88,6 +87,10 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
       const double u = fmin(fmax(a / (a - b), 0.0), 1.0);
       // Distances of the traversal are float32: of walls that are near each other it may take the second for the first.
       const wt_crossing c = {l.from.p + u * (l.to.p - l.from.p), u, surface, leg};
+      if (known < count) {  // the lowest surface stands for the wall, whichever float32 meets first
+        if (surface < crossings[known].surface) crossings[known] = c;
+        continue;
+      }
       uint k = count++;
       for (; k > first && passes_before(surfaces, boxes, &l, &c, crossings + k - 1); --k)
         crossings[k] = crossings[k - 1];

@@ -83,16 +83,15 @@ std::vector<Passage> passages(const Scene& scene, const Stop& before, const Stop
     if (is_on(scene, a, i) || is_on(scene, b, i) || side * side_of(scene, b, i) >= 0) continue;
     const auto point = crossing(surface, from - beyond, to + beyond);
     if (!point || !inside_surface(scene, i, *point)) continue;
-    const bool known = std::any_of(passed.begin(), passed.end(), [&](const Passage& earlier) {
-      const dvec3& normal = scene.surfaces[earlier.surface].normal;
-      return glm::distance(earlier.point, *point) <= same_vertex_m &&
-             glm::length(glm::cross(normal, surface.normal)) <= parallel_tolerance;
-    });
-    if (known) continue;
     const double heights[2] = {height(surface, a.point), height(surface, b.point)};
     const double along = std::clamp(heights[0] / (heights[0] - heights[1]), 0.0, 1.0);
     const dvec3 at = a.point + along * (b.point - a.point);
-    passed.push_back({glm::distance(a.point, at), i, at});
+    const bool known = std::any_of(passed.begin(), passed.end(), [&](const Passage& earlier) {
+      const dvec3& normal = scene.surfaces[earlier.surface].normal;
+      return glm::distance(earlier.point, at) <= same_vertex_m &&
+             glm::length(glm::cross(normal, surface.normal)) <= parallel_tolerance;
+    });
+    if (!known) passed.push_back({glm::distance(a.point, at), i, at});
   }
   std::sort(passed.begin(), passed.end(),
             [](const Passage& p, const Passage& q) { return p.distance_m < q.distance_m; });

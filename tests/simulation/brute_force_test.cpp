@@ -214,10 +214,10 @@ const Points behind_terrace{{5.3, 21.9, 1.5}, {12.9, 17.7, 2.3}, {17.1, 31.3, 1.
 TEST_CASE("houses that touch, wall to wall: reflections of order 3, and up to two edges") {
   for (const std::vector<double>& heights : {std::vector<double>{8, 8, 8}, {8, 10.5, 8}}) {
     CAPTURE(heights[1]);
-    const SceneFile file(terrace(heights));
-    check_identical(file.path(), before_terrace, behind_terrace, 400000, 3, 6);
+    const SceneFile file({Part{terrace(heights), "concrete"}});
+    check_identical(file.path(), before_terrace, behind_terrace, 400000, 3, 3);
     check_identical(file.path(), before_terrace, behind_terrace, 400000,
-                    {.max_depth = 2, .diffraction = true, .max_diffractions = 2}, 60);
+                    {.max_depth = 2, .diffraction = true, .max_diffractions = 2}, 30);
     check_identical(file.path(), before_terrace, behind_terrace, 400000,
                     {.max_depth = 3, .transmission = true, .max_transmissions = 2}, 12);
   }
@@ -226,8 +226,8 @@ TEST_CASE("houses that touch, wall to wall: reflections of order 3, and up to tw
 TEST_CASE("faces that are there twice, with another diagonal or in part, are one") {
   for (const bool middles : {false, true}) {
     CAPTURE(middles);
-    const SceneFile houses(doubled(terrace({8, 10.5}), middles));
-    check_identical(houses.path(), before_terrace, behind_terrace, 400000, 2, 6);
+    const SceneFile houses({Part{doubled(terrace({8, 10.5}), middles), "concrete"}});
+    check_identical(houses.path(), before_terrace, behind_terrace, 400000, 2, 4);
     check_identical(houses.path(), before_terrace, behind_terrace, 400000,
                     {.max_depth = 2, .transmission = true, .max_transmissions = 2}, 8);
     if (!middles)
