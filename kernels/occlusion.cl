@@ -7,9 +7,10 @@
 
 kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                       const global double4* transmitters, const global double4* receivers,
-                      const global wt_exact_surface* surfaces, global wt_solved* solved, const global double* vertices,
-                      const global uint* sequences, const global wt_wedge* wedges, const global uint* surface_of_tile,
-                      global uint* blockers, const global wt_counters* counters, wt_legs_arguments args) {
+                      const global wt_exact_surface* surfaces, const global double* corners, global wt_solved* solved,
+                      const global double* vertices, const global uint* sequences, const global wt_wedge* wedges,
+                      const global uint* surface_of_tile, global uint* blockers, const global wt_counters* counters,
+                      wt_legs_arguments args) {
   const uint i = get_global_id(0) / (args.max_depth + 1), leg = get_global_id(0) % (args.max_depth + 1);
   if (i >= wt_length(counters, args.solved_counter, args.solved_count) || leg > solved[i].depth) return;
   // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One
@@ -19,7 +20,8 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
   const wt_leg l = wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers);
   uint place;
-  if (!wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, l, &place)) return;
+  if (!wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, l, &place))
+    return;
   atomic_or(&solved[i].blocked, 1u);
   wt_remember_blocker(blockers, args.blocker_mask, solved[i].node, solved[i].receiver, leg, place);
 }

@@ -10,8 +10,8 @@
 
 #ifdef WT_BLOCKERS
 inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const global uint* blockers, uint mask,
-                  const global wt_exact_surface* surfaces, const uint* chain, uint depth, uint node, uint receiver,
-                  double4 from, double4 to, const double3* points) {
+                  const global wt_exact_surface* surfaces, const global double* corners, const uint* chain, uint depth,
+                  uint node, uint receiver, double4 from, double4 to, const double3* points) {
   const uint noted = blockers[wt_blocker_slot(node, receiver, mask)], k = noted >> WT_BLOCKER_SHIFT;
   if (noted == WT_NONE || k > depth) return 0;
   const wt_step_tables tables = {surfaces, 0, 0, 0};
@@ -20,7 +20,7 @@ inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const gl
   const double3 before = k > 1 ? points[k - 2] : from.xyz;
   // Vehicles are not remembered, so those of the antennas need not be passed over.
   const wt_leg leg = wt_leg_between(&tables, start, end, before, k > 1 ? wt_rounding(before) : WT_ON_SURFACE_M);
-  return wt_obstructed_at(triangles, triangle_slots, surfaces, leg, noted & (WT_BLOCKER_PLACES - 1));
+  return wt_obstructed_at(triangles, triangle_slots, surfaces, corners, leg, noted & (WT_BLOCKER_PLACES - 1));
 }
 
 inline void prefetch_blocker(const global uint* blockers, uint mask, const global wt_candidate* candidate) {
@@ -63,8 +63,9 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
   const double3 to = receivers[candidates[i].receiver].xyz;
   if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, to, points)) return;
 #ifdef WT_BLOCKERS
-  if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, chain, depth, candidates[i].node,
-             candidates[i].receiver, transmitters[transmitter], receivers[candidates[i].receiver], points)) {
+  if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, triangles, chain, depth,
+             candidates[i].node, candidates[i].receiver, transmitters[transmitter], receivers[candidates[i].receiver],
+             points)) {
     atomic_inc(&counters->hidden);
     return;
   }

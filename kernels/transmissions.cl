@@ -46,9 +46,9 @@ inline int passes_before(const global wt_exact_surface* surfaces, const global w
 // One path per work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
 kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                           const global double4* transmitters, const global double4* receivers,
-                          const global wt_exact_surface* surfaces, const global wt_surface* boxes,
-                          global wt_solved* solved, global double* vertices, global uint* sequences,
-                          const global wt_wedge* wedges, const global uint* surface_of_tile,
+                          const global wt_exact_surface* surfaces, const global double* corners,
+                          const global wt_surface* boxes, global wt_solved* solved, global double* vertices,
+                          global uint* sequences, const global wt_wedge* wedges, const global uint* surface_of_tile,
                           const global wt_counters* counters, wt_legs_arguments args) {
   const uint i = get_global_id(0);
   if (i >= wt_length(counters, args.solved_counter, args.solved_count)) return;
@@ -68,8 +68,8 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
           wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &walk);
       if (surface == WT_NONE) break;
       // As wt_obstructed has it.
-      const int aside =
-          tries < WT_RIM_TRIES && wt_step_aside(triangles, args.triangle_slots, walk.place, surfaces + surface, &l);
+      const int aside = tries < WT_RIM_TRIES &&
+                        wt_step_aside(triangles, args.triangle_slots, corners, walk.place, surfaces + surface, &l);
       if (aside || (!turned && wt_turn(&l))) {
         tries += aside;
         turned |= !aside;

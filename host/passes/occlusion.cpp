@@ -11,8 +11,8 @@ Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                            Blockers* blockers, const StepTables& steps) {
   kernel_(work_.range(size_t{solved.count} * (solved.max_depth + 1)), "occlusion", scene.leg_nodes(),
-          scene.leg_leaves(), scene.moving, ends.transmitters, ends.receivers, scene.exact_surfaces, solved.headers,
-          solved.vertices, solved.sequences, steps.wedges, steps.surface_of_tile,
+          scene.leg_leaves(), scene.moving, ends.transmitters, ends.receivers, scene.exact_surfaces,
+          scene.exact_triangles, solved.headers, solved.vertices, solved.sequences, steps.wedges, steps.surface_of_tile,
           blockers ? &blockers->places : nullptr, counters.buffer(),
           wt_legs_arguments{.triangle_slots = scene.triangle_slots,
                             .extent_m = scene.extent_m,
