@@ -43,6 +43,29 @@ inline int passes_before(const global wt_exact_surface* surfaces, const global w
   return a->along < b->along;
 }
 
+// Enters the crossings into the row of a path.
+inline void enter(global wt_solved* path, global double* v, global uint* s, const wt_crossing* crossings, uint count) {
+  const uint depth = path->depth;
+  // From the back, so that nothing is written over before it has moved on.
+  uint to = depth + count;
+  path->depth = to;
+  for (uint from = depth; count > 0;) {
+    if (crossings[count - 1].leg == from) {
+      --count;
+      --to;
+      v[3 * to] = crossings[count].point.x;
+      v[3 * to + 1] = crossings[count].point.y;
+      v[3 * to + 2] = crossings[count].point.z;
+      s[to] = WT_STEP_TRANSMISSION | crossings[count].surface;
+    } else {
+      --from;
+      --to;
+      for (uint axis = 0; axis < 3; ++axis) v[3 * to + axis] = v[3 * from + axis];
+      s[to] = s[from];
+    }
+  }
+}
+
 // One path per work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
 kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                           const global double4* transmitters, const global double4* receivers,
@@ -97,22 +120,5 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
       crossings[k] = c;
     }
   }
-  // From the back, so that nothing is written over before it has moved on.
-  uint to = depth + count;
-  solved[i].depth = to;
-  for (uint from = depth; count > 0;) {
-    if (crossings[count - 1].leg == from) {
-      --count;
-      --to;
-      v[3 * to] = crossings[count].point.x;
-      v[3 * to + 1] = crossings[count].point.y;
-      v[3 * to + 2] = crossings[count].point.z;
-      s[to] = WT_STEP_TRANSMISSION | crossings[count].surface;
-    } else {
-      --from;
-      --to;
-      for (uint axis = 0; axis < 3; ++axis) v[3 * to + axis] = v[3 * from + axis];
-      s[to] = s[from];
-    }
-  }
+  enter(solved + i, v, s, crossings, count);
 }
