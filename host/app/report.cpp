@@ -220,6 +220,9 @@ std::string report(const Run& run, const Results& results, bool verbose) {
   out += fmt::format("scene      {}: {:.0f} x {:.0f} x {:.0f} m, {} triangles in {} surfaces\n",
                      run.config.scene.file.empty() ? "city " + run.config.scene.generate : run.config.scene.file,
                      extent.x, extent.y, extent.z, grouped(scene.triangles.size()), grouped(scene.surfaces.size()));
+  if (const LoadReport& load = scene.report; load.flattened_vertices > 0)
+    out += fmt::format("flattened  {} vertices moved onto the planes of their surfaces, by {:.2g} mm at most\n",
+                       grouped(load.flattened_vertices), load.flattened_by_m * 1000);
   if (!run.instances.empty())
     out += fmt::format("vehicles   {} of {} models\n", grouped(run.instances.size()), run.models.size());
   out += feature_line(run);

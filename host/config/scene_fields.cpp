@@ -55,6 +55,21 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
       .optional = optional};
 }
 
+Field plane_tolerance_field() {
+  return {.name = "plane_tolerance_m",
+          .slot = at(&Config::scene, &SceneConfig::plane_tolerance_m),
+          .unit = "m",
+          .range = {0, 1},
+          .doc =
+              "Vertices of the scene and of vehicle meshes within this distance of a common plane are one surface, "
+              "and are moved onto it, so that a wall with rounded or measured coordinates mirrors like one wall. Not "
+              "given: a thirty-second of the wavelength, but at least 1 mm (closer vertices are merged anyway) and "
+              "at most 2 mm, or a thousandth of a smaller scene. A mesh in float32 far away from its origin gets "
+              "more: the step of its largest coordinate. `wavetracer scene info` says how much was moved. 0 moves "
+              "nothing.",
+          .example = "0.006"};
+}
+
 }  // namespace
 
 Table scene_table() {
@@ -95,6 +110,7 @@ Table scene_table() {
                .doc = "What to do with a material that is not known at the carrier. false: it is an error. true: its "
                       "law of the nearest range is used, with a warning; ITU-R P.2040 calls the ranges indicative. "
                       "The three kinds of ground stay an error, because for them the range is a limit."},
+              plane_tolerance_field(),
               {.name = "streets",
                .slot = s(&SceneConfig::streets),
                .form = Form::input_file,

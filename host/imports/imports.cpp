@@ -160,6 +160,9 @@ ImportSummary import_map(const imports::Map& map, const std::string& name, const
   }
   const std::vector<imports::SceneMesh> meshes = imports::build_scene(plan, terrain ? &*terrain : nullptr, options);
   summary.offset_m = plan.offset_m;
+  summary.straightened = plan.straightened;
+  summary.straightened_by_m = plan.straightened_by_m;
+  summary.rounding_m = map.rounding_m;
   return write_city(meshes, georeference, std::move(summary), options);
 }
 
@@ -206,6 +209,11 @@ std::string describe(const ImportSummary& s) {
         s.terrain->triangles, s.terrain->posts, s.terrain->lowest_m, s.terrain->highest_m, s.terrain->largest_error_m,
         s.terrain->rms_error_m);
   if (s.vegetation > 0) out += fmt::format("vegetation {} trees and woods, by docs/outdoors.md\n", s.vegetation);
+  if (s.straightened > 0)
+    out += fmt::format(
+        "straight   {} corners were moved onto the straight walls that they are in, by {:.2g} mm at most: the map's "
+        "coordinates are rounded to {:.2g} mm\n",
+        s.straightened, s.straightened_by_m * 1000, 2000 * s.rounding_m);
   if (!s.guessed.empty()) out += "assumed\n" + total(s.guessed);
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);

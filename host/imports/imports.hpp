@@ -65,8 +65,11 @@ struct ImportSummary {
   std::map<std::string, uint64_t> guessed;   // what was assumed of buildings that stay -> how many
   glm::dvec2 lower_m{0}, upper_m{0};         // of the buildings, in the coordinates of the scene
   Extent ground;                             // empty without one
-  glm::dvec2 offset_m{0};   // scene = projected coordinates (OSM) or those of SUMO (.poly.xml, net) + this
-  std::string attribution;  // to be shown with the data; empty where the source asks for none
+  glm::dvec2 offset_m{0};        // scene = projected coordinates (OSM) or those of SUMO (.poly.xml, net) + this
+  uint64_t straightened = 0;     // corners that were moved onto straight walls, as the map's coordinates are rounded
+  double straightened_by_m = 0;  // the farthest of them
+  double rounding_m = 0;         // of the map's coordinates
+  std::string attribution;       // to be shown with the data; empty where the source asks for none
   struct Terrain {
     uint64_t posts = 0, triangles = 0;            // of the raster in the area of the ground; of the ground
     double largest_error_m = 0, rms_error_m = 0;  // of the ground at these posts

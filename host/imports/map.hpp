@@ -26,8 +26,9 @@ struct Footprint {
 
 struct Map {
   std::vector<Footprint> footprints;
-  Georeference georeference;           // of the coordinates of the footprints; without a projection where none is known
-  Extent network;                      // convBoundary of SUMO's <location>
+  Georeference georeference;  // of the coordinates of the footprints; without a projection where none is known
+  Extent network;             // convBoundary of SUMO's <location>
+  double rounding_m = 0;      // how far a coordinate may be off, because the file holds few digits: half of a step
   bool nested_are_courtyards = false;  // a footprint inside another of the same tags is a hole in it
   std::map<std::string, uint64_t> left_out;
   std::vector<std::string> warnings;

@@ -290,6 +290,7 @@ bool is_osm(std::string_view first_bytes) {
 Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options) {
   Map map = OsmReader(content, name, options.vegetation).read();
   if (map.footprints.empty()) return map;
+  map.rounding_m = 0.5e-7 * metres_per_degree;  // of the latitude: OpenStreetMap's coordinates have seven decimals
   project(map, name, options, fmt::format("osmium extract -b WEST,SOUTH,EAST,NORTH {} -o city.osm.pbf", name));
   map.georeference.attribution = osm_attribution;
   return map;

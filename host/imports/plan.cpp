@@ -11,6 +11,7 @@
 
 #include "imports/box_index.hpp"
 #include "imports/coverage.hpp"
+#include "imports/straight_walls.hpp"
 #include "imports/triangulate.hpp"
 #include "wavetracer/error.hpp"
 
@@ -18,11 +19,6 @@ namespace wavetracer::imports {
 namespace {
 
 constexpr const char* too_many_around = "inside of more than 200 others";
-
-Ring shifted_ring(RingM points, const glm::dvec2& shift) {
-  for (glm::dvec2& p : points) p += shift;
-  return make_ring(points);
-}
 
 struct Candidate {
   Solid solid;
@@ -68,9 +64,13 @@ class Planner {
   }
 
   void take_footprints() {
+    const StraightWalls walls = straight_walls(map_.footprints, map_.rounding_m);
+    plan_.straightened = walls.moved.size();
+    plan_.straightened_by_m = walls.farthest_m;
     for (const Footprint& footprint : map_.footprints) {
-      Polygon polygon{shifted_ring(footprint.outer, plan_.offset_m), {}};
-      for (const RingM& hole : footprint.holes) polygon.holes.push_back(shifted_ring(hole, plan_.offset_m));
+      Polygon polygon = walls.polygon_of(footprint, plan_.offset_m);
+      if (!fault(polygon).empty())
+        polygon = StraightWalls{}.polygon_of(footprint, plan_.offset_m);  // thinner than the tolerance
       if (const std::string_view reason = fault(polygon); !reason.empty()) {
         ++plan_.left_out[std::string(reason)];
         continue;

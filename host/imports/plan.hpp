@@ -30,6 +30,8 @@ struct Plan {
   Extent traffic;             // what the ground has to reach besides the solids, in their coordinates
   std::map<std::string, uint64_t> left_out, guessed;
   std::vector<std::string> warnings;
+  uint64_t straightened = 0;     // corners that were moved onto straight walls (imports/straight_walls.hpp)
+  double straightened_by_m = 0;  // the farthest
 };
 
 // The shift by whole metres that brings all that is built near the origin; none where it is there already, since the

@@ -6,6 +6,8 @@
 
 namespace wavetracer::imports {
 
+constexpr double metres_per_degree = 111320;  // of latitude; no less than of longitude
+
 // Calls visit(glm::dvec2&) for every point of every ring.
 template <class Visit>
 void each_point(Map& map, const Visit& visit) {

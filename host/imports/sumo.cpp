@@ -9,6 +9,7 @@
 #include <pugixml.hpp>
 
 #include "imports/map.hpp"
+#include "imports/straight_walls.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::imports {
@@ -187,6 +188,7 @@ Map read_sumo_polygons(std::string_view content, const std::string& name) {
     map.footprints.push_back(
         {fmt::format("polygon_{}", count), poly.attribute("id").value(), std::move(*shape), {}, tags_of(poly)});
   }
+  map.rounding_m = rounding_of(map.footprints, metre_steps);
   return map;
 }
 

@@ -10,6 +10,7 @@
 #include "imports/maps_module.hpp"
 #include "imports/projecting.hpp"
 #include "imports/rings.hpp"
+#include "imports/straight_walls.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::imports {
@@ -157,6 +158,8 @@ Map read_vector_map(const std::string& file, const ImportOptions& options) {
   check_fields(file, fields, layers, options, map);
   if (layers.no_polygons > 0) map.left_out["feature without a polygon"] += layers.no_polygons;
   if (layers.too_large > 0) map.left_out["more than 5000 corners"] += layers.too_large;
+  const double unit_m = layers.in_degrees ? metres_per_degree : 1;
+  map.rounding_m = unit_m * rounding_of(map.footprints, layers.in_degrees ? degree_steps : metre_steps);
   if (layers.in_degrees)
     project(map, file, options, advice);
   else

@@ -52,6 +52,10 @@ std::string encode_run_record(const Run& run) {
   json["cache"] = {{"kind", run.config.cache.kind.word()}, {"key", run.config.cache.key.word()}};
   json["scene_file"] = run.scene.file;
   json["scene_warnings"] = run.scene.report.warnings;
+  json["scene_flattened"] = {{"vertices", run.scene.report.flattened_vertices},
+                             {"by_m", run.scene.report.flattened_by_m},
+                             {"left_triangles", run.scene.report.bent_triangles},
+                             {"tolerance_m", run.scene.report.plane_tolerance_m}};
   json["vehicles"] = run.instances.size();
   json["inputs"] = Json::array();
   for (const InputFile& input : s.inputs)
@@ -101,6 +105,12 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   out.config.cache.key = CacheKey::named(json.at("cache").at("key").get<std::string>());
   out.scene.file = json.at("scene_file");
   out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
+  if (const auto flat = json.find("scene_flattened"); flat != json.end()) {  // older versions write none
+    out.scene.report.flattened_vertices = whole<uint64_t>(flat->at("vertices"));
+    out.scene.report.flattened_by_m = flat->at("by_m").get<double>();
+    out.scene.report.bent_triangles = whole<uint64_t>(flat->at("left_triangles"));
+    out.scene.report.plane_tolerance_m = flat->at("tolerance_m").get<double>();
+  }
   const auto vehicles = whole<uint64_t>(json.at("vehicles"));
   if (vehicles > most_vehicles) throw RuntimeError(name + ": \"vehicles\" is not a number of vehicles");
   out.instances.resize(vehicles);

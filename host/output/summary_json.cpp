@@ -121,6 +121,10 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["device_kind"] = summary.device.gpu ? "gpu" : "cpu";
   json["config_file"] = run.config.file;
   json["scene_file"] = run.scene.file;
+  json["flattened"] = {{"vertices", run.scene.report.flattened_vertices},
+                       {"by_m", run.scene.report.flattened_by_m},
+                       {"left_triangles", run.scene.report.bent_triangles},
+                       {"tolerance_m", run.scene.report.plane_tolerance_m}};
   json["command_line"] = summary.command_line;
   json["vehicles"] = run.instances.size();
   json["frames"] = totals.frames;

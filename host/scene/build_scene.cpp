@@ -1,4 +1,4 @@
-// Building a Scene in steps: gather, recentre, weld, clean, connect, find wedges.
+// Building a Scene in steps: gather, recentre, weld, clean, flatten, connect, find wedges.
 // Every step is deterministic and sequential; a million triangles take a few seconds.
 #include "scene/build_scene.hpp"
 
@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "scene/earlier_faces.hpp"
+#include "scene/flatten_scene.hpp"
 #include "scene/scene_wedges.hpp"
 #include "scene/topology.hpp"
 #include "scene/unit_check.hpp"
@@ -32,7 +33,8 @@ constexpr double smallest_extent_m = 0.1, detailed_extent_m = 1;
 struct Soup {
   std::vector<dvec3> vertices;
   std::vector<Triangle> triangles;
-  std::vector<uint32_t> object;  // per triangle: index of its mesh
+  std::vector<uint32_t> object;    // per triangle: index of its mesh
+  std::vector<double> rounding_m;  // per vertex: of its mesh
 };
 
 // Without meshes that are vegetation.
@@ -58,6 +60,7 @@ Soup gather(const RawScene& raw, const ResolvedMaterials& resolved) {
         if (moved[v] == none) {
           moved[v] = static_cast<uint32_t>(soup.vertices.size());
           soup.vertices.push_back(mesh.vertices[v]);
+          soup.rounding_m.push_back(mesh.rounding);
         }
         v = moved[v];
       }
@@ -139,9 +142,10 @@ Duplicates find_duplicates(const std::vector<Triangle>& triangles, const std::ve
   return out;
 }
 
-// Welds the soup into the scene and drops what is degenerate or double.
+// Welds the soup into the scene and drops what is degenerate or double. rounding_m: of every vertex of the scene, the
+// largest of those that were welded into it.
 void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>& mesh_material,
-                    std::vector<uint32_t>& triangle_material) {
+                    std::vector<uint32_t>& triangle_material, std::vector<double>& rounding_m) {
   Weld weld = weld_vertices(soup.vertices, weld_tolerance_m);
   scene.report.welded_vertices = soup.vertices.size() - weld.positions.size();
   if (weld.widest_m > 10 * weld_tolerance_m) {
@@ -150,6 +154,9 @@ void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>&
                     weld_tolerance_m * 1000, weld.widest_m));
   }
   scene.vertices = std::move(weld.positions);
+  rounding_m.assign(scene.vertices.size(), 0);
+  for (size_t i = 0; i < soup.vertices.size(); ++i)
+    rounding_m[weld.vertex[i]] = std::max(rounding_m[weld.vertex[i]], soup.rounding_m[i]);
   for (size_t i = 0; i < soup.triangles.size(); ++i) {
     const Triangle& t = soup.triangles[i];
     scene.triangles.push_back({weld.vertex[t[0]], weld.vertex[t[1]], weld.vertex[t[2]]});
@@ -181,7 +188,7 @@ void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>&
 }
 
 // Removes vertices that only dropped triangles used, keeping the order of the others.
-void compact_vertices(Scene& scene) {
+void compact_vertices(Scene& scene, std::vector<double>& rounding_m) {
   std::vector<uint32_t> moved(scene.vertices.size(), none);
   for (const Triangle& t : scene.triangles) {
     for (uint32_t v : t) moved[v] = 0;
@@ -190,9 +197,11 @@ void compact_vertices(Scene& scene) {
   for (size_t v = 0; v < moved.size(); ++v) {
     if (moved[v] == none) continue;
     scene.vertices[kept] = scene.vertices[v];
+    rounding_m[kept] = rounding_m[v];
     moved[v] = kept++;
   }
   scene.vertices.resize(kept);
+  rounding_m.resize(kept);
   for (Triangle& t : scene.triangles) {
     for (uint32_t& v : t) v = moved[v];
   }
@@ -228,7 +237,7 @@ void gather_volumes(Scene& scene, const RawScene& raw, const ResolvedMaterials& 
 
 }  // namespace
 
-Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch edges) {
+Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch edges, double tolerance_m) {
   Scene scene;
   scene.file = raw.file;
   scene.files = raw.files;
@@ -242,12 +251,14 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch ed
   gather_volumes(scene, raw, resolved);
   for (const SceneNode& node : raw.nodes) scene.nodes.push_back({node.name, node.position_m - scene.origin_m});
   std::vector<uint32_t> triangle_material;
-  weld_and_clean(scene, soup, resolved.mesh_material, triangle_material);
+  std::vector<double> rounding_m;
+  weld_and_clean(scene, soup, resolved.mesh_material, triangle_material, rounding_m);
   if (scene.triangles.empty()) throw InputError(fmt::format("{}: all triangles of the scene are degenerate", raw.file));
-  compact_vertices(scene);
+  compact_vertices(scene, rounding_m);
 
   const auto triangle_edges = find_edges(scene);
-  find_surfaces(scene, triangle_material, triangle_edges);
+  const Flattened flat = flatten_scene(scene, triangle_edges, tolerance_m, rounding_m);
+  find_surfaces(scene, triangle_material, triangle_edges, flat);
   find_flat_edges(scene);
   find_wedges(scene, edges);
   scene.lower = scene.upper = scene.vertices[0];

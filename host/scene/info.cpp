@@ -99,6 +99,15 @@ std::string describe_scene(const Scene& scene) {
                        scene.volumes.size(),
                        std::ranges::count_if(earlier, [](const auto& list) { return !list.empty(); }));
   }
+  out += fmt::format("flattened  {} vertices moved onto the planes of their surfaces, by {:.2g} mm at most{}\n",
+                     report.flattened_vertices, report.flattened_by_m * 1000,
+                     report.plane_tolerance_m > 0
+                         ? fmt::format(" (up to {:.2g} mm are allowed)", report.plane_tolerance_m * 1000)
+                         : " (scene.plane_tolerance_m is 0)");
+  if (report.bent_triangles > 0)
+    out += fmt::format(
+        "           {} triangles stay as they are, because a corner is farther than that from where its planes meet\n",
+        report.bent_triangles);
   for (const std::string& warning : report.warnings) out += fmt::format("warning    {}\n", warning);
   return out;
 }

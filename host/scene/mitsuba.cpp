@@ -143,8 +143,10 @@ class MitsubaReader {
     const pugi::xml_node node = mitsuba_property(files_, shape, "to_world", {"transform"});
     if (!node) return;
     const glm::dmat4 to_world = read_transform(node, files_);
-    for (RawMesh& mesh : meshes)
+    for (RawMesh& mesh : meshes) {
       for (glm::dvec3& v : mesh.vertices) v = glm::dvec3(to_world * glm::dvec4(v, 1));
+      mesh.rounding *= largest_stretch(to_world);
+    }
   }
 
   std::vector<RawMesh> read_mesh(pugi::xml_node shape, const std::string& type) {
@@ -193,6 +195,7 @@ class MitsubaReader {
     out[0].where = file.string();
     out[0].vertices = std::move(ply.vertices);
     out[0].triangles = std::move(ply.triangles);
+    out[0].rounding = ply.rounding;
     return out;
   }
 

@@ -68,9 +68,11 @@ class ModelReader {
     const std::string_view material = raw_.materials.at(in.mMaterialIndex).name;
     if (material != AI_DEFAULT_MATERIAL_NAME && !material.empty()) out.material = in.mMaterialIndex;
     out.vertices.reserve(in.mNumVertices);
+    double reach_in_mesh = 0;
     for (unsigned i = 0; i < in.mNumVertices; ++i) {
       const aiVector3D& v = in.mVertices[i];
       const glm::dvec3 p(to_root * glm::dvec4(v.x, v.y, v.z, 1));
+      for (const float x : {v.x, v.y, v.z}) reach_in_mesh = std::max(reach_in_mesh, std::abs(static_cast<double>(x)));
       const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
       if (!std::isfinite(p.x + p.y + p.z)) {
         throw InputError(fmt::format("{}: mesh '{}': vertex {} is not finite", raw_.file, out.name, i));
@@ -78,6 +80,7 @@ class ModelReader {
       largest_ = std::max(largest_, reach);
       out.vertices.push_back(p);
     }
+    out.rounding = float32_rounding(reach_in_mesh) * largest_stretch(to_root);
     out.triangles.reserve(in.mNumFaces);
     for (unsigned i = 0; i < in.mNumFaces; ++i) {
       const aiFace& f = in.mFaces[i];

@@ -143,6 +143,9 @@ struct Elements {
     if (element.name == "vertex") {
       once(has_vertices, element);
       read_vertices(body, element, file, mesh.vertices);
+      if (std::ranges::any_of(element.properties,
+                              [](const Property& p) { return p.name == "x" && p.type == Type::f32; }))
+        mesh.rounding = float32_rounding(mesh.vertices);
     } else if (element.name == "face") {
       once(has_faces, element);
       read_faces(body, element, file, faces);

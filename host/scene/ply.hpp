@@ -16,6 +16,7 @@ struct PlyMesh {
   std::vector<Triangle> triangles;         // polygons are triangulated
   uint64_t small_faces = 0;                // faces of fewer than three vertices, left out
   std::vector<std::string> warnings = {};  // of them, and of what else of the file is left out
+  double rounding = 0;                     // of coordinates that are stored as float, see RawMesh
 };
 
 // Throws InputError that names the file and the element.

@@ -3,8 +3,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +32,15 @@ struct RawMesh {
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;  // into vertices
   uint32_t material = no_material;  // into RawScene::materials
+  // How far a coordinate may be off because the file, or its reader, holds it with few digits: half of their last step.
+  double rounding = 0;
 };
+
+// What a coordinate, or the largest one of vertices, may lose in float32.
+double float32_rounding(double coordinate);
+double float32_rounding(std::span<const glm::dvec3> vertices);
+// The most by which a transform makes lengths along an axis longer.
+double largest_stretch(const glm::dmat4& transform);
 
 // A volume of the configuration, in metres.
 struct RawVolume {

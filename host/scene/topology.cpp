@@ -1,5 +1,6 @@
 // Edges by sorting, surfaces by growing from the largest triangle.
-// A surface's plane is that of its seed and never moves, so a chain of small bends cannot drift into a curve.
+// A surface's plane is that of its seed, or the one that its vertices were moved onto, and never changes meanwhile, so
+// a chain of small bends cannot drift into a curve.
 #include "scene/topology.hpp"
 
 #include <algorithm>
@@ -14,27 +15,14 @@ namespace {
 using glm::dvec3;
 constexpr uint32_t unassigned = 0xFFFFFFFFu;
 
-// The largest component positive (the last one of equals): the same plane whatever the winding of the file.
-dvec3 oriented(const dvec3& n) {
-  int axis = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (std::abs(n[k]) >= std::abs(n[axis])) axis = k;
-  }
-  return n[axis] < 0 ? -n : n;
-}
-
-struct Plane {
-  dvec3 normal;
-  double offset_m;
-};
-
 class SurfaceGrower {
  public:
   SurfaceGrower(const Scene& scene, std::span<const uint32_t> material,
-                std::span<const std::array<uint32_t, 3>> triangle_edges)
+                std::span<const std::array<uint32_t, 3>> triangle_edges, const Flattened& flat)
       : scene_(scene),
         material_(material),
         triangle_edges_(triangle_edges),
+        flat_(flat),
         seed_of_(scene.triangles.size(), unassigned) {
     shapes_.reserve(scene.triangles.size());
     for (uint32_t t = 0; t < scene.triangles.size(); ++t) shapes_.push_back(triangle_shape(scene, t));
@@ -54,7 +42,8 @@ class SurfaceGrower {
   }
 
   Plane plane_of(uint32_t t) const {
-    const dvec3 n = oriented(shapes_[t].normal);
+    if (flat_.triangle_plane[t] != no_plane) return flat_.planes[flat_.triangle_plane[t]];
+    const dvec3 n = shapes_[t].area_m2 > 0 ? oriented(shapes_[t].normal) : dvec3(0, 0, 1);  // a strip that went flat
     return {n, glm::dot(n, scene_.vertices[scene_.triangles[t][0]])};
   }
 
@@ -70,7 +59,8 @@ class SurfaceGrower {
         const Edge& edge = scene_.edges[e];
         for (uint32_t i = 0; i < edge.face_count; ++i) {
           const uint32_t other = scene_.edge_faces[edge.first_face + i];
-          if (seed_of_[other] != unassigned || material_[other] != material_[seed] || !lies_in(other, plane)) continue;
+          if (seed_of_[other] != unassigned || material_[other] != material_[seed] || !continues(seed, other, plane))
+            continue;
           seed_of_[other] = seed;
           stack_.push_back(other);
         }
@@ -78,19 +68,15 @@ class SurfaceGrower {
     }
   }
 
-  bool lies_in(uint32_t t, const Plane& plane) const {
-    const TriangleShape& shape = shapes_[t];
-    if (shape.height_m > sliver_height_m && std::abs(glm::dot(shape.normal, plane.normal)) <= 1 - normal_tolerance) {
-      return false;
-    }
-    return std::all_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), [&](uint32_t v) {
-      return std::abs(glm::dot(plane.normal, scene_.vertices[v]) - plane.offset_m) <= plane_tolerance_m;
-    });
+  bool continues(uint32_t seed, uint32_t t, const Plane& plane) const {
+    if (flat_.triangle_plane[t] != flat_.triangle_plane[seed]) return false;
+    return flat_.triangle_plane[t] != no_plane || lies_in_plane(scene_, t, shapes_[t], plane);
   }
 
   const Scene& scene_;
   std::span<const uint32_t> material_;
   std::span<const std::array<uint32_t, 3>> triangle_edges_;
+  const Flattened& flat_;
   std::vector<TriangleShape> shapes_;
   std::vector<uint32_t> seed_of_, stack_;
 };
@@ -103,10 +89,13 @@ uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge) {
   return scene.triangles[t][0];
 }
 
-bool same_plane(const Surface& a, const Surface& b, const dvec3& on_edge) {
-  const double cosine = glm::dot(a.normal, b.normal);
-  const double gap_m = glm::dot(a.normal, on_edge) - a.offset_m - (glm::dot(b.normal, on_edge) - b.offset_m);
-  return std::abs(cosine) > 1 - normal_tolerance && std::abs(gap_m) <= 2 * plane_tolerance_m;
+// Whether two triangles of different surfaces lie in one plane as they are.
+bool same_plane(const Scene& scene, uint32_t t, uint32_t other) {
+  const auto lies_in = [&](uint32_t a, uint32_t b) {
+    const Surface& surface = scene.surfaces[scene.triangle_surface[b]];
+    return lies_in_plane(scene, a, triangle_shape(scene, a), {surface.normal, surface.offset_m});
+  };
+  return lies_in(t, other) && lies_in(other, t);
 }
 
 bool is_flat(const Scene& scene, const Edge& edge) {
@@ -118,7 +107,7 @@ bool is_flat(const Scene& scene, const Edge& edge) {
   bool left = false, right = false;
   for (uint32_t i = 0; i < edge.face_count; ++i) {
     const uint32_t surface = scene.triangle_surface[faces[i]];
-    if (surface != first && !same_plane(scene.surfaces[first], scene.surfaces[surface], a)) return false;
+    if (surface != first && !same_plane(scene, faces[0], faces[i])) return false;
     const double across = glm::dot(side, scene.vertices[apex(scene, faces[i], edge)] - a);
     left |= across > 0;
     right |= across < 0;
@@ -136,6 +125,13 @@ TriangleShape triangle_shape(const Scene& scene, uint32_t t) {
   const double longest = std::max({glm::length(u), glm::length(v), glm::length(v - u)});
   // Divided, not multiplied by a reciprocal: the normals of axis-parallel triangles are exact.
   return {twice_area > 0 ? n / twice_area : dvec3(0), twice_area / 2, longest > 0 ? twice_area / longest : 0};
+}
+
+bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane) {
+  if (shape.height_m > sliver_height_m && std::abs(glm::dot(shape.normal, plane.normal)) <= 1 - normal_tolerance)
+    return false;
+  return std::all_of(scene.triangles[t].begin(), scene.triangles[t].end(),
+                     [&](uint32_t v) { return std::abs(height_over(plane, scene.vertices[v])) <= flat_as_it_is_m; });
 }
 
 std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene) {
@@ -157,6 +153,7 @@ std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene) {
   scene.edges.clear();
   scene.edge_faces.clear();
   scene.edge_faces.reserve(sides.size());
+  scene.report.free_edges = scene.report.nonmanifold_edges = 0;
   for (size_t i = 0; i < sides.size(); ++i) {
     if (i == 0 || sides[i].key != sides[i - 1].key) {
       const auto high = static_cast<uint32_t>(sides[i].key >> 32), low = static_cast<uint32_t>(sides[i].key);
@@ -175,8 +172,8 @@ std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene) {
 }
 
 void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
-                   std::span<const std::array<uint32_t, 3>> triangle_edges) {
-  SurfaceGrower grower(scene, triangle_material, triangle_edges);
+                   std::span<const std::array<uint32_t, 3>> triangle_edges, const Flattened& flat) {
+  SurfaceGrower grower(scene, triangle_material, triangle_edges, flat);
   const std::vector<uint32_t> seed_of = grower.grow();
   const size_t count = scene.triangles.size();
   scene.surfaces.clear();

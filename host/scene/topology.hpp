@@ -6,13 +6,17 @@
 #include <span>
 #include <vector>
 
+#include "scene/flatten.hpp"
+#include "scene/plane_fit.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
 
-// Corners may stray this far from the plane of their surface: twice what welding moves a vertex.
-constexpr double plane_tolerance_m = 2e-3;
-// Normals of one surface may differ by 0.45 mrad (1 - cos): 2 mm over 4.5 m, so flat curves are not merged.
+// Corners may stray this far from the plane of their surface without being moved onto it (host/scene/flatten.hpp): what
+// is within 0.1 mm of a plane lies on it wherever paths are concerned.
+constexpr double flat_as_it_is_m = 1e-4;
+// Normals of one surface that was not moved may differ by 0.45 mrad (1 - cos), so that finely divided curves are not
+// merged.
 constexpr double normal_tolerance = 1e-7;
 // A triangle lower than this is judged by its corners only: its normal is rounding noise (0.1 mm of a float32 file are
 // 5 mrad of 20 mm), and a strip below half a wavelength mirrors nothing by itself.
@@ -24,14 +28,17 @@ struct TriangleShape {
   double area_m2, height_m;
 };
 TriangleShape triangle_shape(const Scene& scene, uint32_t t);
+// Whether triangle t, of that shape, lies in the plane as it is.
+bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane);
 
 // Fills edges and edge_faces, sorted by vertex pair, and the counts of free and non-manifold edges.
 // Returns the three edges of every triangle, edge k between corners k and k + 1.
 std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene);
 
-// Fills surfaces, surface_triangles and triangle_surface. Surfaces are numbered by their lowest triangle.
+// Fills surfaces, surface_triangles and triangle_surface. Surfaces are numbered by their lowest triangle. Triangles of
+// one plane of `flat` have that plane, to the last bit; the others grow from their largest.
 void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
-                   std::span<const std::array<uint32_t, 3>> triangle_edges);
+                   std::span<const std::array<uint32_t, 3>> triangle_edges, const Flattened& flat);
 
 // Fills Edge::flat.
 void find_flat_edges(Scene& scene);

@@ -113,6 +113,7 @@ SceneConfig VehicleModels::material_rules() const {
   rules.material_alias = config_.scene.material_alias;
   rules.itu_edition = config_.scene.itu_edition;
   rules.extrapolate_materials = config_.scene.extrapolate_materials;
+  rules.plane_tolerance_m = config_.scene.plane_tolerance_m;
   return rules;
 }
 

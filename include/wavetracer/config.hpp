@@ -28,6 +28,7 @@ struct SceneConfig {
   ItuEdition itu_edition = "P.2040-4";                // whose materials are known by name
   bool extrapolate_materials = false;                 // beyond the range that they were measured in, with a warning
   std::string default_material;                       // for meshes without one; empty: a missing material is an error
+  std::optional<double> plane_tolerance_m;            // of vertices about a plane; empty: by wavelength and file
   std::string streets;                                // a SUMO network, for pictures only
 };
 

@@ -50,7 +50,7 @@ void check_consistent(const Scene& s) {
       CHECK(s.triangle_surface[t] == i);
       ++seen[t];
       for (uint32_t v : s.triangles[t]) {
-        CHECK(std::abs(glm::dot(f.normal, s.vertices[v]) - f.offset_m) <= plane_tolerance_m);
+        CHECK(std::abs(glm::dot(f.normal, s.vertices[v]) - f.offset_m) <= flat_as_it_is_m);
         for (int axis = 0; axis < 3; ++axis) {
           CHECK(s.vertices[v][axis] >= f.lower[axis]);
           CHECK(s.vertices[v][axis] <= f.upper[axis]);

@@ -63,8 +63,8 @@ inline RawMesh l_building() {
   return out;
 }
 
-// Meshes of materials given by index, one a mesh.
-inline Scene build(std::vector<RawMesh> meshes, std::vector<uint32_t> material = {}) {
+// Meshes of materials given by index, one a mesh; vertices within the tolerance of a plane are moved onto it.
+inline Scene build(std::vector<RawMesh> meshes, std::vector<uint32_t> material = {}, double tolerance_m = 0) {
   RawScene raw;
   raw.file = "test";
   raw.meshes = std::move(meshes);
@@ -73,7 +73,7 @@ inline Scene build(std::vector<RawMesh> meshes, std::vector<uint32_t> material =
                         find_itu_law("P.2040-4", "brick", 5.9)->material};
   material.resize(raw.meshes.size(), 0);
   resolved.mesh_material = std::move(material);
-  return build_scene(raw, std::move(resolved));
+  return build_scene(raw, std::move(resolved), EdgeSearch::of_model, tolerance_m);
 }
 
 inline dvec3 end_of(const Wedge& w) { return w.start + w.along * w.length_m; }

@@ -111,6 +111,47 @@ std::vector<Quad> town(int columns, int rows, uint32_t seed) {
   return quads;
 }
 
+// The quads on sloping ground, cut into cells whose corners are written with three decimals, as exporters do: hundreds
+// of bends of a milliradian, which must be the planes that they were.
+class RoundedFile {
+ public:
+  RoundedFile(const std::vector<Quad>& quads, double cell_m) {
+    std::string vertices, faces;
+    size_t count = 0, face_count = 0;
+    for (const Quad& q : quads) {
+      const int n = static_cast<int>(std::ceil(glm::length(q.u) / cell_m)),
+                m = static_cast<int>(std::ceil(glm::length(q.v) / cell_m));
+      for (int i = 0; i <= n; ++i) {
+        for (int j = 0; j <= m; ++j) {
+          const glm::dvec3 p = q.corner + q.u * (i / double(n)) + q.v * (j / double(m));
+          vertices += fmt::format("{:.3f} {:.3f} {:.3f}\n", p.x, p.y, p.z + 0.0213 * p.x + 0.0147 * p.y);
+        }
+      }
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < m; ++j, face_count += 2) {
+          const size_t a = count + static_cast<size_t>(i * (m + 1) + j), b = a + static_cast<size_t>(m) + 1;
+          faces += fmt::format("3 {} {} {}\n3 {} {} {}\n", a, b, b + 1, a, b + 1, a + 1);
+        }
+      }
+      count += static_cast<size_t>((n + 1) * (m + 1));
+    }
+    folder_.write("cells.ply", fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\n"
+                                           "property double y\nproperty double z\nelement face {}\n"
+                                           "property list uchar int vertex_indices\nend_header\n",
+                                           count, face_count) +
+                                   vertices + faces);
+    path_ = folder_.write("scene.xml",
+                          "<scene version=\"2.1.0\"><bsdf type=\"itu-radio-material\" id=\"m\"><string name=\"type\" "
+                          "value=\"concrete\"/></bsdf><shape type=\"ply\" id=\"cells\"><string name=\"filename\" "
+                          "value=\"cells.ply\"/><ref id=\"m\" name=\"bsdf\"/></shape></scene>");
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  TemporaryFolder folder_;
+  std::filesystem::path path_;
+};
+
 const std::filesystem::path scenes = std::filesystem::path(WAVETRACER_SOURCE) / "tests/reference/scenes";
 
 }  // namespace
@@ -165,6 +206,21 @@ TEST_CASE("towns of up to 11 buildings, order 3") {
     for (int i = 0; i < 12; ++i)
       receivers.push_back({random.between(-8, x + 8), random.between(-8, y + 8), random.between(1, 17)});
     check_identical(file.path(), {{0.4, 0.7 * y, 4.3}, {0.55 * x, -1.3, 18.1}}, receivers, 1000000, 3, 30);
+  }
+}
+
+TEST_CASE("a town of rounded cells, order 3: as many surfaces as it has walls") {
+  for (const uint32_t seed : {4u, 8u}) {
+    CAPTURE(seed);
+    const std::vector<Quad> quads = town(2, 2, seed);
+    const RoundedFile file(quads, 3);
+    CHECK(Simulation(config_of(file.path(), {{0.4, 14.1, 4.3}}, {{1, 2, 3}}, 1000, 1)).scene().surfaces.size() ==
+          quads.size());
+    Random random(seed + 10);
+    Points receivers;
+    for (int i = 0; i < 12; ++i)
+      receivers.push_back({random.between(-8, 48), random.between(-8, 48), random.between(2, 17)});
+    check_identical(file.path(), {{0.4, 14.1, 4.3}, {21.3, -1.3, 18.1}}, receivers, 1000000, 3, 30);
   }
 }
 

@@ -1,0 +1,222 @@
+// Growth in rounds: each takes what lies within the tolerance of the plane so far, not much farther away than the
+// region is wide, since the plane of a small triangle says little of what is far away; then the plane is fitted anew.
+#include "scene/flat_regions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+#include "scene/curved_regions.hpp"
+#include "scene/flat_neighbours.hpp"
+#include "scene/join_regions.hpp"
+#include "scene/region_borders.hpp"
+#include "scene/topology.hpp"
+
+namespace wavetracer {
+namespace {
+
+using glm::dvec3;
+constexpr uint32_t no_region = 0xFFFFFFFFu;
+constexpr int most_rounds = 100;  // about 20 are enough for a million triangles
+constexpr int most_retreats = 8;  // rounds after which triangles had to go again: more, and the surface is curved
+
+class RegionGrower {
+ public:
+  RegionGrower(const FlatMesh& mesh, const FlatNeighbours& neighbours)
+      : mesh_(mesh),
+        scene_(mesh.scene),
+        neighbours_(neighbours),
+        region_of_(scene_.triangles.size(), no_region),
+        banned_from_(scene_.triangles.size(), no_region),
+        has_vertex_(scene_.vertices.size(), no_region) {
+    shapes_.reserve(scene_.triangles.size());
+    for (uint32_t t = 0; t < scene_.triangles.size(); ++t) shapes_.push_back(triangle_shape(scene_, t));
+  }
+
+  std::vector<FlatRegion> grow() {
+    std::vector<uint32_t> order(shapes_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [this](uint32_t a, uint32_t b) { return comes_before(a, b); });
+    for (const uint32_t seed : order) {
+      if (region_of_[seed] == no_region) grow_from(seed);
+    }
+    return std::move(regions_);
+  }
+
+ private:
+  // The larger triangle first; of equal ones by place, not by number.
+  bool comes_before(uint32_t a, uint32_t b) const {
+    if (shapes_[a].area_m2 != shapes_[b].area_m2) return shapes_[a].area_m2 > shapes_[b].area_m2;
+    const dvec3 p = corner_sum(a), q = corner_sum(b);
+    for (int k = 0; k < 3; ++k)
+      if (p[k] != q[k]) return p[k] < q[k];
+    return a < b;
+  }
+  dvec3 corner_sum(uint32_t t) const {
+    const auto& [a, b, c] = scene_.triangles[t];
+    return scene_.vertices[a] + scene_.vertices[b] + scene_.vertices[c];
+  }
+
+  void grow_from(uint32_t seed) {
+    current_ = static_cast<uint32_t>(regions_.size());
+    FlatRegion& region = regions_.emplace_back();
+    const dvec3 normal = oriented(shapes_[seed].normal);
+    region.plane = {normal, glm::dot(normal, scene_.vertices[scene_.triangles[seed][0]])};
+    take(seed);
+    for (size_t i = 0; i < region.triangles.size(); ++i) {
+      neighbours_.visit(region.triangles[i], [&](const FlatNeighbour& pair) {
+        if (region_of_[pair.other] == no_region && lies_in_plane(scene_, pair.other, shapes_[pair.other], region.plane))
+          take(pair.other);
+      });
+    }
+    gather_vertices(0);
+    const FlatRegion exact = region;
+    if (grow_fitted()) return;
+    for (const uint32_t t : region.triangles) region_of_[t] = no_region;
+    region = exact;
+    for (const uint32_t t : region.triangles) region_of_[t] = current_;
+  }
+
+  void take(uint32_t t) {
+    region_of_[t] = current_;
+    regions_.back().triangles.push_back(t);
+  }
+
+  // The vertices of the region's triangles from `first` on.
+  void gather_vertices(size_t first) {
+    FlatRegion& region = regions_.back();
+    for (size_t i = first; i < region.triangles.size(); ++i) {
+      for (const uint32_t v : scene_.triangles[region.triangles[i]]) {
+        if (has_vertex_[v] == current_) continue;
+        has_vertex_[v] = current_;
+        region.vertices.push_back(v);
+      }
+    }
+  }
+
+  // False where the plane has left the seed: the region is to be given back.
+  bool grow_fitted() {
+    FlatRegion& region = regions_.back();
+    int retreats = 0;
+    for (int round = 0;; ++round) {
+      const size_t before = region.triangles.size();
+      if (round > 0) {
+        region.exact = false;
+        region.plane = fit(region);
+        if (drop_strays()) {
+          if (region.triangles.empty()) return false;
+          ++retreats;
+          continue;
+        }
+      }
+      if (round > most_rounds || retreats > most_retreats) return true;
+      if (!extend(2 * radius_m()) && !extend(std::numeric_limits<double>::infinity())) return true;
+      gather_vertices(before);
+    }
+  }
+
+  Plane fit(const FlatRegion& region) const {
+    PlaneSums sums(scene_.vertices[region.vertices[0]]);
+    for (const uint32_t v : region.vertices) sums.add(scene_.vertices[v]);
+    return sums.fit().plane;
+  }
+
+  dvec3 centre() const {
+    dvec3 sum(0);
+    for (const uint32_t v : regions_.back().vertices) sum += scene_.vertices[v];
+    return sum / static_cast<double>(regions_.back().vertices.size());
+  }
+  double radius_m() const {
+    const dvec3 middle = centre();
+    double out_m = 0;
+    for (const uint32_t v : regions_.back().vertices)
+      out_m = std::max(out_m, glm::distance(middle, scene_.vertices[v]));
+    return out_m;
+  }
+
+  // Takes what fits and is connected, within reach of the centre. False where nothing does.
+  bool extend(double reach_m) {
+    FlatRegion& region = regions_.back();
+    const dvec3 middle = centre();
+    const size_t before = region.triangles.size();
+    for (size_t i = 0; i < region.triangles.size(); ++i) {
+      neighbours_.visit(region.triangles[i], [&](const FlatNeighbour& pair) {
+        if (region_of_[pair.other] != no_region || banned_from_[pair.other] == current_) return;
+        if (!belongs(pair, region.plane)) return;
+        for (const uint32_t v : scene_.triangles[pair.other])
+          if (glm::distance(middle, scene_.vertices[v]) > reach_m) return;
+        take(pair.other);
+      });
+    }
+    return region.triangles.size() > before;
+  }
+
+  bool belongs(const FlatNeighbour& pair, const Plane& plane) const {
+    const auto& corners = scene_.triangles[pair.other];
+    if (std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return has_vertex_[v] == current_; }))
+      return std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_near(v, plane); });
+    return std::abs(glm::dot(shapes_[pair.other].normal, plane.normal)) >= least_cosine &&
+           std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_near(v, plane); }) &&
+           neighbours_.unfolded(pair, plane.normal);
+  }
+  bool is_near(uint32_t v, const Plane& plane) const {
+    return std::abs(height_over(plane, scene_.vertices[v])) <= mesh_.tolerance_m[v];
+  }
+
+  // Takes out triangles with a corner that the new plane has left, for good, and what hangs on them. False where there
+  // are none. Nothing stays where the seed goes.
+  bool drop_strays() {
+    FlatRegion& region = regions_.back();
+    bool any = false;
+    for (const uint32_t t : region.triangles) {
+      const auto& corners = scene_.triangles[t];
+      if (std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_near(v, region.plane); })) continue;
+      banned_from_[t] = current_;
+      any = true;
+    }
+    if (!any) return false;
+    const uint32_t seed = region.triangles[0];
+    for (const uint32_t t : region.triangles) region_of_[t] = no_region;
+    for (const uint32_t v : region.vertices) has_vertex_[v] = no_region;
+    std::vector<uint32_t> was = std::move(region.triangles);
+    region.triangles.clear();
+    region.vertices.clear();
+    if (banned_from_[seed] == current_) return true;
+    std::sort(was.begin(), was.end());
+    take(seed);
+    for (size_t i = 0; i < region.triangles.size(); ++i) {
+      neighbours_.visit(region.triangles[i], [&](const FlatNeighbour& pair) {
+        if (region_of_[pair.other] == no_region && banned_from_[pair.other] != current_ &&
+            std::binary_search(was.begin(), was.end(), pair.other))
+          take(pair.other);
+      });
+    }
+    gather_vertices(0);
+    return true;
+  }
+
+  const FlatMesh& mesh_;
+  const Scene& scene_;
+  const FlatNeighbours& neighbours_;
+  std::vector<TriangleShape> shapes_;
+  std::vector<uint32_t> region_of_;
+  std::vector<uint32_t> banned_from_;  // per triangle: the last region that it does not fit into
+  std::vector<uint32_t> has_vertex_;   // per vertex: the last region that it was a vertex of
+  std::vector<FlatRegion> regions_;
+  uint32_t current_ = 0;
+};
+
+}  // namespace
+
+std::vector<FlatRegion> find_flat_regions(const FlatMesh& mesh) {
+  const FlatNeighbours neighbours(mesh.scene, mesh.triangle_edges);
+  std::vector<FlatRegion> regions = RegionGrower(mesh, neighbours).grow();
+  join_regions(mesh, neighbours, regions);
+  straighten_borders(mesh, neighbours, regions);
+  give_back_curved(mesh, neighbours, regions);
+  return regions;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,207 @@
+// The least move onto several planes by Gram and Schmidt: each step goes along what the next normal has besides the
+// ones before, so it leaves no plane that was reached.
+#include "scene/flatten.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "scene/flat_regions.hpp"
+
+namespace wavetracer {
+namespace {
+
+using glm::dvec3;
+constexpr double least_sine = 1e-6;      // of a plane with all others at a vertex: below it adds no direction
+constexpr double on_plane_m = 1e-9;      // then the vertex is on it, or not
+constexpr double least_fit_sine = 1e-3;  // what counts of smaller angles where planes are fitted together
+constexpr int most_fits = 30;
+
+class Flattener {
+ public:
+  Flattener(const FlatMesh& mesh, std::vector<FlatRegion> regions)
+      : mesh_(mesh), scene_(mesh.scene), regions_(std::move(regions)) {
+    list_planes();
+  }
+
+  Flattened flatten() {
+    fit_together();
+    Flattened out = move();
+    while (give_up()) out = move();
+    for (uint32_t r = 0; r < regions_.size(); ++r) {
+      if (regions_[r].exact) continue;
+      for (const uint32_t t : regions_[r].triangles) {
+        if (has_lost(r, t))
+          ++out.left_out;
+        else
+          out.triangle_plane[t] = static_cast<uint32_t>(out.planes.size());
+      }
+      out.planes.push_back(regions_[r].plane);
+    }
+    return out;
+  }
+
+ private:
+  // The regions of each vertex, exact ones first: those whose plane is more than that of one triangle.
+  void list_planes() {
+    first_.assign(scene_.vertices.size() + 1, 0);
+    for (int pass = 0; pass < 2; ++pass) {  // counts, then fills
+      for (const bool exact : {true, false}) {
+        for (uint32_t r = 0; r < regions_.size(); ++r) {
+          if (regions_[r].exact != exact || regions_[r].vertices.size() <= 3) continue;
+          for (const uint32_t v : regions_[r].vertices) {
+            if (pass == 0)
+              ++first_[v + 1];
+            else
+              planes_[first_[v] + filled_[v]++] = r;
+          }
+        }
+      }
+      if (pass > 0) return;
+      for (size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+      planes_.resize(first_.back());
+      filled_.assign(scene_.vertices.size(), 0);
+    }
+  }
+  std::span<const uint32_t> planes_of(uint32_t v) const {
+    return {planes_.data() + first_[v], planes_.data() + first_[v + 1]};
+  }
+  bool must_move(uint32_t v) const {
+    return std::ranges::any_of(planes_of(v), [&](uint32_t r) { return !regions_[r].exact; });
+  }
+
+  // A point on its way onto planes.
+  struct Place {
+    dvec3 p;
+    std::array<dvec3, 3> used;  // unit, orthogonal
+    size_t count = 0;
+
+    // What a normal has besides the directions that are used.
+    dvec3 rest(dvec3 n) const {
+      for (size_t k = 0; k < count; ++k) n -= glm::dot(n, used[k]) * used[k];
+      return n;
+    }
+  };
+
+  // Onto one more plane. False, and nothing done, where it is parallel to what was reached, and elsewhere.
+  static bool step(Place& place, const Plane& plane) {
+    const double height_m = height_over(plane, place.p);
+    const dvec3 rest = place.rest(plane.normal);
+    const double sine = glm::length(rest);
+    if (place.count == 3 || sine < least_sine) return std::abs(height_m) <= on_plane_m;
+    place.used[place.count++] = rest / sine;
+    place.p -= height_m / sine * (rest / sine);
+    return true;
+  }
+
+  // Where a vertex comes to lie. Calls left(region) for planes that it cannot reach within its tolerance.
+  template <class Left>
+  dvec3 place(uint32_t v, const Left& left) const {
+    Place place{scene_.vertices[v], {}};
+    for (const uint32_t r : planes_of(v)) {
+      Place next = place;
+      if (step(next, regions_[r].plane) && glm::distance(next.p, scene_.vertices[v]) <= mesh_.tolerance_m[v])
+        place = next;
+      else
+        left(r);
+    }
+    return place.p;
+  }
+
+  // All vertices to their places; notes which ones their regions have lost.
+  Flattened move() {
+    Flattened out;
+    out.vertices = scene_.vertices;
+    out.triangle_plane.assign(scene_.triangles.size(), no_plane);
+    lost_.assign(regions_.size(), {});
+    for (uint32_t v = 0; v < scene_.vertices.size(); ++v) {
+      if (!must_move(v)) continue;
+      const dvec3 p = place(v, [&](uint32_t r) { lost_[r].push_back(v); });
+      if (p == scene_.vertices[v]) continue;
+      ++out.moved;
+      out.farthest_m = std::max(out.farthest_m, glm::distance(p, scene_.vertices[v]));
+      out.vertices[v] = p;
+    }
+    return out;
+  }
+  bool has_lost(uint32_t r, uint32_t t) const {
+    return std::ranges::any_of(scene_.triangles[t],
+                               [&](uint32_t v) { return std::ranges::binary_search(lost_[r], v); });
+  }
+
+  // Takes out regions that have lost more than half of their triangles: what they were is no plane. False if there are
+  // none.
+  bool give_up() {
+    bool any = false;
+    for (uint32_t r = 0; r < regions_.size(); ++r) {
+      FlatRegion& region = regions_[r];
+      if (region.exact || lost_[r].empty()) continue;
+      const auto lost = std::ranges::count_if(region.triangles, [&](uint32_t t) { return has_lost(r, t); });
+      if (2 * static_cast<size_t>(lost) <= region.triangles.size()) continue;
+      region = {};
+      any = true;
+    }
+    if (any) list_planes();
+    return any;
+  }
+
+  // Fits planes anew where vertices could not be put onto all that they are in.
+  void fit_together() {
+    std::vector<uint32_t> shared;
+    for (uint32_t v = 0; v < scene_.vertices.size(); ++v)
+      if (planes_of(v).size() > 1 && must_move(v)) shared.push_back(v);
+    for (int round = 0; round < most_fits; ++round) {
+      std::vector<bool> again(regions_.size(), false);
+      for (const uint32_t v : shared) {
+        bool missed = false;
+        place(v, [&](uint32_t) { missed = true; });
+        for (const uint32_t r : planes_of(v))
+          if (missed && !regions_[r].exact) again[r] = true;
+      }
+      bool any = false;
+      for (uint32_t r = 0; r < regions_.size(); ++r)
+        if (again[r]) any |= fit(r);
+      if (!any) return;
+    }
+  }
+
+  // Each vertex counts by the square of its way to the plane, along the line or to the point of its other planes.
+  // False, and nothing done, where that plane is too far from some vertex.
+  bool fit(uint32_t r) {
+    FlatRegion& region = regions_[r];
+    PlaneSums sums(scene_.vertices[region.vertices[0]]);
+    for (const uint32_t v : region.vertices) {
+      Place place{scene_.vertices[v], {}};
+      for (const uint32_t other : planes_of(v))
+        if (other != r) step(place, regions_[other].plane);
+      const double sine = std::max(glm::length(place.rest(region.plane.normal)), least_fit_sine);
+      if (glm::distance(place.p, scene_.vertices[v]) <= mesh_.tolerance_m[v])
+        sums.add(place.p, 1 / (sine * sine));
+      else
+        sums.add(scene_.vertices[v]);
+    }
+    const Plane plane = sums.fit().plane;
+    const bool all = std::ranges::all_of(region.vertices, [&](uint32_t v) {
+      return std::abs(height_over(plane, scene_.vertices[v])) <= mesh_.tolerance_m[v];
+    });
+    if (all) region.plane = plane;
+    return all;
+  }
+
+  const FlatMesh& mesh_;
+  const Scene& scene_;
+  std::vector<FlatRegion> regions_;
+  std::vector<uint32_t> first_, planes_, filled_;  // planes_ from first_[v] on: the regions of vertex v
+  std::vector<std::vector<uint32_t>> lost_;        // per region: vertices that are not on its plane, ascending
+};
+
+}  // namespace
+
+Flattened flatten(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges,
+                  std::span<const double> tolerance_m) {
+  const FlatMesh mesh{scene, triangle_edges, tolerance_m};
+  return Flattener(mesh, find_flat_regions(mesh)).flatten();
+}
+
+}  // namespace wavetracer
