@@ -7,6 +7,7 @@
 #include "app/first_configs.hpp"
 #include "app/named_files.hpp"
 #include "imports/road_network.hpp"
+#include "radio/codebook.hpp"
 #include "radio/field_tables.hpp"
 #include "scene/load.hpp"
 #include "scene/materials.hpp"
@@ -21,14 +22,19 @@ namespace wavetracer::app {
 
 namespace {
 
-// Throws what a run would: for a material that is not known at the frequency, a pattern file that is none, a cache that
-// is too small for its transmitters.
+// Throws what a run would: for a material that is not known at the frequency, a pattern file or a codebook that is
+// none, a cache that is too small for its transmitters.
 void check_run(const Config& config, const Scene& scene, const World& world) {
   Config radio = config;
   radio.transmitters = world.transmitters();
   radio.receivers = world.receivers();
   radio.trace = with_features(config.trace, choose_features(radio, scene, world));
   make_field_tables(scene, radio, world.models(), world.instances());
+  for (const ArrayConfig& array : config.arrays) {
+    RadioEnd end;
+    end.array = array.name;
+    codebook_of(config, end);
+  }
   check_cache(radio, world);
 }
 

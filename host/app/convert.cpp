@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 #include "base/input_file.hpp"
 #include "base/pending_file.hpp"
 #include "base/spelling.hpp"
@@ -111,9 +112,10 @@ void export_run(const ConvertOptions& options) {
   guard.reset();
   parent.keep();
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << "\n";
-  std::cout << "written    " << written.front().string();
-  if (written.size() > 1) std::cout << " and " << written.size() - 1 << (written.size() > 2 ? " files" : " file");
-  std::cout << "\n";
+  std::ostream& out = word_about(written.front());
+  out << "written    " << written.front().string();
+  if (written.size() > 1) out << " and " << written.size() - 1 << (written.size() > 2 ? " files" : " file");
+  out << "\n";
 }
 
 // Where the vehicles of a file are: the ground has to reach below them.

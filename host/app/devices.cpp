@@ -5,6 +5,7 @@
 #include <iostream>
 #include "app/commands.hpp"
 #include "gpu/gpu.hpp"
+#include "gpu/pocl.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -33,6 +34,7 @@ void add_devices(CLI::App& program) {
   command->callback([] {
     const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
     const size_t chosen = gpu::choose_device(devices, "");
+    if (const std::string note = gpu::pocl_cache_note(); !note.empty()) std::cerr << "warning: " << note << "\n";
     std::vector<std::vector<std::string>> rows = {
         {"", "index", "platform", "name", "type", "memory", "largest buffer", "units", "work-group", "fp64", "driver"}};
     for (const gpu::DeviceInfo& d : devices)

@@ -3,6 +3,7 @@
 #include "app/live_page.hpp"
 #include <fmt/format.h>
 #include "base/file.hpp"
+#include "base/output_place.hpp"
 #include "base/times.hpp"
 #include "viewer/view.hpp"
 #include "wavetracer/error.hpp"
@@ -20,10 +21,14 @@ constexpr const char* no_frame_yet =
 
 }  // namespace
 
-LivePage::LivePage(fs::path file, Tell tell)
+LivePage::LivePage(const fs::path& file, Tell tell)
     : file_(fs::absolute(file)),
       folder_(file_.parent_path() / ("." + file_.filename().string() + ".run")),
       tell_(std::move(tell)) {
+  if (output_place(file_).stream)
+    throw ConfigError(fmt::format(
+        "--page {}: this is a device or a pipe, but the page is written anew for later frames: name a plain file",
+        file.string()));
   write_file(file_, no_frame_yet);
   thread_ = std::thread([this] { work(); });
 }

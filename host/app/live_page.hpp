@@ -22,7 +22,7 @@ class LivePage {
 
   // tell: what goes wrong is said once, and frames go on; called on the thread of the page. Throws RuntimeError where
   // the page cannot be written at all.
-  LivePage(std::filesystem::path file, Tell tell);
+  LivePage(const std::filesystem::path& file, Tell tell);
   // After the page of the last frame.
   ~LivePage();
   LivePage(const LivePage&) = delete;

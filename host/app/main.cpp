@@ -8,6 +8,7 @@
 #include "app/build_info.hpp"
 #include "app/commands.hpp"
 #include "app/stack.hpp"
+#include "app/standard_streams.hpp"
 #include "app/usage.hpp"
 
 namespace {
@@ -80,11 +81,20 @@ int run_and_report(int argc, char** argv) {
   }
 }
 
+// What was printed has arrived, or the program fails.
+int flush_and_report(int code) {
+  const std::string problem = wavetracer::app::output_problem();
+  if (problem.empty() || code == static_cast<int>(ExitCode::runtime)) return code;
+  const int failed = fail(ExitCode::runtime, problem);
+  return code == 0 ? failed : code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return wavetracer::app::with_enough_stack([=] { return run_and_report(argc, argv); });
+    wavetracer::app::keep_standard_streams();
+    return flush_and_report(wavetracer::app::with_enough_stack([=] { return run_and_report(argc, argv); }));
   } catch (const wavetracer::Error& e) {
     return fail(e.code(), e.what());
   }

@@ -7,6 +7,7 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
+#include "jobs/earlier_run.hpp"
 #include "jobs/folder_hold.hpp"
 #include "jobs/merge_folders.hpp"
 #include "jobs/progress.hpp"
@@ -66,6 +67,7 @@ void merge(const MergeOptions& options, Invocation& invocation) {
   Progress progress;
   const fs::path target = target_of(options);
   check_output_folder(target);
+  check_output_names(target);
   const std::vector<std::unique_ptr<FolderHold>> held = hold_all(options.directories, target);
   const FoundParts found = find_parts({options.directories.begin(), options.directories.end()});
   for (const std::string& damaged : found.damaged) progress.line("damaged: " + damaged);

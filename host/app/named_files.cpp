@@ -7,6 +7,7 @@
 #include <cstring>
 #include "base/digits.hpp"
 #include "base/input_file.hpp"
+#include "base/output_place.hpp"
 #include "config/input_files.hpp"
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
@@ -58,19 +59,9 @@ void check_inputs(const Config& config) {
 std::string rays_in_words(const TraceConfig& trace) { return trace.rays ? grouped(*trace.rays) : "auto"; }
 
 void check_output_folder(const fs::path& folder) {
-  fs::path there = fs::absolute(folder).lexically_normal();
-  std::error_code error;
-  while (!fs::exists(there, error) && !error && there.has_relative_path()) there = there.parent_path();
-  std::string problem;
-  if (error)
-    problem = error.message();
-  else if (!fs::is_directory(there, error))
-    problem = "not a folder";
-  else if (access(there.c_str(), W_OK | X_OK) != 0)
-    problem = std::strerror(errno);
-  if (!problem.empty())
-    throw RuntimeError(fmt::format("{}: cannot write there ({}: {}); choose another folder with -o", folder.string(),
-                                   there.string(), problem));
+  if (const std::string problem = write_obstacle(folder); !problem.empty())
+    throw RuntimeError(
+        fmt::format("{}: cannot write there ({}); choose another folder with -o", folder.string(), problem));
 }
 
 }  // namespace wavetracer::app

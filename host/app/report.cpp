@@ -36,9 +36,7 @@ std::string frame_line(const Run& run, const Totals& totals) {
                                  time_text(totals.start_s), time_text(totals.end_s),
                                  span_s / static_cast<double>(totals.frames - 1), duration(median_s));
   if (sum_s > 0) line += fmt::format(", {:.3g} frames/s", static_cast<double>(totals.frames) / sum_s);
-  if (repeats > 1)
-    line += fmt::format("; each {} times{}", repeats,
-                        run.config.trace.reuse ? ", and no frame reuses sequences of the one before" : "");
+  if (repeats > 1) line += fmt::format("; each {} times", repeats);
   return line + "\n";
 }
 

@@ -123,7 +123,8 @@ std::optional<Results> run_shared(const DriveTask& task, const RunOptions& optio
                                   const ProcessInfo* me, Invocation& invocation, Progress& progress) {
   if (me) {
     Shared shared = drive_together(task, ranks, *me, progress);
-    if (shared.missing > 0) invocation.code = interrupted() ? ExitCode::interrupted : ExitCode::partial;
+    if (shared.missing > 0 || shared.unmerged)
+      invocation.code = interrupted() ? ExitCode::interrupted : ExitCode::partial;
     if (shared.results.totals.frames == 0) return std::nullopt;
     return shared.results;
   }
@@ -177,6 +178,7 @@ void run(const RunOptions& options, Invocation& invocation) {
   const std::string& directory = config.output.directory;
   check_inputs(config);
   check_output_folder(directory);
+  check_output_names(directory);
   if (sharing == Sharing::alone || sharing == Sharing::starter) check_not_in_use(fs::path(directory) / "shards");
   catch_interrupts(!ranks.started);
   Progress progress(sharing == Sharing::ranks ? fmt::format("rank {}: ", ranks.rank) : "");
@@ -230,7 +232,9 @@ void add_run(CLI::App& program, Invocation& invocation) {
                       "Numbers of the first and last frame, A:B, A:, :B or A; all frames if not given");
   command->add_option("--device", options->device,
                       "OpenCL device: its index, or a part of its name or of its platform's name");
-  command->add_option("--repeat", options->repeat, "Compute each frame N times and report the median times")
+  command
+      ->add_option("--repeat", options->repeat,
+                   "Compute each frame N times and report the median times; what is written stays the same")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--devices", options->devices,
                       "all, gpu, cpu or indices such as 0,1,2: one process per device, and they share the run. With "

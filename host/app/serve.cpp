@@ -8,9 +8,11 @@
 #include "app/commands.hpp"
 #include "app/live_page.hpp"
 #include "app/named_files.hpp"
+#include "app/standard_streams.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "wavetracer/config_file.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -35,7 +37,10 @@ void serve(const ServeOptions& options) {
   }
   live::serve(
       config, serving, interrupted, [&](const std::string& text) { progress.line(text); },
-      [](const std::string& name) { std::cout << "listening on " << name << std::endl; });
+      [](const std::string& name) {
+        std::cout << "listening on " << name << std::endl;
+        if (const std::string problem = output_problem(); !problem.empty()) throw RuntimeError(problem);
+      });
   progress.line("ended");
 }
 

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/standard_streams.hpp"
 #include "base/file.hpp"
 #include "jobs/frame_range.hpp"
 
@@ -40,9 +41,9 @@ void add_view(CLI::App& program) {
         options->output.empty() ? run.file().parent_path() / "view.html" : std::filesystem::path(options->output);
     write_file(output, page.html);
     for (const std::string& warning : page.warnings) std::cerr << "warning: " << warning << "\n";
-    std::cout << fmt::format("{}: written, {:.1f} MB, {} {} in {} {}\n", output.string(),
-                             static_cast<double>(page.html.size()) / 1e6, page.paths,
-                             page.paths == 1 ? "path" : "paths", page.frames, page.frames == 1 ? "frame" : "frames");
+    word_about(output) << fmt::format(
+        "{}: written, {:.1f} MB, {} {} in {} {}\n", output.string(), static_cast<double>(page.html.size()) / 1e6,
+        page.paths, page.paths == 1 ? "path" : "paths", page.frames, page.frames == 1 ? "frame" : "frames");
   });
 }
 

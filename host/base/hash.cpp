@@ -1,4 +1,4 @@
-// FNV-1a of 128 bits and a splitmix64 fold.
+// FNV-1a of 128 bits, a splitmix64 fold, and XXH64.
 // Assumes a compiler with 128-bit integers (GCC, Clang) and a little-endian machine, as all OpenCL hosts here are.
 #include "base/hash.hpp"
 #include <fcntl.h>
@@ -7,9 +7,28 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
+#include <bit>
+#include <cerrno>
 #include <cstring>
+#include <vector>
 
 namespace wavetracer {
+namespace {
+
+// The names and values are those of the specification.
+constexpr uint64_t prime_1 = 0x9E3779B185EBCA87u, prime_2 = 0xC2B2AE3D27D4EB4Fu, prime_3 = 0x165667B19E3779F9u,
+                   prime_4 = 0x85EBCA77C2B2AE63u, prime_5 = 0x27D4EB2F165667C5u;
+
+template <typename Word>
+uint64_t word_at(const std::byte* at) {
+  Word word;
+  std::memcpy(&word, at, sizeof word);
+  return word;
+}
+
+uint64_t xxh_round(uint64_t lane, uint64_t word) { return std::rotl(lane + word * prime_2, 31) * prime_1; }
+
+}  // namespace
 
 std::string fnv1a_128(std::string_view bytes) {
   using Word = unsigned __int128;
@@ -51,6 +70,57 @@ std::optional<FileHash> hash_of_file(const std::filesystem::path& path) {
   }
   ::close(file);
   return out;
+}
+
+void ContentHash::take(const std::byte* whole_stripe) {
+  for (size_t lane = 0; lane < lanes_.size(); ++lane)
+    lanes_[lane] = xxh_round(lanes_[lane], word_at<uint64_t>(whole_stripe + lane * sizeof(uint64_t)));
+}
+
+void ContentHash::add(std::span<const std::byte> bytes) {
+  const size_t kept = bytes_ % stripe;
+  bytes_ += bytes.size();
+  if (kept > 0) {
+    const auto more = bytes.first(std::min(stripe - kept, bytes.size()));
+    std::ranges::copy(more, rest_.begin() + static_cast<std::ptrdiff_t>(kept));
+    bytes = bytes.subspan(more.size());
+    if (kept + more.size() < stripe) return;
+    take(rest_.data());
+  }
+  for (; bytes.size() >= stripe; bytes = bytes.subspan(stripe)) take(bytes.data());
+  std::ranges::copy(bytes, rest_.begin());
+}
+
+uint64_t ContentHash::value() const {
+  uint64_t hash = prime_5;
+  if (bytes_ >= stripe) {
+    hash = std::rotl(lanes_[0], 1) + std::rotl(lanes_[1], 7) + std::rotl(lanes_[2], 12) + std::rotl(lanes_[3], 18);
+    for (const uint64_t lane : lanes_) hash = (hash ^ xxh_round(0, lane)) * prime_1 + prime_4;
+  }
+  hash += bytes_;
+  const std::byte *at = rest_.data(), *const end = at + bytes_ % stripe;
+  for (; end - at >= 8; at += 8) hash = std::rotl(hash ^ xxh_round(0, word_at<uint64_t>(at)), 27) * prime_1 + prime_4;
+  for (; end - at >= 4; at += 4) hash = std::rotl(hash ^ word_at<uint32_t>(at) * prime_1, 23) * prime_2 + prime_3;
+  for (; at < end; ++at) hash = std::rotl(hash ^ word_at<uint8_t>(at) * prime_5, 11) * prime_1;
+  hash = (hash ^ (hash >> 33)) * prime_2;
+  hash = (hash ^ (hash >> 29)) * prime_3;
+  return hash ^ (hash >> 32);
+}
+
+std::optional<uint64_t> content_hash(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return std::nullopt;
+  struct stat status {};
+  bool whole = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  ContentHash hash;
+  std::vector<std::byte> block(size_t{1} << 20);
+  for (ssize_t read = 1; whole && read != 0;) {  // no mapping: a disk that cannot be read would end the process
+    read = ::read(file, block.data(), block.size());
+    if (read > 0) hash.add(std::span(block).first(static_cast<size_t>(read)));
+    if (read < 0 && errno != EINTR) whole = false;
+  }
+  ::close(file);
+  return whole ? std::optional(hash.value()) : std::nullopt;
 }
 
 }  // namespace wavetracer

@@ -3,13 +3,17 @@
 #include "base/pending_file.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <set>
 #include <utility>
+#include "base/output_place.hpp"
 #include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
 
@@ -56,6 +60,26 @@ int sync_and_close(int descriptor) {
   return ::close(descriptor) == 0 || error != 0 ? error : errno;
 }
 
+// While it lives, a pipe that nobody reads any more is an error of write() for this thread and ends no process.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~NoPipeSignal() {
+    const timespec now{};
+    if (sigismember(&before_, SIGPIPE) == 0) sigtimedwait(&pipe_, nullptr, &now);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+ private:
+  sigset_t pipe_, before_;
+};
+
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 }  // namespace
@@ -92,10 +116,15 @@ void PendingDirectory::remove_created() noexcept {
 }
 
 PendingFile::PendingFile(fs::path path) : path_(std::move(path)) {
-  std::error_code ignored;
-  if (fs::is_directory(path_, ignored)) fail(path_, "write", EISDIR);
-  temporary_ = path_;
-  temporary_ += fmt::format(".{}.tmp", ::getpid());
+  const OutputPlace place = output_place(path_);
+  target_ = place.target;
+  stream_ = place.stream;
+  if (stream_) {
+    descriptor_ = unnamed_file(path_);
+    temporary_ = fmt::format("/proc/self/fd/{}", descriptor_);
+    return;
+  }
+  temporary_ = temporary_beside(target_);
   const auto hold = hold_pending();
   descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(path_, "write", errno);
@@ -108,13 +137,15 @@ PendingFile::PendingFile(fs::path path, std::span<const std::byte> bytes) : Pend
 
 PendingFile::PendingFile(PendingFile&& other) noexcept
     : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, fs::path())),
+      stream_(other.stream_),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 PendingFile::~PendingFile() {
   std::error_code ignored;
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  if (!temporary_.empty() && !stream_) fs::remove(temporary_, ignored);
 }
 
 void PendingFile::write(std::span<const std::byte> bytes) {
@@ -138,19 +169,47 @@ void PendingFile::reserve(uint64_t size) {
 }
 
 void PendingFile::sync() {
+  if (stream_) return;  // its temporary file goes with the descriptor
   if (const int error = sync_and_close(std::exchange(descriptor_, -1))) fail(path_, "write", error);
 }
 
 void PendingFile::rename() {
+  if (stream_) return pour();
   const auto hold = hold_pending();
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "write", errno);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "write", errno);
   temporary_.clear();
   ++final_names();
 }
 
+// Nobody waits for this with hold_pending(), as a pipe may take for ever.
+void PendingFile::pour() {
+  const int out = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (out < 0) fail(path_, "write", errno);
+  const NoPipeSignal quiet;
+  std::array<std::byte, 1 << 16> block;
+  off_t at = 0;
+  int error = 0;
+  while (error == 0) {
+    const ssize_t read = ::pread(descriptor_, block.data(), block.size(), at);
+    if (read == 0) break;
+    error = read < 0 ? errno : write_all(out, std::span(block).first(static_cast<size_t>(read)));
+    at += std::max<ssize_t>(read, 0);
+  }
+  if (::close(out) != 0 && error == 0) error = errno;
+  if (error != 0) fail(path_, "write", error);
+  ::close(std::exchange(descriptor_, -1));
+  temporary_.clear();
+  ++final_names();
+}
+
+void PendingFile::undo() const noexcept {
+  std::error_code ignored;
+  if (!stream_) fs::remove(target_, ignored);
+}
+
 void PendingFile::commit() {
   rename();
-  sync_folder(folder_of(path_));
+  if (!stream_) sync_folder(folder_of(target_));
 }
 
 void commit_together(std::vector<PendingFile>& files) {
@@ -159,12 +218,11 @@ void commit_together(std::vector<PendingFile>& files) {
     std::set<fs::path> folders;
     for (; committed < files.size(); ++committed) {
       files[committed].rename();
-      folders.insert(folder_of(files[committed].path()));
+      if (!files[committed].stream_) folders.insert(folder_of(files[committed].target_));
     }
     for (const fs::path& folder : folders) sync_folder(folder);
   } catch (...) {
-    std::error_code ignored;
-    for (size_t i = 0; i < committed; ++i) fs::remove(files[i].path(), ignored);
+    for (size_t i = 0; i < committed; ++i) files[i].undo();
     throw;
   }
 }

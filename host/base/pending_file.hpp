@@ -1,4 +1,5 @@
-// Files that appear whole or not at all: written beside their place, synced, then renamed.
+// Files that appear whole or not at all: written beside their place, synced, then renamed. Links are followed. A device
+// or a pipe stays what it is and gets the bytes once they are complete.
 // POSIX only: rename() replaces atomically within one folder.
 #pragma once
 #include <cstddef>
@@ -31,7 +32,8 @@ class PendingDirectory {
 // One file on its way to its place. Every failure is a RuntimeError that names the file.
 class PendingFile {
  public:
-  // An empty temporary file in the same folder, which goes away unless it is committed.
+  // An empty temporary file beside the place, which goes away unless it is committed. The place is where links lead to.
+  // For a pipe or a device the temporary file has no name and lies in TMPDIR. Folders, sockets and disks are refused.
   explicit PendingFile(std::filesystem::path path);
   // The same with these bytes in it, synced; leaves nothing if that fails.
   PendingFile(std::filesystem::path path, std::span<const std::byte> bytes);
@@ -49,16 +51,21 @@ class PendingFile {
   void reserve(uint64_t size);
   // Waits for the disk; nothing is written after it.
   void sync();
-  // Renames the synced temporary file to its name and syncs the folder.
+  // Renames the synced temporary file to its name and syncs the folder. A pipe or a device gets the bytes instead,
+  // which waits until somebody reads the pipe.
   void commit();
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path path_;       // as the caller named it
+  std::filesystem::path target_;     // where links lead to
   std::filesystem::path temporary_;  // empty once committed or moved from
-  int descriptor_ = -1;              // closed by sync()
+  bool stream_ = false;              // a pipe or a device
+  int descriptor_ = -1;              // closed by sync(), of a stream by commit()
 
   friend void commit_together(std::vector<PendingFile>& files);
   void rename();
+  void pour();
+  void undo() const noexcept;
 };
 
 // Commits all or none: if one fails, those already in place are removed and the error goes on. Each folder is synced

@@ -1,5 +1,5 @@
 // One syncfs() for the whole folder: thousands of small files are synced together.
-// Assumes that rename() replaces an empty folder, as POSIX has it.
+// Assumes that rename() replaces an empty folder, as POSIX has it; a link to a folder stays a link.
 #include "base/pending_folder.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include "base/file.hpp"
+#include "base/output_place.hpp"
 #include "base/pending_file.hpp"
 #include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
@@ -25,13 +27,14 @@ fs::path without_slash(const fs::path& path) { return path.has_filename() ? path
 
 }  // namespace
 
-PendingFolder::PendingFolder(fs::path path, Earlier earlier) : path_(without_slash(path)) {
+PendingFolder::PendingFolder(fs::path path, Earlier earlier) : path_(behind_links(without_slash(path))) {
   std::error_code error;
-  const bool may_be_full = earlier == Earlier::kept;
-  if (fs::exists(path_, error) && !(fs::is_directory(path_, error) && (may_be_full || fs::is_empty(path_, error))))
-    throw InputError(fmt::format("{}: exists already; remove it or choose another folder with -o", path_.string()));
-  fs::path temporary = path_;
-  temporary += fmt::format(".{}.tmp", ::getpid());
+  const bool there = fs::exists(path_, error), folder = fs::is_directory(path_, error);
+  if (there && !folder)
+    throw InputError(fmt::format("{}: this is no folder; choose another name with -o", path.string()));
+  if (there && earlier == Earlier::refused && !fs::is_empty(path_, error))
+    throw InputError(fmt::format("{}: exists already; remove it or choose another folder with -o", path.string()));
+  const fs::path temporary = temporary_beside(path_);
   const auto hold = hold_pending();
   if (!fs::create_directory(temporary, error)) fail(path_, error ? error.value() : EEXIST);
   temporary_ = temporary;
@@ -56,9 +59,11 @@ void PendingFolder::append(const fs::path& name, std::span<const std::byte> byte
 }
 
 void PendingFolder::move_into_place() {
-  const auto hold = hold_pending();
   std::error_code error;
-  if (!fs::exists(path_, error) || fs::is_empty(path_, error)) {
+  const bool joins = fs::exists(path_, error) && !fs::is_empty(path_, error);
+  if (joins) write_through_links();
+  const auto hold = hold_pending();
+  if (!joins) {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
   } else {
     for (const fs::directory_entry& file : fs::directory_iterator(temporary_)) {
@@ -70,6 +75,18 @@ void PendingFolder::move_into_place() {
   }
   temporary_.clear();
   ++final_names();
+}
+
+// Files whose names are links, pipes or devices in the folder: a rename would replace those.
+void PendingFolder::write_through_links() const {
+  for (const fs::directory_entry& file : fs::directory_iterator(temporary_)) {
+    const fs::path place = path_ / file.path().filename();
+    std::error_code none;
+    const fs::file_status status = fs::symlink_status(place, none);
+    if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status)) continue;
+    write_file(place, read_file(file.path()));
+    fs::remove(file.path());
+  }
 }
 
 fs::path PendingFolder::commit() {

@@ -33,6 +33,7 @@ class PendingFolder {
 
  private:
   void move_into_place();
+  void write_through_links() const;
 
   std::filesystem::path path_, temporary_;  // temporary_ is empty once committed
 };

@@ -72,6 +72,18 @@ std::string key_hint(const std::string& key) {
   return spelling_hint(key, known_keys());
 }
 
+// What to write instead of --set TABLE=VALUE.
+std::string whole_table_words(const Table& table) {
+  if (table.append)
+    return fmt::format(
+        "--set changes one key of a [[{0}]] that the file has: write {0}.INDEX.KEY=VALUE, such as {0}.0.{1}=...; to "
+        "add "
+        "a [[{0}]], write it into the file",
+        table.name, table.fields[0].name);
+  return fmt::format("{0} is a table: set one of its keys, {0}.KEY=VALUE, such as {0}.{1}=...", table.name,
+                     table.fields[0].name);
+}
+
 bool is_aliases(const Field& field) {
   Config sample = prototype();
   return std::holds_alternative<Aliases*>(field.slot(sample, 0));
@@ -207,14 +219,15 @@ class Parser {
     const std::string key = text.substr(0, equals);
     const size_t dot = key.find('.');
     const Table* table = find_table(key.substr(0, dot));
-    if (!table || dot == std::string::npos) return unknown(where, key);
+    if (!table) return unknown(where, key);
+    if (dot == std::string::npos) return fail(where, whole_table_words(*table));
     std::string name = key.substr(dot + 1);
     size_t element = 0;
     if (table->append) {
       const size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
       const size_t count = elements_[table->name].size();
       if (digits == 0 || digits > 6 || name.substr(digits, 1) != ".")
-        return fail(where, fmt::format("write {0}.INDEX.KEY, such as {0}.0.name", table->name));
+        return fail(where, fmt::format("write {0}.INDEX.KEY, such as {0}.0.{1}", table->name, table->fields[0].name));
       element = std::stoul(name.substr(0, digits));
       name = name.substr(digits + 1);
       if (element >= count)

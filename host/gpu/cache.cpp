@@ -6,6 +6,7 @@
 #include <fstream>
 #include "base/environment.hpp"
 #include "base/hash.hpp"
+#include "base/output_place.hpp"
 
 namespace wavetracer::gpu {
 
@@ -74,8 +75,8 @@ std::optional<std::string> ProgramCache::load(const ProgramKey& key) const {
   return std::string(payload);
 }
 
-void ProgramCache::store(const ProgramKey& key, std::string_view compiled) const {
-  if (directory_.empty()) return;
+std::string ProgramCache::store(const ProgramKey& key, std::string_view compiled) const {
+  if (directory_.empty()) return "";
   std::error_code error;
   std::filesystem::create_directories(directory_, error);
   const std::filesystem::path target = path(key);
@@ -89,7 +90,13 @@ void ProgramCache::store(const ProgramKey& key, std::string_view compiled) const
   out.write(compiled.data(), static_cast<std::streamsize>(compiled.size()));
   out.close();
   if (out) std::filesystem::rename(temporary, target, error);
-  if (!out || error) std::filesystem::remove(temporary, error);
+  if (out && !error) return "";
+  std::filesystem::remove(temporary, error);
+  const std::string why = write_obstacle(directory_);
+  return fmt::format(
+      "compiled kernels cannot be kept in {}{}, so each start compiles them again: set XDG_CACHE_HOME to a folder that "
+      "can be written to, or WAVETRACER_NO_CACHE=1",
+      directory_.string(), why.empty() ? "" : " (" + why + ")");
 }
 
 }  // namespace wavetracer::gpu

@@ -29,8 +29,8 @@ class ProgramCache {
   // The compiled program stored under this key, if there is one and every check holds.
   std::optional<std::string> load(const ProgramKey& key) const;
   // Written under a temporary name and renamed, so that readers see whole files only. Failure costs the next start its
-  // time.
-  void store(const ProgramKey& key, std::string_view compiled) const;
+  // time: returns what to tell the user then, else an empty text.
+  std::string store(const ProgramKey& key, std::string_view compiled) const;
 
   // Where this key's program is kept.
   std::filesystem::path path(const ProgramKey& key) const;

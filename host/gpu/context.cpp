@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include "gpu/device.hpp"
+#include "gpu/pocl.hpp"
 #include "gpu/state.hpp"
 #include "wavetracer/error.hpp"
 
@@ -64,6 +65,13 @@ Context::~Context() {
 }
 
 const DeviceInfo& Context::info() const { return state_->info; }
+
+std::vector<std::string> Context::notes() const {
+  std::vector<std::string> out;
+  for (const std::string& note : {pocl_cache_note(), state_->cache_note})
+    if (!note.empty()) out.push_back(note);
+  return out;
+}
 
 double Context::build_seconds() const { return state_->build_seconds; }
 

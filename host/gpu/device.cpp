@@ -123,7 +123,7 @@ std::vector<DeviceInfo> list_devices() {
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text) {
   if (devices.empty()) {
     if (const std::string problem = pocl_cache_problem(); !problem.empty())
-      throw DeviceError("no OpenCL device was found. If one is installed: " + problem);
+      throw DeviceError("no OpenCL device was found: " + problem);
     throw DeviceError(
         "no OpenCL device on this machine. Install one: `apt install pocl-opencl-icd` runs on any CPU, and so does, "
         "without root, `pip install \"wavetracer[pocl]\"` with the command of that package; for an NVIDIA GPU whose "
@@ -144,9 +144,10 @@ size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view te
     if (matches && (!best || rank(device) < rank(*best))) best = &device;
   }
   if (!best) {
+    const std::string problem = pocl_cache_problem();
     throw DeviceError(
-        fmt::format("no OpenCL device or platform matches \"{}\"; give a part of a name or an index of:{}", text,
-                    device_lines(devices)));
+        fmt::format("no OpenCL device or platform matches \"{}\"; give a part of a name or an index of:{}{}", text,
+                    device_lines(devices), problem.empty() ? "" : "\n" + problem));
   }
   return static_cast<size_t>(best - devices.data());
 }

@@ -217,6 +217,8 @@ class Context {
   void set_profiling(bool on);
   // Seconds spent building programs (from source or from the disk cache) so far, and how many were built from source.
   double build_seconds() const;
+  // What the user should know of caches on the disk that cannot be written to, so far.
+  std::vector<std::string> notes() const;
   size_t builds_from_source() const;
 
  private:

@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
+#include <string>
 #include "base/environment.hpp"
+#include "base/output_place.hpp"
 
 namespace wavetracer::gpu {
 
@@ -16,25 +17,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Why the folder, or the nearest one above it that exists, cannot be written to; empty where it can.
-std::string obstacle(fs::path folder) {
-  std::error_code error;
-  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
-  if (!fs::is_directory(folder, error)) return folder.string() + " is no folder";
-  if (access(folder.c_str(), W_OK | X_OK) != 0) return fmt::format("{}: {}", folder.string(), std::strerror(errno));
+// A folder that nobody else can write to, made where it is missing; empty where that cannot be had.
+fs::path own_folder() {
+  for (const fs::path& temporary : temporary_folders()) {
+    const fs::path folder = temporary / fmt::format("wavetracer-pocl-{}", getuid());
+    mkdir(folder.c_str(), 0700);
+    struct stat status = {};
+    const bool own = lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == getuid() &&
+                     (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+    if (own && write_obstacle(folder).empty()) return folder;
+  }
   return {};
 }
 
-// A folder that nobody else can write to, made where it is missing; empty where that cannot be had.
-fs::path own_folder() {
+// Whether a file that the OpenCL loader reads names PoCL.
+bool is_installed() {
   std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error) / fmt::format("wavetracer-pocl-{}", getuid());
-  if (error) return {};
-  mkdir(folder.c_str(), 0700);
-  struct stat status = {};
-  const bool own = lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == getuid() &&
-                   (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
-  return own && obstacle(folder).empty() ? folder : fs::path();
+  const std::string chosen = environment("OCL_ICD_VENDORS");
+  const fs::path folder = chosen.empty() ? "/etc/OpenCL/vendors" : chosen;
+  if (!fs::is_directory(folder, error)) return chosen.find("pocl") != std::string::npos;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    std::string line;
+    std::ifstream in(entry.path());
+    std::getline(in, line);
+    if (line.find("pocl") != std::string::npos) return true;
+  }
+  return false;
+}
+
+// Of the folder that give_pocl_a_cache() has chosen.
+std::string& chosen_note() {
+  static std::string note;
+  return note;
 }
 
 }  // namespace
@@ -50,16 +64,26 @@ fs::path pocl_cache_folder() {
 void give_pocl_a_cache() {
   if (!environment("POCL_CACHE_DIR").empty()) return;
   unsetenv("POCL_CACHE_DIR");  // PoCL takes an empty one for a folder
-  if (pocl_cache_problem().empty()) return;
-  if (const fs::path folder = own_folder(); !folder.empty()) setenv("POCL_CACHE_DIR", folder.c_str(), 1);
+  const std::string why = write_obstacle(pocl_cache_folder());
+  if (why.empty() || !is_installed()) return;
+  const fs::path folder = own_folder();
+  if (folder.empty()) return;
+  setenv("POCL_CACHE_DIR", folder.c_str(), 1);
+  chosen_note() = fmt::format(
+      "PoCL, the OpenCL of CPUs, cannot write its cache ({}) and keeps it in {} instead: set POCL_CACHE_DIR to choose "
+      "a "
+      "folder",
+      why, folder.string());
 }
 
+std::string pocl_cache_note() { return chosen_note(); }
+
 std::string pocl_cache_problem() {
-  const std::string why = obstacle(fs::absolute(pocl_cache_folder()));
-  if (why.empty()) return {};
+  const std::string why = write_obstacle(pocl_cache_folder());
+  if (why.empty() || !is_installed()) return {};
   return fmt::format(
-      "PoCL, the OpenCL of CPUs, cannot write its cache ({}) and then offers no device: set POCL_CACHE_DIR to a folder "
-      "that can be written to",
+      "PoCL, the OpenCL of CPUs, is installed, but it cannot write its cache ({}) and then offers no device: set "
+      "POCL_CACHE_DIR to a folder that can be written to",
       why);
 }
 

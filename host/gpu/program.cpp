@@ -113,7 +113,7 @@ const cl::Program& Context::State::program(const std::string& name, const std::s
   if (const auto compiled = cache.load(key)) built = build_from_binary(context, device, options, *compiled);
   if (!built) {
     built = build_from_source(name, options, key.source);
-    cache.store(key, first_binary(*built));
+    if (const std::string note = cache.store(key, first_binary(*built)); !note.empty()) cache_note = note;
   }
   build_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return programs.emplace(id, *built).first->second;

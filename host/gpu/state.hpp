@@ -58,6 +58,7 @@ struct Context::State {
   cl::CommandQueue timed, plain;  // with profiling events and without; plain is opened at its first use
   std::string device_options;
   ProgramCache cache = ProgramCache::from_environment();
+  std::string cache_note;  // what to tell the user of programs that could not be kept
   Profile profile;
   // Where a command is to leave its event: nowhere, without profiling.
   cl_event* event_of(cl::Event& event) { return profile.on ? &event() : nullptr; }

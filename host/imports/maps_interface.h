@@ -10,7 +10,13 @@
 extern "C" {
 #endif
 
-enum { WT_MAPS_VERSION = 2, WT_MAPS_ERROR_SIZE = 2048 };
+#define WT_MAPS_VERSION 2
+enum { WT_MAPS_ERROR_SIZE = 2048 };
+
+/* A text in the file of the module: the program looks for it before it opens GDAL, which is too late to do without. */
+#define WT_MAPS_TEXT_OF(number) #number
+#define WT_MAPS_MARK_OF(number) "wavetracer maps, interface " WT_MAPS_TEXT_OF(number) ";"
+#define WT_MAPS_MARK WT_MAPS_MARK_OF(WT_MAPS_VERSION)
 
 /* A polygon of a feature. */
 struct wt_maps_polygon {

@@ -1,14 +1,20 @@
-// GDAL by dlopen, then the module beside the program, or where packages put it.
-// GDAL's symbols are opened for all, since the module names no library of its own.
+// The file of the module is found and read first, beside the program or where packages put it. Only then is GDAL
+// opened, by dlopen, and the module behind it: what GDAL pulls in stays to the end of the process. GDAL's symbols are
+// opened for all, since the module names no library of its own.
 #include "imports/maps_module.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <link.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
+#include "base/environment.hpp"
+#include "base/file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::imports {
@@ -18,12 +24,25 @@ namespace fs = std::filesystem;
 
 constexpr const char* gdal_name = WAVETRACER_GDAL_NAME;  // "libgdal.so.32"; empty: built without
 
-std::vector<fs::path> module_places() {
+constexpr const char* other_formats =
+    "or convert the file to OpenStreetMap, SUMO's polygons, CityJSON or CityGML, which are read without GDAL";
+
+std::vector<std::string> module_places() {
   constexpr const char* file = "wavetracer_maps.so";
-  if (const char* const given = std::getenv("WAVETRACER_MAPS_MODULE"); given && *given) return {given};
+  if (const std::string given = environment("WAVETRACER_MAPS_MODULE"); !given.empty()) return {given};
   std::error_code error;
   const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-  return {here / file, (here / WAVETRACER_MAPS_FOLDER / file).lexically_normal()};
+  return {(here / file).string(), (here / WAVETRACER_MAPS_FOLDER / file).lexically_normal().string()};
+}
+
+// A wheel brings libraries of its own, in a folder of this name. With those of the system that GDAL pulls in, there
+// would be two of each in one process, which crashes when it ends.
+bool is_from_wheel() {
+  return dl_iterate_phdr(
+             [](dl_phdr_info* object, size_t, void*) {
+               return std::string_view(object->dlpi_name).find("/wavetracer.libs/") != std::string_view::npos ? 1 : 0;
+             },
+             nullptr) != 0;
 }
 
 [[noreturn]] void fail(const std::string& needed_for, const std::string& why) {
@@ -36,25 +55,42 @@ void look_up(void* module, const char* name, Function& function, const std::stri
   if (!function) fail(needed_for, fmt::format("wavetracer_maps.so has no function {}", name));
 }
 
-MapsModule open_module(const std::string& needed_for) {
-  if (std::string_view(gdal_name).empty())
+// The file of the module, which is of this version.
+std::string find_module(const std::string& needed_for) {
+  const std::vector<std::string> places = module_places();
+  for (const std::string& place : places) {
+    std::error_code error;
+    if (!fs::is_regular_file(place, error)) continue;
+    if (read_file(place).find(WT_MAPS_MARK) != std::string::npos) return place;
     fail(needed_for,
-         "this wavetracer was built without it: install libgdal-dev and build it again, or convert the file to an "
-         "OpenStreetMap or SUMO map");
+         fmt::format("the module for it, {}, is not that of this version of wavetracer: install or build both "
+                     "together",
+                     place));
+  }
+  fail(needed_for, fmt::format("the module for it, wavetracer_maps.so, is not there ({}): install wavetracer's Debian "
+                               "package, or build it from its source with libgdal-dev (`./dev run`), {}",
+                               fmt::join(places, ", "), other_formats));
+}
+
+MapsModule open_module(const std::string& needed_for) {
+  if (is_from_wheel())
+    fail(needed_for,
+         fmt::format(
+             "wheels come without it: convert the file with wavetracer's Debian package or a build of its source, "
+             "whose scene this one reads, {}",
+             other_formats));
+  if (std::string_view(gdal_name).empty())
+    fail(needed_for, fmt::format("this wavetracer was built without it: install libgdal-dev and build it again, {}",
+                                 other_formats));
+  const std::string place = find_module(needed_for);
   if (!dlopen(gdal_name, RTLD_NOW | RTLD_GLOBAL))
     fail(needed_for,
          fmt::format("{} cannot be opened ({}); Debian has it in the package libgdal{}", gdal_name, dlerror(),
                      std::string_view(gdal_name).substr(std::string_view(gdal_name).rfind('.') + 1)));
-  void* module = nullptr;
-  std::string tried;
-  for (const fs::path& place : module_places()) {
-    if (!module) module = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!module) tried += fmt::format("{}{}", tried.empty() ? "" : "; ", dlerror());
-  }
+  void* const module = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!module)
-    fail(needed_for, fmt::format("the module for it, wavetracer_maps.so, cannot be opened: {}; wheels and bundles do "
-                                 "not have it, the Debian package does",
-                                 tried));
+    fail(needed_for,
+         fmt::format("the module for it, {}, cannot be opened: {}; install or build both together", place, dlerror()));
   MapsModule out{};
   decltype(&wt_maps_version) version = nullptr;
   look_up(module, "wt_maps_version", version, needed_for);

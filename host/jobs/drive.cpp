@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include "jobs/claims.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/shards.hpp"
 #include "jobs/solve_frame.hpp"
@@ -19,6 +20,7 @@ constexpr uint32_t most_blocks = 32;
 
 void say_what_is_there(const Shards& shards, const RunIdentity& asked, const std::string& directory,
                        Progress& progress) {
+  say_damaged(shards, progress);
   const uint64_t done = shards.totals().frames, all = FrameRange{asked.first, asked.last}.count();
   if (done == 0)
     progress.line(
@@ -49,10 +51,22 @@ uint32_t block_count(const Config& config) {
 
 Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   if (interrupted()) return {};
-  std::optional<SolvedFrame> solved = solve_frame(simulation, 0, run.summary.repeat_count, progress);
-  if (!solved) return {};
-  run.summary.repeat_count = solved->repeated;
-  FrameResult& frame = solved->result;
+  const uint32_t repeats = run.summary.repeat_count;
+  FrameResult frame;
+  FrameRepeats told;
+  while (told.count() < repeats && !interrupted()) {
+    if (repeats > 1) {
+      simulation.forget();
+      progress.bar("repeating", told.count(), repeats, "repeats");
+    }
+    std::optional<FrameResult> next = solve_frame(simulation, 0, repeats == 1, progress);
+    if (!next) break;
+    told.add(*next);
+    frame = std::move(*next);
+  }
+  if (told.count() == 0) return {};
+  told.finish(frame, repeats_agree(simulation.config()));
+  run.summary.repeat_count = told.count();
   frame.missing = simulation.explain_missing(frame);
   progress.line("writing to " + run.config.output.directory);
   Results results;
@@ -62,38 +76,69 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   return results;
 }
 
+void say_damaged(const Shards& shards, Progress& progress) {
+  for (const std::string& damage : shards.damaged())
+    progress.line(fmt::format("damaged: {}; its frames are computed again", damage));
+}
+
 Units units_of(const DriveTask& task) {
   return {task.identity.first, task.identity.last, task.run.config.output.shard_frames, task.blocks};
 }
 
+namespace {
+
+std::optional<TransmitterRange> block_of(const DriveTask& task, const Unit& unit) {
+  if (unit.blocks <= 1) return std::nullopt;
+  const uint64_t all = task.run.config.transmitters.size();
+  return TransmitterRange{static_cast<uint32_t>(all * unit.block / unit.blocks),
+                          static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
+}
+
+// One frame in one of the repeats of its unit, counted from 0.
+std::optional<FrameResult> solve_repeat(const DriveTask& task, const Unit& unit, uint64_t frame, uint32_t repeat,
+                                        Progress& progress) {
+  const RunIdentity& asked = task.identity;
+  if (interrupted()) return std::nullopt;
+  if (unit.blocks <= 1) {
+    const std::string which = asked.repeat > 1 ? fmt::format(", repeat {} of {}", repeat + 1, asked.repeat) : "";
+    const uint64_t before = (unit.first - asked.first) * uint64_t{asked.repeat} + repeat * unit.frames();
+    progress.bar(fmt::format("frame {}{}", frame, which), before + frame - unit.first,
+                 FrameRange{asked.first, asked.last}.count() * asked.repeat, "frames");
+  }
+  const bool alone = task.simulation.frame_count() == 1 && asked.repeat == 1 && unit.blocks <= 1;
+  return solve_frame(task.simulation, static_cast<uint32_t>(frame), alone, progress, block_of(task, unit));
+}
+
+}  // namespace
+
 bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
   const RunIdentity& asked = task.identity;
-  std::optional<TransmitterRange> block;
-  if (unit.blocks > 1) {
-    const uint64_t all = task.run.config.transmitters.size();
-    block = {static_cast<uint32_t>(all * unit.block / unit.blocks),
-             static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
+  std::vector<FrameRepeats> told(unit.frames());
+  for (uint32_t repeat = 0; repeat + 1 < asked.repeat; ++repeat) {
+    task.simulation.forget();
+    for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
+      const std::optional<FrameResult> result = solve_repeat(task, unit, frame, repeat, progress);
+      if (!result) return false;  // interrupted
+      told[frame - unit.first].add(*result);
+    }
   }
+  // The last repeat is written.
   task.simulation.forget();
   writer.begin(unit);
   bool explained = false;
   for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
-    if (interrupted()) return false;
-    if (!block)
-      progress.bar(fmt::format("frame {}", frame), frame - asked.first, FrameRange{asked.first, asked.last}.count(),
-                   "frames");
-    std::optional<SolvedFrame> solved =
-        solve_frame(task.simulation, static_cast<uint32_t>(frame), asked.repeat, progress, block);
-    if (!solved) return false;  // interrupted
-    FrameResult result = std::move(solved->result);
+    std::optional<FrameResult> result = solve_repeat(task, unit, frame, asked.repeat - 1, progress);
+    if (!result) return false;  // interrupted
+    told[frame - unit.first].add(*result);
+    told[frame - unit.first].finish(*result, repeats_agree(task.simulation.config()));
     const bool stop = frame == unit.last || interrupted();
     // Why a drive has no path at all is asked once a unit; where others have found one, nobody will read it.
-    const bool ask = block || asked.first == asked.last || result.paths.size() == 0;
-    if (!explained && !result.world.links.empty() && ask) {
-      result.missing = task.simulation.explain_missing(result);
+    const bool ask = unit.blocks > 1 || asked.first == asked.last || result->paths.size() == 0;
+    if (!explained && !result->world.links.empty() && ask) {
+      result->missing = task.simulation.explain_missing(*result);
       explained = true;
     }
-    writer.add(std::move(result));
+    writer.add(std::move(*result));
     if (stop) return frame == unit.last;
   }
   return true;
@@ -111,6 +156,7 @@ bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, P
 Results drive(const DriveTask& task, Progress& progress) {
   const std::string& directory = task.run.config.output.directory;
   Shards shards(directory, task.identity, task.run.summary.inputs, task.run.config.text);
+  remove_claims(shards.folder());  // of processes that shared the folder and were killed
   if (task.resume) {
     shards.resume();
     say_what_is_there(shards, task.identity, directory, progress);

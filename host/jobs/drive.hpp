@@ -35,9 +35,10 @@ Results drive(const DriveTask& task, Progress& progress);
 
 // What one of several processes has done.
 struct Shared {
-  Results results;       // of all of them, where this one has merged; else without frames
-  uint64_t missing = 0;  // units that no process could compute, or that were left when this one was interrupted
-  uint64_t units = 0;    // of a part: how many it has
+  Results results;        // of all of them, where this one has merged; else without frames
+  uint64_t missing = 0;   // units that no process could compute, or that were left when this one was interrupted
+  uint64_t units = 0;     // of a part: how many it has
+  bool unmerged = false;  // interrupted while nothing was missing and nobody had merged yet
 };
 
 // With the other ranks of its job: takes units that nobody has until all are finished. The first one to come prepares

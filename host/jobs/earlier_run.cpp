@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_for_each.h>
+#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 #include <vector>
+#include "base/output_place.hpp"
 #include "jobs/manifest.hpp"
 #include "wavetracer/error.hpp"
 
@@ -31,7 +33,10 @@ void remove_files(const fs::path& folder, const Which& which) {
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (which(entry.path().filename().string())) found.push_back(entry.path());
   tbb::parallel_for_each(found, [](const fs::path& path) {  // on several cores: room of large files takes a while
-    if (std::error_code error; !fs::remove(path, error) && error)
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;  // a device, a pipe
+    if (!fs::remove(behind_links(path), error) && error)
       throw RuntimeError(
           fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
                       "with -o",
@@ -61,6 +66,20 @@ std::string earlier_results(const fs::path& directory) {
   return fmt::format("{} of an earlier run in {}", fmt::join(names, ", "), directory.string());
 }
 
+void check_output_names(const fs::path& directory) {
+  for (const std::string_view name : output_names) {
+    std::error_code none;
+    const fs::file_status status = fs::status(directory / name, none);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+      throw RuntimeError(
+          fmt::format("cannot write {}: it is a device, a pipe or a socket, and results must be plain files; choose "
+                      "another folder with -o",
+                      (directory / name).string()));
+  }
+}
+
+void remove_if_empty(const fs::path& folder) { ::rmdir(folder.c_str()); }
+
 fs::path merged_record(const fs::path& directory) { return directory / "shards" / merged_name; }
 
 void remove_outputs(const fs::path& directory, std::span<const PendingFile> replaced) {
@@ -82,7 +101,7 @@ void remove_shards(const fs::path& directory, std::span<const PendingFile> excep
     return (name.starts_with(shard_prefix) || name == record_file) &&
            std::ranges::none_of(except, [&](const PendingFile& file) { return file.temporary().filename() == name; });
   });
-  fs::remove(folder, ignored);  // not if there is something else in it
+  remove_if_empty(folder);
 }
 
 void remove_merged_shards(const fs::path& directory) {

@@ -14,8 +14,11 @@ namespace wavetracer {
 // Empty where there is nothing.
 std::string earlier_results(const std::filesystem::path& directory);
 
+// Throws RuntimeError where a name of an output is a pipe, a device or a socket: a run reads its outputs again.
+void check_output_names(const std::filesystem::path& directory);
+
 // Outputs of a run, and the page that `view` made of them, but for those that these files are about to replace; and the
-// record that they are whole.
+// record that they are whole. Of a link the file behind it is removed, and the link stays.
 void remove_outputs(const std::filesystem::path& directory, std::span<const PendingFile> replaced = {});
 
 // The manifests, then the shards that they list, but for these files on their way; then their folder, if that is all.
@@ -27,6 +30,9 @@ void remove_merged_shards(const std::filesystem::path& directory);
 
 // Where that record is.
 std::filesystem::path merged_record(const std::filesystem::path& directory);
+
+// Removes the folder if it is empty and no link.
+void remove_if_empty(const std::filesystem::path& folder);
 
 // What killed runs were writing into this very folder. No file may be on its way there.
 void remove_temporaries(const std::filesystem::path& folder);

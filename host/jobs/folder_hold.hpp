@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 #include "base/pending_file.hpp"
+#include "jobs/earlier_run.hpp"
 #include "jobs/process_files.hpp"
 
 namespace wavetracer {
@@ -18,8 +19,7 @@ class FolderHold {
   }
   ~FolderHold() {
     presence_.reset();
-    std::error_code ignored;
-    std::filesystem::remove(shards_.path(), ignored);  // of an earlier drive, and empty now
+    remove_if_empty(shards_.path());  // of an earlier drive
   }
   FolderHold(const FolderHold&) = delete;
   FolderHold& operator=(const FolderHold&) = delete;

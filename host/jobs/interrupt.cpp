@@ -2,12 +2,12 @@
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
 // RemoveOnInterrupt waits for signals on a thread of its own, which may remove folders as a handler may not.
 #include "jobs/interrupt.hpp"
-#include <fmt/format.h>
 #include <unistd.h>
 #include <csignal>
 #include <iostream>
 #include <string_view>
 #include <vector>
+#include "base/output_place.hpp"
 #include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
 
@@ -72,8 +72,7 @@ void catch_interrupts(bool acknowledge) {
 }
 
 RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output) {
-  fs::path temporary = output.has_filename() ? output : output.parent_path();
-  temporary += fmt::format(".{}.tmp", getpid());  // as output/pending_file.cpp and base/pending_folder.cpp name it
+  const fs::path temporary = temporary_beside(behind_links(output.has_filename() ? output : output.parent_path()));
   const sigset_t set = ending_signals();
   pthread_sigmask(SIG_BLOCK, &set, &before_);
   // Counted here and not by the thread, which may start after the output has got its name.

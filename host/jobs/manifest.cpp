@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include "base/read_text.hpp"
+#include "jobs/checked_text.hpp"
 #include "output/cache_json.hpp"
 #include "output/h5_outputs.hpp"
 #include "output/json_count.hpp"
@@ -119,7 +120,8 @@ Shard decode(const Json& json, ManifestOf what) {
                  missing.at("why").get<std::vector<std::string>>(),
                  missing.at("why_in_grids").get<std::vector<std::string>>()};
   }
-  for (const Json& file : json.at("files")) shard.files.push_back({file.at("name"), whole<uint64_t>(file.at("bytes"))});
+  for (const Json& file : json.at("files"))
+    shard.files.push_back({file.at("name"), whole<uint64_t>(file.at("bytes")), whole<uint64_t>(file.at("hash"))});
   what == ManifestOf::shards ? check_files(shard) : check_outputs(shard);
   return shard;
 }
@@ -130,7 +132,8 @@ std::string encode_manifest_line(const Shard& shard) {
   const RunIdentity& run = shard.run;
   const Totals& t = shard.totals;
   Json files = Json::array();
-  for (const ShardFile& file : shard.files) files.push_back({{"name", file.name}, {"bytes", file.bytes}});
+  for (const ShardFile& file : shard.files)
+    files.push_back({{"name", file.name}, {"bytes", file.bytes}, {"hash", file.hash}});
   Json json;
   json["first"] = t.first;
   json["last"] = t.last;
@@ -169,7 +172,7 @@ std::string encode_manifest_line(const Shard& shard) {
   json["run"] = {{"version", run.version}, {"config", run.config}, {"device_kind", run.device_kind},
                  {"first", run.first},     {"last", run.last},     {"repeat", run.repeat},
                  {"inputs", run.inputs}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return with_check(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 std::vector<Shard> decode_manifest(std::string_view text, const std::string& name, ManifestOf what) {
@@ -180,7 +183,9 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end + 1);
     try {
-      shards.push_back(decode(Json::parse(line), what));
+      Shard shard = decode(Json::parse(line), what);
+      if (!check_fits(line)) refuse("it is damaged: its content is not what its key \"check\" says");
+      shards.push_back(std::move(shard));
     } catch (const Json::exception& error) {
       if (text.empty()) break;
       throw RuntimeError(

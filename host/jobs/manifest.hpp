@@ -18,14 +18,14 @@ struct RunIdentity {
   std::string config;            // hash of its text, the folder of outputs and the places of input files left out
   std::string device_kind;       // "cpu" or "gpu"
   uint32_t first = 0, last = 0;  // frames asked for
-  uint32_t repeat = 1;           // repeats begin cold, so their number changes what a frame reuses
+  uint32_t repeat = 1;           // they share the seconds of a frame
   std::string inputs = {};       // hash of the contents of input files, which run.json lists
   bool operator==(const RunIdentity&) const = default;
 };
 
 struct ShardFile {
-  std::string name;  // in the folder of the manifest
-  uint64_t bytes = 0;
+  std::string name;              // in the folder of the manifest
+  uint64_t bytes = 0, hash = 0;  // hash: content_hash() of it
 };
 
 struct Shard {
@@ -41,7 +41,7 @@ std::string encode_manifest_line(const Shard& shard);
 enum class ManifestOf { shards, outputs };
 
 // text: of a whole manifest, any bytes. name: for messages. Throws RuntimeError where a line other than the last is
-// none.
+// none, or is damaged.
 std::vector<Shard> decode_manifest(std::string_view text, const std::string& name,
                                    ManifestOf what = ManifestOf::shards);
 

@@ -115,15 +115,18 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
                                    directory.string(), folder.string()));
     if (found.record.empty() && fs::exists(folder / "run.json", none)) found.record = folder / "run.json";
     for (const fs::path& manifest : manifests) {
-      for (Shard& shard : read_manifest(manifest)) {
+      std::vector<Shard> lines = read_manifest(manifest);
+      const std::vector<std::string> damage = damages(lines, folder);
+      for (size_t line = 0; line < lines.size(); ++line) {
+        Shard& shard = lines[line];
         if (!first_folder) {
           found.run = shard.run;
           first_folder = folder;
         }
         check_same_run(found.run, *first_folder, shard.run, folder);
         const ShardMap::key_type key{shard.unit.first, shard.unit.block};
-        if (!is_whole(shard, folder)) {
-          found.damaged.push_back(fmt::format("{} in {}", unit_words(shard.unit), folder.string()));
+        if (!damage[line].empty()) {
+          found.damaged.push_back(fmt::format("{} in {}: {}", unit_words(shard.unit), folder.string(), damage[line]));
         } else if (const auto there = found.shards.find(key); there != found.shards.end()) {
           check_agrees(there->second, shard, folder);
         } else {

@@ -16,7 +16,7 @@ struct FoundParts {
   std::filesystem::path record;                                // a run.json
   std::vector<Unit> missing;  // blocks, or stretches of frames: the first of them, at most 1000
   uint64_t missing_count = 0;
-  std::vector<std::string> damaged;  // parts whose files are gone or cut short, which counts as missing
+  std::vector<std::string> damaged;  // parts whose files are not as they were written, which count as missing
 };
 
 // Looks through DIR/shards of each. Throws InputError where there are no parts, or parts of different runs, and

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 #include "base/pending_file.hpp"
 #include "jobs/manifest.hpp"
 
@@ -14,7 +16,8 @@ void write_merged_record(const std::filesystem::path& directory, const RunIdenti
                          std::span<const PendingFile> outputs);
 
 // The run that is whole in this folder, its files those of the folder; nothing where there is no record, or where one
-// of its files is gone or has another length. Throws RuntimeError where the record is not one.
-std::optional<Shard> read_merged_record(const std::filesystem::path& directory);
+// of its files is not as it was written. damaged: gets what is wrong with them, in words. Throws RuntimeError where the
+// record is not one.
+std::optional<Shard> read_merged_record(const std::filesystem::path& directory, std::vector<std::string>& damaged);
 
 }  // namespace wavetracer

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include "base/read_text.hpp"
+#include "jobs/checked_text.hpp"
 #include "output/json_count.hpp"
 #include "radio/codebook.hpp"
 #include "wavetracer/error.hpp"
@@ -61,7 +62,7 @@ std::string encode_run_record(const Run& run) {
   for (const InputFile& input : s.inputs)
     json["inputs"].push_back(
         {{"name", input.name}, {"file", input.file}, {"bytes", input.bytes}, {"hash", input.hash}});
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return with_check(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 namespace {
@@ -117,6 +118,8 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   for (const Json& input : json.at("inputs"))
     s.inputs.push_back(
         {input.at("name"), input.at("file"), whole<uint64_t>(input.at("bytes")), whole<uint64_t>(input.at("hash"))});
+  if (!check_fits(text))
+    throw RuntimeError(name + ": the file is damaged, since its content is not what its key \"check\" says; run again");
   return out;
 } catch (const Json::exception& error) {
   throw RuntimeError(fmt::format("{}: this version does not write such a file ({}); run again", name, error.what()));

@@ -65,13 +65,6 @@ std::vector<Shard> all_lines(const fs::path& folder) {
 
 }  // namespace
 
-bool is_whole(const Shard& shard, const fs::path& folder) {
-  return std::all_of(shard.files.begin(), shard.files.end(), [&](const ShardFile& file) {
-    std::error_code error;
-    return fs::file_size(folder / file.name, error) == file.bytes && !error;
-  });
-}
-
 Totals totals_of(const ShardMap& shards) {
   Totals sum;
   for (const auto& [key, shard] : shards)
@@ -108,8 +101,19 @@ void Shards::take(std::vector<Shard> lines) {
     if (!finished(shard.unit) && is_whole(shard, folder_)) shards_.emplace(key(shard.unit), std::move(shard));
 }
 
+std::vector<Shard> Shards::undamaged(std::vector<Shard> lines) {
+  const std::vector<std::string> found = damages(lines, folder_);
+  std::vector<Shard> out;
+  for (size_t i = 0; i < lines.size(); ++i)
+    if (found[i].empty())
+      out.push_back(std::move(lines[i]));
+    else
+      damaged_.push_back((folder_ / found[i]).string());
+  return out;
+}
+
 bool Shards::find_complete() {
-  complete_ = read_merged_record(directory_);
+  complete_ = read_merged_record(directory_, damaged_);
   if (!complete_) return false;
   check_same_run(complete_->run, run_, folder_, config_, inputs_);
   return true;
@@ -124,7 +128,8 @@ size_t Shards::resume() {
   }
   std::vector<Shard> lines = all_lines(folder_);
   if (lines.empty()) return 0;
-  take(std::move(lines));
+  for (const Shard& shard : lines) check_same_run(shard.run, run_, folder_, config_, inputs_);
+  take(undamaged(std::move(lines)));
   fresh_ = false;
   std::vector<Shard> whole;
   for (const auto& [key, shard] : shards_) whole.push_back(shard);
@@ -146,8 +151,7 @@ void Shards::share(const std::string& name, bool keep) {
   manifest_ = folder_ / fmt::format("manifest.{}.jsonl", name);
   shared_ = true;
   fresh_ = false;
-  own_ = read_manifest(manifest_);
-  if (!keep) own_.clear();
+  own_ = keep ? undamaged(read_manifest(manifest_)) : std::vector<Shard>();
   std::error_code none;
   if (fs::exists(manifest_, none)) save(own_);
   look();
@@ -205,8 +209,7 @@ Shard Shards::close(OpenUnit& unit) {
   const Clock::time_point start = Clock::now();
   std::vector<PendingFile> files = unit.files_.finish(shard_compression);
   Shard shard{run_, unit.unit_, unit.totals(), {}};
-  for (const PendingFile& file : files)
-    shard.files.push_back({file.path().filename().string(), fs::file_size(file.temporary())});
+  for (const PendingFile& file : files) shard.files.push_back(written_as(file));
   const std::string record = encode_run_record(unit.run_);
   if (!recorded_) files.emplace_back(folder_ / record_name, bytes(record));
   if (fresh_) {

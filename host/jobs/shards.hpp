@@ -14,6 +14,7 @@
 #include "jobs/manifest.hpp"
 #include "jobs/merge_ahead.hpp"
 #include "jobs/merge_parts.hpp"
+#include "jobs/shard_files.hpp"
 #include "output/frame_files.hpp"
 #include "wavetracer/output.hpp"
 
@@ -25,8 +26,6 @@ using ShardMap = std::map<std::pair<uint32_t, uint32_t>, Shard>;
 Totals totals_of(const ShardMap& shards);
 // Their files, in the order of their units.
 MergeParts parts_of(const ShardMap& shards, const std::function<std::filesystem::path(const Shard&)>& folder_of);
-// All files of the shard are in the folder, in full length.
-bool is_whole(const Shard& shard, const std::filesystem::path& folder);
 
 // The files of a unit, under temporary names until it is closed.
 class OpenUnit {
@@ -55,15 +54,15 @@ class Shards {
 
   // Takes over what the run that was interrupted in this folder has finished: its shards, or the whole run, see
   // complete(). Returns the number of shards; 0 where there is none. A shard whose
-  // files are gone or cut short is not finished. Throws ConfigError where they are of another run, InputError where an
-  // input file has changed since. No other process may
-  // be writing there.
+  // files are not as they were written is not finished, see damaged(). Throws ConfigError where they are of another
+  // run, InputError where an input file has changed since. No other process may be writing there.
   size_t resume();
   // Removes what any run left in the folder. No other process may be writing there.
   void clear();
   // From now on other processes write there, too: what they have finished is looked at, and this one notes what it
-  // writes in a manifest of its own, manifest.NAME.jsonl. keep: what an earlier process of this name wrote counts.
-  // Throws as resume() does where something there is of another run.
+  // writes in a manifest of its own, manifest.NAME.jsonl. keep: what an earlier process of this name wrote counts, but
+  // for shards whose files are not as they were written. Throws as resume() does where something there is of another
+  // run.
   void share(const std::string& name, bool keep);
   // Writes run.json, which else the first unit does.
   void write_record(const Run& run) const;
@@ -82,6 +81,8 @@ class Shards {
   // Of a complete run: its outputs.
   std::vector<std::filesystem::path> outputs() const;
   size_t count() const { return shards_.size(); }
+  // What was left out as it is not as it was written, in words that begin with the file.
+  const std::vector<std::string>& damaged() const { return damaged_; }
   const std::filesystem::path& folder() const { return folder_; }
 
   // A unit on its way into the folder, frame by frame. The first one of a run that neither resumes nor shares takes the
@@ -117,10 +118,12 @@ class Shards {
   ShardMap shards_;
   std::optional<Shard> complete_;  // the whole run, its files the outputs
   std::vector<Shard> own_;         // lines of manifest_, where it is shared
+  std::vector<std::string> damaged_;
   double write_seconds_ = 0;
   bool proved_ = false;  // that the outputs hold the shards
 
   void take(std::vector<Shard> shards);
+  std::vector<Shard> undamaged(std::vector<Shard> lines);
   void save(const std::vector<Shard>& lines) const;
   void note(const Shard& shard);
 };

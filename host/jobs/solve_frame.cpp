@@ -9,23 +9,8 @@
 
 namespace wavetracer {
 
-namespace {
-
-// One repeat; nothing where it was interrupted.
-std::optional<FrameResult> solve_once(Simulation& simulation, uint32_t frame,
-                                      const std::optional<TransmitterRange>& block) {
-  try {
-    return block ? simulation.run_block(frame, *block) : simulation.run_frame(frame);
-  } catch (const FrameStopped&) {
-    return std::nullopt;
-  }
-}
-
-}  // namespace
-
-std::optional<SolvedFrame> solve_frame(Simulation& simulation, uint32_t frame, uint32_t repeats, Progress& progress,
+std::optional<FrameResult> solve_frame(Simulation& simulation, uint32_t frame, bool alone, Progress& progress,
                                        std::optional<TransmitterRange> block) {
-  const bool alone = simulation.frame_count() == 1 && repeats == 1 && !block;
   simulation.observe([alone, &progress](const FrameProgress& at) {
     const bool rays = at.stage == "rays";
     if (alone && at.parts > 1) {  // each traces and solves: the batches are what one clock can count
@@ -38,32 +23,33 @@ std::optional<SolvedFrame> solve_frame(Simulation& simulation, uint32_t frame, u
                            : "solving its paths");
     return !interrupted();
   });
-  SolvedFrame solved;
-  FrameResult& result = solved.result;
-  std::map<std::string, std::vector<double>> samples;
-  const CacheConfig& cache = simulation.config().cache;
-  const bool must_agree = cache.kind == "none" || cache.key == "exact";
-  do {
-    if (repeats > 1) {
-      simulation.forget();
-      if (simulation.frame_count() == 1) progress.bar("repeating", solved.repeated, repeats, "repeats");
-    }
-    std::optional<FrameResult> next = solve_once(simulation, frame, block);
-    if (!next) break;
-    if (must_agree && solved.repeated > 0 && next->counts.paths != result.counts.paths)
-      next->warnings.push_back(fmt::format(
-          "repeat {} found {} paths, the one before {}: this device gives wrong results, so do not trust it",
-          solved.repeated, next->counts.paths, result.counts.paths));
-    for (const auto& [stage, seconds] : next->seconds) samples[stage].push_back(seconds);
-    next->warnings.insert(next->warnings.begin(), result.warnings.begin(), result.warnings.end());
-    result = std::move(*next);
-  } while (++solved.repeated < repeats && !interrupted());
+  std::optional<FrameResult> out;
+  try {
+    out = block ? simulation.run_block(frame, *block) : simulation.run_frame(frame);
+  } catch (const FrameStopped&) {
+    out.reset();
+  }
   simulation.observe({});
-  if (solved.repeated == 0) return std::nullopt;
-  for (const auto& [stage, values] : samples) result.seconds[stage] = median(values);
-  std::sort(result.warnings.begin(), result.warnings.end());
-  result.warnings.erase(std::unique(result.warnings.begin(), result.warnings.end()), result.warnings.end());
-  return solved;
+  return out;
 }
+
+void FrameRepeats::add(const FrameResult& frame) {
+  for (const auto& [stage, seconds] : frame.seconds) seconds_[stage].push_back(seconds);
+  paths_.push_back(frame.counts.paths);
+  warnings_.insert(frame.warnings.begin(), frame.warnings.end());
+}
+
+void FrameRepeats::finish(FrameResult& last, bool must_agree) const {
+  for (const auto& [stage, values] : seconds_) last.seconds[stage] = median(values);
+  std::set<std::string> warnings = warnings_;
+  for (size_t i = 1; must_agree && i < paths_.size(); ++i)
+    if (paths_[i] != paths_[i - 1])
+      warnings.insert(fmt::format(
+          "repeat {} found {} paths, the one before {}: this device gives wrong results, so do not trust it", i,
+          paths_[i], paths_[i - 1]));
+  last.warnings.assign(warnings.begin(), warnings.end());
+}
+
+bool repeats_agree(const Config& config) { return config.cache.kind == "none" || config.cache.key == "exact"; }
 
 }  // namespace wavetracer

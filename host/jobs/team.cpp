@@ -43,7 +43,10 @@ class Team {
     lead();
     first_pass();
     Shared shared{{}, last_passes()};
-    if (!take_merge(shared.missing == 0)) return shared;
+    if (!take_merge(shared.missing == 0)) {
+      shared.unmerged = interrupted() && !merged();
+      return shared;
+    }
     if (shared.missing > 0) return say_missing(shared);
     shared.results.totals = shards_.totals();
     progress_.line("writing to " + task_.run.config.output.directory);
@@ -91,6 +94,7 @@ class Team {
       if (!claims_.take(claim)) continue;
       prepare();
       mark(shards_.complete());
+      if (shards_.complete()) remove_claims(shards_.folder());  // whoever comes later sees the mark
       return true;
     }
     return false;
@@ -101,6 +105,7 @@ class Team {
     remove_claims(shards_.folder(), "prepare_");
     if (task_.resume) {
       shards_.resume();
+      say_damaged(shards_, progress_);
       progress_.line(
           shards_.complete()
               ? "--resume: the run is complete, all parts are in the outputs; nothing is left to do"
@@ -200,8 +205,10 @@ Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessIn
 
 Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
   Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text);
+  remove_claims(shards.folder());  // of processes that shared the folder otherwise, and were killed
   if (task.resume) shards.find_complete();
   shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
+  say_damaged(shards, progress);
   UnitWriter writer(task.run, shards, progress);
   const Units units = units_of(task);
   Shared shared;

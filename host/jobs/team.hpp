@@ -6,6 +6,8 @@
 
 namespace wavetracer {
 
+// What --resume has found damaged, and computes again.
+void say_damaged(const Shards& shards, Progress& progress);
 Units units_of(const DriveTask& task);
 // Solves its frames and hands them to the writer; false where an interrupt came first, which leaves the unit open
 // there. last: where not null, gets the figures of its last frame.

@@ -72,4 +72,9 @@ Transformation from_degrees(OGRSpatialReferenceH system) { return between(system
 
 }  // namespace wavetracer::maps
 
+extern "C" {
+extern __attribute__((visibility("default"))) const char wt_maps_mark[];
+const char wt_maps_mark[] = WT_MAPS_MARK;
+}
+
 WT_MAPS_PUBLIC int wt_maps_version(void) { return WT_MAPS_VERSION; }

@@ -135,7 +135,6 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["end_s"] = totals.end_s;
   json["shards"] = shards;
   json["repeat_count"] = summary.repeat_count;
-  json["repeats_cold"] = summary.repeat_count > 1 && run.config.trace.reuse;
   json["features"] = features(summary.features);
   json["counts"] = counts(totals);
   json["paths_by_kind"] = path_counts(totals.kinds);

@@ -48,10 +48,10 @@ uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own,
   const uint64_t links = uint64_t{ends.transmitter_count} * ends.receiver_count;
   const uint64_t places = uint64_t{visible.count} * (twins_ ? 2 : 1);
   if (links >= 0xFFFFFFFFu || places > 0x7FFFFFFFu)
-    throw RuntimeError(
-        fmt::format("{} links with {} paths are more than a frame can have: ask for fewer links, or solve "
-                    "the frame in blocks of transmitters",
-                    links, places));
+    throw RuntimeError(fmt::format(
+        "{} links with {} paths are more than a frame can have: give it fewer transmitters, receivers, cells "
+        "of grids or vehicles with antennas",
+        links, places));
   rows_.places = static_cast<uint32_t>(places);
   if (places == 0) return 0;
   if (places > keys_.size()) reserve(places + places / 4);

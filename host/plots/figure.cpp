@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include "base/output_place.hpp"
 #include "base/pending_file.hpp"
 #include "plots/gnuplot.hpp"
 
@@ -84,13 +85,12 @@ Drawn draw(const Figure& figure, Format format, const fs::path& folder) {
   Drawn out;
   for (const PendingFile& file : files) out.files.push_back(file.path());
   const fs::path picture = directory.path() / fmt::format("{}.{}", figure.name, ending(format));
-  std::error_code ignored;
-  fs::remove(picture, ignored);  // an earlier one would belie the new data
+  remove_old_file(picture);  // an earlier one would belie the new data
   out.problem = run_gnuplot(directory.path(), figure.name + ".gp");
   if (out.problem.empty())
     out.files.push_back(picture);
   else
-    fs::remove(picture, ignored);  // half drawn
+    remove_old_file(picture);  // half drawn
   return out;
 }
 

@@ -111,6 +111,7 @@ std::vector<std::string> Simulation::warnings() const {
       out.push_back(*text);
   for (const std::vector<std::string>* more : {&s.world.warnings(), &s.place_warnings})
     out.insert(out.end(), more->begin(), more->end());
+  for (const std::string& note : s.context.notes()) out.push_back(note);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "study/run.hpp"
 #include <fmt/format.h>
 #include <span>
+#include "base/output_place.hpp"
 #include "base/pending_file.hpp"
 #include "study/page.hpp"
 #include "study/scripts.hpp"
@@ -29,13 +30,12 @@ std::vector<fs::path> write_files(const Experiment& experiment, const Request& r
   std::vector<fs::path> written;
   for (const PendingFile& file : files) written.push_back(file.path());
   const fs::path plot = named(".svg");
-  std::error_code ignored;
-  fs::remove(plot, ignored);  // an earlier one would belie the new table
+  remove_old_file(plot);  // an earlier one would belie the new table
   const std::string problem = run_gnuplot(folder.path(), experiment.name + ".gp");
   if (problem.empty()) {
     written.push_back(plot);
   } else {
-    fs::remove(plot, ignored);  // half drawn
+    remove_old_file(plot);  // half drawn
     host.say(problem);
   }
   return written;

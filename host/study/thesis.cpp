@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <span>
+#include "base/output_place.hpp"
 #include "base/pending_file.hpp"
 #include "study/scripts.hpp"
 #include "wavetracer/error.hpp"
@@ -77,8 +78,7 @@ void write_so_far(const ThesisPage& page, const fs::path& directory) {
 void write_page(ThesisPage& page, const fs::path& directory, const Host& host, Report& report) {
   PendingDirectory folder(directory);
   const auto named = [&folder](const char* name) { return folder.path() / name; };
-  std::error_code ignored;
-  fs::remove(named("thesis.svg"), ignored);  // an earlier one would belie the new table
+  remove_old_file(named("thesis.svg"));  // an earlier one would belie the new table
   if (!page.rows.empty()) {
     write(named("thesis.csv"), speed_error_table(page.rows));
     write(named("thesis.gp"), speed_error_script(page.rows, page.heading.device.name));

@@ -2,13 +2,11 @@
 // What needs a device is skipped, saying so, where there is none.
 #include <signal.h>
 
-#include <chrono>
-#include <thread>
-
 #include "accuracy/advice.hpp"
 #include "accuracy/inputs.hpp"
 #include "accuracy/latin_hypercube.hpp"
 #include "accuracy/study.hpp"
+#include "app/gate.hpp"
 #include "app/program.hpp"
 #include "simulation/run.hpp"
 #include "wavetracer/config_file.hpp"
@@ -157,10 +155,12 @@ TEST_CASE("the program writes table, plot and page; no link is an error; Ctrl-C 
   const Outcome no_link = run_program({"accuracy", "-c", file, "-o", out, "--set", "links.max_distance_m=1"});
   CHECK(no_link.code == 2);
   CHECK(contains(no_link.err, "has a link, so there is nothing to compare"));
-  Program stopped({"accuracy", "-c", file, "-o", folder.path("cut"), "--repeat", "1000000"});
-  for (int i = 0; i < 600 && !contains(stopped.messages(), "your own settings"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const Gate gate;
+  Program stopped({"accuracy", "-c", file, "-o", folder.path("cut"), "--repeat", "1000000"}, gate.at_launches());
+  while (!contains(stopped.messages(), "your own settings") && !stopped.ended()) gate.let_launch(50, stopped);
   stopped.signal(SIGINT);
+  wait_until_interrupted(stopped.id());
+  gate.open();
   const Outcome cut = stopped.wait();
   CHECK(cut.code == 130);
   CHECK(contains(cut.err, "interrupted before the first setting; nothing was written"));

@@ -3,9 +3,9 @@
 // OpenCL device.
 #include <doctest/doctest.h>
 #include <signal.h>
-#include <chrono>
+#include <ctime>
 #include <fstream>
-#include <thread>
+#include "gate.hpp"
 #include "output/reader.hpp"
 #include "program.hpp"
 #include "room_drive.hpp"
@@ -13,7 +13,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 using wavetracer::test::slurp;
 
 // 8 frames in 4 shards.
@@ -45,8 +44,10 @@ std::string room_in(const Folder& folder, const std::string& name) {
 
 void change(const fs::path& file) { std::ofstream(file, std::ios::app) << "\n"; }
 
-void wait_for(const Program& program, const std::string& message) {
-  for (int i = 0; i < 30000 && !contains(program.messages(), message); ++i) std::this_thread::sleep_for(2ms);
+// Files that hold the time of their making, in seconds, differ from here on.
+void wait_for_next_second() {
+  const std::time_t now = std::time(nullptr);
+  wait_until("the next second", [now] { return std::time(nullptr) > now; });
 }
 
 }  // namespace
@@ -55,23 +56,24 @@ TEST_CASE("files are the same byte by byte: processes, shards merged, a kill and
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", drive()), one = folder.path("one");
-  REQUIRE(run(file, one, {"--repeat", "40"}).code == 0);
-  std::this_thread::sleep_for(1100ms);  // files that hold the time of their making would differ from here on
-  REQUIRE(run(file, folder.path("two"), {"--repeat", "40", "--processes", "2"}).code == 0);
+  REQUIRE(run(file, one).code == 0);
+  wait_for_next_second();
+  REQUIRE(run(file, folder.path("two"), {"--processes", "2"}).code == 0);
   check_same_bytes(folder.path("two"), one);
   for (const char* part : {"1/2", "0/2"})
-    REQUIRE(run(file, folder.path(std::string("part") + part[0]), {"--repeat", "40", "--shard", part}).code == 0);
+    REQUIRE(run(file, folder.path(std::string("part") + part[0]), {"--shard", part}).code == 0);
   REQUIRE(run_program({"merge", "-o", folder.path("all"), folder.path("part0"), folder.path("part1")}).code == 0);
   check_same_bytes(folder.path("all"), one);
 
-  Program killed({"run", "-c", file, "-o", folder.path("killed"), "--repeat", "40"});
-  wait_for(killed, "frames 0 to 1");
+  const Gate gate;
+  Program killed({"run", "-c", file, "-o", folder.path("killed")}, gate.at_name("frames_000002"));
+  gate.wait_for(1);
   killed.signal(SIGKILL);
   killed.wait();
-  const Outcome resumed = run(file, folder.path("killed"), {"--repeat", "40", "--resume"});
+  const Outcome resumed = run(file, folder.path("killed"), {"--resume"});
   CAPTURE(resumed.err);
   CHECK(resumed.code == 0);
-  CHECK(contains(resumed.err, "--resume: "));
+  CHECK(contains(resumed.err, "--resume: 2 of 8 frames are computed already"));
   check_same_bytes(folder.path("killed"), one);
 }
 
@@ -174,8 +176,9 @@ TEST_CASE("a folder that a run writes to is refused to all others, and free when
   const Folder folder;
   const std::string file = folder.file("a.toml", drive()), out = folder.path("out"), expected = folder.path("expected");
   REQUIRE(run(file, expected).code == 0);
-  Program first({"run", "-c", file, "-o", out, "--repeat", "3000"});
-  wait_for(first, "ready after");
+  const Gate gate;
+  Program first({"run", "-c", file, "-o", out}, gate.at_name("frames_"));
+  gate.wait_for(1);
   for (const std::vector<std::string>& how : {std::vector<std::string>{"run", "-c", file, "-o", out},
                                               {"run", "-c", file, "-o", out, "--resume"},
                                               {"run", "-c", file, "-o", out, "--processes", "2"},
@@ -194,10 +197,10 @@ TEST_CASE("a folder that a run writes to is refused to all others, and free when
   CHECK(next.code == 0);
   check_same_bytes(out, expected);
 
-  Program part({"run", "-c", file, "-o", folder.path("parts"), "--shard", "0/2", "--repeat", "3000"});
-  wait_for(part, "ready after");
-  std::this_thread::sleep_for(100ms);
-  const Outcome twice = run(file, folder.path("parts"), {"--shard", "0/2", "--repeat", "3000"});
+  const Gate second;
+  Program part({"run", "-c", file, "-o", folder.path("parts"), "--shard", "0/2"}, second.at_name("frames_"));
+  second.wait_for(1);
+  const Outcome twice = run(file, folder.path("parts"), {"--shard", "0/2"});
   CAPTURE(twice.err);
   CHECK(twice.code == 1);
   part.signal(SIGKILL);

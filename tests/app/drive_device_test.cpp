@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
+#include "gate.hpp"
 #include "output/reader.hpp"
 #include "program.hpp"
 #include "room_drive.hpp"
@@ -179,10 +180,13 @@ TEST_CASE("an interrupted drive exits 130 with the frames so far and goes on wit
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", room);
-  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("expected"), "--repeat", "3"}).code == 0);
-  Program run({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3"});
-  wait_for(run, "frames 5 to 9");
+  REQUIRE(run_program({"run", "-c", file, "-o", folder.path("expected")}).code == 0);
+  const Gate gate;
+  Program run({"run", "-c", file, "-o", folder.path("out")}, gate.at_name("frames_000010"));
+  gate.wait_for(1);
   run.signal(SIGINT);
+  wait_until_interrupted(run.id());
+  gate.open();
   const Outcome stopped = run.wait();
   CAPTURE(stopped.err);
   CHECK(stopped.code == 130);
@@ -192,10 +196,35 @@ TEST_CASE("an interrupted drive exits 130 with the frames so far and goes on wit
   CHECK(frames >= 10);
   CHECK(frames < 60);
   CHECK(Reader(folder.path("out/paths.h5")).shape("/frames/frame")[0] == frames);
-  const Outcome resumed = run_program({"run", "-c", file, "-o", folder.path("out"), "--repeat", "3", "--resume"});
+  const Outcome resumed = run_program({"run", "-c", file, "-o", folder.path("out"), "--resume"});
   CHECK(resumed.code == 0);
   CHECK(contains(resumed.err, "of 60 frames are computed already"));
   check_same(folder.path("out"), folder.path("expected"));
+}
+
+TEST_CASE("repeats change the times that are noted, and nothing else that is written") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  // Few new rays a frame, so that what a frame finds depends on those before it.
+  const std::vector<std::string> words{"run", "-c", file, "--set", keep, "--frames", "0:14", "--set", "trace.rays=200"};
+  const auto run = [&](const char* out, const char* repeats) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"-o", folder.path(out), "--repeat", repeats});
+    return run_program(all);
+  };
+  REQUIRE(run("once", "1").code == 0);
+  const Outcome thrice = run("thrice", "3");
+  CAPTURE(thrice.err);
+  REQUIRE(thrice.code == 0);
+  CHECK(contains(thrice.out, "each 3 times\n"));
+  CHECK_FALSE(contains(thrice.err, "do not trust it"));
+  for (const char* name : {"paths.h5", "waypoints.h5", "links.csv"}) {
+    CAPTURE(name);
+    const bool same =
+        slurp(folder.path(std::string("once/") + name)) == slurp(folder.path(std::string("thrice/") + name));
+    CHECK(same);
+  }
 }
 
 TEST_CASE("a drive that is killed fifty times ends as one that was left alone") {

@@ -78,6 +78,11 @@ Outcome Program::wait() {
   return {code, contents(folder_.path("out")), contents(folder_.path("err"))};
 }
 
+bool Program::ended() const {
+  siginfo_t state{};
+  return waitid(P_PID, static_cast<id_t>(process_), &state, WEXITED | WNOHANG | WNOWAIT) == 0 && state.si_pid != 0;
+}
+
 void Program::signal(int number) const { kill(process_, number); }
 
 std::string Program::messages() const { return contents(folder_.path("err")); }

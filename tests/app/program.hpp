@@ -38,6 +38,8 @@ class Program {
   explicit Program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
   Outcome wait();
   void signal(int number) const;
+  bool ended() const;
+  pid_t id() const { return process_; }
   // What it has written to stderr so far.
   std::string messages() const;
 

@@ -2,11 +2,10 @@
 // Skipped, saying so, where there is no OpenCL device. With mpirun: tests/app/mpirun_test.py.
 #include <doctest/doctest.h>
 #include <signal.h>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
+#include "gate.hpp"
 #include "output/reader.hpp"
 #include "program.hpp"
 #include "room_drive.hpp"
@@ -15,7 +14,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 using wavetracer::test::check_same_data;
 using wavetracer::test::slurp;
 
@@ -92,10 +90,6 @@ void check_tidy(const fs::path& out) {
     CHECK(name.find(".claim.") == std::string::npos);
     CHECK_FALSE(name.starts_with("process_"));
   }
-}
-
-void wait_for(const Program& program, const std::string& message) {
-  for (int i = 0; i < 30000 && !contains(program.messages(), message); ++i) std::this_thread::sleep_for(2ms);
 }
 
 }  // namespace
@@ -204,35 +198,64 @@ TEST_CASE("a process that is killed loses its part, which another takes over; --
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", room);
-  REQUIRE(run(file, folder.path("one"), {"--repeat", "150"}).code == 0);
+  REQUIRE(run(file, folder.path("one")).code == 0);
   const std::string out = folder.path("out");
-  Program parent({"run", "-c", file, "-o", out, "--processes", "2", "--repeat", "150"});
-  wait_for(parent, ": frames ");  // one part is done, others on their way
-  pid_t victim = 0;
-  for (const auto& entry : fs::directory_iterator(out + "/shards"))
-    if (const std::string name = entry.path().filename().string(); name.starts_with("process_"))
-      victim = nlohmann::json::parse(slurp(entry.path()))["pid"];
-  REQUIRE(victim > 1);
+  const Gate middle;
+  Program parent({"run", "-c", file, "-o", out, "--processes", "2"}, middle.at_name("frames_000003_000005"));
+  const pid_t victim = middle.wait_for(1).front();  // with its part computed, and not written
   REQUIRE(kill(victim, SIGKILL) == 0);
+  middle.open();
   const Outcome outcome = parent.wait();
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.err, "was ended by signal 9"));
+  CHECK(contains(outcome.err, "frames 3 to 5: taken over from a process that ended too early"));
   check_same(out, folder.path("one"), true);
+  check_tidy(out);
 
-  Program again({"run", "-c", file, "-o", out, "--processes", "2", "--repeat", "150"});
-  wait_for(again, ": frames ");
-  const Outcome refused = run(file, out, {"--repeat", "150"});
+  // Both wait with a part each, and have finished one at most.
+  const Gate early;
+  Program again({"run", "-c", file, "-o", out, "--processes", "2"}, early.at_name("frames_", "frames_000000_"));
+  const std::vector<pid_t> both = early.wait_for(2);
+  const Outcome refused = run(file, out);
   CHECK(refused.code == 1);
   CHECK(contains(refused.err, "writes there since"));
   again.signal(SIGINT);
+  for (const pid_t process : both) wait_until_interrupted(process);
+  early.open();
   const Outcome stopped = again.wait();
   CAPTURE(stopped.err);
   CHECK(stopped.code == 130);
-  const Outcome resumed = run(file, out, {"--processes", "3", "--repeat", "150", "--resume"});
+  const Outcome resumed = run(file, out, {"--processes", "3", "--resume"});
   CAPTURE(resumed.err);
   CHECK(resumed.code == 0);
   CHECK(contains(resumed.err, "of 7 parts are computed already"));
   check_same(out, folder.path("one"), true);
   check_tidy(out);
+}
+
+TEST_CASE("a run of killed processes that --resume ends leaves nothing of them, whoever resumes") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  REQUIRE(run(file, folder.path("one")).code == 0);
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{"--resume"}, {"--resume", "--processes", "2"}, {"--resume", "--shard", "0/1"}}) {
+    const std::string out = folder.path("out");
+    fs::remove_all(out);
+    const Gate early;
+    Program killed({"run", "-c", file, "-o", out, "--processes", "2"}, early.at_name("frames_", "frames_000000_"));
+    for (const pid_t process : early.wait_for(2)) REQUIRE(kill(process, SIGKILL) == 0);
+    CHECK(killed.wait().code != 0);
+    const Outcome resumed = run(file, out, how);
+    CAPTURE(resumed.err);
+    CHECK(resumed.code == 0);
+    if (how.back() == "0/1") {
+      CHECK(run_program({"merge", out}).code == 0);
+    } else {
+      CHECK(contains(run(file, out, how).err, "the run is complete"));
+    }
+    check_same(out, folder.path("one"), true);
+    check_tidy(out);
+  }
 }

@@ -256,6 +256,11 @@ TEST_CASE("mistakes in --set are reported as --set") {
   check_contains(of("rays=5"), "did you mean \"trace.rays\"?");
   check_contains(of("receiver.1.name=x"), "the file has 1 [[receiver]]");
   check_contains(of("receiver.name=x"), "write receiver.INDEX.KEY");
+  check_contains(of("material=[{name=\"m\"}]"), "to add a [[material]], write it into the file");
+  check_contains(of("material=[{name=\"m\"}]"), "material.INDEX.KEY=VALUE, such as material.0.name=");
+  check_contains(of("track=[]"), "track.INDEX.KEY=VALUE, such as track.0.");
+  check_contains(of("trace={rays=5}"), "trace is a table: set one of its keys, trace.KEY=VALUE");
+  CHECK(of("material=[]").find("did you mean") == std::string::npos);
   check_contains(of("receiver.0.position_m=[1, 2"), "--set receiver.0.position_m=[1, 2: ");
   check_contains(of("trace.rays=5\ntrace.seed=1"), "trace.rays must be an integer");
   check_contains(of("trace.max_diffractions=5"), "--set trace.max_diffractions=5: trace.max_diffractions = 5 is out");

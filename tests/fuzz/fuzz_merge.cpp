@@ -1,6 +1,7 @@
 // Fuzz target: a part of a run from elsewhere, as `wavetracer merge` reads it. The HDF5 library faults in a process of
 // its own, and may there: see LimitedChild.
 #include <fstream>
+#include "base/hash.hpp"
 #include "fuzz/children.hpp"
 #include "fuzz/fuzz.hpp"
 #include "jobs/merge_folders.hpp"
@@ -30,7 +31,9 @@ class Part {
 
   void merge_with(std::string_view content) {
     shard_.files[0].bytes = content.size();
-    std::ofstream(folder_ / "shards" / shard_.files[0].name, std::ios::binary) << content;
+    const fs::path part = folder_ / "shards" / shard_.files[0].name;
+    std::ofstream(part, std::ios::binary) << content;
+    shard_.files[0].hash = content_hash(part).value();
     std::ofstream(manifest_) << encode_manifest_line(shard_);
     merge_found(find_parts({folder_}), folder_ / "out", "");
   }

@@ -112,21 +112,6 @@ TEST_CASE("fields, layers and coordinate systems: what is missing is said with w
   check_contains(refusal(csv("degrees.csv", "POLYGON((11 48,11.1 48,11.1 48.1,11 48))"), none), "as small as degrees");
 }
 
-TEST_CASE("without the module the message says what to install") {
-  const TemporaryFolder folder;
-  const fs::path file = folder.write("a.geojson", town());
-  const std::string program = WAVETRACER_PROGRAM;
-  const std::string log = (folder.path() / "log").string();
-  CHECK_FALSE(std::system(fmt::format("WAVETRACER_MAPS_MODULE=/nowhere.so '{}' convert '{}' -o '{}' > '{}' 2>&1",
-                                      program, file.string(), (folder.path() / "out").string(), log)
-                              .c_str()) == 0);
-  const std::string text = read_file(log);
-  const bool named =
-      text.find("wavetracer_maps.so, cannot be opened") != text.npos || text.find("libgdal") != text.npos;
-  CAPTURE(text);
-  CHECK(named);
-}
-
 namespace {
 
 constexpr double cell_m = 5;

@@ -106,6 +106,8 @@ TEST_CASE("a record whose outputs are gone, cut short or replaced makes no run c
   CHECK_FALSE(complete_after([](const auto& files, const auto&) { fs::remove(files[1]); }));
   CHECK_FALSE(complete_after([](const auto& files, const auto&) { fs::resize_file(files[0], 1000); }));
   CHECK_FALSE(
+      complete_after([](const auto& files, const auto&) { test::change_byte(files[0], fs::file_size(files[0]) / 2); }));
+  CHECK_FALSE(
       complete_after([](const auto&, const auto& folder) { std::ofstream(merged_record(folder)) << "{\"first\":3"; }));
   CHECK_FALSE(complete_after([&](const auto&, const auto& folder) {  // outputs of another run, be they equally long
     write_outputs(folder, sample.run(), sample.drive(3, 22));

@@ -24,6 +24,20 @@ def alive(server):
         expect(answer["message"] == "channels" and len(answer["links"]) == 1, answer)
 
 
+def welcome(server, seconds=60):
+    """A client that was let in: tried again while the server has not noticed yet who has left, or gave it no time."""
+    end = time.monotonic() + seconds
+    while True:
+        client = server.connect()
+        try:
+            if client.hello()["message"] == "world":
+                return client
+        except (OSError, TypeError):  # closed before it was answered
+            pass
+        client.close()
+        expect(time.monotonic() < end, f"no client is welcome for {seconds} s")
+
+
 def ends_with(client, code):
     answer = client.receive()
     expect(answer and answer["message"] == "error" and answer["code"] == code and answer["fatal"], f"{code}: {answer}")
@@ -74,19 +88,25 @@ def wrong_messages(server):
         ends_with(client, "too_many_errors")
 
 
-def time_outs(server):
-    start = time.monotonic()
-    with server.connect() as silent, server.connect() as partial, server.connect() as idle:
-        partial.hello()
-        idle.hello()
-        partial.bytes(b'{"message":')
-        for _ in range(4):  # a byte now and then does not help
-            time.sleep(0.1)
-            partial.bytes(b" ")
-        ends_with(silent, "timeout")
-        ends_with(partial, "timeout")
-        ends_with(idle, "timeout")
-    expect(0.5 < time.monotonic() - start < 15, f"time-outs after {time.monotonic() - start} s")
+def time_outs():
+    """Each in a time of its own, which is too short for anything else: a slow machine would meet it everywhere."""
+    limits = ["live.message_timeout_s=1", "live.hello_timeout_s=1", "live.idle_timeout_s=2"]
+    with Server(sets=limits) as server:
+        start = time.monotonic()
+        with server.connect() as silent:
+            ends_with(silent, "timeout")
+        expect(time.monotonic() - start > 0.5, "silent until hello_timeout_s")
+        with welcome(server) as partial, welcome(server) as idle:
+            try:
+                partial.bytes(b'{"message":')
+                for _ in range(4):  # a byte now and then does not help
+                    time.sleep(0.1)
+                    partial.bytes(b" ")
+            except OSError:
+                pass  # its time is over already
+            ends_with(partial, "timeout")
+            ends_with(idle, "timeout")
+        expect(server.end() == 0, f"exit code; {server.log[-3:]}")
 
 
 def crowd(server):
@@ -97,7 +117,7 @@ def crowd(server):
         ends_with(more, "too_many_clients")  # before it has said hello
     for client in clients:
         client.close()
-    time.sleep(0.3)
+    welcome(server).close()
     alive(server)
 
 
@@ -138,13 +158,9 @@ def strangers():
                 ends_with(third, "too_many_clients")
             for client in silent:
                 client.close()
-    with Server(sets=["live.hello_timeout_s=0.3", "live.message_timeout_s=60"]) as server, server.connect() as silent:
-        begin = time.monotonic()
-        ends_with(silent, "timeout")
-        expect(time.monotonic() - begin < 10, "silent until hello_timeout_s")
-        with server.connect() as long_hello:
-            long_hello.bytes(b'{"message":"' + b"a" * 40000)
-            ends_with(long_hello, "too_long")
+            with server.connect() as long_hello:
+                long_hello.bytes(b'{"message":"' + b"a" * 40000)
+                ends_with(long_hello, "too_long")
 
 
 def long_messages(server):
@@ -193,7 +209,7 @@ def slow_reader(server):
         expect(resident < 2_000_000, f"{resident} kB resident")
         dropped = False
         begin = time.monotonic()
-        while not dropped and time.monotonic() - begin < 20:  # send_timeout_s is 2
+        while not dropped and time.monotonic() - begin < 60:  # send_timeout_s is 2
             try:
                 client.bytes(line)
             except TimeoutError:
@@ -238,17 +254,16 @@ def signals():
 
 
 def main():
-    limits = ["live.max_message_bytes=4096", "live.max_clients=4", "live.message_timeout_s=1", "live.hello_timeout_s=1",
-              "live.idle_timeout_s=2", "live.send_timeout_s=2", "live.max_queue_bytes=20000"]
+    limits = ["live.max_message_bytes=4096", "live.max_clients=4", "live.send_timeout_s=2", "live.max_queue_bytes=20000"]
     with Server(sets=limits) as server:
-        for part in (wrong_messages, time_outs, crowd, slow_reader, alive):
+        for part in (wrong_messages, crowd, slow_reader, alive):
             part(server)
             print(part.__name__)
         expect(server.end() == 0, f"exit code; {server.log[-3:]}")
     with Server() as server:
         long_messages(server)
         print("long_messages")
-    for part in (tokens, strangers, signals):
+    for part in (time_outs, tokens, strangers, signals):
         part()
         print(part.__name__)
 

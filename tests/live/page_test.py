@@ -106,7 +106,8 @@ with tempfile.TemporaryDirectory() as folder:
             pass
         for step in range(3):
             expect(client.ask(frame(step, step, [vehicle("car1", 0, 0, 0)]))["message"] == "channels", "a frame")
-            time.sleep(1.2)
+            time.sleep(1.2)  # a page is written once a second at most
+        wait_for("the word about the page", lambda: any("could not be written" in line for line in server.log))
         said = [line for line in server.log if "could not be written" in line]
         expect(len(said) == 1 and "frames go on" in said[0], server.log)
     print("pages that cannot be written")

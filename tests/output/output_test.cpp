@@ -175,7 +175,6 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
   CHECK(json["end_s"] == 0.1);
   CHECK(json["links"] == 8);
   CHECK(json["vehicles"] == 2);
-  CHECK(json["repeats_cold"] == true);
   CHECK(json["peak_memory_bytes"].get<uint64_t>() > 1000000);
   CHECK(json["order"]["method"] == "none");
   CHECK(json["cache"]["kind"] == "none");

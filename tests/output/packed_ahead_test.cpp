@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 #include <chrono>
 #include <fstream>
+#include <future>
+#include <memory>
 #include <random>
 #include <thread>
 #include "output/packed_rows.hpp"
@@ -120,7 +122,9 @@ TEST_CASE("where the disk is nearly full or a part cannot be read, nothing is ma
   for (uint64_t i = 0; i < parts_count; ++i) growing.add_part();
   fs::resize_file(growing.parts[0], 1000);
   ahead.grow(growing.groups, growing.parts);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  std::promise<void> tried;  // by the one thread, which does tasks in their order
+  threads.enqueue([&tried] { tried.set_value(); });
+  tried.get_future().wait();
   threads.stop();
   CHECK(ahead.count() == 0);
   CHECK_THROWS_WITH_AS(growing.write("out.h5", &ahead), doctest::Contains("cannot be read to its end"), RuntimeError);
@@ -138,7 +142,12 @@ TEST_CASE("threads of low priority do tasks in their order, and none after they 
   threads.enqueue([&] { done.push_back(1); });
   while (!begun) std::this_thread::yield();
   std::thread stopping([&] { threads.stop(); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  // What is enqueued and dropped at once, instead of being kept with the others, tells that stop() has begun.
+  for (bool stopped = false; !stopped; std::this_thread::yield()) {
+    const auto kept = std::make_shared<int>(0);
+    threads.enqueue([kept] {});
+    stopped = kept.use_count() == 1;
+  }
   go_on = true;
   stopping.join();
   threads.enqueue([&] { done.push_back(2); });

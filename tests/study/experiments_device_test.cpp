@@ -3,12 +3,11 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <thread>
+#include "app/gate.hpp"
 #include "study/experiment_program.hpp"
 #include "study/squeezed.hpp"
 
@@ -161,10 +160,12 @@ TEST_CASE("an interrupt ends the measuring after the point in progress, with who
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  Program run({"bench", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"});
-  using namespace std::chrono_literals;
-  for (int i = 0; i < 3000 && !contains(run.messages(), "2,000 rays, tracing"); ++i) std::this_thread::sleep_for(20ms);
+  const Gate gate;
+  Program run({"bench", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"}, gate.at_launches());
+  while (!contains(run.messages(), "2,000 rays, tracing") && !run.ended()) gate.let_launch(50, run);
   run.signal(SIGINT);
+  wait_until_interrupted(run.id());
+  gate.open();
   const Outcome outcome = run.wait();
   CAPTURE(outcome.err);
   CHECK(outcome.code == 130);

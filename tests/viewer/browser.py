@@ -52,6 +52,10 @@ class Page:
         self.driver.get("file://" + os.path.abspath(os.path.join(folder, run, "view.html")))
         WebDriverWait(self.driver, 60).until(lambda d: d.execute_script("return !!window.wavetracer") or self.failed())
 
+    def wait(self, what, holds, seconds=60):
+        """Until it holds; the page may draw in between."""
+        WebDriverWait(self.driver, seconds).until(lambda _: holds(), f"waited {seconds} s for {what}")
+
     def failed(self):
         """False, unless the page has failed before it was ready: then there is nothing to wait for."""
         log = [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]

@@ -196,8 +196,7 @@ assert page.js("return wavetracer.orbit.distance") < after[2]
 page.check("show_city", True)
 dark = picture()
 page.scheme("light")
-time.sleep(0.3)
-assert np.mean(picture()) > np.mean(dark) + 20
+page.wait("the light picture", lambda: np.mean(picture()) > np.mean(dark) + 20)
 assert page.js("return getComputedStyle(document.body).backgroundColor") == "rgb(247, 246, 243)"
 page.check_clean()
 print("drive: pixels, clicks, filters, time and keys are right")

@@ -2,7 +2,6 @@
 (simulated after Machado, Oliveira and Fernandes, 2009), and contrasts with the background. Arguments: browser.py."""
 import itertools
 import sys
-import time
 
 import numpy as np
 from browser import Page
@@ -67,7 +66,7 @@ page = Page(sys.argv[1], "drive")
 colours = {}
 for scheme in ("light", "dark"):
     page.scheme(scheme)
-    time.sleep(0.2)
+    page.wait(scheme, lambda: page.js("return matchMedia('(prefers-color-scheme: ' + arguments[0] + ')').matches", scheme))
     colours[scheme] = page.js("""
       const orders = [1, 3, 5, 9].map((most) => { meta.highest_order = most; return order_colours(); });
       return {kinds: theme().kinds.map(rgb), los: theme().los.map(rgb), orders, ramp: ramp_table(), sky: rgb(theme().sky),
