@@ -17,6 +17,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr uint64_t least_room = uint64_t{16} << 20;  // bytes; the kernels of a run take some megabytes
+
+// Why PoCL cannot keep its cache in the folder; empty where it can. It ends the process where the disk fills up.
+std::string obstacle(const fs::path& folder) {
+  if (std::string why = write_obstacle(folder); !why.empty()) return why;
+  std::error_code error;
+  fs::path there = fs::absolute(folder, error);
+  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  const fs::space_info space = fs::space(there, error);
+  if (error || space.available >= least_room) return "";
+  return fmt::format("{}: {} KiB are left, and {} MiB may be needed", there.string(), space.available >> 10,
+                     least_room >> 20);
+}
+
 // A folder that nobody else can write to, made where it is missing; empty where that cannot be had.
 fs::path own_folder() {
   for (const fs::path& temporary : temporary_folders()) {
@@ -25,7 +39,7 @@ fs::path own_folder() {
     struct stat status = {};
     const bool own = lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == getuid() &&
                      (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
-    if (own && write_obstacle(folder).empty()) return folder;
+    if (own && obstacle(folder).empty()) return folder;
   }
   return {};
 }
@@ -62,10 +76,16 @@ fs::path pocl_cache_folder() {
 }
 
 void give_pocl_a_cache() {
-  if (!environment("POCL_CACHE_DIR").empty()) return;
-  unsetenv("POCL_CACHE_DIR");  // PoCL takes an empty one for a folder
-  const std::string why = write_obstacle(pocl_cache_folder());
+  const bool chosen = !environment("POCL_CACHE_DIR").empty();
+  if (!chosen) unsetenv("POCL_CACHE_DIR");  // PoCL takes an empty one for a folder
+  const std::string why = obstacle(pocl_cache_folder());
   if (why.empty() || !is_installed()) return;
+  if (chosen) {  // by the user, or by an earlier call
+    if (chosen_note().empty())
+      chosen_note() = fmt::format(
+          "PoCL, the OpenCL of CPUs, may fail because of its cache ({}): set POCL_CACHE_DIR to another folder", why);
+    return;
+  }
   const fs::path folder = own_folder();
   if (folder.empty()) return;
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);

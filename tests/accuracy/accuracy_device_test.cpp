@@ -155,7 +155,7 @@ TEST_CASE("the program writes table, plot and page; no link is an error; Ctrl-C 
   const Outcome no_link = run_program({"accuracy", "-c", file, "-o", out, "--set", "links.max_distance_m=1"});
   CHECK(no_link.code == 2);
   CHECK(contains(no_link.err, "has a link, so there is nothing to compare"));
-  const Gate gate;
+  Gate gate;
   Program stopped({"accuracy", "-c", file, "-o", folder.path("cut"), "--repeat", "1000000"}, gate.at_launches());
   while (!contains(stopped.messages(), "your own settings") && !stopped.ended()) gate.let_launch(50, stopped);
   stopped.signal(SIGINT);

@@ -194,7 +194,7 @@ TEST_CASE("an interrupt ends the run after the repeat in progress, with whole fi
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  const Gate gate;
+  Gate gate;
   Program run({"run", "-c", file, "-o", folder.path("out"), "--repeat", "1000000"}, gate.at_launches());
   gate.let_launch(1000, run);  // some repeats
   run.signal(SIGINT);
@@ -211,7 +211,7 @@ TEST_CASE("a run of one frame acknowledges Ctrl-C at once and stops between batc
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  const Gate gate;
+  Gate gate;
   Program run({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.rays=1000000000"},  // minutes
               gate.at_launches());
   while (!contains(run.messages(), "ready after") && !run.ended()) gate.let_launch(10, run);

@@ -69,6 +69,12 @@ for file in (own / "wavetracer/bin/wavetracer", own / "wavetracer/lib/libwavetra
 # The program says what is wrong with the exit code of its own, and reads its own files.
 wrong = subprocess.run(["wavetracer", "run", "-c", "nowhere.toml"], env=clean, cwd=folder, capture_output=True, text=True)
 assert wrong.returncode == 2 and "nowhere.toml" in wrong.stderr, wrong
+# It opens no GDAL of the system beside its own libraries, says what to do, and ends as it should.
+(folder / "town.geojson").write_text('{"type": "FeatureCollection", "features": []}')
+gdal = subprocess.run(["wavetracer", "convert", "town.geojson", "-o", "town"], env=clean | {"LD_DEBUG": "files"},
+                      cwd=folder, capture_output=True, text=True)
+assert gdal.returncode == 1 and "wheels come without it: convert the file with" in gdal.stderr, gdal
+assert "file=libgdal" not in gdal.stderr, gdal
 (folder / "my.toml").write_text(run("wavetracer", "init", "--minimal"))
 run("wavetracer", "run", "-c", "my.toml", "-o", "out")
 run("wavetracer", "view", "out")

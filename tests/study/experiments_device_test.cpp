@@ -160,7 +160,7 @@ TEST_CASE("an interrupt ends the measuring after the point in progress, with who
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  const Gate gate;
+  Gate gate;
   Program run({"bench", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"}, gate.at_launches());
   while (!contains(run.messages(), "2,000 rays, tracing") && !run.ended()) gate.let_launch(50, run);
   run.signal(SIGINT);
