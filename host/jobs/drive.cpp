@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 #include "jobs/claims.hpp"
+#include "jobs/earlier_run.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/shards.hpp"
 #include "jobs/solve_frame.hpp"
@@ -157,6 +158,7 @@ Results drive(const DriveTask& task, Progress& progress) {
   const std::string& directory = task.run.config.output.directory;
   Shards shards(directory, task.identity, task.run.summary.inputs, task.run.config.text);
   remove_claims(shards.folder());  // of processes that shared the folder and were killed
+  remove_dead_temporaries(shards.folder());
   if (task.resume) {
     shards.resume();
     say_what_is_there(shards, task.identity, directory, progress);

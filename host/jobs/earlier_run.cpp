@@ -12,6 +12,7 @@
 #include <vector>
 #include "base/output_place.hpp"
 #include "jobs/manifest.hpp"
+#include "jobs/process_files.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -23,7 +24,7 @@ constexpr std::array<std::string_view, 9> output_names{"paths.h5",     "waypoint
                                                        "responses.h5", "beams.h5",     "carriers.h5",
                                                        "links.csv",    "summary.json", "view.html"};
 constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_file = "run.json",
-                           merged_name = "merged.json";
+                           merged_name = "merged.json", job_file = "job.json";
 
 // Files of the folder for which `which` holds of their names.
 template <typename Which>
@@ -49,7 +50,7 @@ bool is_output(const std::string& name) { return std::ranges::find(output_names,
 bool is_temporary(const std::string& name) {
   if (!name.ends_with(".tmp")) return false;
   return name.starts_with(manifest_prefix) || name.starts_with(shard_prefix) || name.starts_with(record_file) ||
-         name.starts_with(merged_name) ||
+         name.starts_with(merged_name) || name.starts_with(job_file) ||
          std::ranges::any_of(output_names, [&](std::string_view output) { return name.starts_with(output); });
 }
 
@@ -109,6 +110,16 @@ void remove_merged_shards(const fs::path& directory) {
   remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_prefix); });
   sync_folder(folder);  // likewise
   remove_files(folder, [](const std::string& name) { return name.starts_with(shard_prefix); });
+}
+
+void remove_dead_temporaries(const fs::path& shards) {
+  std::vector<std::string> living;  // endings of their names
+  for (const ProcessInfo& process : processes_in(shards))
+    if (alive(process)) living.push_back(fmt::format(".{}.tmp", process.pid));
+  remove_files(shards, [&living](const std::string& name) {
+    return is_temporary(name) &&
+           std::ranges::none_of(living, [&](const std::string& ending) { return name.ends_with(ending); });
+  });
 }
 
 void remove_temporaries(const fs::path& folder) { remove_files(folder, is_temporary); }

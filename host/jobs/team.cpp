@@ -9,6 +9,7 @@
 #include "base/pending_file.hpp"
 #include "base/read_text.hpp"
 #include "jobs/claims.hpp"
+#include "jobs/earlier_run.hpp"
 #include "jobs/interrupt.hpp"
 #include "wavetracer/error.hpp"
 
@@ -54,6 +55,8 @@ class Team {
     mark(true);
     shards_.remove_merged();
     remove_claims(shards_.folder());
+    remove_dead_temporaries(shards_.folder());
+    remove_dead_processes(shards_.folder());
     return shared;
   }
 
@@ -103,6 +106,7 @@ class Team {
   void prepare() {
     remove_dead_processes(shards_.folder());
     remove_claims(shards_.folder(), "prepare_");
+    remove_dead_temporaries(shards_.folder());
     if (task_.resume) {
       shards_.resume();
       say_damaged(shards_, progress_);
@@ -206,6 +210,7 @@ Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessIn
 Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
   Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text);
   remove_claims(shards.folder());  // of processes that shared the folder otherwise, and were killed
+  remove_dead_temporaries(shards.folder());
   if (task.resume) shards.find_complete();
   shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
   say_damaged(shards, progress);
