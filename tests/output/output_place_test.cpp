@@ -151,6 +151,16 @@ TEST_CASE("a folder behind a link is made there, and what is no folder is refuse
   CHECK(type_of(folder.path() / "link") == fs::file_type::symlink);
   CHECK(slurp(folder.path() / "disk/new/a/b") == "text");
   CHECK_THROWS_AS(PendingFolder(folder.path() / "link"), InputError);
+  // Files that join others keep links among them.
+  fs::create_symlink("../far", folder.path() / "disk/new/far");
+  PendingFolder more(folder.path() / "link", PendingFolder::Earlier::kept);
+  more.append("far", "beyond");
+  more.append("near", "here");
+  more.commit();
+  CHECK(type_of(folder.path() / "disk/new/far") == fs::file_type::symlink);
+  CHECK(slurp(folder.path() / "disk/far") == "beyond");
+  CHECK(slurp(folder.path() / "disk/new/near") == "here");
+  CHECK(files_in(folder.path() / "disk") == 2);
   const fs::path pipe = folder.path() / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   CHECK_THROWS_WITH_AS(PendingFolder{pipe}, doctest::Contains("this is no folder"), InputError);
