@@ -56,6 +56,7 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_serve(program, invocation);
   wavetracer::app::add_help(program);
   wavetracer::app::add_documentation(program);
+  wavetracer::app::refuse_non_finite(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
@@ -143,6 +144,18 @@ std::string usage_problem(const CLI::App& program, const CLI::ParseError& error)
   const std::string what = problem(*command.app, error);
   return fmt::format("{}{}{} `wavetracer help{}`", command.path.empty() ? "" : command.path + ": ", what,
                      what.ends_with('?') ? " See" : "; see", command.path.empty() ? "" : " " + command.path);
+}
+
+void refuse_non_finite(CLI::App& program) {
+  for (CLI::Option* const option : program.get_options()) {
+    if (!option->get_type_name().starts_with("FLOAT")) continue;
+    option->check([](const std::string& text) {
+      double value = 0;
+      const bool number = CLI::detail::lexical_cast(text, value);
+      return !number || std::isfinite(value) ? std::string() : fmt::format("{} is not a finite number", text);
+    });
+  }
+  for (CLI::App* const command : program.get_subcommands({})) refuse_non_finite(*command);
 }
 
 void add_help(CLI::App& program) {

@@ -51,6 +51,23 @@ void check_carriers(const RadioConfig& radio, std::vector<Contradiction>& out) {
         {{"radio.frequencies_hz"}, fmt::format("radio.frequencies_hz has {} twice: name each carrier once", *twice)});
 }
 
+// Half of a band lies below its carrier, and there are no frequencies below zero.
+void check_bands(const Config& config, std::vector<Contradiction>& out) {
+  const RadioConfig& radio = config.radio;
+  std::vector<double> carriers = radio.frequencies_hz;
+  if (carriers.empty()) carriers.push_back(radio.frequency_hz);
+  const double lowest_hz = *std::ranges::min_element(carriers);
+  const auto check = [&](const char* key, std::optional<double> bandwidth_hz) {
+    if (bandwidth_hz && *bandwidth_hz / 2 >= lowest_hz)
+      out.push_back({{key, radio.frequencies_hz.empty() ? "radio.frequency_hz" : "radio.frequencies_hz"},
+                     fmt::format("{} = {:g}: half of it is more than the carrier of {:g} Hz, so the band would reach "
+                                 "below 0 Hz: give less than twice the carrier",
+                                 key, *bandwidth_hz, lowest_hz)});
+  };
+  check("radio.bandwidth_hz", radio.bandwidth_hz);
+  check("response.bandwidth_hz", config.response.bandwidth_hz);
+}
+
 }  // namespace
 
 void check_arrays(const Config& config, std::vector<Contradiction>& out) {
@@ -63,6 +80,7 @@ void check_arrays(const Config& config, std::vector<Contradiction>& out) {
   check_references("mount", config.mounts, names, out);
   for (size_t i = 0; i < config.arrays.size(); ++i) check_panel(config.arrays[i], fmt::format("array.{}", i), out);
   check_carriers(config.radio, out);
+  check_bands(config, out);
 }
 
 }  // namespace wavetracer::config

@@ -88,6 +88,7 @@ Table array_table() {
               {.name = "positions_m",
                .slot = a(&ArrayConfig::positions_m),
                .unit = "m",
+               .range = places,
                .doc =
                    "Instead of a panel: the position of each element relative to the antenna's position, in the axes "
                    "of the antenna (x: boresight, y: left, z: up).",

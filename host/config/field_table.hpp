@@ -36,6 +36,11 @@ struct Range {
   bool lower_open = false;
 };
 
+// Ranges of what has no nearer bound. Coordinates of files are 10^7 m at most; antennas are within 10^6 m of
+// the middle of their scene, which world.cpp checks. Doppler shifts are of first order in v / c, and no antenna is as
+// fast as light: 10^8 m/s a component. Times since 1970 are 2 10^9 s.
+constexpr Range places{-1e9, 1e9}, speeds{-1e8, 1e8}, angles{-1e6, 1e6}, instants{-1e12, 1e12};
+
 enum class Form {
   plain,           // a value, or one of `choices`
   choice_or_file,  // one of `choices`, or the path of a file
@@ -79,6 +84,8 @@ std::string literal(const Field& field, const Slot& slot);
 bool replaced(const Table& table, const Field& field, Config& config, size_t element);
 // "required", and the key that may stand in its place.
 std::string required_text(const Field& field);
+// A number of this range, in words: `a number from 1 to 3`, `a finite number`.
+std::string number_of(const Range& range);
 // What a field accepts, in words: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
 std::string accepted(const Field& field);
 

@@ -12,6 +12,7 @@ Field grid_border(std::string name, std::optional<double> ReceiverGridConfig::*m
   return {.name = std::move(name),
           .slot = of_grid(member),
           .unit = "m",
+          .range = places,
           .doc = side + " border of the grid, in the coordinates of the scene file. Not given: that of the scene.",
           .example = std::move(example)};
 }
@@ -21,6 +22,7 @@ Field grid_corner(std::string name, std::optional<std::array<double, 2>> Receive
   return {.name = std::move(name),
           .slot = of_grid(member),
           .unit = "degrees",
+          .range = angles,
           .doc = std::move(doc),
           .example = std::move(example)};
 }
@@ -64,6 +66,7 @@ Table receiver_grid_table() {
               {.name = "height_m",
                .slot = of_grid(&ReceiverGridConfig::height_m),
                .unit = "m",
+               .range = places,
                .doc =
                    "Height of the receivers. 1.5 m is the height of a phone, and of an antenna on the roof of a car."},
               {.name = "above",
@@ -78,6 +81,7 @@ Table receiver_grid_table() {
               {.name = "orientation_deg",
                .slot = of_grid(&ReceiverGridConfig::orientation_deg),
                .unit = "degrees",
+               .range = angles,
                .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
           },
       .append = append<&Config::receiver_grids>,

@@ -48,37 +48,42 @@ Table air_table() {
 
 Table vegetation_table() {
   const auto v = [](auto member) { return at(&Config::vegetation, member); };
-  return {
-      .name = "vegetation",
-      .doc =
-          "A volume of leaves and twigs, as the crown of a tree or a hedge: waves pass it and lose power per "
-          "metre inside (ITU-R P.833-10). It reflects nothing and stops no ray. Closed meshes of the scene "
-          "whose material is vegetation are the same. See docs/outdoors.md.",
-      .fields =
-          {
-              {.name = "shape",
-               .slot = v(&VegetationConfig::shape),
-               .doc = "What fills the box of size_m: the box itself, an upright cylinder, or a spheroid."},
-              {.name = "centre_m",
-               .slot = v(&VegetationConfig::centre_m),
-               .unit = "m",
-               .required = true,
-               .doc = "x, y, z of the middle in the coordinates of the scene file.",
-               .example = "[20.0, 4.0, 6.0]"},
-              {.name = "size_m",
-               .slot = v(&VegetationConfig::size_m),
-               .unit = "m",
-               .required = true,
-               .doc = "Along x, y and z, before the turn.",
-               .example = "[5.0, 5.0, 7.0]"},
-              {.name = "yaw_deg", .slot = v(&VegetationConfig::yaw_deg), .unit = "degrees", .doc = "The turn about z."},
-              {.name = "material",
-               .slot = v(&VegetationConfig::material),
-               .doc = "\"vegetation\", \"deciduous_vegetation\", or a [[material]] with the key vegetation."},
-          },
-      .append = append<&Config::vegetation>,
-      .count = count<&Config::vegetation>,
-      .optional = true};
+  return {.name = "vegetation",
+          .doc =
+              "A volume of leaves and twigs, as the crown of a tree or a hedge: waves pass it and lose power per "
+              "metre inside (ITU-R P.833-10). It reflects nothing and stops no ray. Closed meshes of the scene "
+              "whose material is vegetation are the same. See docs/outdoors.md.",
+          .fields =
+              {
+                  {.name = "shape",
+                   .slot = v(&VegetationConfig::shape),
+                   .doc = "What fills the box of size_m: the box itself, an upright cylinder, or a spheroid."},
+                  {.name = "centre_m",
+                   .slot = v(&VegetationConfig::centre_m),
+                   .unit = "m",
+                   .range = places,
+                   .required = true,
+                   .doc = "x, y, z of the middle in the coordinates of the scene file.",
+                   .example = "[20.0, 4.0, 6.0]"},
+                  {.name = "size_m",
+                   .slot = v(&VegetationConfig::size_m),
+                   .unit = "m",
+                   .range = places,
+                   .required = true,
+                   .doc = "Along x, y and z, before the turn.",
+                   .example = "[5.0, 5.0, 7.0]"},
+                  {.name = "yaw_deg",
+                   .slot = v(&VegetationConfig::yaw_deg),
+                   .unit = "degrees",
+                   .range = angles,
+                   .doc = "The turn about z."},
+                  {.name = "material",
+                   .slot = v(&VegetationConfig::material),
+                   .doc = "\"vegetation\", \"deciduous_vegetation\", or a [[material]] with the key vegetation."},
+              },
+          .append = append<&Config::vegetation>,
+          .count = count<&Config::vegetation>,
+          .optional = true};
 }
 
 }  // namespace wavetracer::config

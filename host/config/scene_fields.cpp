@@ -24,6 +24,7 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
               {.name = "position_m",
                .slot = e(&RadioEnd::position_m),
                .unit = "m",
+               .range = places,
                .required = true,
                .instead = "position_wgs84",
                .doc = "x, y, z in the coordinates of the scene file.",
@@ -31,6 +32,7 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
               {.name = "position_wgs84",
                .slot = e(&RadioEnd::position_wgs84),
                .unit = "degrees, degrees, m",
+               .range = places,
                .doc = "Instead of position_m: latitude, longitude (WGS84) and height above the ground of the scene, "
                       "which needs a georeference.json beside its file (`wavetracer convert` writes one).",
                .example = "[48.137, 11.575, 6.0]"},
@@ -44,10 +46,12 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
               {.name = "orientation_deg",
                .slot = e(&RadioEnd::orientation_deg),
                .unit = "degrees",
+               .range = angles,
                .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
               {.name = "velocity_m_s",
                .slot = e(&RadioEnd::velocity_m_s),
                .unit = "m/s",
+               .range = speeds,
                .doc = "Velocity along x, y, z. It gives the Doppler shift of each path; the position does not change."},
           },
       .append = append<List>,
@@ -181,7 +185,8 @@ Table material_table() {
                    .slot = m(&MaterialConfig::thickness_m),
                    .unit = "m",
                    .range = {0, infinity, true},
-                   .doc = "Thickness of the slab; inf is a half space. Not given: the thickness in the scene file, or "
+                   .doc = "Thickness of the slab; inf is a half space, and so is what is thicker than 2^44 radians. "
+                          "Not given: the thickness in the scene file, or "
                           "0.1 m if it has none.",
                    .example = "0.3"},
                   {.name = "scattering",

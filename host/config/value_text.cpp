@@ -13,6 +13,14 @@ namespace {
 
 std::string short_number(double x) { return std::isinf(x) ? "inf" : fmt::format("{:.10g}", x); }
 
+std::string ranged(std::string_view noun, const Range& r) {
+  std::string out(noun);
+  const double largest = std::numeric_limits<double>::max();
+  if (r.lower > -largest) out += (r.lower_open ? " above " : " from ") + short_number(r.lower);
+  if (r.upper < largest || std::isinf(r.upper)) out += (r.lower_open ? " up to " : " to ") + short_number(r.upper);
+  return out;
+}
+
 }  // namespace
 
 std::string number_text(double x) {
@@ -89,17 +97,15 @@ std::string required_text(const Field& field) {
   return field.instead.empty() ? "required" : "required, or `" + field.instead + "`";
 }
 
+std::string number_of(const Range& range) {
+  const std::string out = ranged("a number", range);
+  return out == "a number" ? "a finite number" : out;
+}
+
 std::string accepted(const Field& field) {
   Config sample = prototype();
   const std::string unit = field.unit.empty() ? "" : " (" + field.unit + ")";
-  const auto range = [&](std::string_view noun) {
-    const Range& r = field.range;
-    std::string out(noun);
-    const double largest = std::numeric_limits<double>::max();
-    if (r.lower > -largest) out += (r.lower_open ? " above " : " from ") + short_number(r.lower);
-    if (r.upper < largest || std::isinf(r.upper)) out += (r.lower_open ? " up to " : " to ") + short_number(r.upper);
-    return out + unit;
-  };
+  const auto range = [&](std::string_view noun) { return ranged(noun, field.range) + unit; };
   std::string choices;
   for (const std::string& choice : field.choices) choices += (choices.empty() ? "" : ", ") + toml_string(choice);
   return std::visit(
@@ -111,15 +117,15 @@ std::string accepted(const Field& field) {
           },
           [&](const ChoiceSlot&) -> std::string { return "one of " + choices; },
           [&](const bool*) -> std::string { return "true or false"; },
-          [&](const std::array<double, 3>*) -> std::string { return "three numbers" + unit; },
-          [&](const std::optional<std::array<double, 2>>*) -> std::string { return "two numbers" + unit; },
-          [&](const std::optional<std::array<double, 3>>*) -> std::string { return "three numbers" + unit; },
+          [&](const std::array<double, 3>*) -> std::string { return range("three numbers"); },
+          [&](const std::optional<std::array<double, 2>>*) -> std::string { return range("two numbers"); },
+          [&](const std::optional<std::array<double, 3>>*) -> std::string { return range("three numbers"); },
           [&](const Aliases*) -> std::string { return "a table of strings"; },
           [&](const std::vector<std::string>*) -> std::string { return "a string or an array of strings"; },
           [&](const std::vector<double>*) -> std::string { return range("an array of numbers"); },
-          [&](const std::vector<std::array<double, 3>>*) -> std::string { return "an array of [x, y, z]" + unit; },
+          [&](const std::vector<std::array<double, 3>>*) -> std::string { return range("an array of [x, y, z]"); },
           [&](const std::vector<std::array<double, 4>>*) -> std::string {
-            return (field.name == "waypoints" ? "an array of [time, x, y, z]" : "an array of four numbers each") + unit;
+            return range(field.name == "waypoints" ? "an array of [time, x, y, z]" : "an array of four numbers each");
           },
           [&]<class T>(const T*) -> std::string {
             return range(is_integer<T> ? "an integer" : "a number") + (choices.empty() ? "" : " or " + choices);

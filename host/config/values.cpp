@@ -130,7 +130,7 @@ std::string assign_vector(const Field& field, const std::string& key, std::array
     if (!node.is_number()) return fmt::format("{} must be a number, not {}", element, kind_of(node));
     to[i] = *node.value<double>();
     if (!inside(to[i], field.range))
-      return fmt::format("{} = {} is out of range: it must be a finite number", element, unquoted(node));
+      return fmt::format("{} = {} is out of range: it must be {}", element, unquoted(node), number_of(field.range));
   }
   return {};
 }

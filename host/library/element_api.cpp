@@ -1,5 +1,6 @@
 // The functions of wavetracer.h about the elements of arrays.
 #include <algorithm>
+#include <span>
 #include "library/handles.hpp"
 #include "wavetracer/arrays.hpp"
 
@@ -55,6 +56,15 @@ void copy_values(const char* function, const std::vector<std::complex<double>>& 
     *to++ = value.real();
     *to++ = value.imag();
   }
+}
+
+// Phases have no digits left beyond, and NaN would be an answer.
+void check_numbers(const char* here, const char* name, std::span<const double> values, double least, double most) {
+  for (size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] >= least && values[i] <= most))
+      throw ConfigError(std::string(here) + ": " + name + "[" + std::to_string(i) + "] is " +
+                        std::to_string(values[i]) + ", which is no number from " + std::to_string(least) + " to " +
+                        std::to_string(most));
 }
 
 }  // namespace
@@ -141,6 +151,8 @@ int wavetracer_response(const wavetracer_simulation* self, const wavetracer_fram
       throw ConfigError(std::string(here) + ": there is no link from transmitter " + std::to_string(tx) +
                         " to receiver " + std::to_string(rx));
     check_room(here, count, frequency_count * time_count * model.rx_antennas(rx) * model.tx_antennas(tx));
+    check_numbers(here, "frequencies_hz", {&needed(frequencies_hz, here, "frequencies_hz"), frequency_count}, 0, 1e13);
+    check_numbers(here, "times_s", {&needed(times_s, here, "times_s"), time_count}, -1e12, 1e12);
     copy_values(here,
                 model.response(of.result, {tx, rx}, {&needed(frequencies_hz, here, "frequencies_hz"), frequency_count},
                                {&needed(times_s, here, "times_s"), time_count}, carrier),

@@ -16,6 +16,9 @@
 namespace wavetracer {
 namespace {
 
+// As the keys of the configuration take them (config/field_table.hpp).
+constexpr double farthest_m = 1e9, fastest_m_s = 1e8, most_time_s = 1e12;
+
 // The first of the names, for messages.
 std::string listed(const std::vector<std::string>& names) {
   constexpr size_t shown = 5;
@@ -35,8 +38,20 @@ TrackBuilder::TrackBuilder(std::string file, const TrajectoryOptions& options)
   if (options.default_type) check_type(*options.default_type);
 }
 
+// Files are full of numbers that a program had no value for, such as 1e308.
+void TrackBuilder::check_sizes(const Sample& sample, uint64_t line, std::string_view what) const {
+  const auto check = [&](double value, double most, const char* name, const char* unit) {
+    if (std::abs(value) > most)  // false for what is not given
+      fail_at(file_, line, fmt::format("{}: its {} is {:g} {}, and {:g} is the most", what, name, value, unit, most));
+  };
+  check(sample.time_s, most_time_s, "time", "s");
+  for (int axis = 0; axis < 3; ++axis) check(sample.position_m[axis] * options_.scale, farthest_m, "position", "m");
+  check(sample.speed_m_s, fastest_m_s, "speed", "m/s");
+}
+
 void TrackBuilder::add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line,
                        std::string_view what, const std::optional<glm::dvec3>& size_m) {
+  check_sizes(sample, line, what);
   const auto found = track_of_.find(id);
   if (found == track_of_.end()) {
     if (has_control_character(id) || has_control_character(type))

@@ -47,6 +47,7 @@ class TrackBuilder {
   Trajectories finish(ReferencePoint reference);
 
  private:
+  void check_sizes(const Sample& sample, uint64_t line, std::string_view what) const;
   void place(Track& track);
   uint32_t type_index(std::string_view name, uint64_t line, const std::optional<glm::dvec3>& size_m);
 

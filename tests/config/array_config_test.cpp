@@ -75,6 +75,16 @@ TEST_CASE("arrays that contradict themselves or are not there are refused where 
   check_contains(error_of(scene + ends + array + "vertical_spacing_m = 0\n"), "out of range");
 }
 
+TEST_CASE("a band that reaches below 0 Hz is refused") {
+  const std::string radio = scene + ends + "[radio]\nfrequency_hz = 1e9\n", budget = "transmit_power_dbm = 20\n";
+  check_contains(error_of(radio + "[response]\nbandwidth_hz = 2e9\n"),
+                 "a.toml:11:16: response.bandwidth_hz = 2e+09: half of it is more than the carrier of 1e+09 Hz");
+  check_contains(error_of(radio + budget + "bandwidth_hz = 3e9\n"), "radio.bandwidth_hz = 3e+09: half of it");
+  check_contains(error_of(scene + ends + "[radio]\nfrequencies_hz = [6e9, 1e8]\n[response]\nbandwidth_hz = 4e8\n"),
+                 "the carrier of 1e+08 Hz");
+  CHECK(error_of(radio + budget + "bandwidth_hz = 1.9e9\n[response]\nbandwidth_hz = 1.9e9\n") == "no error");
+}
+
 TEST_CASE("a station has an array, which must be there") {
   const std::string station = "[[station]]\nname = \"rsu\"\nposition_m = [1, 2, 5]\narray = \"panel\"\n";
   const Config c = parse_config(scene + ends + station + "[[array]]\nname = \"panel\"\nrows = 2\n", "/data/a.toml");

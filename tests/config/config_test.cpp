@@ -117,7 +117,7 @@ TEST_CASE("numbers outside their range, NaN and infinity") {
   check_contains(error_of(scene + ends + "[[receiver]]\nname = \"n\"\nposition_m = [0, 0, -inf]\n"),
                  "receiver.position_m[2] = -inf is out of range");
   check_contains(error_of(scene + ends + "[[receiver]]\nname = \"n\"\nposition_m = [0, 0]\n"),
-                 "must be three numbers (m), not 2");
+                 "must be three numbers from -1000000000 to 1000000000 (m), not 2");
   check_contains(error_of(scene + ends + "[[receiver]]\nname = \"n\"\nposition_m = [0, 0, \"1\"]\n"),
                  "receiver.position_m[2] must be a number, not a string");
 }

@@ -79,7 +79,7 @@ TEST_CASE("corners in degrees that exclude a border or are no place on the earth
   check_contains(error_of(scene + ends + grid + "north_east_wgs84 = [48, -181]\n"),
                  "a.toml:10:20: latitude 48 and longitude -181 are no place on the earth");
   check_contains(error_of(scene + ends + grid + "north_east_wgs84 = [48, 11, 6]\n"),
-                 "receiver_grid.north_east_wgs84 must be two numbers (degrees), not 3");
+                 "receiver_grid.north_east_wgs84 must be two numbers from -1000000 to 1000000 (degrees), not 3");
 }
 
 TEST_CASE("a grid takes the place of receivers") {

@@ -168,7 +168,9 @@ TEST_CASE("values that are no such thing, with their place") {
   const auto waypoints = [](const std::string& value) {
     return error_of(scene + ends + "[[track]]\nid = \"e\"\nwaypoints = " + value + "\n");
   };
-  check_contains(waypoints("3"), "a.toml:10:13: track.waypoints must be an array of [time, x, y, z] (s, m, m, m), not");
+  check_contains(
+      waypoints("3"),
+      "a.toml:10:13: track.waypoints must be an array of [time, x, y, z] from -1e+12 to 1e+12 (s, m, m, m), not");
   check_contains(waypoints("[[0, 1, 2]]"), "track.waypoints[0] must be four numbers (s, m, m, m), not 3");
   check_contains(waypoints("[[0, 1, 2, 3], 4]"), "track.waypoints[1] must be four numbers (s, m, m, m), not an int");
   check_contains(waypoints("[[0, 1, 2, nan]]"), "track.waypoints[0][3] = nan is out of range");

@@ -240,6 +240,11 @@ static void check_arrays(void) {
   check_error(error, WAVETRACER_USAGE, "no carrier 2, only 2");
   CHECK(wavetracer_element_coefficients(simulation, frame, 9, 0, a, 2, &error) == 0);
   check_error(error, WAVETRACER_USAGE, "no path 9");
+  const double not_a_number = nan(""), late_s = 1e300, some_hz = 1e9;
+  CHECK(wavetracer_response(simulation, frame, 0, 0, 0, &not_a_number, 1, places, 1, h, 4, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "frequencies_hz[0] is ");
+  CHECK(wavetracer_response(simulation, frame, 0, 0, 0, &some_hz, 1, &late_s, 1, h, 4, &error) == 0);
+  check_error(error, WAVETRACER_USAGE, "times_s[0] is ");
   CHECK(wavetracer_response(simulation, frame, 0, 7, 0, places, 1, places, 1, h, 16, &error) == 0);
   check_error(error, WAVETRACER_USAGE, "no link from transmitter 0 to receiver 7");
   wavetracer_column responses, carriers;

@@ -91,6 +91,10 @@ TEST_CASE("CSV errors name file, line and column") {
   fails(header + "0,a,1,2\n", "drive.csv:2: the row has 4 cells, the header 5");
   fails(header + "0,a,1,2,3,4\n", "drive.csv:2: the row has 6 cells, the header 5");
   fails(header + "0,a,1,2,3\n\n1,a,nan,2,3\n", "drive.csv:4: column 3 (x): 'nan' is not a finite number");
+  fails(header + "0,a,1,2,3\n1,a,1e308,2,3\n",
+        "drive.csv:3: vehicle 'a': its position is 1e+308 m, and 1e+09 is the most");
+  fails(header + "-1e300,a,1,2,3\n", "drive.csv:2: vehicle 'a': its time is -1e+300 s, and 1e+12 is the most");
+  fails("time,id,x,y,speed\n0,a,1,2,3e8\n", "drive.csv:2: vehicle 'a': its speed is 3e+08 m/s, and 1e+08 is the most");
   fails(header + "0,a,1,2,\n", "drive.csv:2: column 5 (z): '' is not a finite number");
   fails(header + ",a,1,2,3\n", "drive.csv:2: column 1 (time): '' is not a finite number");
   fails(header + "0,,1,2,3\n", "drive.csv:2: column 2 (id) is empty");

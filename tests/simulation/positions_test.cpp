@@ -150,7 +150,9 @@ TEST_CASE("what has no place says which and why") {
       "\"tx\": its height is above the ground, but there is no ground at");
   has(problem(receiver + tx + "position_wgs84 = [95, 11.575, 6]\n"),
       "test.toml:8:18: latitude 95 and longitude 11.575 are no place");
-  has(problem(receiver + tx), "[[transmitter]] has no position_m: give it three numbers (m), or give position_wgs84");
+  has(problem(receiver + tx),
+      "[[transmitter]] has no position_m: give it three numbers from -1000000000 to 1000000000 (m), or give "
+      "position_wgs84");
   has(problem(receiver + tx + "position_wgs84 = [48, 11, 6]\nposition_m = [0, 0, 0]\n"),
       "[[transmitter]] has both position_m and position_wgs84");
   Config city = HillSide().config(receiver + tx + "position_wgs84 = [48.137, 11.575, 6]\n");
