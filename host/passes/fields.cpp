@@ -92,7 +92,7 @@ void Fields::begin_read_carrier(RowCounts expected) {
 CarrierFields Fields::carrier(RowCounts count) {
   if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, "fields");
   CarrierFields out;
-  fill_carrier(out, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows}, ports_);
+  near_edges_ = fill_carrier(out, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows}, ports_);
   return out;
 }
 
@@ -101,8 +101,8 @@ Paths Fields::columns(RowCounts count) {
   if (count.vertices > read_.vertices) vertices_.read(0, count.vertices, host_vertices_, "fields");
   Paths paths = std::exchange(room_, {});
   resize_columns(paths, count.rows, count.vertices, frame_);
-  fill_columns(paths, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows},
-               {static_cast<const device::wt_vertex_row*>(host_vertices_.data()), count.vertices});
+  near_edges_ = fill_columns(paths, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows},
+                             {static_cast<const device::wt_vertex_row*>(host_vertices_.data()), count.vertices});
   return paths;
 }
 

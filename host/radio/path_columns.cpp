@@ -5,6 +5,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace wavetracer {
 namespace {
@@ -78,22 +79,28 @@ void resize_columns(Paths& paths, size_t rows, size_t vertices, uint32_t frame) 
   resize_vertices(paths, vertices);
 }
 
-void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
-                  std::span<const device::wt_vertex_row> vertices) {
+uint32_t fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
+                      std::span<const device::wt_vertex_row> vertices) {
   paths.vertex_offset[rows.size()] = vertices.size();
+  std::atomic<uint32_t> near_edges = 0;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, rows.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
+    uint32_t near = 0;
     for (size_t row = range.begin(); row < range.end(); ++row) {
       take_row(paths, row, rows[row]);
+      near += (rows[row].quarters & WT_ROW_NEAR_EDGE) != 0;
       const size_t end = row + 1 < rows.size() ? rows[row + 1].first_vertex : vertices.size();
       paths.depth[row] = static_cast<uint32_t>(end - rows[row].first_vertex);
     }
+    if (near > 0) near_edges += near;
   });
   tbb::parallel_for(tbb::blocked_range<size_t>(0, vertices.size(), 1024), [&](const tbb::blocked_range<size_t>& range) {
     for (size_t at = range.begin(); at < range.end(); ++at) take_vertex(paths, at, vertices[at]);
   });
+  return near_edges;
 }
 
-void fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports) {
+uint32_t fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports) {
+  std::atomic<uint32_t> near_edges = 0;
   fields.a.resize(rows.size());
   fields.gain_db.resize(rows.size());
   fields.doppler_hz.resize(rows.size());
@@ -101,7 +108,9 @@ void fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> ro
     fields.a[row] = port_matrix(rows[row], ports);
     fields.gain_db[row] = rows[row].gain_db;
     fields.doppler_hz[row] = rows[row].doppler_hz;
+    if (rows[row].quarters & WT_ROW_NEAR_EDGE) ++near_edges;
   });
+  return near_edges;
 }
 
 Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,

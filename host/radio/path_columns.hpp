@@ -18,10 +18,11 @@ Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports);
 // Room for another number of them.
 void resize_columns(Paths& paths, size_t rows, size_t vertices, uint32_t frame);
 // Fills paths of these sizes. rows: in their order; vertices: of all rows, one after the other.
-void fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
-                  std::span<const device::wt_vertex_row> vertices);
-// Of the same rows at another carrier, what differs there.
-void fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports);
+// Returns how many have WT_ROW_NEAR_EDGE.
+uint32_t fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
+                      std::span<const device::wt_vertex_row> vertices);
+// Of the same rows at another carrier, what differs there; returns likewise.
+uint32_t fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports);
 // Both of the first two.
 Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
                  uint32_t frame, Ports ports);

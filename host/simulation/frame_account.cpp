@@ -1,6 +1,11 @@
 // Seconds of device stages come from the profile of the context, which starts at zero with the frame.
 #include "simulation/frame_account.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "radio/constants.hpp"
 #include "wavetracer/stages.hpp"
 
 namespace wavetracer {
@@ -28,6 +33,16 @@ void FrameAccount::counted(const wt_counters& counters, uint32_t transmitter_cou
 
 void FrameAccount::left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name) {
   if (!paths.empty()) warn(left_out_warning(paths, transmitter_name, receiver_name));
+}
+
+void FrameAccount::near_edges(const std::vector<uint32_t>& paths_at, const std::vector<CarrierFields>& others,
+                              double first_hz) {
+  for (size_t i = 0; i < std::min(paths_at.size(), others.size() + 1); ++i)
+    if (paths_at[i] > 0)
+      warn(fmt::format(
+          "{} of {} paths are diffracted less than a wavelength ({:.3g} m) from an antenna or from another edge, or at "
+          "an edge that is shorter than that: the theory ends there, and such fields may be wrong by 3 dB and more",
+          paths_at[i], result.paths.size(), speed_of_light_m_s / (i == 0 ? first_hz : others[i - 1].frequency_hz)));
 }
 
 FrameResult FrameAccount::close() {

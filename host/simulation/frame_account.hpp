@@ -24,6 +24,8 @@ class FrameAccount {
   void warn(std::string text) { result.warnings.push_back(std::move(text)); }
   // Paths of near ends that were left out. names: of the ends of the frame.
   void left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name);
+  // Paths that are closer to an edge than the theory of diffraction goes: at the first carrier and the others.
+  void near_edges(const std::vector<uint32_t>& paths_at, const std::vector<CarrierFields>& others, double first_hz);
   // The result, complete.
   FrameResult close();
 

@@ -160,3 +160,42 @@ TEST_CASE("a thick lossy slab is a half space") {
     CHECK(std::abs(thick.transmission_te) < 1e-50);
   }
 }
+
+TEST_CASE("extremes: finite, and no more power than comes in, for all that a material and a carrier may be") {
+  for (const double relative : {1e-30, 1e-3, 1.0, 1.0 + 1e-15, 5.24, 1e6, 1e36})
+    for (const double loss : {0.0, 1e-30, 1e-9, 1.0, 1e12, 1e22, 1e50})
+      for (const double thickness_m :
+           {1e-300, 1e-30, 1e-3, 0.1, 1e6, 5e6, 1e7, 1e9, 1e12, 1e14, 1e16, 1e20, 1e300, infinity})
+        for (const double wave_m : {300.0, wavelength_m, 3e-4})
+          for (const double cos_theta : {1.0, 0.6, 1e-3, 1e-12, 0.0}) {
+            CAPTURE(relative);
+            CAPTURE(loss);
+            CAPTURE(thickness_m);
+            CAPTURE(wave_m);
+            CAPTURE(cos_theta);
+            const SlabCoefficients s = slab_coefficients({relative, -loss}, cos_theta, thickness_m, wave_m);
+            REQUIRE(finite(s));
+            const double te = std::norm(s.reflection_te) + std::norm(s.transmission_te);
+            const double tm = std::norm(s.reflection_tm) + std::norm(s.transmission_tm);
+            REQUIRE(te <= 1 + 1e-8);  // where nearly nothing is there and grazed, 1 - cos^2 has lost half of its digits
+            REQUIRE(tm <= 1 + 1e-8);
+          }
+}
+
+TEST_CASE("a slab without loss keeps all power up to 2^44 rad of thickness, and is a half space from there on") {
+  const double s = std::sqrt(5.24 - 0.75), rad_m = 2 * std::numbers::pi / wavelength_m * s;
+  const SlabCoefficients half = slab_coefficients(5.24, 0.5, infinity, wavelength_m);
+  for (const double log2_rad : {10.0, 29.9, 30.1, 31.5, 35.0, 43.9}) {
+    CAPTURE(log2_rad);
+    const SlabCoefficients slab = slab_coefficients(5.24, 0.5, std::exp2(log2_rad) / rad_m, wavelength_m);
+    CHECK(std::norm(slab.reflection_te) + std::norm(slab.transmission_te) == test::near(1, 1e-12));
+    CHECK(std::norm(slab.reflection_tm) + std::norm(slab.transmission_tm) == test::near(1, 1e-12));
+  }
+  for (const double log2_rad : {44.1, 60.0, 1000.0}) {
+    CAPTURE(log2_rad);
+    const SlabCoefficients slab = slab_coefficients(5.24, 0.5, std::exp2(log2_rad) / rad_m, wavelength_m);
+    CHECK(slab.reflection_te == half.reflection_te);
+    CHECK(slab.reflection_tm == half.reflection_tm);
+    CHECK(slab.transmission_te == 0.0);
+  }
+}

@@ -13,8 +13,9 @@ namespace wavetracer::device {
 // so the sum rounds. Some devices compute rint in many steps.
 inline double wt_nearest_whole(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
-// x: cosine, y: sine. |angle| <= 2^30 rad. The angle's distance from the nearest quarter turn is taken in three parts:
-// the first product is exact in fma, because the difference is a multiple of the last place of both.
+// x: cosine, y: sine. |angle| <= 2^44 rad; beyond 2^30 the quarter turn may not be the nearest by a thousandth. The
+// angle's distance from it is taken in three parts: the first product is exact in fma, because the difference is a
+// multiple of the last place of both.
 inline wt_double2 wt_cos_sin(double angle) {
   const double quarters = wt_nearest_whole(angle * 0.63661977236758134);
   const double first = fma(-quarters, 1.5707963267948966, angle);
@@ -39,7 +40,7 @@ inline wt_double2 wt_cos_sin(double angle) {
   const double halved = 0.5 * z, most = 1.0 - halved;
   const double cosine = most + (((1.0 - most) - halved) + (z * c - r * tail));
   // Chosen and not branched to: no CPU foresees which quarter an angle lies in.
-  const int turn = (int)quarters & 3;
+  const int turn = (int)(quarters - 4.0 * wt_nearest_whole(0.25 * quarters)) & 3;
   const double x = turn & 1 ? sine : cosine, y = turn & 1 ? cosine : sine;
   return WT_DOUBLE2(turn == 1 || turn == 2 ? -x : x, turn >= 2 ? -y : y);
 }

@@ -86,7 +86,9 @@ typedef struct {
   wt_uint padding;
 } wt_field_end;
 
-// A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp).
+// A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp). A bit beside those of the
+// quarters says that the path is closer to an edge than the theory of diffraction goes (path_edges.h).
+#define WT_ROW_NEAR_EDGE 256u
 typedef struct {
   double delay_s, gain_db, doppler_hz;
   double aod_theta, aod_phi, aoa_theta, aoa_phi;  // radians

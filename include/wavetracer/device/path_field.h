@@ -27,6 +27,7 @@ typedef struct {
   double delay_s, gain_db, doppler_hz;
   wt_angles departure, arrival;
   wt_double2 a[4];  // receiver's port 2 r + transmitter's port t
+  int near_edge;    // wt_is_near_edge
 } wt_path_field;
 
 inline void wt_meet_surface(const wt_field_world* world, wt_uint step, wt_double3 k_in, wt_double3 k_out,
@@ -160,6 +161,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   const WT_GLOBAL wt_field_end* rx = world->receivers + path.receiver;
   wt_path_field out;
   out.delay_s = ordered->delays[row];
+  out.near_edge = 0;
 
   wt_wave wave;
   wave.leg = wt_first_leg(&path);
@@ -174,6 +176,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
 #if WT_DIFFRACTS
   wt_edge edges[2];
   const wt_uint edge_count = wt_edges_of(world, &path, edges);
+  out.near_edge = wt_is_near_edge(world, edges, edge_count);
   if (edge_count > 0) wave.spread = wt_edge_spreading(edges, edge_count);
   if (edge_count > 1) wave.spread *= wt_snap_to_shared_face(world, edges);
   wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
@@ -220,7 +223,7 @@ inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ord
   row->tx = path.transmitter;
   row->rx = path.receiver;
   row->first_vertex = first_vertex;
-  row->quarters = quarters;
+  row->quarters = quarters | (field.near_edge ? WT_ROW_NEAR_EDGE : 0u);
   row->delay_s = field.delay_s;
   row->gain_db = field.gain_db;
   row->doppler_hz = field.doppler_hz;

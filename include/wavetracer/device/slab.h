@@ -13,11 +13,15 @@ typedef struct {
   wt_double2 reflection_te, reflection_tm, transmission_te, transmission_tm;
 } wt_slab;
 
+// From so many radians of thickness on, a slab is a half space: what comes back from its far side has no phase left
+// that thickness and frequency tell, and comes much later than all that a simulation looks at. wt_cos_sin goes as far.
+#define WT_ENDLESS_RAD 0x1p44
+
 // The wave inside: s = sqrt(eta - sin^2 theta) is its normal wave number over that of free space. One sine and one
 // exponential, those of one pass, give all three powers of exp(-j q).
 typedef struct {
   wt_double2 s;
-  int half_space;
+  int half_space;         // nothing comes back from the far side
   wt_double2 one_pass;    // exp(-j q), q = 2 pi (d / lambda) s
   wt_double2 round_trip;  // E = exp(-2 j q)
   wt_double2 missing;     // (1 - E) / s, which stays finite where s vanishes
@@ -27,10 +31,10 @@ inline wt_inside wt_inside_of(wt_double2 permittivity, double cos_theta, double 
   wt_inside in;
   in.s = wt_root(permittivity - wt_real(1.0 - cos_theta * cos_theta));
   if (in.s.y > 0.0) in.s = -in.s;  // the branch that decays, also for a real eta below sin^2 theta
-  in.half_space = thickness_m == WT_INFINITY;
+  const double kd = 2.0 * WT_PI * thickness_m / wavelength_m, damping = kd * in.s.y;
+  in.half_space = !(kd * fmax(fabs(in.s.x), fabs(in.s.y)) < WT_ENDLESS_RAD);
   in.one_pass = in.round_trip = in.missing = wt_real(0.0);
   if (in.half_space) return in;
-  const double kd = 2.0 * WT_PI * thickness_m / wavelength_m, damping = kd * in.s.y;
   const wt_double2 turn = wt_cos_sin(-kd * in.s.x);
   const wt_double2 damped = wt_exp_and_expm1(damping);
   const double size = damped.x, lost = damped.y;
@@ -64,7 +68,8 @@ inline void wt_slab_of(const wt_inside* in, wt_double2 u, wt_double2 difference,
   *transmission = wt_times(wt_times(u, in->one_pass) * 4.0, share);
 }
 
-// permittivity: relative; cos_theta: 0 (grazing) to 1; thickness_m: 0 or more, infinity is the half space.
+// permittivity: relative; cos_theta: 0 (grazing) to 1; thickness_m: 0 or more, infinity is the half space,
+// and so is what is thicker than WT_ENDLESS_RAD.
 inline wt_slab wt_slab_coefficients(wt_double2 permittivity, double cos_theta, double thickness_m,
                                     double wavelength_m) {
   wt_slab out;
