@@ -1,12 +1,12 @@
 // generate_rays: the launch rays of one transmitter, a range of its launch indices, into a range of a ray queue.
 // A ray's number in the launch, of which `number` is that of the first, says its quarter.
-// WT_DIRECTIONS names the map (wt_direction_horizon, _hilbert, _fibonacci, _random); heights are those of horizon.
+// WT_DIRECTIONS names the map (wt_direction_horizon, _hilbert, _fibonacci, _random) and WT_PLACES its places on the
+// cylinder (wt_place_...); heights are the tables of horizon and of windows.
 #ifdef WT_CPU
 #define WT_LANES 16
 #endif
 #include "lib/hit.clh"
-#include "wavetracer/device/arguments.h"
-#include "wavetracer/device/directions.h"
+#include "lib/launch_ray.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
 #ifdef WT_CPU
@@ -20,10 +20,11 @@ inline uint16 numbered(uint number) { return number + (uint16)(0, 1, 2, 3, 4, 5,
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong16 index, uint16 number, wt_map_arguments map,
                        const global float* heights, wt_launcher_arguments from) {
-  const wt_direction d =
-      WT_DIRECTIONS(index, (ulong16)map.parameter, map.level, map.faces, heights, (uint16)from.heights);
-  for (uint axis = 0; axis < 3; ++axis)
-    wt_store16(rays, capacity, WT_RAY_ORIGIN + axis, slot, (float16)from.origin[axis]);
+  const wt_window_ray ray = wt_launch_ray(index, map, heights, (uint16)from.heights, from.window);
+  const wt_direction d = ray.along;
+  wt_store16(rays, capacity, WT_RAY_ORIGIN, slot, from.origin[0] + ray.start.x);
+  wt_store16(rays, capacity, WT_RAY_ORIGIN + 1, slot, from.origin[1] + ray.start.y);
+  wt_store16(rays, capacity, WT_RAY_ORIGIN + 2, slot, from.origin[2] + ray.start.z);
   wt_store16(rays, capacity, WT_RAY_DIRECTION, slot, d.x);
   wt_store16(rays, capacity, WT_RAY_DIRECTION + 1, slot, d.y);
   wt_store16(rays, capacity, WT_RAY_DIRECTION + 2, slot, d.z);
@@ -38,8 +39,10 @@ inline uint numbered(uint number) { return number; }
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong index, uint number, wt_map_arguments map,
                        const global float* heights, wt_launcher_arguments from) {
-  const wt_direction d = WT_DIRECTIONS(index, map.parameter, map.level, map.faces, heights, from.heights);
-  wt_store_float3(rays, capacity, WT_RAY_ORIGIN, slot, (float3)(from.origin[0], from.origin[1], from.origin[2]));
+  const wt_window_ray ray = wt_launch_ray(index, map, heights, from.heights, from.window);
+  const wt_direction d = ray.along;
+  wt_store_float3(rays, capacity, WT_RAY_ORIGIN, slot,
+                  (float3)(from.origin[0] + ray.start.x, from.origin[1] + ray.start.y, from.origin[2] + ray.start.z));
   wt_store_float3(rays, capacity, WT_RAY_DIRECTION, slot, (float3)(d.x, d.y, d.z));
   wt_store_word(rays, capacity, WT_RAY_NODE, slot, wt_with_quarter(from.root, number));
   wt_store_word(rays, capacity, WT_RAY_SURFACE, slot, from.source);
@@ -83,45 +86,76 @@ kernel void generate_ordered(global float* rays, const global uint* order, const
 }
 
 #ifdef WT_SAMPLES
-// Samples of a list into the slots of an empty queue. A sample is a cell of the launch
-// directions (samples[i]) and a launcher (samples[sample_capacity + i]); launchers: origin and, as words, root, source
-// and the place of its table (two float4 each). A sample's quarter is that of its cell. ends[i] becomes the root: no
-// ray of the sample has hit anything yet.
+// A sample's launcher: two float4, its origin and, as words, root, source, the place of its table and whether that is a
+// window.
+inline uint launcher_word(const global float4* launchers, uint launcher, uint word) {
+  return as_uint(((const global float*)launchers)[8 * launcher + 4 + word]);
+}
+
+// The ray of a sample, turned about z, or within its window, by the angle of the launch.
+inline wt_window_ray sample_ray(WT_U64 cell, wt_map_arguments map, const global float* heights, WT_U32 table,
+                                uint window, wt_samples_arguments args) {
+  wt_window_ray out;
+  if (window) {
+    WT_U32 height, turn;
+    WT_PLACES(cell, (WT_U64)(map.parameter), map.level, map.faces, &height, &turn);
+    return wt_through_window(height, turn + args.turn, heights, table);
+  }
+  out = wt_launch_ray(cell, map, heights, table, 0u);
+  const wt_direction d = out.along;
+  out.along.x = args.cosine * d.x - args.sine * d.y;
+  out.along.y = args.sine * d.x + args.cosine * d.y;
+  return out;
+}
+
+inline void store_sample(global float* rays, uint slot, uint sample, const global uint* samples,
+                         const global float4* launchers, float3 start, float3 along, global uint* ends,
+                         wt_samples_arguments args) {
+  const uint launcher = samples[args.sample_capacity + sample], root = launcher_word(launchers, launcher, 0);
+  wt_store_float3(rays, args.capacity, WT_RAY_ORIGIN, slot, launchers[2 * launcher].xyz + start);
+  wt_store_float3(rays, args.capacity, WT_RAY_DIRECTION, slot, along);
+  wt_store_word(rays, args.capacity, WT_RAY_NODE, slot, wt_with_quarter(root, samples[sample]));
+  wt_store_word(rays, args.capacity, WT_RAY_SURFACE, slot, launcher_word(launchers, launcher, 1));
+  wt_store_word(rays, args.capacity, WT_RAY_SAMPLE, slot, sample);
+  ends[sample] = root;
+}
+
+// Samples of a list into the slots of an empty queue. A sample is a cell of the launch directions (samples[i]) and a
+// launcher (samples[sample_capacity + i]). A sample's quarter is that of its cell. ends[i] becomes the root: no ray of
+// the sample has hit anything yet.
 kernel void generate_samples(global float* rays, const global uint* samples, const global float4* launchers,
                              const global float* heights, global uint* ends, wt_map_arguments map,
                              wt_samples_arguments args) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= args.count) return;
 #ifdef WT_CPU
-  uint tables[16] = {0};
-  for (uint j = 0; j < 16 && k + j < args.count; ++j)
-    tables[j] = as_uint(launchers[2 * samples[args.sample_capacity + args.first + k + j] + 1].z);
-  const wt_direction d = WT_DIRECTIONS(listed(0, samples + args.first + k), (ulong16)map.parameter, map.level,
-                                       map.faces, heights, vload16(0, tables));
-  float x[16], y[16], z[16];
-  vstore16(args.cosine * d.x - args.sine * d.y, 0, x);
-  vstore16(args.sine * d.x + args.cosine * d.y, 0, y);
-  vstore16(d.z, 0, z);
-#else
-  const uint table = as_uint(launchers[2 * samples[args.sample_capacity + args.first + k] + 1].z);
-  const wt_direction d =
-      WT_DIRECTIONS(listed(0, samples + args.first + k), map.parameter, map.level, map.faces, heights, table);
-  const float3 turned = (float3)(args.cosine * d.x - args.sine * d.y, args.sine * d.x + args.cosine * d.y, d.z);
-#endif
-  for (uint j = 0; j < WT_RAYS_PER_ITEM && k + j < args.count; ++j) {
-    const uint sample = args.first + k + j;
-    const global float4* launcher = launchers + 2 * samples[args.sample_capacity + sample];
-    const uint root = as_uint(launcher[1].x);
-    wt_store_float3(rays, args.capacity, WT_RAY_ORIGIN, k + j, launcher[0].xyz);
-#ifdef WT_CPU
-    wt_store_float3(rays, args.capacity, WT_RAY_DIRECTION, k + j, (float3)(x[j], y[j], z[j]));
-#else
-    wt_store_float3(rays, args.capacity, WT_RAY_DIRECTION, k + j, turned);
-#endif
-    wt_store_word(rays, args.capacity, WT_RAY_NODE, k + j, wt_with_quarter(root, samples[sample]));
-    wt_store_word(rays, args.capacity, WT_RAY_SURFACE, k + j, as_uint(launcher[1].y));
-    wt_store_word(rays, args.capacity, WT_RAY_SAMPLE, k + j, sample);
-    ends[sample] = root;
+  const uint count = min(16u, args.count - k);
+  uint tables[16] = {0}, windows[16] = {0}, any[2] = {0, 0};
+  for (uint j = 0; j < count; ++j) {
+    const uint launcher = samples[args.sample_capacity + args.first + k + j];
+    tables[j] = launcher_word(launchers, launcher, 2);
+    windows[j] = launcher_word(launchers, launcher, 3);
+    any[windows[j] != 0u] = 1;
   }
+  const ulong16 cells = listed(0, samples + args.first + k);
+  for (uint window = 0; window < 2; ++window) {
+    if (!any[window]) continue;
+    const wt_window_ray ray = sample_ray(cells, map, heights, vload16(0, tables), window, args);
+    float along[3][16], start[3][16];
+    vstore16(ray.along.x, 0, along[0]), vstore16(ray.along.y, 0, along[1]), vstore16(ray.along.z, 0, along[2]);
+    vstore16(ray.start.x, 0, start[0]), vstore16(ray.start.y, 0, start[1]), vstore16(ray.start.z, 0, start[2]);
+    for (uint j = 0; j < count; ++j)
+      if ((windows[j] != 0u) == window)
+        store_sample(rays, k + j, args.first + k + j, samples, launchers,
+                     (float3)(start[0][j], start[1][j], start[2][j]), (float3)(along[0][j], along[1][j], along[2][j]),
+                     ends, args);
+  }
+#else
+  const uint sample = args.first + k, launcher = samples[args.sample_capacity + sample];
+  const wt_window_ray ray = sample_ray(listed(0, samples + sample), map, heights, launcher_word(launchers, launcher, 2),
+                                       launcher_word(launchers, launcher, 3), args);
+  store_sample(rays, k, sample, samples, launchers, (float3)(ray.start.x, ray.start.y, ray.start.z),
+               (float3)(ray.along.x, ray.along.y, ray.along.z), ends, args);
+#endif
 }
 #endif

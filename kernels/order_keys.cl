@@ -1,12 +1,12 @@
 // order_keys: the sort key of every ray, from its launch index before rays exist or from the queue before any depth.
-// WT_LAUNCH_KEY and WT_QUEUE_KEY name the keys below, WT_DIRECTIONS the map of launch_keys (see generate_rays). Keys
-// are padded, so the last item may write past the count.
+// WT_LAUNCH_KEY and WT_QUEUE_KEY name the keys below, WT_DIRECTIONS and WT_PLACES the map of launch_keys (see
+// generate_rays). Keys are padded, so the last item may write past the count.
 #ifdef WT_CPU
 #define WT_LANES 16
 #endif
 #include "lib/hit.clh"
+#include "lib/launch_ray.clh"
 #include "wavetracer/device/curves.h"
-#include "wavetracer/device/directions.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 // Z: the Morton code of the direction, 10 bits a component.
@@ -61,14 +61,13 @@ inline float load(const global float* plane) { return plane[0]; }
 inline void store(uint key, global uint* keys) { keys[0] = key; }
 #endif
 
-kernel void launch_keys(global uint* keys, uint count, ulong first_index, ulong parameter, uint level, uint faces,
-                        const global float* heights, uint table, uint bins) {
+kernel void launch_keys(global uint* keys, uint count, ulong first_index, wt_map_arguments map,
+                        const global float* heights, uint table, uint window, uint bins) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (k >= count) return;
   wt_direction o;
   o.x = o.y = o.z = 0.0f;
-  const wt_direction d =
-      WT_DIRECTIONS(launch_index(first_index + k), (WT_U64)(parameter), level, faces, heights, (WT_U32)(table));
+  const wt_direction d = wt_launch_ray(launch_index(first_index + k), map, heights, (WT_U32)(table), window).along;
   store(WT_LAUNCH_KEY(o, d, bins), keys + k);
 }
 

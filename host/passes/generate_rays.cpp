@@ -12,34 +12,35 @@ void check_room(const RayQueue& queue, uint32_t count) {
   if (uint64_t{queue.count} + count + 16 > queue.capacity) throw std::logic_error("generate_rays: the queue is full");
 }
 
-wt_map_arguments arguments_of(const LaunchDirections& directions) {
-  return {directions.parameter, directions.level, directions.faces};
-}
-
 wt_launcher_arguments arguments_of(const Launcher& from, const LaunchHeights& heights) {
   return {{static_cast<float>(from.position_m.x), static_cast<float>(from.position_m.y),
            static_cast<float>(from.position_m.z)},
           WT_ROOT | from.transmitter,
           from.source,
-          heights.place(from.heights)};
+          heights.place(from.heights),
+          from.window ? 1u : 0u};
+}
+
+gpu::Definitions with_samples(gpu::Definitions definitions) {
+  definitions["WT_SAMPLES"] = "1";
+  return definitions;
 }
 }  // namespace
 
 GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& directions,
                            std::shared_ptr<const LaunchHeights> heights)
     : context_(context),
-      generate_(context.kernel("generate_rays", "generate_rays", {{"WT_DIRECTIONS", directions.map}})),
-      generate_launchers_(context.kernel("generate_rays", "generate_launchers", {{"WT_DIRECTIONS", directions.map}})),
-      generate_ordered_(context.kernel("generate_rays", "generate_ordered", {{"WT_DIRECTIONS", directions.map}})),
-      generate_samples_(context.kernel("generate_rays", "generate_samples",
-                                       {{"WT_DIRECTIONS", directions.map}, {"WT_SAMPLES", "1"}})),
+      generate_(context.kernel("generate_rays", "generate_rays", directions.definitions())),
+      generate_launchers_(context.kernel("generate_rays", "generate_launchers", directions.definitions())),
+      generate_ordered_(context.kernel("generate_rays", "generate_ordered", directions.definitions())),
+      generate_samples_(context.kernel("generate_rays", "generate_samples", with_samples(directions.definitions()))),
       directions_(directions),
       heights_(heights ? std::move(heights) : std::make_shared<const LaunchHeights>(context)),
       work_(tuning_of(context.info()).generate_rays) {}
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
-  generate_(work_.range(count), "generate_rays", queue.planes, heights_->tables(), arguments_of(directions_),
+  generate_(work_.range(count), "generate_rays", queue.planes, heights_->tables(), directions_.arguments(),
             arguments_of(from, *heights_),
             wt_launch_arguments{.first_index = first,
                                 .stride = stride,
@@ -59,7 +60,7 @@ void GenerateRays::operator()(RayQueue& queue, std::span<const Launcher> from, u
   if (launchers_.size() < launchers.size())
     launchers_ = context_.buffer<wt_launcher_arguments>(launchers.size(), "launchers");
   launchers_.write(launchers, 0, "generate_rays");
-  generate_launchers_(work_.range(rays), "generate_rays", queue.planes, heights_->tables(), arguments_of(directions_),
+  generate_launchers_(work_.range(rays), "generate_rays", queue.planes, heights_->tables(), directions_.arguments(),
                       launchers_, static_cast<uint32_t>(from.size()),
                       wt_launch_arguments{.first_index = first,
                                           .stride = stride,
@@ -74,7 +75,7 @@ void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t fi
                               const gpu::Buffer<uint32_t>& order) {
   check_room(queue, count);
   generate_ordered_(work_.range(count), "generate_rays", queue.planes, order, heights_->tables(),
-                    arguments_of(directions_), arguments_of(from, *heights_),
+                    directions_.arguments(), arguments_of(from, *heights_),
                     wt_launch_arguments{.first_index = first,
                                         .stride = 1,
                                         .number = 0,
@@ -90,13 +91,14 @@ void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, ui
   queue.count = 0;
   check_room(queue, count);
   generate_samples_(work_.range(count), "generate_rays", queue.planes, list.samples, launchers, heights_->tables(),
-                    list.ends, arguments_of(directions),
+                    list.ends, directions.arguments(),
                     wt_samples_arguments{.capacity = queue.capacity,
                                          .first = first,
                                          .count = count,
                                          .sample_capacity = list.capacity,
                                          .cosine = turn.cosine,
-                                         .sine = turn.sine});
+                                         .sine = turn.sine,
+                                         .turn = turn.turn});
   queue.count = count;
 }
 

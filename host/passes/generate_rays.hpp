@@ -18,12 +18,14 @@ struct Launcher {
   uint32_t transmitter;
   glm::dvec3 position_m;      // recentred
   uint32_t source = WT_NONE;  // what its rays leave: WT_OWN and the number of the instance that carries it
-  uint32_t heights = 0;       // of directions = "horizon": its table of LaunchHeights
+  uint32_t heights = 0;       // of directions = "horizon", or of a window: its table of LaunchHeights
+  bool window = false;        // the table is a window; rays start on a sphere through position_m, see directions.h
 };
 
-// A rotation of all directions about z.
+// A rotation of all directions about z; of windows, in units of 2^-32 turns of their width.
 struct DirectionTurn {
   float cosine = 1, sine = 0;
+  uint32_t turn = 0;
 };
 
 class GenerateRays {

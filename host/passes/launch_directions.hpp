@@ -4,23 +4,32 @@
 #include <cstdint>
 #include <string>
 
+#include "gpu/gpu.hpp"
 #include "wavetracer/config.hpp"
+#include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
 struct LaunchDirections {
   // rays: of a launch, for each transmitter, 1 .. 2^31.
   LaunchDirections(Directions directions, uint64_t rays, uint64_t seed)
-      : map("wt_direction_" + directions.text()), parameter(directions == "random" ? seed : ~uint64_t{0} / rays) {
+      : map("wt_direction_" + directions.text()),
+        places("wt_place_" + directions.text()),
+        parameter(directions == "random" ? seed : ~uint64_t{0} / rays) {
     // The fewest cells that suffice: faces of 120 degrees are about square at the horizon, and up to eleven fill the
     // gap to the next level.
     while (uint64_t{12} << (2 * level) < rays) ++level;
     while (uint64_t{faces} << (2 * level) < rays) ++faces;
   }
 
-  std::string map;     // name of the function
-  uint64_t parameter;  // its step or seed
+  // What kernels that evaluate the map are built with.
+  gpu::Definitions definitions() const { return {{"WT_DIRECTIONS", map}, {"WT_PLACES", places}}; }
+
+  std::string map, places;  // names of the functions: directions, and places on the cylinder
+  uint64_t parameter;       // its step or seed
   uint32_t level = 0, faces = 3;
+
+  wt_map_arguments arguments() const { return {parameter, level, faces}; }
 };
 
 }  // namespace wavetracer

@@ -43,17 +43,16 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
       work_(tuning_of(context.info()).order_keys),
       to_unit_(extent_m > 0 ? 1 / extent_m : 0) {
   if (bins < 1 || bins > 1024) throw std::invalid_argument("order_keys: 1 to 1024 bins, not " + std::to_string(bins));
-  const gpu::Definitions definitions{
-      {"WT_LAUNCH_KEY", key == OrderKey::direction_origin ? "wt_key_direction" : function_of(key)},
-      {"WT_QUEUE_KEY", function_of(key)},
-      {"WT_DIRECTIONS", directions.map}};
+  gpu::Definitions definitions = directions.definitions();
+  definitions["WT_LAUNCH_KEY"] = key == OrderKey::direction_origin ? "wt_key_direction" : function_of(key);
+  definitions["WT_QUEUE_KEY"] = function_of(key);
   launch_keys_ = context.kernel("order_keys", "launch_keys", definitions);
   queue_keys_ = context.kernel("order_keys", "queue_keys", definitions);
 }
 
-void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights) {
-  launch_keys_(work_.range(count), "order", keys, count, first, directions_.parameter, directions_.level,
-               directions_.faces, heights_->tables(), heights_->place(heights), bins_);
+void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights, bool window) {
+  launch_keys_(work_.range(count), "order", keys, count, first, directions_.arguments(), heights_->tables(),
+               heights_->place(heights), window ? 1u : 0u, bins_);
 }
 
 void OrderKeys::operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys) {

@@ -23,9 +23,10 @@ class OrderKeys {
   // Bits of the keys of launches, and of queues.
   uint32_t launch_bits() const { return launch_bits_; }
   uint32_t queue_bits() const { return queue_bits_; }
-  // Keys of the launch indices first .. first + count - 1 of a launcher with this table of heights. keys has 16
-  // elements more, which may be overwritten.
-  void operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights = 0);
+  // Keys of the launch indices first .. first + count - 1 of a launcher with this table of heights, which may be a
+  // window. keys has 16 elements more, which may be overwritten.
+  void operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights = 0,
+                  bool window = false);
   // Keys of the rays of a queue, likewise.
   void operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys);
 

@@ -89,10 +89,13 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
 
   LeftOut left_out;
   out.paths = s_.finish.take(counted, left_out, &out.carriers);
+  if (!task.compiling) account.near_edges(s_.finish.near_edges(), out.carriers, s_.config.radio.frequency_hz);
   if (block) out.world.links = block->own;
-  if (s_.cache || (s_.trails && s_.trails->receives()))
-    out.paths.quarters.clear();  // what they find, no smaller launch tells of
-  if (found.rays > 0) out.missed = missed_counts(out.paths, 0, out.paths.size());
+  const bool spheres = s_.trails && s_.trails->receives();
+  if (s_.cache || spheres) out.paths.quarters.clear();  // what they find, no smaller launch tells of
+  const auto few = few_met_warning(found, s_.has_surfaces() && !spheres);
+  if (few) account.warn(*few);
+  if (found.rays > 0 && !few) out.missed = missed_counts(out.paths, 0, out.paths.size());
   if (known) out.late = late_counts(*known, out.paths);
   if (const auto text = recall_warning(found, s_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
   if (searches) ++warm_frames_;
@@ -178,18 +181,17 @@ void FrameLoop::begin_sequences(Sequences& set, bool searches) {
 DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
   std::vector<Launcher> transmitters = sending(world), listeners;
   if (s_.trace.diffraction) listeners = listening(world, s_.origins);
-  std::optional<SlopeTables> slopes;
-  if (s_.slopes) {
-    slopes = s_.slopes->tables(world, s_.origins);
-    s_.discovery.set_heights(slopes->values);
-  }
+  SlopeTables tables;
+  if (s_.slopes) tables = s_.slopes->tables(world, s_.origins);
   for (std::vector<Launcher>* const ends : {&transmitters, &listeners}) {
     if (block) *ends = launchers_of(*block, *ends);
     if (task.compiling) ends->resize(std::min<size_t>(ends->size(), 1));
     if (!s_.trails) *ends = s_.launch_sides.of(*ends, world);  // trails follow one launch of each transmitter
-    if (!slopes) continue;
-    for (Launcher& launcher : *ends) launcher.heights = slopes->of_origin[launcher.transmitter];
+    for (Launcher& launcher : *ends)
+      if (s_.slopes) launcher.heights = tables.of_origin[launcher.transmitter];
+    if (s_.windows) *ends = s_.windows->of(*ends, world, tables);
   }
+  if (!tables.values.empty()) s_.discovery.set_heights(tables.values);
   if (!s_.trace.rays) {
     transmitters.insert(transmitters.end(), listeners.begin(), listeners.end());
     return s_.discovery.find_refined(s_.device_scene, transmitters, warm_frames_);

@@ -47,9 +47,9 @@ void RayOrder::check_room(uint64_t rays) const {
   if (rays + 16 > keys_.size()) throw std::logic_error("ray_order: no room for the rays");
 }
 
-const gpu::Buffer<uint32_t>& RayOrder::sort_launch(uint64_t first, uint32_t count, uint32_t heights) {
+const gpu::Buffer<uint32_t>& RayOrder::sort_launch(uint64_t first, uint32_t count, const Launcher& from) {
   check_room(count);
-  keys_of_(first, count, keys_, heights);
+  keys_of_(first, count, keys_, from.heights, from.window);
   sort_(keys_, order_, count, keys_of_.launch_bits());
   return order_;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "passes/gather_rays.hpp"
+#include "passes/generate_rays.hpp"
 #include "passes/launch_shape.hpp"
 #include "passes/order_keys.hpp"
 #include "passes/sort.hpp"
@@ -33,9 +34,9 @@ class RayOrder {
            std::shared_ptr<const LaunchHeights> heights);
   // Room for launches and queues of so many rays.
   void reserve(uint64_t rays);
-  // The launch indices first .. first + count - 1 of a launcher with this table of heights in their order, less first.
-  // Valid until the next call.
-  const gpu::Buffer<uint32_t>& sort_launch(uint64_t first, uint32_t count, uint32_t heights);
+  // The launch indices first .. first + count - 1 of this launcher in their order, less first. Valid until the next
+  // call.
+  const gpu::Buffer<uint32_t>& sort_launch(uint64_t first, uint32_t count, const Launcher& from);
   // Sorts the queue; spare has the same capacity and is overwritten.
   void sort_queue(RayQueue& rays, RayQueue& spare);
 

@@ -58,9 +58,9 @@ std::vector<LaunchPart> RaySource::launch(RayQueue& rays, const Launch& launch, 
       continue;
     }
     if (sorted) {
-      const gpu::Buffer<uint32_t>& order = order_->sort_launch(number, part, from.heights);  // order_keys, sort
-      generate(rays, from, number, part, order);                                             // generate_rays
-      if (label_) (*label_)(rays, sample, part, sample, order);                              // label_rays
+      const gpu::Buffer<uint32_t>& order = order_->sort_launch(number, part, from);  // order_keys, sort
+      generate(rays, from, number, part, order);                                     // generate_rays
+      if (label_) (*label_)(rays, sample, part, sample, order);                      // label_rays
     } else {
       generate(rays, from, phase + stride * number, part, stride);  // generate_rays
       if (label_) (*label_)(rays, sample, part, sample);            // label_rays

@@ -1,4 +1,4 @@
-// The warning about a launch of trace.rays = "auto" that ended before it reached trace.recall.
+// Warnings about launches: "auto" that ended before it reached trace.recall, and rays of which few met anything.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,5 +13,9 @@ namespace wavetracer {
 // of earlier ones, so that its own rays tell what is missed. missed: of the frame's paths.
 std::optional<std::string> recall_warning(const DiscoveryCounts& found, const TraceConfig& trace, bool cold,
                                           const MissedCounts& missed);
+
+// Rays that leave the world tell nothing of what they missed. Set if so few met anything that nothing can be said of
+// it. surfaces: whether there is anything to meet.
+std::optional<std::string> few_met_warning(const DiscoveryCounts& found, bool surfaces);
 
 }  // namespace wavetracer

@@ -2,6 +2,7 @@
 // All samples of a level are counted before any is judged, so the launch does not depend on batches.
 #include "simulation/refinement.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace wavetracer {
@@ -40,7 +41,8 @@ DirectionTurn turn_of(uint64_t frame) {
     sine = 0.8 * cosine + 0.6 * sine;
     cosine = c;
   }
-  return {static_cast<float>(cosine), static_cast<float>(sine)};
+  const auto turn = static_cast<uint32_t>(frame % 1000 * 633866811);  // of 2^32: the same angle
+  return {static_cast<float>(cosine), static_cast<float>(sine), turn};
 }
 
 }  // namespace
@@ -64,12 +66,14 @@ void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots, u
     records.push_back(std::bit_cast<float>(WT_ROOT | l.transmitter));
     records.push_back(std::bit_cast<float>(l.source));
     records.push_back(std::bit_cast<float>(heights_->place(l.heights)));
-    records.push_back(0);
+    records.push_back(std::bit_cast<float>(l.window ? 1u : 0u));
   }
   launchers_ = context_.buffer(records, "launchers");
   if (hits_.size() != slots) hits_ = context_.buffer<uint32_t>(slots, "hits of sequences");
   context_.fill(hits_, 0, "refine");
-  begin_level(launchers.size(), level_of(frame, finer_, config_.max_rays));
+  // From high above walls are seen edge on: of 42 paths of a platform at 20 km two were lost, one level finer none.
+  const uint32_t finer = finer_ + (std::ranges::any_of(launchers, &Launcher::window) ? 1 : 0);
+  begin_level(launchers.size(), level_of(frame, finer, config_.max_rays));
   turn_ = turn_of(frame);
   rare_ = frame == 0 ? rare(config_.recall) : rare(config_.recall) / 2;
   most_ = config_.max_rays * launchers.size();

@@ -95,6 +95,13 @@ std::optional<RayTrails> make_trails(Setup& s) {
   return out;
 }
 
+std::optional<LaunchWindows> make_windows(const Setup& s) {
+  std::optional<LaunchWindows> out;
+  if (receives_by_spheres(s.config)) return out;
+  out.emplace(s.scene, s.world.models(), s.world.instances(), s.trails || s.config.cache.kind != "none");
+  return out;
+}
+
 std::optional<RayCache> make_cache(Setup& s) {
   std::optional<RayCache> out;
   if (s.config.cache.kind == "none") return out;
@@ -143,6 +150,7 @@ Setup::Setup(const Config& asked, const std::string& device_text, bool frames_fo
       reuse(reuses(config, world, frames_follow)),
       slopes(make_slopes(*this)),
       trails(make_trails(*this)),
+      windows(make_windows(*this)),
       cache(make_cache(*this)),
       discovery(context, device_scene, trace, discovery_options(*this)),
       exact_paths(context, device_scene, scene, world, trace, origins, reuse),

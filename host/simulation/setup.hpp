@@ -11,6 +11,7 @@
 #include "simulation/frame_watch.hpp"
 #include "simulation/launch_sides.hpp"
 #include "simulation/launch_slopes.hpp"
+#include "simulation/launch_windows.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/order_choice.hpp"
 #include "simulation/placement.hpp"
@@ -31,6 +32,8 @@ struct Setup {
 
   // What was made since the last stage is this one of `seconds`.
   void end_stage(const char* name) { seconds[name] = watch.lap(); }
+  // Whether there is anything that rays might meet.
+  bool has_surfaces() const { return !scene.surfaces.empty() || !world.instances().empty(); }
 
   Stopwatch watch;
   StageSeconds seconds;
@@ -52,7 +55,9 @@ struct Setup {
   bool reuse;                          // whether frames reuse the sequences of earlier frames
   std::optional<LaunchSlopes> slopes;  // with trace.directions = "horizon"
   std::optional<RayTrails> trails;     // with trace.reception = "sphere" or output.waypoints
-  std::optional<RayCache> cache;       // with cache.kind
+  // For ends far outside of the scene; not with spheres, which rays must meet wherever they are.
+  std::optional<LaunchWindows> windows;
+  std::optional<RayCache> cache;  // with cache.kind
   FrameWatch frame_watch;
   Discovery discovery;
   ExactPaths exact_paths;

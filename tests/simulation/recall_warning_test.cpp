@@ -61,3 +61,21 @@ TEST_CASE("warnings say what ended the launch, how much is met once, and what to
   CHECK(text(LaunchEnd::finest, 0.001).find("less than 1% of the sequences") != std::string::npos);
   CHECK(text(LaunchEnd::nothing_rare, 0.1).find("give trace.rays a number to find more") != std::string::npos);
 }
+
+TEST_CASE("rays of which few met anything tell nothing; a thousand, or a fiftieth, are enough") {
+  DiscoveryCounts found;
+  found.rays = 200000;
+  for (const auto& [hits, warned] : {std::pair{uint64_t{0}, true}, {40, true}, {999, true}, {1000, false}}) {
+    CAPTURE(hits);
+    found.hits = hits;
+    CHECK(few_met_warning(found, true).has_value() == warned);
+    CHECK_FALSE(few_met_warning(found, false).has_value());  // nothing is there to be met
+  }
+  found.rays = 1000;
+  found.hits = 20;
+  CHECK_FALSE(few_met_warning(found, true).has_value());
+  found.hits = 19;
+  CHECK(few_met_warning(found, true).value_or("").find("it is not known how many paths they missed") !=
+        std::string::npos);
+  CHECK_FALSE(few_met_warning({}, true).has_value());  // no rays were launched
+}

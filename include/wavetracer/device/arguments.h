@@ -18,12 +18,14 @@ typedef struct {
 } wt_map_arguments;
 
 // Who launches: from where, the root of its sequences, what its rays leave (WT_OWN and the instance that carries the
-// antenna, or WT_NONE), and where its heights begin in their table.
+// antenna, or WT_NONE), where its heights begin in their table, and whether that table is a window (directions.h); then
+// the origin is the point from which the starts of its rays differ.
 typedef struct {
   float origin[3];
   wt_uint root;
   wt_uint source;
   wt_uint heights;
+  wt_uint window;
 } wt_launcher_arguments;
 
 // Launch indices first_index + stride * k, of which the first has this number in the launch, into slots first_slot + k.
@@ -36,7 +38,8 @@ typedef struct {
   wt_uint count;
 } wt_launch_arguments;
 
-// Samples first .. first + count - 1; directions are turned about z by the angle of this cosine and sine.
+// Samples first .. first + count - 1; directions are turned about z by the angle of this cosine and sine, those of
+// windows by `turn` in units of 2^-32 turns, within the width of the window.
 typedef struct {
   wt_uint capacity;
   wt_uint first;
@@ -44,6 +47,7 @@ typedef struct {
   wt_uint sample_capacity;
   float cosine;
   float sine;
+  wt_uint turn;
 } wt_samples_arguments;
 
 typedef struct {

@@ -35,7 +35,7 @@ inline WT_U32 wt_reverse16(WT_U32 x) {
 // face are a Hammersley net (J. Hammersley, 1960), so azimuths and heights are each evenly spread. Walls are narrow in
 // azimuth and tall: cell centres, all in one row, would miss many of them. step = floor((2^64 - 1) / n); faces 4^level
 // >= n, chosen by host/passes/generate_rays.cpp.
-inline void wt_hilbert_place(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
+inline void wt_place_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
   const WT_U64 cell = ((i * step + (step >> 1)) >> 32) * (WT_U64)((unsigned long)faces << (2u * level)) >> 32;
   const WT_U32 face = WT_TO_U32(cell >> (2u * level));
   const unsigned below = 16u - level;
@@ -50,37 +50,93 @@ inline void wt_hilbert_place(WT_U64 i, WT_U64 step, unsigned level, unsigned fac
   *turn = face * width + WT_TO_U32(WT_TO_U64(column) * width >> 32);
 }
 
-// Uniform.
+// The same places for the launch "horizon", whose heights are spread later.
+inline void wt_place_horizon(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
+  wt_place_hilbert(i, step, level, faces, height, turn);
+}
+
+// Fibonacci lattice: equal steps in z, golden-ratio turns. 2^64 / golden ratio = 0x9E3779B97F4A7C15.
+inline void wt_place_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
+  (void)level, (void)faces;
+  *height = WT_TO_U32((i * step + (step >> 1)) >> 32);
+  *turn = WT_TO_U32((i * (WT_U64)(0x9E3779B97F4A7C15ul)) >> 32);
+}
+
+// Independent uniform directions: a counter-based generator, so ray i of a seed is always the same.
+inline void wt_place_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
+  (void)level, (void)faces;
+  const WT_U64 bits = wt_mix64(wt_mix64(i + (WT_U64)(0x9E3779B97F4A7C15ul)) ^ seed);
+  *height = WT_TO_U32(bits >> 32);
+  *turn = WT_TO_U32(bits & 0xFFFFFFFFu);
+}
+
+// The directions of these places. Heights of "horizon" are spread as its table says: dense towards the horizon, see
+// host/simulation/launch_slopes.hpp. The other three are uniform.
+inline wt_direction wt_direction_horizon(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
+                                         WT_U32 table) {
+  WT_U32 height, turn;
+  wt_place_horizon(i, step, level, faces, &height, &turn);
+  return wt_cylinder_to_heights(height, turn, heights, table);
+}
+
 inline wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
                                          WT_U32 table) {
   (void)heights, (void)table;
   WT_U32 height, turn;
-  wt_hilbert_place(i, step, level, faces, &height, &turn);
+  wt_place_hilbert(i, step, level, faces, &height, &turn);
   return wt_cylinder_to_sphere(height, turn);
 }
 
-// Heights spread as the table says: dense towards the horizon, see host/simulation/launch_slopes.hpp.
-inline wt_direction wt_direction_horizon(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
-                                         WT_U32 table) {
-  WT_U32 height, turn;
-  wt_hilbert_place(i, step, level, faces, &height, &turn);
-  return wt_cylinder_to_heights(height, turn, heights, table);
-}
-
-// Fibonacci lattice: equal steps in z, golden-ratio turns. 2^64 / golden ratio = 0x9E3779B97F4A7C15.
 inline wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
                                            WT_U32 table) {
-  (void)level, (void)faces, (void)heights, (void)table;
-  return wt_cylinder_to_sphere(WT_TO_U32((i * step + (step >> 1)) >> 32),
-                               WT_TO_U32((i * (WT_U64)(0x9E3779B97F4A7C15ul)) >> 32));
+  (void)heights, (void)table;
+  WT_U32 height, turn;
+  wt_place_fibonacci(i, step, level, faces, &height, &turn);
+  return wt_cylinder_to_sphere(height, turn);
 }
 
-// Independent uniform directions: a counter-based generator, so ray i of a seed is always the same.
 inline wt_direction wt_direction_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned faces, WT_TABLE heights,
                                         WT_U32 table) {
-  (void)level, (void)faces, (void)heights, (void)table;
-  const WT_U64 bits = wt_mix64(wt_mix64(i + (WT_U64)(0x9E3779B97F4A7C15ul)) ^ seed);
-  return wt_cylinder_to_sphere(WT_TO_U32(bits >> 32), WT_TO_U32(bits & 0xFFFFFFFFu));
+  (void)heights, (void)table;
+  WT_U32 height, turn;
+  wt_place_random(i, seed, level, faces, &height, &turn);
+  return wt_cylinder_to_sphere(height, turn);
+}
+
+// A window: the part of all directions that an antenna far outside of a scene launches through, see
+// host/simulation/launch_windows.hpp. Behind the heights of its table stand the width of its azimuths (in units of
+// 2^-32 turns; they lie around the first axis), how far along that axis its rays start, and the axes of its own frame.
+#define WT_WINDOW_WIDTH (WT_HEIGHT_CELLS + 1u)
+#define WT_WINDOW_AHEAD (WT_HEIGHT_CELLS + 2u)
+#define WT_WINDOW_AXES (WT_HEIGHT_CELLS + 3u)
+#define WT_WINDOW_END (WT_HEIGHT_CELLS + 12u)
+
+// The ray at this place of the cylinder through the window of this table: its direction, and where it starts, as a
+// difference from the point that lies `ahead` of the antenna along the first axis. All start on a sphere around the
+// antenna, in whose float32 coordinates a scene at the distance of a satellite would lose some centimetres.
+typedef struct {
+  wt_direction along, start;
+} wt_window_ray;
+
+inline wt_window_ray wt_through_window(WT_U32 height, WT_U32 turn, WT_TABLE tables, WT_U32 table) {
+  const WT_U32 width = WT_TO_U32(wt_gather(tables, table + WT_WINDOW_WIDTH));
+  const WT_U32 azimuth = WT_TO_U32(WT_TO_U64(turn) * WT_TO_U64(width) >> 32) - (width >> 1);
+  const wt_direction d = wt_cylinder_to_heights(height, azimuth, tables, table);
+  const WT_F32 ahead = wt_gather(tables, table + WT_WINDOW_AHEAD);
+  const WT_F32 less = -(d.y * d.y + d.z * d.z) / (1.0f + d.x);  // x - 1 without cancellation
+  WT_F32 along[3], start[3];
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const WT_F32 x = wt_gather(tables, table + (WT_WINDOW_AXES + axis));
+    const WT_F32 y = wt_gather(tables, table + (WT_WINDOW_AXES + 3u + axis));
+    const WT_F32 z = wt_gather(tables, table + (WT_WINDOW_AXES + 6u + axis));
+    const WT_F32 beside = fma(y, d.y, z * d.z);
+    along[axis] = fma(x, d.x, beside);
+    start[axis] = ahead * fma(x, less, beside);
+  }
+  wt_window_ray out;
+  out.along.x = along[0], out.along.y = along[1], out.along.z = along[2];
+  out.start.x = start[0], out.start.y = start[1], out.start.z = start[2];
+  return out;
 }
 
 #ifndef __OPENCL_VERSION__
