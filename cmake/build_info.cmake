@@ -3,7 +3,7 @@
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(sanitizers none)
   if(WAVETRACER_SANITIZE)
-    set(sanitizers "address, undefined")
+    string(REPLACE "," ", " sanitizers ${WAVETRACER_SANITIZERS})
   endif()
   file(STRINGS ${CMAKE_SOURCE_DIR}/host/gpu/opencl.hpp opencl REGEX "#define CL_HPP_TARGET_OPENCL_VERSION ")
   string(REGEX REPLACE ".* ([0-9])([0-9])0$" "\\1.\\2" opencl "${opencl}")

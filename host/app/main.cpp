@@ -5,8 +5,10 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <system_error>
 #include "app/build_info.hpp"
 #include "app/commands.hpp"
+#include "app/memory_limit.hpp"
 #include "app/stack.hpp"
 #include "app/standard_streams.hpp"
 #include "app/usage.hpp"
@@ -73,12 +75,21 @@ int run_program(int argc, char** argv) {
 int run_and_report(int argc, char** argv) {
   try {
     return run_program(argc, argv);
+  } catch (const wavetracer::DeviceError& e) {
+    return fail(e.code(), e.what() + wavetracer::app::limit_hint());
   } catch (const wavetracer::Error& e) {
     return fail(e.code(), e.what());
   } catch (const std::bad_alloc&) {
-    return fail(ExitCode::runtime, "out of memory: lower trace.batch_rays or trace.rays, or use a smaller scene");
+    return fail(ExitCode::runtime, "out of memory: lower trace.batch_rays or trace.rays, or use a smaller scene" +
+                                       wavetracer::app::limit_hint());
+  } catch (const std::system_error& e) {
+    if (e.code() != std::errc::resource_unavailable_try_again) return fail(ExitCode::runtime, e.what());
+    return fail(ExitCode::runtime,
+                "no thread can be started: the memory or the number of threads of this process (`ulimit -u`) is used "
+                "up; raise the limit, or lower trace.batch_rays or trace.rays" +
+                    wavetracer::app::limit_hint());
   } catch (const std::exception& e) {
-    return fail(ExitCode::runtime, e.what());
+    return fail(ExitCode::runtime, e.what() + wavetracer::app::limit_hint());
   }
 }
 
@@ -95,7 +106,9 @@ int flush_and_report(int code) {
 int main(int argc, char** argv) {
   try {
     wavetracer::app::keep_standard_streams();
-    return flush_and_report(wavetracer::app::with_enough_stack([=] { return run_and_report(argc, argv); }));
+    return wavetracer::app::explained([=] {
+      return flush_and_report(wavetracer::app::with_enough_stack([=] { return run_and_report(argc, argv); }));
+    });
   } catch (const wavetracer::Error& e) {
     return fail(e.code(), e.what());
   }

@@ -9,7 +9,12 @@
 namespace wavetracer {
 
 IdleThreads::IdleThreads(unsigned count) {
-  for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
+  try {
+    for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
+  } catch (...) {  // no memory for another one: those that were started must end before this does
+    stop();
+    throw;
+  }
 }
 
 void IdleThreads::enqueue(std::function<void()> task) {

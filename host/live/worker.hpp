@@ -6,8 +6,9 @@
 
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
+#include <exception>
 #include <functional>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -21,7 +22,7 @@ namespace wavetracer::live {
 template <class Job, class Result>
 class Worker {
  public:
-  // work: must not throw.
+  // work: makes an answer of every failure that it knows; what it throws, take() throws.
   explicit Worker(std::function<Result(Job&)> work)
       : work_(std::move(work)), event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)) {
     if (*event_ < 0) throw RuntimeError("no file descriptor is left for a thread of the server: raise ulimit -n");
@@ -39,9 +40,11 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void give(Job job) {
+    std::list<Task> task;  // whose memory does for the result, too
+    task.push_back({std::move(job), {}, {}});
     {
       const std::lock_guard lock(mutex_);
-      jobs_.push_back(std::move(job));
+      jobs_.splice(jobs_.end(), task);
     }
     wake_.notify_one();
   }
@@ -50,24 +53,38 @@ class Worker {
   std::optional<Result> take() {
     uint64_t ignored = 0;
     if (read(*event_, &ignored, sizeof ignored) < 0) return {};
-    const std::lock_guard lock(mutex_);
-    std::optional<Result> out(std::move(results_.front()));
-    results_.pop_front();
-    return out;
+    std::list<Task> task;
+    {
+      const std::lock_guard lock(mutex_);
+      task.splice(task.end(), results_, results_.begin());
+    }
+    if (task.front().failure) std::rethrow_exception(task.front().failure);
+    return std::move(task.front().result);
   }
 
  private:
+  struct Task {
+    Job job;
+    std::optional<Result> result;
+    std::exception_ptr failure;
+  };
+
   void run() {
     while (true) {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return ends_ || !jobs_.empty(); });
-      if (ends_) return;
-      Job job = std::move(jobs_.front());
-      jobs_.pop_front();
-      lock.unlock();
-      Result result = work_(job);
-      lock.lock();
-      results_.push_back(std::move(result));
+      std::list<Task> task;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait(lock, [&] { return ends_ || !jobs_.empty(); });
+        if (ends_) return;
+        task.splice(task.end(), jobs_, jobs_.begin());
+      }
+      try {
+        task.front().result.emplace(work_(task.front().job));
+      } catch (...) {
+        task.front().failure = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      results_.splice(results_.end(), task);
       const uint64_t one = 1;
       [[maybe_unused]] const ssize_t written = write(*event_, &one, sizeof one);  // far from the limit of 2^64
     }
@@ -77,8 +94,7 @@ class Worker {
   Descriptor event_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<Job> jobs_;
-  std::deque<Result> results_;
+  std::list<Task> jobs_, results_;
   bool ends_ = false;
   std::thread thread_;
 };

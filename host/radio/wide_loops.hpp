@@ -5,9 +5,10 @@
 #include <complex>
 #include <cstddef>
 
-// Before a function that has such loops. Sanitizers start later than the choice is made; other compilers and processors
-// make one version.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// Before a function that has such loops. Sanitizers start later than the choice is made, by a function that they would
+// watch; other compilers and processors make one version.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define WAVETRACER_WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define WAVETRACER_WIDE

@@ -1,6 +1,8 @@
 // What happens when the machine gives out in the middle of a drive: the device is lost, its memory or the host's is
 // used up, the disk is full. Each is an error with a code and a word on what to do, and nothing that was done is lost.
 #include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <cstdlib>
 #include <filesystem>
 #include "app/program.hpp"
 #include "app/room_drive.hpp"
@@ -131,4 +133,39 @@ TEST_CASE("a disk that fills up on a drive is error 1; what was written stays, a
     check_same(out, folder.path("expected"));
   }
   CHECK(partly >= 2);
+}
+
+namespace {
+
+// As `ulimit -v` sets it in a shell, in KiB.
+Outcome run_limited(long limit, const std::string& file, const Folder& folder) {
+  const std::string out = folder.path("limited.out"), err = folder.path("limited.err");
+  const std::string command = "ulimit -v " + std::to_string(limit) + " && exec " WAVETRACER_PROGRAM " run -c " + file +
+                              " -o " + folder.path("limited") + " > " + out + " 2> " + err;
+  Outcome outcome;
+  const int status = std::system(("sh -c '" + command + "'").c_str());
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.err = contents(err);
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("with too little memory for the process every end has a code and a message, and no signal ends it") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", drive);
+  size_t failed = 0;
+  for (long limit = 100000; limit <= 1000000; limit += limit < 400000 ? 100000 : 50000) {
+    std::filesystem::remove_all(folder.path("limited"));
+    const Outcome outcome = run_limited(limit, file, folder);
+    CAPTURE(limit);
+    CAPTURE(outcome.err);
+    failed += outcome.code != 0;
+    CHECK((outcome.code == 0 || outcome.code == 1 || outcome.code == 4));
+    if (outcome.code == 0) continue;
+    CHECK(contains("\n" + outcome.err, "\nwavetracer: "));  // libraries may say something, too
+    CHECK(contains(outcome.err, "memory"));
+  }
+  CHECK(failed > 0);
 }
