@@ -45,7 +45,7 @@ inline uint look(const wt_sight* sight, const global wt_wedge* low, const global
   return known;
 }
 
-// `lanes` work-items a prefix; keys are sorted, so what sees one wedge stands together and is passed over together.
+// `lanes` work-items for each prefix of a block of them; keys are sorted, so what sees one wedge stands together and is passed over together.
 kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
                         const global double* sides, global uint* kept, const global uint* keys,
@@ -53,8 +53,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
                         const global uint* receiver_of_origin, const global ushort* links,
                         const global wt_wedge* wedges, global wt_wedge_candidate* out, global wt_counters* counters,
                         wt_wedge_join_arguments args, wt_sight_arguments sight_args) {
-  const uint i = get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
-  if (i >= args.count || keys[i] == WT_NONE) return;
+  const uint i = args.first + get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
+  if (i >= args.end || keys[i] == WT_NONE) return;
   const global wt_wedge_prefix* a = prefixes + order[i];
   if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) return;
   const wt_sight sight = {nodes,       triangles, sight_args.triangle_slots,  sight_args.extent_m,   surfaces,

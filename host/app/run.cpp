@@ -189,7 +189,11 @@ void run(const RunOptions& options, Invocation& invocation) {
   if (ranks.rank == 0 && !options.resume && folder)
     if (const std::string earlier = earlier_results(directory); !earlier.empty()) progress.line("replaces " + earlier);
   if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
-  Simulation simulation(config, device_of(options, ranks));
+  Simulation simulation = [&] {
+    const EndOnInterrupt at_once([&folder] { folder.reset(); },
+                                 ranks.started ? "" : "interrupted before the first frame; nothing was written");
+    return Simulation(config, device_of(options, ranks));
+  }();
   simulation.profile_every(profiled_frames);
   const FrameRange range = parse_frames(options.frames, simulation.frame_count());
   const char* const started_as = ranks.started ? std::getenv("WAVETRACER_COMMAND") : nullptr;

@@ -35,9 +35,12 @@ void serve(const ServeOptions& options) {
     page.emplace(options.page, [&](const std::string& text) { progress.line("warning: " + text); });
     serving.solved = [&page](const Simulation& simulation, const LiveFrame& frame) { page->show(simulation, frame); };
   }
+  std::optional<EndOnInterrupt> loading;
+  loading.emplace([] {}, "interrupted before the server was ready");
   live::serve(
       config, serving, interrupted, [&](const std::string& text) { progress.line(text); },
-      [](const std::string& name) {
+      [&loading](const std::string& name) {
+        loading.reset();
         std::cout << "listening on " << name << std::endl;
         if (const std::string problem = output_problem(); !problem.empty()) throw RuntimeError(problem);
       });

@@ -60,18 +60,17 @@ std::string Allocations::summary() const {
   return out;
 }
 
-Memory Context::allocate(size_t bytes, const char* name) {
+Memory Context::allocate(size_t bytes, const BufferName& name) {
   State& s = *state_;
   if (bytes > s.info.max_buffer) {
-    throw DeviceError(
-        fmt::format("{}: buffer \"{}\" needs {} bytes, more than the {} bytes that the device allows a buffer. Lower "
-                    "trace.batch_rays, or trace.rays where it is not set, or choose a device with more memory",
-                    s.info.name, name, bytes, s.info.max_buffer));
+    throw BufferError(
+        fmt::format("{}: buffer \"{}\" needs {} bytes, more than the {} bytes that the device allows a buffer. {}",
+                    s.info.name, name.name, bytes, s.info.max_buffer, name.advice));
   }
   cl_int code = CL_SUCCESS;
   const cl_mem handle = clCreateBuffer(s.context(), CL_MEM_READ_WRITE, std::max(bytes, least_bytes), nullptr, &code);
-  if (code != CL_SUCCESS) s.fail(code, fmt::format("allocating {} bytes for buffer \"{}\"", bytes, name));
-  s.allocations->add(handle, name, bytes);
+  if (code != CL_SUCCESS) s.fail(code, fmt::format("allocating {} bytes for buffer \"{}\"", bytes, name.name));
+  s.allocations->add(handle, name.name, bytes);
   Memory memory;
   memory.context_ = this;
   memory.bytes_ = bytes;

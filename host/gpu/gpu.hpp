@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "wavetracer/error.hpp"
 #include "wavetracer/kernel_time.hpp"
 
 namespace wavetracer::gpu {
@@ -57,6 +58,23 @@ struct Range {
 using Definitions = std::map<std::string, std::string>;
 
 class Context;
+
+// What a buffer is called in messages, and what to do where it is too large.
+struct BufferName {
+  BufferName(const char* name_of_it,
+             const char* advice_for_it =
+                 "Lower trace.batch_rays, or trace.rays where it is not set, or choose a device "
+                 "with more memory")
+      : name(name_of_it), advice(advice_for_it) {}
+  const char* name;
+  const char* advice;
+};
+
+// A buffer is larger than the device allows one to be.
+class BufferError : public DeviceError {
+ public:
+  using DeviceError::DeviceError;
+};
 
 // Memory of the host that the device copies to at full speed (pinned), for what is read in every frame.
 class HostMemory {
@@ -175,13 +193,14 @@ class Context {
 
   const DeviceInfo& info() const;
 
-  // Throws DeviceError that names the buffer, its size, the device's limit and what to lower.
+  // Throws BufferError that names the buffer, its size, the device's limit and what to lower; DeviceError where the
+  // device has no memory left.
   template <class T>
-  Buffer<T> buffer(size_t count, const char* name) {
+  Buffer<T> buffer(size_t count, const BufferName& name) {
     return Buffer<T>(allocate(count * sizeof(T), name));
   }
   template <class T>
-  Buffer<T> buffer(const std::vector<T>& data, const char* name) {
+  Buffer<T> buffer(const std::vector<T>& data, const BufferName& name) {
     auto b = buffer<T>(data.empty() ? 1 : data.size(), name);
     if (!data.empty()) b.write(data);
     return b;
@@ -226,7 +245,7 @@ class Context {
   friend class Kernel;
   struct State;
   std::unique_ptr<State> state_;
-  Memory allocate(size_t bytes, const char* name);
+  Memory allocate(size_t bytes, const BufferName& name);
 };
 
 // The source of a program after expansion of its #include lines, with #line kept; for tests and for `bench`.

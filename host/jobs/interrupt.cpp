@@ -1,11 +1,14 @@
 // The signal handler sets a flag and says so by write(), which a handler may call; nothing else.
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
-// RemoveOnInterrupt waits for signals on a thread of its own, which may remove folders as a handler may not.
+// EndOnInterrupt and RemoveOnInterrupt wait for signals on a thread of their own, which may remove folders as a handler
+// may not.
 #include "jobs/interrupt.hpp"
 #include <unistd.h>
 #include <csignal>
 #include <iostream>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 #include "base/output_place.hpp"
 #include "base/pending_hold.hpp"
@@ -35,23 +38,30 @@ std::vector<fs::path> missing(fs::path path) {
   return out;
 }
 
-// named_before: final_names() before anything was written.
-void wait_for_signal(const std::stop_token& stop, const fs::path& temporary, const std::vector<fs::path>& folders,
-                     uint64_t named_before) {
+// Calls end() when one of the signals has come, or had come before; else returns when it is asked to stop.
+template <class End>
+void wait_for_signal(const std::stop_token& stop, const End& end) {
   const sigset_t set = ending_signals();
   const timespec tenth{0, 100'000'000};
-  while (!stop.stop_requested()) {
-    if (sigtimedwait(&set, nullptr, &tenth) < 0) continue;
-    const auto hold = hold_pending();  // to the end of the process
-    std::error_code ignored;
-    fs::remove_all(temporary, ignored);
-    const bool nothing = final_names() == named_before;
-    if (nothing)
-      for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty
-    std::cerr << "wavetracer: interrupted; " << (nothing ? "nothing was written" : "what was written is complete")
-              << std::endl;
-    _exit(static_cast<int>(ExitCode::interrupted));
-  }
+  while (!stop.stop_requested())
+    if (interrupted() || sigtimedwait(&set, nullptr, &tenth) >= 0) end();
+}
+
+[[noreturn]] void end_interrupted(const std::string& message) {
+  if (!message.empty()) std::cerr << "wavetracer: " << message << std::endl;
+  _exit(static_cast<int>(ExitCode::interrupted));
+}
+
+// named_before: final_names() before anything was written.
+[[noreturn]] void remove_and_end(const fs::path& temporary, const std::vector<fs::path>& folders,
+                                 uint64_t named_before) {
+  const auto hold = hold_pending();  // to the end of the process
+  std::error_code ignored;
+  fs::remove_all(temporary, ignored);
+  const bool nothing = final_names() == named_before;
+  if (nothing)
+    for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty
+  end_interrupted(std::string("interrupted; ") + (nothing ? "nothing was written" : "what was written is complete"));
 }
 
 }  // namespace
@@ -71,13 +81,34 @@ void catch_interrupts(bool acknowledge) {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+EndOnInterrupt::EndOnInterrupt(std::function<void()> clean_up, std::string message) {
+  const sigset_t set = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &set, &before_);
+  waiting_ = std::jthread([clean_up = std::move(clean_up), message = std::move(message)](const std::stop_token& stop) {
+    const auto end = [&] {
+      clean_up();
+      end_interrupted(message);
+    };
+    if (interrupted()) end();  // before the signals were blocked
+    wait_for_signal(stop, end);
+  });
+}
+
+EndOnInterrupt::~EndOnInterrupt() {
+  waiting_.request_stop();
+  waiting_.join();
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
 RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output) {
   const fs::path temporary = temporary_beside(behind_links(output.has_filename() ? output : output.parent_path()));
   const sigset_t set = ending_signals();
   pthread_sigmask(SIG_BLOCK, &set, &before_);
   // Counted here and not by the thread, which may start after the output has got its name.
-  waiting_ = std::jthread([temporary, folders = missing(output), named = final_names().load()](
-                              const std::stop_token& stop) { wait_for_signal(stop, temporary, folders, named); });
+  waiting_ =
+      std::jthread([temporary, folders = missing(output), named = final_names().load()](const std::stop_token& stop) {
+        wait_for_signal(stop, [&] { remove_and_end(temporary, folders, named); });
+      });
 }
 
 RemoveOnInterrupt::~RemoveOnInterrupt() {

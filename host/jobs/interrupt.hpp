@@ -3,6 +3,8 @@
 #pragma once
 #include <signal.h>
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <thread>
 
 namespace wavetracer {
@@ -10,6 +12,19 @@ namespace wavetracer {
 // From now on SIGINT and SIGTERM only raise the request. acknowledge: and say so on stderr, at once.
 void catch_interrupts(bool acknowledge = true);
 bool interrupted();
+
+// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130. For what takes long and leaves
+// nothing to keep, such as loading a scene. clean_up: called before, on another thread; message: said on stderr, if
+// any.
+class EndOnInterrupt {
+ public:
+  EndOnInterrupt(std::function<void()> clean_up, std::string message);
+  ~EndOnInterrupt();
+
+ private:
+  sigset_t before_;
+  std::jthread waiting_;
+};
 
 // While it lives, SIGINT and SIGTERM end the process at once, with exit code 130, and leave nothing of what is being
 // written to `output` (PendingFile and PendingFolder) behind, nor the folders above it that are not there yet. For

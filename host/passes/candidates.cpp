@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
@@ -22,7 +23,7 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
     : context_(context),
       max_reflections_(max_reflections),
       work_(tuning_of(context.info()).candidates),
-      list_(context.buffer<wt_candidate>(1 << 16, "candidates")) {
+      list_(context.buffer<wt_candidate>(1 << 16, {"candidates", advice::links})) {
   const uint32_t reflections = std::max(std::min(max_reflections, WT_MAX_DEPTH), 1u);
   // No more sequences than work-items: each of them follows one back.
   if (!tuning_of(context.info()).alone)
@@ -55,7 +56,9 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
                   scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.linked, list_, counters.buffer(),
                   arguments);
       },
-      [&](size_t entries) { list_ = context_.buffer<wt_candidate>(entries, "candidates"); });
+      [&](size_t entries) {
+        list_ = context_.buffer<wt_candidate>(entries, {"candidates", advice::links});
+      });
 }
 
 }  // namespace wavetracer

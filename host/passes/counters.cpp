@@ -66,7 +66,8 @@ bool Counters::settle(const wt_counters& now) {
   keep_most(most_, now);
   if (foresees_ && !fits) return false;
   last_ = now;
-  return known_ = true;
+  known_ = !in_parts_;
+  return true;
 }
 
 }  // namespace wavetracer

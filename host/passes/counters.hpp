@@ -23,11 +23,16 @@ class Counters {
   // All begin with zero, and nothing is foreseen of them yet.
   void zero();
   // A kernel has made them so.
-  void zeroed() { foreseen_.clear(); }
+  void zeroed() {
+    foreseen_.clear();
+    in_parts_ = false;
+  }
   // One of them begins again with this number.
   void restart(Count count, uint32_t from, const char* stage);
   // So many nodes are listed, and none after them.
   void restart_nodes(uint32_t count, const char* stage);
+  // A list is made in parts, of which the counters have the last alone: nothing is foreseen from this frame.
+  void in_parts() { in_parts_ = true; }
   // Rays of bounces are counted from zero again.
   void restart_ended(const char* stage);
   // As they are now; waits for the device.
@@ -50,7 +55,7 @@ class Counters {
  private:
   gpu::Context& context_;
   gpu::Buffer<wt_counters> buffer_;
-  bool foresees_ = false, known_ = false;
+  bool foresees_ = false, known_ = false, in_parts_ = false;
   wt_counters last_{}, most_{};                       // of the last frame; the most of late
   std::vector<std::pair<Count, uint32_t>> foreseen_;  // since zero()
 };

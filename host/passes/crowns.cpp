@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "passes/advice.hpp"
 #include "passes/tile_rows.hpp"
 #include "wavetracer/device/arguments.h"
 
@@ -32,7 +33,7 @@ Crowns::Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t f
       first_tile_(first_tile) {
   std::vector<double> centres;
   for (const Cell& cell : cells) centres.insert(centres.end(), {cell.centre_m.x, cell.centre_m.y, cell.centre_m.z});
-  centres_ = context.buffer(centres, "cells of vegetation");
+  centres_ = context.buffer(centres, {"cells of vegetation", advice::tiles});
   solved_.max_depth = std::max(max_depth, 1u);
 }
 

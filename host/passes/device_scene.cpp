@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accel/layout.hpp"
+#include "passes/advice.hpp"
 
 namespace wavetracer {
 
@@ -33,9 +34,9 @@ void upload_surfaces(gpu::Context& context, const Scene& scene, DeviceScene& out
     surfaces.push_back(record);
     exact.push_back(exact_record);
   }
-  out.surfaces = context.buffer(surfaces, "surfaces");
-  out.exact_surfaces = context.buffer(exact, "exact surfaces");
-  out.exact_triangles = context.buffer(surface_corners(scene), "surface triangles");
+  out.surfaces = context.buffer(surfaces, {"surfaces", advice::scene});
+  out.exact_surfaces = context.buffer(exact, {"exact surfaces", advice::scene});
+  out.exact_triangles = context.buffer(surface_corners(scene), {"surface triangles", advice::scene});
   out.exact_instances = context.buffer<wt_exact_instance>(1, "instances");
   out.moving = context.buffer<wt_float4>(1, "moving");
 }
@@ -77,17 +78,17 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
   options.spatial_splits = spatial_splits;
   const Bvh2 two = make_bvh2(build_binary(triangles, options), triangles);
   out.triangle_slots = two.triangle_slots;
-  out.nodes2 = context.buffer(centred_nodes(two.nodes, out.extent_m), "BVH2 nodes");
-  out.triangles2 = context.buffer(two.triangles, "BVH2 triangles");
+  out.nodes2 = context.buffer(centred_nodes(two.nodes, out.extent_m), {"BVH2 nodes", advice::scene});
+  out.triangles2 = context.buffer(two.triangles, {"BVH2 triangles", advice::scene});
   out.require_stack("WT_BVH2_STACK", two.max_depth);
   out.require_stack("WT_PACKET_STACK", two.max_depth);
   if (out.cpu) {
-    out.packet_nodes2 = context.buffer(two.nodes, "BVH2 packet nodes");
+    out.packet_nodes2 = context.buffer(two.nodes, {"BVH2 packet nodes", advice::scene});
     options = BuildOptions::for_bvh8();
     options.spatial_splits = spatial_splits;
     const Bvh8 eight = make_bvh8(build_binary(triangles, options), triangles);
-    out.nodes8 = context.buffer(eight.nodes, "BVH8 nodes");
-    out.blocks8 = context.buffer(eight.blocks, "BVH8 blocks");
+    out.nodes8 = context.buffer(eight.nodes, {"BVH8 nodes", advice::scene});
+    out.blocks8 = context.buffer(eight.blocks, {"BVH8 blocks", advice::scene});
     out.require_stack("WT_BVH8_STACK", 7 * eight.max_depth + 1);
   }
   upload_surfaces(context, scene, out);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "passes/advice.hpp"
 #include "wavetracer/device/path_rows.h"
 #include "wavetracer/error.hpp"
 
@@ -32,15 +33,15 @@ Distinct::Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of,
 }
 
 void Distinct::reserve(size_t places) {
-  keys_ = context_.buffer<uint32_t>(places, "keys of paths");
-  order_ = context_.buffer<uint32_t>(places, "order of paths");
-  lengths_ = context_.buffer<double>(places, "lengths of paths");
-  stays_ = context_.buffer<uint8_t>(places, "distinct paths");
-  quarters_ = context_.buffer<uint8_t>(places, "quarters of paths");
-  rows_.rows = context_.buffer<uint32_t>(places, "rows of paths");
-  rows_.counts = context_.buffer<uint32_t>(2 * places, "counts of rows and vertices");
-  rows_.delays = context_.buffer<double>(places, "delays of paths");
-  rows_.quarters = context_.buffer<uint8_t>(places, "quarters of rows");
+  keys_ = context_.buffer<uint32_t>(places, {"keys of paths", advice::links});
+  order_ = context_.buffer<uint32_t>(places, {"order of paths", advice::links});
+  lengths_ = context_.buffer<double>(places, {"lengths of paths", advice::links});
+  stays_ = context_.buffer<uint8_t>(places, {"distinct paths", advice::links});
+  quarters_ = context_.buffer<uint8_t>(places, {"quarters of paths", advice::links});
+  rows_.rows = context_.buffer<uint32_t>(places, {"rows of paths", advice::links});
+  rows_.counts = context_.buffer<uint32_t>(2 * places, {"counts of rows and vertices", advice::links});
+  rows_.delays = context_.buffer<double>(places, {"delays of paths", advice::links});
+  rows_.quarters = context_.buffer<uint8_t>(places, {"quarters of rows", advice::links});
 }
 
 uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "passes/advice.hpp"
 #include "passes/upload.hpp"
 
 namespace wavetracer {
@@ -15,7 +16,7 @@ template <class T>
 void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, gpu::HostMemory& host, size_t count, const char* name) {
   if (count <= buffer.size()) return;
   const size_t larger = count + count / 4;
-  buffer = context.buffer<T>(larger, name);
+  buffer = context.buffer<T>(larger, {name, advice::links});
   host = context.host_memory(larger * sizeof(T), name);
 }
 
@@ -45,8 +46,8 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts,
                  .padding = 0},
       materials_(context.buffer(tables.materials, "materials")),
       materials_of_(context.buffer(tables.materials_of, "materials of surfaces")),
-      surface_of_tile_(context.buffer(tables.surface_of_tile, "surfaces of tiles")),
-      area_of_tile_(context.buffer(tables.area_of_tile, "areas of tiles")),
+      surface_of_tile_(context.buffer(tables.surface_of_tile, {"surfaces of tiles", advice::tiles})),
+      area_of_tile_(context.buffer(tables.area_of_tile, {"areas of tiles", advice::tiles})),
       samples_(context.buffer(tables.samples, "antenna patterns")),
       antennas_(context.buffer(tables.antennas, "antennas")),
       foliages_(context.buffer(tables.foliages, "kinds of vegetation")) {

@@ -1,19 +1,50 @@
 // Lists that kernels append to, counting: run, ask for the length, and where the list was too small make it larger and
 // run again. Assumes that a kernel counts on beyond the capacity, and writes nothing there.
 #pragma once
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "passes/counters.hpp"
 
 namespace wavetracer {
 
 // run(): the kernel; length(): what it has counted; capacity(): of the list now; grow(n): makes room for n elements,
-// and lets the counter begin again with what the list still holds. Returns the length of the list.
+// and lets the counter begin again with what the list still holds. Returns the length of the list; where that is more
+// than `most`, the list does not hold it.
 template <class Run, class Length, class Capacity, class Grow>
-uint32_t grow_until_filled(const Run& run, const Length& length, const Capacity& capacity, const Grow& grow) {
+uint32_t grow_until_filled(const Run& run, const Length& length, const Capacity& capacity, const Grow& grow,
+                           uint32_t most = 0xFFFFFFFFu) {
   for (;;) {
     run();
     const uint32_t now = length();
-    if (now <= capacity()) return now;
-    grow(size_t{now} + now / 4);
+    if (now <= capacity() || now > most) return now;
+    grow(std::min<size_t>(size_t{now} + now / 4, most));
+  }
+}
+
+// What a pass makes of `items` in a list of at most `most` elements: of all of them, or of one part after the other.
+// list(first, end): makes the list of these items, and returns its length. take(length): what follows of the list.
+// again(): before another list. too_long(length): the list of one item alone is longer than `most`; must throw.
+template <class List, class Take, class Again, class TooLong>
+void by_parts(uint32_t items, uint32_t most, const List& list, const Take& take, const Again& again,
+              const TooLong& too_long) {
+  std::vector<std::pair<uint32_t, uint32_t>> left{{0, items}};  // the next one last
+  for (bool begun = false; !left.empty(); begun = true) {
+    const auto [first, end] = left.back();
+    left.pop_back();
+    if (begun) again();
+    const uint32_t length = list(first, end);
+    if (length <= most) {
+      take(length);
+      continue;
+    }
+    if (end - first <= 1) too_long(length);
+    const uint32_t parts = std::min(length / most + 1, end - first);
+    for (uint32_t part = parts; part-- > 0;)
+      left.emplace_back(first + static_cast<uint32_t>(uint64_t{end - first} * part / parts),
+                        first + static_cast<uint32_t>(uint64_t{end - first} * (part + 1) / parts));
   }
 }
 
@@ -21,13 +52,14 @@ uint32_t grow_until_filled(const Run& run, const Length& length, const Capacity&
 // Where lengths are foreseen the list is taken as it is, and this is a bound of its length.
 template <class Capacity, class Run, class Grow>
 uint32_t fill_list(Counters& counters, Counters::Count count, const char* stage, const Capacity& capacity,
-                   const Run& run, const Grow& grow, uint32_t kept = 0) {
+                   const Run& run, const Grow& grow, uint32_t kept = 0, uint32_t most = 0xFFFFFFFFu) {
   return grow_until_filled(
       run, [&] { return counters.length(count, capacity(), stage); }, capacity,
       [&](size_t elements) {
         grow(elements);
         counters.restart(count, kept, stage);
-      });
+      },
+      most);
 }
 
 }  // namespace wavetracer

@@ -9,6 +9,7 @@
 
 #include "accel/instance_tree.hpp"
 #include "accel/layout.hpp"
+#include "passes/advice.hpp"
 
 namespace wavetracer {
 
@@ -127,7 +128,7 @@ void Place::upload_surfaces(gpu::Context& context, const std::vector<Scene>& mod
   surface_count_ = static_cast<uint32_t>(owners.size());
   model_surfaces_ = context.buffer(records, "model surfaces");
   surface_instances_ = context.buffer(owners, "surface instances");
-  scene.exact_triangles = context.buffer(corners, "surface triangles");
+  scene.exact_triangles = context.buffer(corners, {"surface triangles", advice::scene});
   const auto extended = [&](auto& buffer, const char* name) {
     auto records_of_all = buffer.read();
     records_of_all.resize(size_t{first_surface_} + surface_count_);
@@ -151,7 +152,7 @@ void Place::upload(gpu::Context& context, DeviceScene& scene, const std::vector<
   head.triangles = static_cast<uint32_t>(head.nodes + float4s(nodes));
   head.triangle_slots = triangle_slots_;
   instances_at_ = head.instances - top_at;
-  scene.moving = context.buffer<wt_float4>(head.triangles + float4s(leaves), "moving");
+  scene.moving = context.buffer<wt_float4>(head.triangles + float4s(leaves), {"moving", advice::scene});
   scene.moving.write(as_float4s(std::vector{head}));
   scene.moving.write(as_float4s(nodes), head.nodes);
   scene.moving.write(as_float4s(leaves), head.triangles);

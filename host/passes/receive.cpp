@@ -2,6 +2,7 @@
 // One ray per work-item. A list that is too short is made longer, and the same rays run again.
 #include "passes/receive.hpp"
 
+#include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
@@ -48,7 +49,7 @@ void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue&
       },
       [&] { return counter_.read_one(0, "receive"); }, [&] { return list_.size(); },
       [&](size_t entries) {
-        auto longer = context_.buffer<wt_reception>(entries, "receptions (see trace.sphere_radius_m)");
+        auto longer = context_.buffer<wt_reception>(entries, {"receptions", advice::spheres});
         context_.copy(list_, longer, size_t{count_} * sizeof(wt_reception), "receive");
         list_ = longer;
         counter_.write(std::vector{count_}, 0, "receive");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "passes/tile_rows.hpp"
 #include "wavetracer/device/arguments.h"
@@ -17,9 +18,9 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
       scatter_(context.kernel("scatter", "scatter")),
       local_(context.info().simple_local_size()),
       tiles_work_(tuning_of(context.info()).tiles),
-      entries_(context.buffer<uint32_t>(4 * 1024, "lit surfaces")),
-      first_row_(context.buffer<uint32_t>(1024 + 1, "rows of tiles")),
-      count_(context.buffer<uint32_t>(1, "lit surfaces")) {
+      entries_(context.buffer<uint32_t>(4 * 1024, {"lit surfaces", advice::tiles})),
+      first_row_(context.buffer<uint32_t>(1024 + 1, {"rows of tiles", advice::tiles})),
+      count_(context.buffer<uint32_t>(1, {"lit surfaces", advice::tiles})) {
   std::vector<double> centres;
   std::vector<uint32_t> first_centre;  // of each part
   for (uint32_t part = 0; part < tiles.part_count(); ++part) {
@@ -40,9 +41,9 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
   enter(0, 0, 0);
   for (uint32_t i = 0; i < tiles.instances().size(); ++i)
     enter(1 + tiles.instances()[i].model, tiles.instances()[i].first_surface, tiles.first_tile(i));
-  tiles_of_ = context.buffer(tiles_of, "tiles of surfaces");
-  surface_of_tile_ = context.buffer(surface_of_tile, "surfaces of tiles");
-  centres_ = context.buffer(centres, "tiles");
+  tiles_of_ = context.buffer(tiles_of, {"tiles of surfaces", advice::tiles});
+  surface_of_tile_ = context.buffer(surface_of_tile, {"surfaces of tiles", advice::tiles});
+  centres_ = context.buffer(centres, {"tiles", advice::tiles});
   solved_.max_depth = std::max(max_depth, 1u);
   solved_.reserve(context, 1 << 12);
 }
@@ -60,8 +61,8 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
       },
       [&] { return count_.read_one(0, "scatter"); }, capacity,
       [&](size_t larger) {
-        entries_ = context_.buffer<uint32_t>(4 * larger, "lit surfaces");
-        first_row_ = context_.buffer<uint32_t>(larger + 1, "rows of tiles");
+        entries_ = context_.buffer<uint32_t>(4 * larger, {"lit surfaces", advice::tiles});
+        first_row_ = context_.buffer<uint32_t>(larger + 1, {"rows of tiles", advice::tiles});
       });
 }
 

@@ -2,6 +2,7 @@
 // Layout: wt_solved in wavetracer/device/records.h.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "passes/advice.hpp"
 #include "wavetracer/device/records.h"
 
 namespace wavetracer {
@@ -17,9 +18,9 @@ struct SolvedList {
 
   // Room for so many rows of max_depth; what was there is lost.
   void reserve(gpu::Context& context, size_t rows) {
-    headers = context.buffer<wt_solved>(rows, "solved paths");
-    vertices = context.buffer<double>(3 * rows * max_depth, "path vertices");
-    sequences = context.buffer<uint32_t>(rows * max_depth, "path surfaces");
+    headers = context.buffer<wt_solved>(rows, {"solved paths", advice::links});
+    vertices = context.buffer<double>(3 * rows * max_depth, {"path vertices", advice::links});
+    sequences = context.buffer<uint32_t>(rows * max_depth, {"path surfaces", advice::links});
   }
   // Copies the rows of a list of the same depth to the beginning of this one, which has room for them.
   void copy_from(gpu::Context& context, const SolvedList& list) {

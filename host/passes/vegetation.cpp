@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "accel/instance_tree.hpp"
+#include "passes/advice.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
@@ -60,7 +61,8 @@ Vegetation::Vegetation(gpu::Context& context, const VolumeTable& table)
 const gpu::Buffer<double>& Vegetation::operator()(const RadioEnds& ends, const SolvedList& visible,
                                                   Counters& counters) {
   const size_t lengths = size_t{visible.count} * kinds_;
-  if (lengths_.size() < lengths) lengths_ = context_.buffer<double>(lengths + lengths / 4, "lengths in vegetation");
+  if (lengths_.size() < lengths)
+    lengths_ = context_.buffer<double>(lengths + lengths / 4, {"lengths in vegetation", advice::links});
   if (lengths > 0)
     kernel_(work_.range(visible.count), "vegetation", nodes_, volumes_, triangles_, earlier_, ends.transmitters,
             ends.receivers, visible.headers, visible.vertices, counters.buffer(), lengths_,

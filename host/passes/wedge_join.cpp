@@ -2,11 +2,29 @@
 // A prefix has one work-item or a group of them: a wedge may be seen by few or by thousands.
 #include "passes/wedge_join.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "passes/tuning.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
+namespace {
+
+constexpr uint32_t least_candidates = 1 << 14;
+
+// All of them may be solved: with what a solved path takes. At least what the list begins with.
+uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t max_depth) {
+  const uint64_t path_bytes = sizeof(wt_solved) + (3 * sizeof(double) + sizeof(uint32_t)) * max_depth;
+  const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * std::max(max_depth, 1u)),
+                                 device.global_memory / (4 * (sizeof(wt_wedge_candidate) + path_bytes)));
+  return static_cast<uint32_t>(std::clamp<uint64_t>(most, least_candidates, 1u << 30));
+}
+
+}  // namespace
 
 WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth)
     : context_(context),
@@ -14,14 +32,24 @@ WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receive
       max_depth_(max_depth),
       lanes_(tuning_of(context.info()).join_lanes),
       group_(tuning_of(context.info()).join_group),
+      most_(most_candidates(context.info(), max_depth)),
       receiver_of_origin_(context.buffer(receiver_of_origin, "receivers of origins")),
-      list_(context.buffer<wt_wedge_candidate>(1 << 14, "wedge candidates")) {}
+      list_(context.buffer<wt_wedge_candidate>(least_candidates, {"wedge candidates", advice::links})) {}
 
-uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                               const RadioEnds& ends, Counters& counters, WedgePairs* pairs) {
-  const size_t items = size_t{prefixes.count} * lanes_;
+void WedgeJoin::refuse(uint32_t candidates) const {
+  throw gpu::BufferError(
+      fmt::format("one sequence of a transmitter makes {} candidates of diffracted paths, more than the {} that {} is "
+                  "given at a time. {}",
+                  candidates, most_, context_.info().name, advice::links));
+}
+
+uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, uint32_t first, uint32_t end,
+                               const WedgeList& wedges, const RadioEnds& ends, Counters& counters, WedgePairs* pairs) {
+  const size_t items = size_t{end - first} * lanes_;
   const auto run = [&] {
     const wt_wedge_join_arguments arguments{.count = prefixes.count,
+                                            .first = first,
+                                            .end = end,
                                             .lanes = lanes_,
                                             .transmitter_count = ends.transmitter_count,
                                             .groups = ends.receiver_capacity / 16,
@@ -34,7 +62,10 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
   };
   return fill_list(
       counters, &wt_counters::wedge_candidates, "wedge_join", [&] { return list_.size(); }, run,
-      [&](size_t entries) { list_ = context_.buffer<wt_wedge_candidate>(entries, "wedge candidates"); });
+      [&](size_t entries) {
+        list_ = context_.buffer<wt_wedge_candidate>(entries, {"wedge candidates", advice::links});
+      },
+      0, most_);
 }
 
 }  // namespace wavetracer

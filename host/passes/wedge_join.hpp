@@ -1,6 +1,6 @@
 // wedge_join: candidates of diffracted paths, from prefixes of both ends that see one wedge; with wedge_pairs also from
 // those that see a wedge each.
-// The list grows until it holds them.
+// The list grows until it holds them, or as far as is allowed: then they are asked for in parts.
 #pragma once
 #include <vector>
 
@@ -17,16 +17,21 @@ class WedgeJoin {
  public:
   // receiver_of_origin: of each end that launches, the receiver that it is, or WT_NONE.
   WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth);
-  // prefixes: sorted by their keys. pairs: for paths over two wedges too, or nullptr. Returns the number of candidates,
-  // in list().
-  uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                      const RadioEnds& ends, Counters& counters, WedgePairs* pairs);
+  // prefixes: sorted by their keys; first to end - 1 of them as those of transmitters. pairs: for paths over two wedges
+  // too, or nullptr. Returns the number of candidates, in list(); where it is more than most(), they are not there.
+  uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, uint32_t first, uint32_t end,
+                      const WedgeList& wedges, const RadioEnds& ends, Counters& counters, WedgePairs* pairs);
+  // So many candidates are listed at a time: what is solved of them takes a quarter of the device's memory at most.
+  uint32_t most() const { return most_; }
+  void set_most(uint32_t most) { most_ = most; }
+  // Throws BufferError: there are so many candidates of one prefix.
+  [[noreturn]] void refuse(uint32_t candidates) const;
   const gpu::Buffer<wt_wedge_candidate>& list() const { return list_; }
 
  private:
   gpu::Context& context_;
   gpu::Kernel kernel_;
-  uint32_t max_depth_, lanes_, group_;
+  uint32_t max_depth_, lanes_, group_, most_;
   gpu::Buffer<uint32_t> receiver_of_origin_;
   gpu::Buffer<wt_wedge_candidate> list_;
 };

@@ -32,7 +32,7 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                             const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
                             const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
                             Counters& counters) {
-  kernel_({size_t{join.count} * join.lanes, group_}, "wedge_pairs", scene.leg_nodes(), scene.leg_leaves(),
+  kernel_({size_t{join.end - join.first} * join.lanes, group_}, "wedge_pairs", scene.leg_nodes(), scene.leg_leaves(),
           scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, prefixes.order,
           prefixes.prefixes, receiver_of_origin, ends.links, wedges.wedges, list, counters.buffer(), join,
           sight.arguments(scene, join.count, kept_wedges_));

@@ -2,6 +2,7 @@
 // One node of the trie per work-item.
 #include "passes/wedge_prefixes.hpp"
 
+#include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
@@ -15,8 +16,9 @@ WedgePrefixes::WedgePrefixes(gpu::Context& context)
 }
 
 void WedgePrefixes::reserve(size_t entries) {
-  list_ = {context_.buffer<uint32_t>(entries, "wedge keys"), context_.buffer<uint32_t>(entries, "wedge order"),
-           context_.buffer<wt_wedge_prefix>(entries, "wedge prefixes")};
+  list_ = {context_.buffer<uint32_t>(entries, {"wedge keys", advice::links}),
+           context_.buffer<uint32_t>(entries, {"wedge order", advice::links}),
+           context_.buffer<wt_wedge_prefix>(entries, {"wedge prefixes", advice::links})};
 }
 
 WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "passes/advice.hpp"
 #include "radio/world_records.hpp"
 
 namespace wavetracer {
@@ -42,10 +43,11 @@ Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scen
   diffracting_ = static_cast<uint32_t>(std::ranges::count_if(
       records, [&](const wt_wedge& wedge) { return free_edges || wedge.exterior <= half_plane_rad; }));
 
-  list_.wedges = context.buffer(records, "wedges");
-  models_ = context.buffer(std::vector<wt_wedge>(records.begin() + static_count_, records.end()), "model wedges");
+  list_.wedges = context.buffer(records, {"wedges", advice::scene});
+  models_ = context.buffer(std::vector<wt_wedge>(records.begin() + static_count_, records.end()),
+                           {"model wedges", advice::scene});
   list_.first = context.buffer(first, "first wedges of surfaces");
-  list_.of_surfaces = context.buffer(of_surfaces, "wedges of surfaces");
+  list_.of_surfaces = context.buffer(of_surfaces, {"wedges of surfaces", advice::scene});
 }
 
 unsigned Wedges::key_bits() const {

@@ -80,25 +80,25 @@ std::vector<Tile> make_tiles(const Scene& scene, double tile_m) {
 }
 
 TileTable::TileTable(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances,
-                     double tile_m)
+                     double tile_m, uint64_t most)
     : instances_(instances) {
   std::vector<uint64_t> copies(models.size(), 0);
   for (const Instance& instance : instances) ++copies[instance.model];
-  const auto count = [&](double size_m, uint64_t most) {
-    auto all = static_cast<double>(tile_count(scene, size_m, most));
+  const auto count = [&](double size_m, uint64_t enough) {
+    auto all = static_cast<double>(tile_count(scene, size_m, enough));
     for (size_t m = 0; m < models.size(); ++m)
       if (copies[m] > 0)
-        all += static_cast<double>(copies[m]) * static_cast<double>(tile_count(models[m], size_m, most / copies[m]));
+        all += static_cast<double>(copies[m]) * static_cast<double>(tile_count(models[m], size_m, enough / copies[m]));
     return all;
   };
-  if (const double found = count(tile_m, most_tiles); found > static_cast<double>(most_tiles)) {
+  if (const double found = count(tile_m, most); found > static_cast<double>(most)) {
     constexpr uint64_t fair = most_tiles / 64;  // what some device may hold the paths of
     double enough_m = tile_m;
     while (std::isfinite(enough_m) && count(enough_m, fair) > static_cast<double>(fair)) enough_m *= 2;
     throw ConfigError(
         fmt::format("trace.tile_m = {:g} cuts the surfaces that scatter into {:.3g} tiles or more, but at most {} are "
-                    "possible; use trace.tile_m = {:g} or more. Every tile is one path for each link that sees it",
-                    tile_m, found, most_tiles, enough_m));
+                    "possible here; use trace.tile_m = {:g} or more. Every tile is one path for each link that sees it",
+                    tile_m, found, most, enough_m));
   }
   parts_.push_back(make_tiles(scene, tile_m));
   for (size_t m = 0; m < models.size(); ++m)

@@ -35,8 +35,10 @@ class TileTable {
   // A number and the bits of WT_STEP_KIND share a word; more tiles than these would fit no device's memory anyway.
   static constexpr uint64_t most_tiles = uint64_t{1} << 28;
 
-  // Throws ConfigError, naming trace.tile_m and a value that is large enough, if there are more than most_tiles.
-  TileTable(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances, double tile_m);
+  // Throws ConfigError, naming trace.tile_m and a value that is large enough, if there are more than `most`; before any
+  // of them takes memory.
+  TileTable(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances, double tile_m,
+            uint64_t most = most_tiles);
 
   uint32_t size() const { return size_; }
   uint32_t part_count() const { return static_cast<uint32_t>(parts_.size()); }

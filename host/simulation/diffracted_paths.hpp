@@ -2,16 +2,23 @@
 // No ray need hit an edge: a ray that meets a face says that its prefix sees the wedges of that face. Assumes that both
 // ends of every link have launched, and that place has run.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "base/environment.hpp"
+#include "passes/growing_list.hpp"
+#include "passes/sequences.hpp"
 #include "passes/sort.hpp"
 #include "passes/wedge_join.hpp"
 #include "passes/wedge_pairs.hpp"
 #include "passes/wedge_prefixes.hpp"
 #include "passes/wedge_solve.hpp"
 #include "passes/wedges.hpp"
+#include "simulation/frame_account.hpp"
 
 namespace wavetracer {
 
@@ -24,7 +31,11 @@ struct DiffractedPaths {
         join(context, receiver_of_origin, max_depth),
         pairs(std::move(two)),
         solve(context, max_depth),
-        sort_(context) {}
+        sort_(context) {
+    // So that tests need no scene of millions of candidates.
+    if (const std::string most = environment("WAVETRACER_MOST_CANDIDATES"); !most.empty())
+      join.set_most(static_cast<uint32_t>(std::max(std::atol(most.c_str()), 1L)));
+  }
 
   WedgePairs* for_two() { return pairs ? &*pairs : nullptr; }
 
@@ -42,5 +53,37 @@ struct DiffractedPaths {
  private:
   Sort sort_;
 };
+
+// From wedge_join to visible, with a part of the prefixes after the other where all have too many candidates for one
+// list. see: what follows wedge_solve; told: before another part. Returns what the counters have not: all parts but the
+// last.
+template <class See, class Told>
+Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                        const WedgePrefixList& prefixes, const See& see, const Told& told) {
+  Counters& counters = set.counters();
+  Uncounted out, part;
+  by_parts(
+      prefixes.count, counters.foresees() ? 0xFFFFFFFFu : edges.join.most(),
+      [&](uint32_t first, uint32_t end) {
+        return edges.join(scene, prefixes, first, end, edges.wedges.list(), ends, counters,
+                          edges.for_two());  // wedge_join, wedge_pairs
+      },
+      [&](uint32_t joined) {
+        SolvedList& solved = edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.join.list(), joined,
+                                         counters);  // wedge_solve
+        see(solved);
+        part = {joined, solved.count};
+      },
+      [&] {
+        out.candidates += std::exchange(part.candidates, 0);
+        out.solved += std::exchange(part.solved, 0);
+        counters.restart(&wt_counters::wedge_candidates, 0, "wedge_join");
+        counters.restart(&wt_counters::wedge_solved, 0, "wedge_solve");
+        counters.in_parts();
+        told();
+      },
+      [&](uint32_t candidates) { edges.join.refuse(candidates); });
+  return out;
+}
 
 }  // namespace wavetracer

@@ -1,6 +1,8 @@
 // Geometry decides: which passes a configuration needs, and the choice between the two that check legs.
 #include "simulation/exact_paths.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "simulation/tracing_depth.hpp"
@@ -8,6 +10,13 @@
 namespace wavetracer {
 
 namespace {
+
+// Tiles whose centres fit into a buffer of the device, and that take half of the memory of the machine while they are
+// made, about 110 bytes each.
+uint64_t fitting_tiles(const gpu::DeviceInfo& device) {
+  const auto memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  return std::min({TileTable::most_tiles, device.max_buffer / (3 * sizeof(double)), memory / 2 / 110});
+}
 
 uint32_t surface_count(const Scene& scene, const World& world) {
   size_t count = scene.surfaces.size();
@@ -31,7 +40,7 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
                         origins.receiver_of_origin, trace.max_depth, std::move(two));
   }
   if (trace.scattering) {
-    const TileTable tiles(scene, world.models(), world.instances(), trace.tile_m);
+    const TileTable tiles(scene, world.models(), world.instances(), trace.tile_m, fitting_tiles(context.info()));
     if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), trace.max_depth);
     const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
     if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), trace.max_depth);

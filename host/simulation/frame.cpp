@@ -50,6 +50,9 @@ FrameResult FrameLoop::run(const FrameTask& task) {
   } catch (const FrameStopped&) {
     forget();
     throw;
+  } catch (const gpu::BufferError&) {
+    forget();
+    throw;
   }
 }
 
@@ -122,15 +125,15 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
   for (bool settled = false; !settled; counters.foresee(false)) {
     begin_sequences(set, searches);
     out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
-    const uint32_t scattered = s_.trails && s_.trails->receives()
-                                   ? receive_paths(ends, account)
-                                   : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, s_.frame_watch,
-                                                 account);  // sequences to visible
+    const Uncounted besides = s_.trails && s_.trails->receives()
+                                  ? receive_paths(ends, account)
+                                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, s_.frame_watch,
+                                                account);  // sequences to visible
     account.end_stage("paths");
     finish_paths(task.frame, world, ends, block ? &block->own : nullptr, true);  // distinct to fields
     out.counted = counters.read("fields");
     account.device_done();
-    account.counted(out.counted, ends.transmitter_count, scattered);
+    account.counted(out.counted, ends.transmitter_count, besides);
     settled = !alike || counters.settle(out.counted);
   }
   if (out.rays.unread > 0) out.rays.add_ended(out.rays.unread, out.counted.ended);
@@ -203,7 +206,7 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths.
-uint32_t FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
+Uncounted FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
   Sequences& set = s_.discovery.sequences();
   set.collect(ends.transmitter_count);
   account.result.counts.receptions = s_.trails->receptions();
@@ -211,20 +214,21 @@ uint32_t FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) 
   SolvedList& visible = s_.exact_paths.visible.list();
   upload_visible(s_.context, s_.trails->paths(), visible);
   set.counters().restart(&wt_counters::visible, visible.count, "visible");
-  return 0;
+  return {};
 }
 
-uint32_t solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
-                     const FrameWatch& watch, FrameAccount& account) {
+Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+                      const FrameWatch& watch, FrameAccount& account) {
   Counters& counters = set.counters();
   uint64_t kinds_done = 0;
+  Uncounted out;
   exact.visible.clear();
   const auto see = [&](SolvedList& solved) {
     exact.check_legs(scene, ends, solved, counters);  // occlusion or transmissions
     exact.visible(solved, counters);                  // visible
     account.device_done();
-    watch.tell("paths", ++kinds_done, exact.kinds());
   };
+  const auto tell = [&] { watch.tell("paths", ++kinds_done, exact.kinds()); };
   watch.tell("paths", 0, exact.kinds());
 
   uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
@@ -233,6 +237,7 @@ uint32_t solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnd
   SolvedList& mirrored = exact.solve(scene, ends, set.table(), set.quarters(), exact.candidates.list(), candidates,
                                      counters, exact.blockers ? &*exact.blockers : nullptr);  // solve
   see(mirrored);
+  tell();
   set.keep(mirrored);
 
   if (exact.diffraction) {
@@ -242,24 +247,26 @@ uint32_t solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnd
                                                set.nodes(), nodes, counters);   // wedge_prefixes
     if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);  // wedge_sight
     edges.sort(prefixes);                                                       // sort
-    const uint32_t joined = edges.join(scene, prefixes, edges.wedges.list(), ends, counters,
-                                       edges.for_two());  // wedge_join, wedge_pairs
-    see(edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.join.list(), joined,
-                    counters));  // wedge_solve
+    out =
+        join_prefixes(edges, scene, ends, set, prefixes, see, [&] { watch.tell("paths", kinds_done, exact.kinds()); });
+    tell();
   }
-  uint32_t scattered = 0;
+  const auto see_scattered = [&](SolvedList& rows) {
+    see(rows);
+    tell();
+    out.candidates += rows.count;
+    out.solved += rows.count;
+  };
   if (exact.scatter) {
     SolvedList& by_tiles =
         (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
-    see(by_tiles);
-    scattered += by_tiles.count;
+    see_scattered(by_tiles);
   }
   if (exact.crowns) {
     SolvedList& by_cells = (*exact.crowns)(ends);  // crowns
-    see(by_cells);
-    scattered += by_cells.count;
+    see_scattered(by_cells);
   }
-  return scattered;
+  return out;
 }
 
 }  // namespace wavetracer

@@ -47,7 +47,7 @@ class FrameLoop {
   void next_frame(Sequences& set);
   void begin_sequences(Sequences& set, bool searches);
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
-  uint32_t receive_paths(const RadioEnds& ends, FrameAccount& account);
+  Uncounted receive_paths(const RadioEnds& ends, FrameAccount& account);
   void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
                     bool carriers);
   Paths known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
@@ -60,9 +60,8 @@ class FrameLoop {
 };
 
 // Finds the exact paths of the sequences that rays have found, in exact.visible.list(). searched: rays may have added
-// sequences since the call before, whose exchanges are added then. Returns the rows of scattering that were solved,
-// which no counter has.
-uint32_t solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
-                     const FrameWatch& watch, FrameAccount& account);
+// sequences since the call before, whose exchanges are added then. Returns what no counter has.
+Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+                      const FrameWatch& watch, FrameAccount& account);
 
 }  // namespace wavetracer

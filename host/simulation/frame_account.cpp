@@ -24,11 +24,11 @@ void FrameAccount::discovered(const DiscoveryCounts& found) {
   for (const uint64_t segments : found.segments_per_depth) result.counts.segments += segments;
 }
 
-void FrameAccount::counted(const wt_counters& counters, uint32_t transmitter_count, uint32_t scattered) {
+void FrameAccount::counted(const wt_counters& counters, uint32_t transmitter_count, const Uncounted& besides) {
   FrameCounts& counts = result.counts;
   counts.sequences = uint64_t{counters.nodes} + counters.exchanged - transmitter_count;
-  counts.candidates = uint64_t{counters.candidates} + counters.wedge_candidates + scattered;
-  counts.solved = uint64_t{counters.solved} + counters.hidden + counters.wedge_solved + scattered;
+  counts.candidates = uint64_t{counters.candidates} + counters.wedge_candidates + besides.candidates;
+  counts.solved = uint64_t{counters.solved} + counters.hidden + counters.wedge_solved + besides.solved;
 }
 
 void FrameAccount::left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name) {

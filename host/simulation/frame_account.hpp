@@ -8,6 +8,11 @@
 
 namespace wavetracer {
 
+// What no counter has: rows of scattering, and the parts of a list but its last one.
+struct Uncounted {
+  uint64_t candidates = 0, solved = 0;
+};
+
 class FrameAccount {
  public:
   // The frame begins. context outlives this.
@@ -19,8 +24,7 @@ class FrameAccount {
   void device_done() { host_.lap(); }
 
   void discovered(const DiscoveryCounts& found);
-  // scattered: rows of scattering, which are candidates and solved.
-  void counted(const wt_counters& counters, uint32_t transmitter_count, uint32_t scattered);
+  void counted(const wt_counters& counters, uint32_t transmitter_count, const Uncounted& besides);
   void warn(std::string text) { result.warnings.push_back(std::move(text)); }
   // Paths of near ends that were left out. names: of the ends of the frame.
   void left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name);

@@ -87,9 +87,10 @@ void add_counts(FrameResult& to, const FrameResult& from) {
 
 }  // namespace
 
-std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count) {
-  const uint32_t batch = trace.batch_receivers.value_or(most_receivers);
-  if (!trace.diffraction || receiver_count <= batch) return {{}};
+std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint32_t most) {
+  const uint32_t asked = trace.diffraction ? trace.batch_receivers.value_or(most_receivers) : no_end;
+  const uint32_t batch = std::min(asked, most);
+  if (receiver_count <= batch) return {{}};
   std::vector<ReceiverRange> out;
   for (uint32_t first = 0; first < receiver_count; first += std::min(batch, receiver_count - first))
     out.push_back({first, first + std::min(batch, receiver_count - first)});

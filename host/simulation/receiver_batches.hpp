@@ -10,8 +10,9 @@
 
 namespace wavetracer {
 
-// One batch where the frame is not cut: receivers launch no rays or are few. batch: trace.batch_receivers.
-std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count);
+// One batch where the frame is not cut: receivers launch no rays or are few. Of trace.batch_receivers each, but no more
+// than `most`.
+std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint32_t most = no_end);
 
 // The frame that the batches are, one after the other. Counts and seconds are those of all work; the rays of
 // transmitters are launched for every batch. Assumes two batches at least, without a cache or waypoints.

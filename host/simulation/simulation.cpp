@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "simulation/frame.hpp"
 #include "simulation/missing_paths.hpp"
@@ -26,22 +27,57 @@ struct Simulation::State {
             .receiver_name = name(setup.config.receivers)};
   }
 
-  // A frame that reuses nothing may be solved in batches of receivers.
+  // A frame that reuses nothing may be solved in batches of receivers, which are halved where their lists are too long
+  // for the device.
   FrameResult run(FrameTask task) {
     const bool whole = setup.reuse || !block_obstacle(setup.config).empty();
     const auto receivers = static_cast<uint32_t>(setup.world.receivers().size());
-    const std::vector<ReceiverRange> batches = receiver_batches(setup.trace, whole ? 0 : receivers);
-    if (batches.size() == 1) return frames.run(task);
+    if (whole || receivers < 2) return frames.run(task);
+    std::deque<ReceiverRange> left;
+    for (const ReceiverRange& batch : receiver_batches(setup.trace, receivers, fitting))
+      left.push_back({batch.first, std::min(batch.end, receivers)});
+    if (left.size() == 1) {
+      try {
+        return frames.run(task);
+      } catch (const gpu::BufferError&) {
+        halve(left);
+      }
+    }
+    return run_batches(std::move(task), std::move(left));
+  }
+
+  // The first batch becomes two, and later frames begin with none that is longer.
+  void halve(std::deque<ReceiverRange>& left) {
+    const auto [first, end] = left.front();
+    const uint32_t middle = first + (end - first + 1) / 2;
+    fitting = middle - first;
+    left.front() = {middle, end};
+    left.push_front({first, middle});
+  }
+
+  FrameResult run_batches(FrameTask task, std::deque<ReceiverRange> left) {
     std::vector<FrameResult> parts;
     LeftOut left_out;  // links of a batch are those of its receivers, so no link is here twice
     task.left_out = &left_out;
-    for (const ReceiverRange& batch : batches) {
-      setup.frame_watch.set_part(parts.size(), batches.size());
-      task.receivers = batch;
-      parts.push_back(frames.run(task));
+    while (!left.empty()) {
+      setup.frame_watch.set_part(parts.size(), parts.size() + left.size());
+      task.receivers = left.front();
+      try {
+        parts.push_back(frames.run(task));
+        left.pop_front();
+      } catch (const gpu::BufferError&) {
+        if (left.front().end - left.front().first < 2) throw;
+        halve(left);
+      }
     }
     setup.frame_watch.set_part(0, 1);
     FrameResult out = joined_batches(std::move(parts));
+    if (fitting < no_end)
+      out.warnings.push_back(fmt::format(
+          "the lists of all receivers at once did not fit into {}: frames are computed for {} receivers at a "
+          "time, for each of which the transmitters launch their rays again{}",
+          setup.device.name, fitting,
+          setup.trace.diffraction ? fmt::format("; trace.batch_receivers = {} begins so", fitting) : ""));
     if (!left_out.empty())
       out.warnings.push_back(left_out_warning(left_out, task.transmitter_name, task.receiver_name));
     if (setup.elements.on()) {  // of all links at once
@@ -77,6 +113,7 @@ struct Simulation::State {
   FrameLoop frames;
   uint32_t profile_every = 1;
   uint64_t runs = 0;
+  uint32_t fitting = no_end;  // receivers of a batch whose lists the device can hold, as far as is known
 };
 
 Simulation::Simulation(const Config& config, const std::string& device)

@@ -207,6 +207,29 @@ TEST_CASE("an interrupt ends the run after the repeat in progress, with whole fi
   CHECK(lines_of(folder.path("out/links.csv")) == 2);
 }
 
+TEST_CASE("while the scene is loaded Ctrl-C and SIGTERM end a run at once, and leave nothing") {
+  if (!device_present()) return;
+  const Folder folder;
+  // Some 10^7 tiles, which take a while.
+  const std::string tiles = "trace.scattering = true\ntrace.tile_m = 0.1\n";
+  const std::string file =
+      folder.file("a.toml", tiles + street + "[[material]]\nname = \"concrete\"\nscattering = 0.3\n");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Program run({"run", "-c", file, "-o", folder.path("out")});
+    using namespace std::chrono_literals;
+    for (int i = 0; i < 3000 && !contains(run.messages(), "loading the scene"); ++i) std::this_thread::sleep_for(20ms);
+    run.signal(signal);
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run.wait();
+    CAPTURE(outcome.err);
+    CHECK(std::chrono::steady_clock::now() - start < 5s);
+    CHECK(outcome.code == 130);
+    CHECK(contains(outcome.err, "interrupted before the first frame; nothing was written"));
+    CHECK_FALSE(contains(outcome.err, "ready after"));
+    CHECK_FALSE(std::filesystem::exists(folder.path("out")));
+  }
+}
+
 TEST_CASE("a run of one frame acknowledges Ctrl-C at once and stops between batches of rays") {
   if (!device_present()) return;
   const Folder folder;

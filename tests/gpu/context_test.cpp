@@ -141,6 +141,12 @@ TEST_CASE_FIXTURE(Fixture, "a buffer larger than the device allows is an error t
   CHECK(contains(message, std::to_string(context.info().max_buffer)));
   CHECK(contains(message, "trace.batch_rays"));
   CHECK(contains(message, context.info().name));
+  const std::string other = message_of<gpu::BufferError>([&] {
+    context.buffer<uint8_t>(static_cast<size_t>(context.info().max_buffer) + 1, {"tiles", "Raise trace.tile_m"});
+  });
+  CHECK(contains(other, "\"tiles\""));
+  CHECK(contains(other, ". Raise trace.tile_m"));
+  CHECK_FALSE(contains(other, "trace.batch_rays"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "a launch covers its range, padded to whole work-groups") {

@@ -1,9 +1,12 @@
 // A frame in batches of receivers is the frame in one, bit for bit; and how receivers are cut.
 #include "simulation/receiver_batches.hpp"
 
+#include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "simulation/bends.hpp"
+#include "wavetracer/error.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -28,6 +31,13 @@ Config map_of(const SceneFile& file) {
   return config;
 }
 
+// So many candidates are listed at a time as long as this lives.
+class MostCandidates {
+ public:
+  explicit MostCandidates(const char* most) { setenv("WAVETRACER_MOST_CANDIDATES", most, 1); }
+  ~MostCandidates() { unsetenv("WAVETRACER_MOST_CANDIDATES"); }
+};
+
 }  // namespace
 
 TEST_CASE("receivers are cut into ranges that hold each of them once") {
@@ -40,6 +50,8 @@ TEST_CASE("receivers are cut into ranges that hold each of them once") {
   using Cut = std::vector<std::pair<uint32_t, uint32_t>>;
   const Cut whole{{0, no_end}};
   CHECK(cut(1000000) == whole);  // who launches no rays keeps nothing
+  CHECK(receiver_batches(trace, 10, 6).size() == 2);
+  CHECK(receiver_batches(trace, 6, 6).size() == 1);
   trace.diffraction = true;
   CHECK(cut(8192) == whole);
   CHECK(cut(8193) == Cut{{0, 8192}, {8192, 8193}});
@@ -88,6 +100,63 @@ TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
     CHECK(found.counts.rays > whole.counts.rays);  // transmitters launch again
     CHECK(simulation.run_block(0, {1, 3}).paths.size() < whole.paths.size());
   }
+}
+
+TEST_CASE("candidates that are listed in parts make the frame that is listed at once, bit for bit") {
+  const SceneFile file(two_boxes());
+  Config config = map_of(file);
+  config.trace.max_diffractions = 2;
+  config.trace.max_depth = 3;
+  const FrameResult whole = run(config);
+  REQUIRE(whole.paths.size() > 500);
+  for (const char* const most : {"2000", "300"}) {
+    CAPTURE(most);
+    const MostCandidates limit(most);
+    const FrameResult parts = run(config);
+    CHECK(identical(parts.paths, whole.paths));
+    CHECK(parts.paths.quarters == whole.paths.quarters);
+    CHECK(parts.counts.candidates == whole.counts.candidates);
+    CHECK(parts.counts.solved == whole.counts.solved);
+    CHECK(parts.counts.rays == whole.counts.rays);  // nothing is launched again
+    CHECK(parts.warnings == whole.warnings);
+  }
+}
+
+TEST_CASE("drives that reuse list their candidates in parts, too") {
+  const SceneFile file(two_boxes());
+  Config config = map_of(file);
+  config.trace.reuse = true;
+  config.tracks = {{"car", "passenger", {{0, -12, 9, 0}, {1, -9, 9, 0}}}};
+  config.time = {0, 1, 0.25};
+  Simulation at_once(config);
+  const MostCandidates limit("500");
+  Simulation in_parts(config);
+  for (uint32_t frame = 0; frame < 4; ++frame)
+    CHECK(identical(in_parts.run_frame(frame).paths, at_once.run_frame(frame).paths));
+}
+
+TEST_CASE("batches of receivers are halved where their lists are too long, and the frame stays the same") {
+  const SceneFile file(two_boxes());
+  Config config = map_of(file);
+  const FrameResult whole = run(config);
+  const auto told = [](const FrameResult& frame) {
+    return std::ranges::any_of(frame.warnings, [](const std::string& text) {
+      return text.find("trace.batch_receivers = ") != text.npos && text.find("did not fit") != text.npos;
+    });
+  };
+  CHECK_FALSE(told(whole));
+  const MostCandidates limit("20");  // less than one prefix of a transmitter has with those of all receivers
+  for (const std::optional<uint32_t> batch : {std::optional<uint32_t>(), std::optional<uint32_t>(30)}) {
+    config.trace.batch_receivers = batch;
+    Simulation simulation(config);
+    for (int time = 0; time < 2; ++time) {
+      const FrameResult halved = simulation.run_frame(0);
+      CHECK(identical(halved.paths, whole.paths));
+      CHECK(told(halved));
+    }
+  }
+  const MostCandidates none("1");
+  CHECK_THROWS_WITH_AS(run(config), doctest::Contains("links.max_distance_m"), DeviceError);
 }
 
 TEST_CASE("batches without a link are empty, and a frame that is given up goes on with any other") {

@@ -134,9 +134,12 @@ typedef struct {
   wt_uint capacity;
 } wt_wedge_prefixes_arguments;
 
-// Of wedge_join: `lanes` work-items take one prefix.
+// Of wedge_join and wedge_pairs: `lanes` work-items take one of the prefixes first to end - 1, in their order, as that
+// of the transmitter.
 typedef struct {
-  wt_uint count;
+  wt_uint count;  // of all prefixes
+  wt_uint first;
+  wt_uint end;
   wt_uint lanes;
   wt_uint transmitter_count;
   wt_uint groups;  // of 16 receivers
