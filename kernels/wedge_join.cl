@@ -12,9 +12,9 @@ inline int may_reach(const global wt_wedge_prefix* a, const global wt_surface* s
   return a->depth == 0 || wt_may_pass(surfaces + a->last, (float3)(a->image[0], a->image[1], a->image[2]), p);
 }
 
-// `lanes` work-items for each prefix of a block of them, in order of their wedges, with all that see the same one. The path crosses the edge
-// where the unfolded one does: between both images' feet on its line, divided as their distances from it (Keller's
-// cone).
+// `lanes` work-items for each prefix of a block of them, in order of their wedges, with all that see the same one. The
+// path crosses the edge where the unfolded one does: between both images' feet on its line, divided as their distances
+// from it (Keller's cone).
 kernel void wedge_join(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
                        const global uint* receiver_of_origin, const global ushort* links, const global wt_wedge* wedges,
                        const global wt_surface* surfaces, global wt_wedge_candidate* out, global wt_counters* counters,

@@ -45,7 +45,8 @@ inline uint look(const wt_sight* sight, const global wt_wedge* low, const global
   return known;
 }
 
-// `lanes` work-items for each prefix of a block of them; keys are sorted, so what sees one wedge stands together and is passed over together.
+// `lanes` work-items for each prefix of a block of them; keys are sorted, so what sees one wedge stands together and is
+// passed over together.
 kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
                         const global double* sides, global uint* kept, const global uint* keys,
