@@ -85,12 +85,10 @@ EndOnInterrupt::EndOnInterrupt(std::function<void()> clean_up, std::string messa
   const sigset_t set = ending_signals();
   pthread_sigmask(SIG_BLOCK, &set, &before_);
   waiting_ = std::jthread([clean_up = std::move(clean_up), message = std::move(message)](const std::stop_token& stop) {
-    const auto end = [&] {
+    wait_for_signal(stop, true, [&] {  // threads of drivers that were there before do not block the signals
       clean_up();
       end_interrupted(message);
-    };
-    if (interrupted()) end();  // before the signals were blocked
-    wait_for_signal(stop, end);
+    });
   });
 }
 
@@ -107,7 +105,7 @@ RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output) {
   // Counted here and not by the thread, which may start after the output has got its name.
   waiting_ =
       std::jthread([temporary, folders = missing(output), named = final_names().load()](const std::stop_token& stop) {
-        wait_for_signal(stop, [&] { remove_and_end(temporary, folders, named); });
+        wait_for_signal(stop, false, [&] { remove_and_end(temporary, folders, named); });
       });
 }
 
