@@ -38,13 +38,14 @@ std::vector<fs::path> missing(fs::path path) {
   return out;
 }
 
-// Calls end() when one of the signals has come, or had come before; else returns when it is asked to stop.
+// Calls end() when one of the signals has come, here or, where `elsewhere` is true, to a handler; else returns when it
+// is asked to stop.
 template <class End>
-void wait_for_signal(const std::stop_token& stop, const End& end) {
+void wait_for_signal(const std::stop_token& stop, bool elsewhere, const End& end) {
   const sigset_t set = ending_signals();
   const timespec tenth{0, 100'000'000};
   while (!stop.stop_requested())
-    if (interrupted() || sigtimedwait(&set, nullptr, &tenth) >= 0) end();
+    if ((elsewhere && interrupted()) || sigtimedwait(&set, nullptr, &tenth) >= 0) end();
 }
 
 [[noreturn]] void end_interrupted(const std::string& message) {
