@@ -232,17 +232,19 @@ class OsmReader {
 
   template <class Assemble>
   void build(const osmium::OSMObject& source, const char* kind, const Assemble& assemble) {
+    constexpr osmium::object_id_type largest_id = osmium::object_id_type{1} << 61;  // the assembler doubles it
+    if (source.id() > largest_id || source.id() < -largest_id)
+      return void(++map_.left_out["outline whose id is too large"]);
     osmium::memory::Buffer out(1024, growing);
     osmium::area::Assembler assembler(assembler_config_);
     assemble(assembler, out);
     bool any = false;
     for (const auto& area : out.select<osmium::Area>()) {
-      const bool many = area.num_rings().first > 1;
       size_t count = 0;
       for (const osmium::OuterRing& outer : area.outer_rings()) {
         Footprint footprint;
         footprint.id = fmt::format("{}_{}", kind, source.id());
-        if (many) footprint.id += fmt::format("_{}", ++count);
+        if (area.num_rings().first > 1) footprint.id += fmt::format("_{}", ++count);
         for (const osmium::NodeRef& node : outer) footprint.outer.push_back({node.lon(), node.lat()});
         for (const osmium::InnerRing& inner : area.inner_rings(outer)) {
           RingM& hole = footprint.holes.emplace_back();

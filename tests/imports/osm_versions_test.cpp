@@ -125,3 +125,17 @@ TEST_CASE("a change file: what it deletes is gone, what it holds no nodes of is 
   const TemporaryFolder folder;
   CHECK(import_text(change, folder).summary.buildings == 1);
 }
+
+TEST_CASE("an outline whose id is too large for the assembler is left out and told") {
+  OsmText map;
+  map.way(rectangle(0, 0, 10, 10), {{"building", "yes"}});
+  const std::string house = std::to_string(map.way(rectangle(20, 0, 30, 10), {{"building", "yes"}}));
+  const TemporaryFolder folder;
+  for (const std::string id : {"4611686036854775806", "-4611686036854775806"}) {
+    std::string text = map.text();
+    text.replace(text.find("<way id=\"" + house) + 9, house.size(), id);
+    const ImportSummary summary = import_text(text, folder).summary;
+    CHECK(summary.buildings == 1);
+    CHECK(summary.left_out.at("outline whose id is too large") == 1);
+  }
+}
