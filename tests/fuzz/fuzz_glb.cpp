@@ -1,4 +1,5 @@
-// Fuzz target: glTF models, those of version 1.0 through assimp and compressed ones through draco, as Debian builds both.
+// Fuzz target: glTF models, those of version 1.0 through assimp and compressed ones through draco, as Debian builds
+// both.
 #include "fuzz/fuzz.hpp"
 #include "scene/model.hpp"
 
