@@ -23,10 +23,11 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
   if (first_row >= args.row_capacity || first_vertex + WT_MAX_DEPTH > args.vertex_capacity) return;
   const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
                              receiver_places, receiver_of, transmitter_of, args.max_depth};
-  const wt_field_world world = {
-      surfaces,      materials_of,       materials, wedges,         surface_of_tile,   area_of_tile, instances,
-      transmitters,  receivers,          antennas,  samples,        args.wavelength_m, args.seed,    args.transmissions,
-      args.scatters, args.foliage_count, foliages,  lengths_inside, args.air};
+  const wt_field_world world = {surfaces,           materials_of,       materials,        wedges,
+                                surface_of_tile,    area_of_tile,       instances,        transmitters,
+                                receivers,          antennas,           samples,          args.wavelength_m,
+                                args.seed,          args.transmissions, args.reflections, args.scatters,
+                                args.foliage_count, foliages,           lengths_inside,   args.air};
   const wt_ordered_rows ordered = {&list, rows, delays, args.row_count};
   wt_write_row(&world, &ordered, place, quarters[place], (double3)(args.origin[0], args.origin[1], args.origin[2]),
                first_vertex, out + first_row, out_vertices);

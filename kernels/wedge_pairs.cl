@@ -1,6 +1,6 @@
 // wedge_pairs: candidates of paths over two wedges, straight from one to the other: every prefix of a transmitter with
-// every one of the other end that sees another wedge, if pieces that they see may see each other. What was found out of
-// two static wedges is kept as long as the scene is.
+// every one of the other end that sees another wedge, both convex, if pieces that they see may see each other. What was
+// found out of two static wedges is kept as long as the scene is.
 #include "lib/join.clh"
 #include "lib/memory_order.clh"
 #include "lib/sight.clh"
@@ -11,6 +11,9 @@ inline int may_see(const global wt_wedge* w, const global wt_wedge* other) {
   return wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, 0.0))) ||
          wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, other->length)));
 }
+
+// Corners do not count here: they are many, and what they diffract is faint.
+inline int is_corner(const global wt_wedge* w) { return w->sine > 0.0; }
 
 // Does the way from one to the other run in the free space of both, or along a face of both?
 inline int in_sight(const global wt_wedge* v, const global wt_wedge* w) {
@@ -60,6 +63,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
   if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) return;
   const wt_sight sight = {nodes,       triangles, sight_args.triangle_slots,  sight_args.extent_m,   surfaces,
                           first_sides, sides,     sight_args.static_surfaces, sight_args.only_opaque};
+  if (is_corner(wedges + wt_wedge_of(keys[i]))) return;
   const uint wedge_a = wt_wedge_of(keys[i]), most = args.max_depth - 2 - a->depth;
   uint wedge_b = WT_NONE, known = 0, was_known = 0;
   global uint* keep = 0;
@@ -72,7 +76,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
       const size_t low = min(wedge_a, wedge_b), high = max(wedge_a, wedge_b);
       keep = high < sight_args.kept_wedges && low != high ? kept + high * (high - 1) / 2 + low : 0;
       known = was_known = low == high ? ALL_PAIRS : keep ? wt_load_relaxed_u32(keep) : 0;
-      if (!known && !in_sight(wedges + low, wedges + high)) known = ALL_PAIRS;
+      if (!known && (is_corner(wedges + wedge_b) || !in_sight(wedges + low, wedges + high))) known = ALL_PAIRS;
     }
     const int none = known == ALL_PAIRS;
     if (!none && keys[j] <= wt_wedge_key(wedge_b, most)) {

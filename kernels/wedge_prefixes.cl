@@ -74,11 +74,12 @@ inline void list_views(const global ulong* table, const global uint* quarters, c
   }
 }
 
-// One node per work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. For each
-// entry wt_wedge_key is what to sort by, and its prefix is listed.
+// One node per work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s; those
+// that the side against its normal does not see stand behind sides[2 s + 1], those that the other does not before
+// sides[2 s]. For each entry wt_wedge_key is what to sort by, and its prefix is listed.
 kernel void wedge_prefixes(const global ulong* table, const global uint* quarters, const global uint* nodes,
                            const global double4* origins, const global wt_exact_surface* surfaces,
-                           const global wt_surface* boxes, const global uint* first_wedges,
+                           const global wt_surface* boxes, const global uint* first_wedges, const global uint* sides,
                            const global uint* surface_wedges, const global wt_wedge* wedges, global uint* keys,
                            global wt_wedge_prefix* prefixes, global wt_counters* counters,
                            wt_wedge_prefixes_arguments args) {
@@ -98,7 +99,10 @@ kernel void wedge_prefixes(const global ulong* table, const global uint* quarter
   const uint own = from.depth == 0 ? wt_end_instance(origins[from.origin]) : WT_NONE;
   wt_view views[WT_VIEWS];
   uint count = 0;
-  for (uint k = first_wedges[from.seen]; k < first_wedges[from.seen + 1]; ++k) {
+  const double above = wt_above(surfaces + from.seen, from.image), rounding = wt_rounding(from.image);
+  const uint first = above > rounding ? sides[2 * from.seen] : first_wedges[from.seen];
+  const uint end = above < -rounding ? sides[2 * from.seen + 1] : first_wedges[from.seen + 1];
+  for (uint k = first; k < end; ++k) {
     const global wt_wedge* w = wedges + surface_wedges[k];
     if (own != WT_NONE && w->instance == own) continue;
     views[count].wedge = surface_wedges[k];

@@ -77,6 +77,9 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   if (!on_edge(v, x) || !on_edge(w, y)) return;
   const double3 p = wt_on_edge(v, x), q = wt_on_edge(w, y);
   if (two && wt_dot(q - p, q - p) <= WT_AT_EDGE_M * WT_AT_EDGE_M) return;  // edges that meet, at their corner
+  const double wavelength = (double)args.wavelength_m;
+  if (wt_is_faint(v, wt_in_wedge(v, a), wt_in_wedge(v, two ? q : b), wavelength)) return;
+  if (two && wt_is_faint(w, wt_in_wedge(w, p), wt_in_wedge(w, b), wavelength)) return;
   if (two && !wt_share_face(v, w) && (!in_free_space(v, p, q) || !in_free_space(w, q, p))) return;
   if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, p, points)) return;
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;

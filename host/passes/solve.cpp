@@ -33,7 +33,8 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                                .max_depth = solved_.max_depth,
                                .capacity = static_cast<uint32_t>(solved_.headers.size()),
                                .triangle_slots = scene.triangle_slots,
-                               .blocker_mask = Blockers::mask});
+                               .blocker_mask = Blockers::mask,
+                               .wavelength_m = 0});
   };
   solved_.count = fill_list(
       counters, &wt_counters::solved, "solve", [&] { return solved_.headers.size(); },

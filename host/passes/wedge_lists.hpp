@@ -8,8 +8,9 @@ namespace wavetracer {
 
 struct WedgeList {
   gpu::Buffer<wt_wedge> wedges;
-  // Wedges of surface s: of_surfaces[first[s] .. first[s + 1]].
-  gpu::Buffer<uint32_t> first, of_surfaces;
+  // Wedges of surface s: of_surfaces[first[s] .. first[s + 1]]. Corners are seen from one side of it: those on the side
+  // against its normal stand before sides[2 s], those on the other from sides[2 s + 1] on.
+  gpu::Buffer<uint32_t> first, sides, of_surfaces;
 };
 
 // Prefixes with their wedges as keys, to be sorted: order[i] is the place of the prefix that key i had.

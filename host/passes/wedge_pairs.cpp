@@ -2,6 +2,7 @@
 #include "passes/wedge_pairs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "passes/tuning.hpp"
 
@@ -10,10 +11,12 @@ namespace {
 
 size_t words_of(uint64_t wedges) { return wedges * wedges / 2 + 1; }
 
-// What is known of pairs may take this much memory, 32,000 wedges. Of more, each frame finds it out again.
+// What is known of pairs may take this much memory, 32,000 wedges. Of more, which are corners first, each frame finds
+// it out again.
 uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
   const uint64_t most = std::min({uint64_t{1} << 31, device.max_buffer, device.global_memory / 16});
-  return words_of(wedges) * sizeof(uint32_t) <= most ? static_cast<uint32_t>(wedges) : 0;
+  const auto room = static_cast<uint64_t>(std::sqrt(static_cast<double>(most) / 2 - 2));  // words_of(room) fit
+  return static_cast<uint32_t>(std::min(wedges, room));
 }
 
 }  // namespace

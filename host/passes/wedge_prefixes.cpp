@@ -29,8 +29,8 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
   list_.count = grow_until_filled(  // read in each frame: a sort needs to know
       [&] {
         kernel_(work_.range(node_count), "wedge_prefixes", trie, quarters, nodes, ends.transmitters,
-                scene.exact_surfaces, scene.surfaces, wedges.first, wedges.of_surfaces, wedges.wedges, list_.keys,
-                list_.prefixes, counters.buffer(),
+                scene.exact_surfaces, scene.surfaces, wedges.first, wedges.sides, wedges.of_surfaces, wedges.wedges,
+                list_.keys, list_.prefixes, counters.buffer(),
                 wt_wedge_prefixes_arguments{static_cast<uint32_t>(trie.size() - 1), node_count,
                                             static_cast<uint32_t>(list_.keys.size())});
       },

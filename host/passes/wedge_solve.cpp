@@ -7,8 +7,11 @@
 
 namespace wavetracer {
 
-WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth)
-    : context_(context), work_(tuning_of(context.info()).exact), kernel_(context.kernel("wedge_solve", "wedge_solve")) {
+WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m)
+    : context_(context),
+      work_(tuning_of(context.info()).exact),
+      kernel_(context.kernel("wedge_solve", "wedge_solve")),
+      wavelength_m_(static_cast<float>(wavelength_m)) {
   solved_.max_depth = max_depth;
   solved_.counter = counter_word(&wt_counters::wedge_solved);
   solved_.reserve(context, 1 << 12);
@@ -25,7 +28,8 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                .max_depth = solved_.max_depth,
                                .capacity = static_cast<uint32_t>(solved_.headers.size()),
                                .triangle_slots = 0,
-                               .blocker_mask = 0});
+                               .blocker_mask = 0,
+                               .wavelength_m = wavelength_m_});
   };
   solved_.count = fill_list(
       counters, &wt_counters::wedge_solved, "wedge_solve", [&] { return solved_.headers.size(); }, run,

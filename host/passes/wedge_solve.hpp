@@ -12,7 +12,9 @@ namespace wavetracer {
 
 class WedgeSolve {
  public:
-  WedgeSolve(gpu::Context& context, uint32_t max_depth);
+  // wavelength_m: the longest; waves of corners that are too faint for it are left out (kernels/lib/wedge.clh), of an
+  // infinite one none.
+  WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m);
   SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                          const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
                          uint32_t candidate_count, Counters& counters);
@@ -22,6 +24,7 @@ class WedgeSolve {
   Work work_;
   gpu::Kernel kernel_;
   SolvedList solved_;
+  float wavelength_m_;
 };
 
 }  // namespace wavetracer

@@ -91,6 +91,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   FieldTables tables;
   tables.wavelength_m = speed_of_light_m_s / config.radio.frequency_hz;
   tables.seed = config.trace.seed;
+  if (config.trace.reflection) tables.reflections = config.trace.max_depth;
   if (config.trace.transmission)
     tables.transmissions = std::min(config.trace.max_transmissions, config.trace.max_depth);
   add_materials(tables, scene, config, models, instances);

@@ -27,6 +27,7 @@ struct FieldTables {
   double wavelength_m = 0;
   uint64_t seed = 0;
   uint32_t transmissions = 0;  // the most of a path; 0: waves do not pass surfaces
+  uint32_t reflections = 0;    // likewise
   bool scatters = false;
   VolumeTable volumes;                       // of vegetation
   std::vector<device::wt_foliage> foliages;  // of its kinds

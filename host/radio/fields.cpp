@@ -176,6 +176,7 @@ Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const Wo
                                      tables_.wavelength_m,
                                      tables_.seed,
                                      tables_.transmissions,
+                                     tables_.reflections,
                                      tables_.scatters,
                                      static_cast<uint32_t>(tables_.foliages.size()),
                                      tables_.foliages.data(),

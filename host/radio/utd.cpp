@@ -11,10 +11,17 @@ Diffraction diffract(const WedgeFrame& wedge, const std::array<WedgeFace, 2>& fa
   device::wt_wedge_face records[2];
   for (size_t face = 0; face < 2; ++face)
     records[face] = {{faces[face].permittivity.real(), faces[face].permittivity.imag()}, faces[face].thickness_m};
-  const auto known = [](const std::optional<bool>& side) { return side ? static_cast<int>(*side) : -1; };
-  const device::wt_wave_map wave = device::wt_diffract(
-      {wedge.along, wedge.face, wedge.normal, wedge.exterior_rad}, records, k_in, k_out, distance_m, wavelength_m,
-      transmits, {known(lit.direct), {known(lit.reflected[0]), known(lit.reflected[1])}});
+  const device::wt_wedge_frame frame{wedge.along, wedge.face, wedge.normal, wedge.exterior_rad};
+  const device::wt_turn turn = device::wt_turn_at(&frame, k_in, k_out);
+  device::wt_known_waves known = device::wt_nothing_known();
+  for (size_t i = 0; i < WT_BOUNDARIES; ++i) {
+    const int image = turn.boundaries[i].image;
+    if (image < -1 || image > 1) continue;
+    const std::optional<bool>& side = image == 0 ? lit.direct : lit.reflected[image > 0];
+    if (side) known.lit[i] = *side;
+  }
+  const device::wt_wave_map wave =
+      device::wt_diffract(frame, records, k_in, k_out, &turn, distance_m, wavelength_m, transmits, &known);
   return {{wave.from.first, wave.from.second}, {wave.to.first, wave.to.second}, matrix_of(wave.matrix)};
 }
 

@@ -14,7 +14,7 @@ namespace wavetracer {
 
 // Points nearer to each other than this are one place for edges and their faces: welding moves vertices as far.
 constexpr double touch_m = 2e-3;
-// Faces and sectors whose angles about an edge differ by less than this are treated as one.
+// Faces whose angles about an edge differ by less than this are one wall: nothing is between them.
 constexpr double same_angle_rad = 1e-3;
 
 // A stretch between two joints: places where edges that are not flat end, touch or cross. Nothing about the faces at it

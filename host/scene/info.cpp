@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "scene/volume_overlaps.hpp"
 
@@ -42,6 +43,7 @@ std::string range(const Material& m) {
   return std::isinf(m.max_ghz) ? std::string("any frequency") : fmt::format("{} to {} GHz", m.min_ghz, m.max_ghz);
 }
 
+bool is_corner(const Wedge& wedge) { return wedge.exterior_rad < std::numbers::pi; }
 bool is_free(const Wedge& wedge) { return wedge.surface[0] == wedge.surface[1]; }
 
 // Without the sign of a zero.
@@ -72,11 +74,13 @@ std::string describe_scene(const Scene& scene) {
                      scene.edges.size() - report.free_edges - report.nonmanifold_edges, report.free_edges,
                      report.nonmanifold_edges, flat);
   const auto free = std::count_if(scene.wedges.begin(), scene.wedges.end(), is_free);
-  out += fmt::format("diffract   {} edges: {} wedges, {} free\n", scene.wedges.size(),
-                     scene.wedges.size() - static_cast<size_t>(free), free);
+  const auto corners = std::ranges::count_if(scene.wedges, is_corner);
+  out += fmt::format("diffract   {} edges: {} wedges, {} free{}\n", scene.wedges.size(),
+                     scene.wedges.size() - static_cast<size_t>(free + corners), free,
+                     corners > 0 ? fmt::format(", {} corners", corners) : "");
   out += fmt::format(
-      "           left out: {} pieces flat with another mesh, {} in corners with no sector wider than 180 degrees "
-      "(feet of walls), {} edges at the rim of the ground\n",
+      "           left out: {} pieces flat with another mesh, {} in corners of right angles (feet of walls), {} "
+      "edges at the rim of the ground\n",
       report.flat_pieces, report.corner_pieces, report.ground_rims);
   out += fmt::format("materials  {}\n", scene.materials.size());
   const std::vector<MaterialUse> use = material_use(scene);

@@ -12,6 +12,7 @@
 
 #include "scene/edge_pieces.hpp"
 #include "scene/ground_rims.hpp"
+#include "scene/topology.hpp"
 #include "scene/triangle_grid.hpp"
 #include "scene/wedge_rows.hpp"
 
@@ -22,8 +23,9 @@ using glm::dvec3;
 constexpr double pi = std::numbers::pi;
 // A face that ends at a piece may end 2 mm beside it, on either side: twice that far it is there, or it is not.
 constexpr double probe_m = 2 * touch_m;
-constexpr double inside_m = 1e-6;  // probes on the border between two triangles are in both
-constexpr double most_lean = 0.1;  // sine: a plane that leans more does not hold a piece, however short that is
+constexpr double inside_m = 1e-6;         // probes on the border between two triangles are in both
+constexpr double right_angle_rad = 3e-6;  // walls of 10 m whose corners are off by half a unit of float32 at 1 km
+constexpr double most_lean = 0.1;         // sine: a plane that leans more does not hold a piece, however short that is
 
 struct HalfPlane {
   double angle_rad;  // about the piece
@@ -39,7 +41,7 @@ class FaceFinder {
   std::span<const EdgePiece> pieces() const { return pieces_.pieces; }
   const TriangleGrid& triangles() const { return triangles_; }
 
-  // The half planes that leave a piece, by angle; those of one direction are one, that of their lowest surface.
+  // The half planes that leave a piece, by angle; of those in one direction the lowest surface comes first.
   std::vector<HalfPlane> faces(const EdgePiece& piece) const {
     std::vector<HalfPlane> found;
     add_ending(piece, found);
@@ -48,26 +50,12 @@ class FaceFinder {
     const dvec3 zero = found[0].direction, quarter = glm::cross(piece.along, zero);
     for (HalfPlane& face : found) {
       const double angle_rad = std::atan2(glm::dot(face.direction, quarter), glm::dot(face.direction, zero));
-      face.angle_rad = angle_rad < 0 ? angle_rad + 2 * pi : angle_rad;
+      face.angle_rad = angle_rad < -same_plane_rad ? angle_rad + 2 * pi : angle_rad;
     }
     std::sort(found.begin(), found.end(), [](const HalfPlane& a, const HalfPlane& b) {
       return a.angle_rad != b.angle_rad ? a.angle_rad < b.angle_rad : a.surface < b.surface;
     });
-    std::vector<HalfPlane> distinct{found[0]};
-    for (size_t i = 1; i < found.size(); ++i) {
-      if (found[i].angle_rad - found[i - 1].angle_rad > same_angle_rad)
-        distinct.push_back(found[i]);
-      else if (found[i].surface < distinct.back().surface)
-        distinct.back() = found[i];
-    }
-    if (distinct.size() > 1 && found[0].angle_rad + 2 * pi - found.back().angle_rad <= same_angle_rad) {  // across zero
-      if (distinct.back().surface < distinct[0].surface) {
-        distinct[0] = distinct.back();
-        distinct[0].angle_rad -= 2 * pi;
-      }
-      distinct.pop_back();
-    }
-    return distinct;
+    return found;
   }
 
  private:
@@ -137,19 +125,61 @@ class FaceFinder {
   EdgePieces pieces_;
 };
 
-// The widest sector between neighbours, from its face 0 to its face 1.
+// Is the face before this one, all around, farther from it than 1 mrad?
+bool begins_wall(std::span<const HalfPlane> faces, size_t i) {
+  const double before_rad = i > 0 ? faces[i - 1].angle_rad : faces.back().angle_rad - 2 * pi;
+  return faces[i].angle_rad - before_rad > same_angle_rad;
+}
+
+// Half planes within 1 mrad of each other, one after the other: walls that touch back to back. Nothing is between
+// them.
+using Wall = std::span<const HalfPlane>;
+
+// The walls of half planes that are sorted by angle and go all around, those across the zero of angles brought
+// together.
+std::vector<Wall> walls_of(std::vector<HalfPlane>& faces) {
+  // The first face is one that no other is near below.
+  size_t first = 0;
+  while (first + 1 < faces.size() && !begins_wall(faces, first)) ++first;
+  for (size_t i = 0; i < first; ++i) faces[i].angle_rad += 2 * pi;
+  std::rotate(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(first), faces.end());
+  std::vector<Wall> walls;
+  for (size_t i = 0, from = 0; i < faces.size(); ++i) {
+    if (i + 1 < faces.size() && faces[i + 1].angle_rad - faces[i].angle_rad <= same_angle_rad) continue;
+    walls.push_back(Wall(faces).subspan(from, i + 1 - from));
+    from = i + 1;
+  }
+  return walls;
+}
+
+// The face of a wall on its first or its last side; of several in one plane, the lowest surface.
+HalfPlane outer_face(Wall wall, bool last) {
+  HalfPlane out = last ? wall.back() : wall.front();
+  for (const HalfPlane& face : wall)
+    if (std::abs(face.angle_rad - out.angle_rad) <= same_plane_rad && face.surface < out.surface) out = face;
+  return out;
+}
+
+// A sector of free space, from its face 0 to its face 1.
 struct Sector {
   HalfPlane from, to;
   double angle_rad;
 };
 
-Sector widest_sector(std::span<const HalfPlane> faces) {
-  Sector widest{faces.back(), faces.front(), faces.front().angle_rad + 2 * pi - faces.back().angle_rad};
-  for (size_t i = 1; i < faces.size(); ++i) {
-    const double angle_rad = faces[i].angle_rad - faces[i - 1].angle_rad;
-    if (angle_rad > widest.angle_rad) widest = {faces[i - 1], faces[i], angle_rad};
+// Those between neighbouring walls.
+std::vector<Sector> sectors_of(std::span<const Wall> walls) {
+  std::vector<Sector> sectors;
+  for (size_t i = 0; i < walls.size(); ++i) {
+    const bool around = i + 1 == walls.size();
+    const HalfPlane from = outer_face(walls[i], true), to = outer_face(walls[around ? 0 : i + 1], false);
+    sectors.push_back({from, to, (around ? to.angle_rad + 2 * pi : to.angle_rad) - from.angle_rad});
   }
-  return widest;
+  return sectors;
+}
+
+// See rule 3 of scene_wedges.hpp.
+bool diffracts(const Sector& sector) {
+  return std::abs(sector.angle_rad - pi) > same_plane_rad && std::abs(sector.angle_rad - pi / 2) > right_angle_rad;
 }
 
 Wedge wedge_at(const EdgePiece& piece, const Sector& sector) {
@@ -170,17 +200,21 @@ void find_wedges(Scene& scene, EdgeSearch search) {
   if (search == EdgeSearch::none) return;
   const FaceFinder finder(scene);
   GroundRims rims(scene);
-  std::vector<WedgePiece> found;
+  std::vector<WedgePiece> convex, concave;
   for (const EdgePiece& piece : finder.pieces()) {
-    const std::vector<HalfPlane> faces = finder.faces(piece);
+    std::vector<HalfPlane> faces = finder.faces(piece);
     for (const HalfPlane& face : faces) rims.join(faces[0].surface, face.surface);
-    const Sector sector = faces.empty() ? Sector{} : widest_sector(faces);
-    if (sector.angle_rad > pi + same_angle_rad)
-      found.push_back({piece.joints, wedge_at(piece, sector)});
-    else
-      ++(faces.size() > 2 ? scene.report.corner_pieces : scene.report.flat_pieces);
+    const std::vector<Wall> walls = walls_of(faces);
+    const size_t before = convex.size() + concave.size();
+    for (const Sector& sector : sectors_of(walls))
+      if (diffracts(sector))
+        (sector.angle_rad > pi ? convex : concave).push_back({piece.joints, wedge_at(piece, sector)});
+    if (convex.size() + concave.size() == before)
+      ++(walls.size() > 2 ? scene.report.corner_pieces : scene.report.flat_pieces);
   }
-  scene.wedges = join_rows(found);
+  scene.wedges = join_rows(convex);
+  const std::vector<Wedge> corners = join_rows(concave);
+  scene.wedges.insert(scene.wedges.end(), corners.begin(), corners.end());
   if (search == EdgeSearch::of_scene)
     scene.report.ground_rims =
         std::erase_if(scene.wedges, [&](const Wedge& wedge) { return rims.are_of(wedge, finder.triangles()); });

@@ -17,15 +17,17 @@ enum class EdgeSearch {
 //    without being welded along are one piece, and the faces at a piece are the same all along it.
 // 2. The faces at a piece are the half planes that leave it, of whichever mesh: a triangle that ends there gives one,
 //    and one that goes through (the ground below a wall) gives two.
-// 3. Half planes within 1 mrad are one: walls that touch back to back. One alone is a free edge, a half plane all
-//    around which waves go. Otherwise the widest sector between neighbours counts. Wider than 180 degrees and 1 mrad
-//    it is a wedge, bounded by two faces; else nothing diffracts: the edge is flat, or it is a corner between three
-//    faces or more, as the foot of a wall is. So a concave edge diffracts on its back side only, which paths do not
-//    reach if that is inside of a building.
+// 3. Half planes within 1 mrad of each other are one wall: nothing is between them, and each bounds its own side. One
+//    wall alone is a free edge, a half plane all around which waves go. Every sector between neighbouring walls is a
+//    wedge: convex if it is wider than 180 degrees, else a corner, and both sides of a bend are one each. But for
+//    180 degrees, to 1e-9 rad, where nothing is bent; and for 90 degrees, to 3e-6 rad (upright walls of float32), where
+//    the images of both faces are complete and the wave of the edge vanishes: so rooms, and walls on a flat ground,
+//    have no corners.
 // 4. Pieces in a row, on one line within 2 mm, between the same surfaces, are one wedge.
 // 5. Of a scene, free edges at the rim of its ground are left out: the world goes on there.
 //
-// Wedges are sorted by the vertices of their mesh edges; the same mesh gives the same wedges.
+// Convex wedges come first, then corners, both sorted by the vertices of their mesh edges; the same mesh gives the same
+// wedges.
 void find_wedges(Scene& scene, EdgeSearch search = EdgeSearch::of_model);
 
 }  // namespace wavetracer

@@ -89,13 +89,10 @@ uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge) {
   return scene.triangles[t][0];
 }
 
-// Whether two triangles of different surfaces lie in one plane as they are.
-bool same_plane(const Scene& scene, uint32_t t, uint32_t other) {
-  const auto lies_in = [&](uint32_t a, uint32_t b) {
-    const Surface& surface = scene.surfaces[scene.triangle_surface[b]];
-    return lies_in_plane(scene, a, triangle_shape(scene, a), {surface.normal, surface.offset_m});
-  };
-  return lies_in(t, other) && lies_in(other, t);
+bool same_plane(const Surface& a, const Surface& b, const dvec3& on_edge) {
+  const double sine = glm::length(glm::cross(a.normal, b.normal));
+  const double gap_m = glm::dot(a.normal, on_edge) - a.offset_m - (glm::dot(b.normal, on_edge) - b.offset_m);
+  return sine <= same_plane_rad && std::abs(gap_m) <= 2 * flat_as_it_is_m;
 }
 
 bool is_flat(const Scene& scene, const Edge& edge) {
@@ -107,7 +104,7 @@ bool is_flat(const Scene& scene, const Edge& edge) {
   bool left = false, right = false;
   for (uint32_t i = 0; i < edge.face_count; ++i) {
     const uint32_t surface = scene.triangle_surface[faces[i]];
-    if (surface != first && !same_plane(scene, faces[0], faces[i])) return false;
+    if (surface != first && !same_plane(scene.surfaces[first], scene.surfaces[surface], a)) return false;
     const double across = glm::dot(side, scene.vertices[apex(scene, faces[i], edge)] - a);
     left |= across > 0;
     right |= across < 0;

@@ -22,6 +22,10 @@ constexpr double normal_tolerance = 1e-7;
 // 5 mrad of 20 mm), and a strip below half a wavelength mirrors nothing by itself.
 constexpr double sliver_height_m = 0.02;
 
+// Surfaces whose normals differ by less are in one plane: that is what normals of double vertices are off by, and 1e-9
+// of a way are what points of reflections are decided to.
+constexpr double same_plane_rad = 1e-9;
+
 // The unit normal of triangle t by its winding, and its height over the longest side (metres).
 struct TriangleShape {
   glm::dvec3 normal;

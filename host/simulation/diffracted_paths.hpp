@@ -23,14 +23,14 @@
 namespace wavetracer {
 
 struct DiffractedPaths {
-  // receiver_of_origin: see WedgeJoin. two: for paths over two wedges.
+  // receiver_of_origin: see WedgeJoin; wavelength_m: see WedgeSolve. two: for paths over two wedges.
   DiffractedPaths(gpu::Context& context, Wedges world, const std::vector<uint32_t>& receiver_of_origin,
-                  uint32_t max_depth, std::optional<WedgePairs> two)
+                  uint32_t max_depth, double wavelength_m, std::optional<WedgePairs> two)
       : wedges(std::move(world)),
         prefixes(context),
         join(context, receiver_of_origin, max_depth),
         pairs(std::move(two)),
-        solve(context, max_depth),
+        solve(context, max_depth, wavelength_m),
         sort_(context) {
     // So that tests need no scene of millions of candidates.
     if (const std::string most = environment("WAVETRACER_MOST_CANDIDATES"); !most.empty())

@@ -27,7 +27,8 @@ uint32_t surface_count(const Scene& scene, const World& world) {
 }  // namespace
 
 ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
-                       const TraceConfig& trace, const Origins& origins, bool frames_follow)
+                       const TraceConfig& trace, double longest_wavelength_m, const Origins& origins,
+                       bool frames_follow)
     : max_depth(trace.max_depth),
       candidates(context, tracing_depth(trace).reflections),
       solve(context, trace.max_depth, frames_follow && !trace.transmission),
@@ -37,7 +38,7 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     std::optional<WedgePairs> two;
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
     diffraction.emplace(context, Wedges(context, scene, world.models(), world.instances(), trace.free_edges),
-                        origins.receiver_of_origin, trace.max_depth, std::move(two));
+                        origins.receiver_of_origin, trace.max_depth, longest_wavelength_m, std::move(two));
   }
   if (trace.scattering) {
     const TileTable tiles(scene, world.models(), world.instances(), trace.tile_m, fitting_tiles(context.info()));

@@ -21,7 +21,7 @@ namespace wavetracer {
 struct ExactPaths {
   // trace: see with_features. frames_follow: what is hidden in a frame is mostly hidden in the next one, too.
   ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
-             const TraceConfig& trace, const Origins& origins, bool frames_follow);
+             const TraceConfig& trace, double longest_wavelength_m, const Origins& origins, bool frames_follow);
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);

@@ -2,6 +2,7 @@
 #include "simulation/setup.hpp"
 
 #include "radio/carriers.hpp"
+#include "radio/constants.hpp"
 #include "radio/opacity.hpp"
 #include "scene/load.hpp"
 #include "scene/materials.hpp"
@@ -42,6 +43,10 @@ std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
   std::vector<glm::dvec3> out;
   for (const EndState& end : ends) out.push_back(end.position_m);
   return out;
+}
+
+double longest_wavelength_m(const RadioConfig& radio) {
+  return speed_of_light_m_s / std::ranges::min(carriers_hz(radio));
 }
 
 std::vector<bool> opaque_at_all_carriers(const Setup& s) {
@@ -153,7 +158,7 @@ Setup::Setup(const Config& asked, const std::string& device_text, bool frames_fo
       windows(make_windows(*this)),
       cache(make_cache(*this)),
       discovery(context, device_scene, trace, discovery_options(*this)),
-      exact_paths(context, device_scene, scene, world, trace, origins, reuse),
+      exact_paths(context, device_scene, scene, world, trace, longest_wavelength_m(config.radio), origins, reuse),
       finish(context, scene, with_trace(config, trace), world),
       elements(config, scene, world) {
   drop_used(scene.report.warnings, world.models());

@@ -56,9 +56,9 @@ struct Edge {
 };
 
 // A straight edge at which waves diffract: one physical edge, whichever meshes its faces belong to
-// (host/scene/scene_wedges.hpp has the rule). Its two faces bound a sector of free space wider than pi; the azimuth of
-// a direction d about the edge is atan2(dot(d, normal), dot(d, face)) in [0, 2 pi), and free space goes from 0 (face 0)
-// to exterior_rad (face 1).
+// (host/scene/scene_wedges.hpp has the rule). Its two faces bound a sector of free space, wider than pi or (a corner)
+// narrower; the azimuth of a direction d about the edge is atan2(dot(d, normal), dot(d, face)) in [0, 2 pi), and free
+// space goes from 0 (face 0) to exterior_rad (face 1).
 struct Wedge {
   glm::dvec3 start{0}, along{0, 0, 1};  // unit; (face, normal, along) is right-handed
   double length_m = 0;
@@ -97,7 +97,7 @@ struct LoadReport {
   uint64_t free_edges = 0;            // one face
   // Pieces of edges at which nothing diffracts (host/scene/scene_wedges.hpp), edges that are flat not counted:
   uint64_t flat_pieces = 0;    // of two faces in one plane
-  uint64_t corner_pieces = 0;  // of three faces or more with no sector wider than 180 degrees, as the foot of a wall
+  uint64_t corner_pieces = 0;  // of three faces or more with right angles between them, as the foot of a wall
   uint64_t ground_rims = 0;    // free edges at the rim of the ground, of a scene (host/scene/ground_rims.hpp)
   std::vector<std::string> warnings;
 };

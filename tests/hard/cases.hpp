@@ -16,6 +16,7 @@ using HardCases = std::vector<HardCase>;
 
 // device: as for Simulation.
 HardCases shadow_boundaries(const std::string& device);
+HardCases bends(const std::string& device);
 HardCases half_planes(const std::string& device);
 HardCases surfaces_and_edges(const std::string& device);
 HardCases meshes(const std::string& device);
@@ -30,6 +31,7 @@ struct HardTopic {
   HardCases (*run)(const std::string& device);
 };
 inline constexpr HardTopic hard_topics[] = {{"shadow boundaries", shadow_boundaries},
+                                            {"bends", bends},
                                             {"half planes", half_planes},
                                             {"surfaces and edges", surfaces_and_edges},
                                             {"meshes", meshes},

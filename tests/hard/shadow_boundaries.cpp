@@ -14,41 +14,6 @@ glm::dvec3 at_azimuth(double rho_m, double azimuth_rad, double z_m) {
   return {rho_m * std::cos(azimuth_rad + turned_rad), rho_m * std::sin(azimuth_rad + turned_rad), z_m};
 }
 
-// How far receivers stand from the boundary, along the circle about the edge: exactly on it, 1 nm beside it and twice
-// as far each time, to 0.03 mm. The first and the last, at 1 mm, are clear of it on either side.
-std::vector<double> steps() {
-  std::vector<double> out{0};
-  for (double d = 1e-9; d < 4e-5; d *= 2) out.insert(out.end(), {-d, d});
-  out.insert(out.end(), {-1e-3, 1e-3});
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
-// The field of tx port t at the receivers of a boundary, seen in steps: its largest deviation from the straight line
-// through the fields of the two receivers before, over its size. A jump is there in full; a smooth field leaves its
-// curvature, of which standing waves have most: (2 k 16 um)^2 / 2, below 5e-5.
-double jump(const std::vector<double>& at_m, const std::vector<Response>& h, size_t first, size_t t) {
-  double worst = 0, size = 0;
-  for (size_t i = 3; i + 1 < at_m.size(); ++i) {
-    const double ratio = (at_m[i] - at_m[i - 1]) / (at_m[i - 1] - at_m[i - 2]);
-    double square = 0, field = 0;
-    for (const size_t k : {t, 2 + t}) {
-      const Complex &a = h[first + i - 2][k], &b = h[first + i - 1][k], &c = h[first + i][k];
-      square += std::norm(c - b - ratio * (b - a));
-      field += std::norm(c);
-    }
-    worst = std::max(worst, std::sqrt(square));
-    size = std::max(size, std::sqrt(field));
-  }
-  return worst / size;
-}
-
-size_t geometrical_paths(const Paths& paths, uint32_t tx, uint32_t rx) {
-  size_t count = 0;
-  for (const size_t i : rows_between(paths, tx, rx)) count += kinds_of(paths, i).find('D') == std::string::npos;
-  return count;
-}
-
 struct Boundary {
   uint32_t tx;
   double azimuth_rad;
@@ -68,7 +33,7 @@ HardCase case_of(const std::string& device, double interior_rad, const std::stri
   }
   Points transmitters, receivers;
   for (const double azimuth : sources) transmitters.push_back(at_azimuth(8, azimuth, 3));
-  const std::vector<double> at_m = steps();
+  const std::vector<double> at_m = boundary_steps();
   for (const Boundary& boundary : boundaries)
     for (const double step : at_m)
       receivers.push_back(at_azimuth(radius_m, boundary.azimuth_rad + step / radius_m, skew_m));
@@ -88,7 +53,7 @@ HardCase case_of(const std::string& device, double interior_rad, const std::stri
     const auto last = static_cast<uint32_t>(first + at_m.size() - 1);
     const uint32_t tx = boundaries[b].tx;
     const std::vector<Response> h = responses(paths, tx, receivers.size());
-    for (const size_t port : {0, 1}) out.measured = std::max(out.measured, jump(at_m, h, first, port));
+    for (const size_t port : {0, 1}) out.measured = std::max(out.measured, boundary_jump(at_m, h, first, port));
     // What passes the edge or is reflected beside it must be there on one side alone, or this is no boundary. Where
     // walls transmit, the direct path goes on as another.
     const bool ends = geometrical_paths(paths, tx, first) != geometrical_paths(paths, tx, last);

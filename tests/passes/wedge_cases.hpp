@@ -2,6 +2,7 @@
 // Sequences are listed, not traced; numbers of surfaces are those of the quads.
 #pragma once
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <numbers>
 
 #include "passes/exact.hpp"
@@ -13,6 +14,8 @@
 namespace wavetracer::test {
 
 using reference::Quad;
+
+constexpr double every_wave_m = std::numeric_limits<double>::infinity();  // a wavelength: none is too faint
 
 inline glm::dvec3 vector_of(const double* v) { return {v[0], v[1], v[2]}; }
 

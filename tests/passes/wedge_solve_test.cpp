@@ -57,7 +57,7 @@ std::map<size_t, PathRow> solve(const Scene& scene, const std::vector<glm::dvec3
                           q.receiver,
                           WT_ALL_QUARTERS});
   set.counters().restart(&wt_counters::wedge_candidates, static_cast<uint32_t>(candidates.size()), "wedge_solve");
-  WedgeSolve pass(context(), max_depth);
+  WedgeSolve pass(context(), max_depth, every_wave_m);
   const SolvedList& list = pass(uploaded, wedges.list(), ends, set.table(), context().buffer(candidates, "candidates"),
                                 static_cast<uint32_t>(candidates.size()), set.counters());
   // Rows come in any order: a row answers the question with its ends and steps.
@@ -289,7 +289,7 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
       const RadioEnds ends = make_radio_ends(context(), {tx}, {rx}, {}, {0});
       Sequences set(context(), 64);
       set.clear();
-      WedgeSolve pass(context(), 3);
+      WedgeSolve pass(context(), 3, every_wave_m);
       const auto candidates = context().buffer(
           std::vector<wt_wedge_candidate>{{WT_ROOT, WT_ROOT | 1, {0, WT_NONE}, 0, WT_ALL_QUARTERS}}, "candidates");
       set.counters().restart(&wt_counters::wedge_candidates, 1, "wedge_solve");

@@ -82,11 +82,14 @@ inline size_t free_count(const Scene& s) {
   return static_cast<size_t>(std::count_if(s.wedges.begin(), s.wedges.end(), is_free));
 }
 
-// The wedge between two points of the file, in either sense; nullptr if there is none or more than one.
-inline const Wedge* between(const Scene& s, const dvec3& a, const dvec3& b, double within_m = 1e-9) {
+// The wedge between two points of the file, in either sense; nullptr if there is none or more than one. exterior_deg:
+// of so many degrees, if not 0.
+inline const Wedge* between(const Scene& s, const dvec3& a, const dvec3& b, double within_m = 1e-9,
+                            double exterior_deg = 0) {
   const Wedge* found = nullptr;
   int count = 0;
   for (const Wedge& w : s.wedges) {
+    if (exterior_deg != 0 && std::abs(w.exterior_rad - exterior_deg * degree) >= 1e-12) continue;
     const dvec3 p = s.origin_m + w.start, q = s.origin_m + end_of(w);
     const double apart_m = std::min(std::max(glm::distance(p, a), glm::distance(q, b)),
                                     std::max(glm::distance(p, b), glm::distance(q, a)));
@@ -98,8 +101,7 @@ inline const Wedge* between(const Scene& s, const dvec3& a, const dvec3& b, doub
 }
 
 inline bool diffracts(const Scene& s, const dvec3& a, const dvec3& b, double exterior_deg) {
-  const Wedge* w = between(s, a, b);
-  return w && std::abs(w->exterior_rad - exterior_deg * degree) < 1e-12;
+  return between(s, a, b, 1e-9, exterior_deg) != nullptr;
 }
 
 // To a triangle, by its inside or its nearest side.
@@ -137,7 +139,9 @@ inline void check_contract(const Scene& s, double touching_m = 1e-9) {
     CHECK(glm::length(w.face) == doctest::Approx(1).epsilon(1e-14));
     CHECK(std::abs(glm::dot(w.along, w.face)) < 1e-14);
     CHECK(glm::distance(glm::cross(w.face, w.normal), w.along) < 1e-14);
-    CHECK(w.exterior_rad > pi);
+    CHECK(w.exterior_rad > 1e-3);
+    CHECK(std::abs(w.exterior_rad - pi) > 1e-9);
+    CHECK(std::abs(w.exterior_rad - pi / 2) > 3e-6);
     CHECK(w.exterior_rad <= 2 * pi);
     CHECK(is_free(w) == (w.exterior_rad == 2 * pi));
     const double radius_m = 0.01;

@@ -82,6 +82,7 @@ typedef struct {
   wt_uint capacity;
   wt_uint triangle_slots;
   wt_uint blocker_mask;
+  float wavelength_m;  // the longest; infinite: no wave is too faint (lib/wedge.clh)
 } wt_solve_arguments;
 
 typedef struct {
@@ -180,7 +181,7 @@ typedef struct {
   wt_uint scatters;
   wt_air air;
   wt_uint foliage_count;  // kinds of vegetation
-  wt_uint padding;
+  wt_uint reflections;    // the most of a path
 } wt_fields_arguments;
 
 typedef struct {

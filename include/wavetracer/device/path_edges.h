@@ -20,8 +20,8 @@ typedef struct {
   double before_m, after_m;  // to the end or edge before and after it, reflections unfolded
 } wt_edge;
 
-// Directions closer than this to a boundary are worth a question about the other path there, see wt_lit_sides_of.
-#define WT_NEAR_BOUNDARY_RAD 2e-6
+// Rays this close to the edge may be on either side of it, see wt_waves_at.
+#define WT_UNDECIDED_M 2e-4
 
 // What runs along a face is this far inside of free space: both faces of a half plane lie in one direction.
 #define WT_INSIDE_RAD 1e-12
@@ -105,48 +105,79 @@ inline double wt_snap_to_shared_face(const wt_field_world* world, wt_edge* edges
   return 1.0;
 }
 
-// Has the path these steps, but for its step `at`, which is another one, or none where `other` is WT_NONE?
-inline int wt_differs_at(const wt_path* path, const wt_path* sibling, wt_uint at, wt_uint other) {
-  const wt_uint skipped = other == WT_NONE ? 1u : 0u;
-  if (sibling->depth + skipped != path->depth) return 0;
+// A wave that passes the edge of a corner as a ray: reflected `count` times at the wedge's surfaces, in turn, from
+// surfaces[first] on. 0 times: straight past it.
+typedef struct {
+  wt_uint surfaces[2];
+  wt_uint count;
+  int first;
+} wt_image_steps;
+
+// Do these steps reflect in one plane?
+inline int wt_same_mirror(const wt_field_world* world, wt_uint step, wt_uint surface) {
+  if ((step & WT_STEP_KIND) != WT_STEP_REFLECTION) return 0;
+  if (step == (WT_STEP_REFLECTION | surface)) return 1;
+  const WT_GLOBAL wt_exact_surface *a = world->surfaces + (step & ~WT_STEP_KIND), *b = world->surfaces + surface;
+  const wt_double3 n = wt_vector(a->normal), m = wt_vector(b->normal);
+  const double cosine = wt_dot3(n, m);
+  return wt_length3(wt_cross3(n, m)) <= 1e-9 && fabs(a->offset - (cosine < 0.0 ? -b->offset : b->offset)) <= 1e-4;
+}
+
+// Has the sibling the steps of the path, but for its step `at`, in whose place it is reflected like this?
+inline int wt_differs_at(const wt_field_world* world, const wt_path* path, const wt_path* sibling, wt_uint at,
+                         const wt_image_steps* image) {
+  if (sibling->depth + 1u != path->depth + image->count) return 0;
   for (wt_uint k = 0; k < sibling->depth; ++k) {
-    const wt_uint from = skipped && k >= at ? k + 1 : k;
-    if (wt_step(sibling, k) != (!skipped && k == at ? other : wt_step(path, from))) return 0;
+    if (k >= at && k < at + image->count) {
+      const wt_uint face = (wt_uint)image->first != ((k - at) % 2u == 1u);
+      if (!wt_same_mirror(world, wt_step(sibling, k), image->surfaces[face])) return 0;
+    } else if (wt_step(sibling, k) != wt_step(path, k < at ? k : k + 1u - image->count)) {
+      return 0;
+    }
   }
   return 1;
 }
 
 // Is there such a path of the same link, as long as this row's to a picosecond?
-inline int wt_has_sibling(const wt_ordered_rows* ordered, wt_uint row, const wt_path* path, wt_uint at, wt_uint other) {
+inline int wt_has_sibling(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
+                          wt_uint at, const wt_image_steps* image) {
   for (int way = -1; way <= 1; way += 2)
     for (wt_uint i = row + (wt_uint)way; i < ordered->count; i += (wt_uint)way) {  // before 0 is beyond count
       if (!(fabs(ordered->delays[i] - ordered->delays[row]) < 1e-12)) break;
       if (ordered->rows[i] == WT_NO_ROW) continue;
       const wt_path sibling = wt_path_of(ordered->list, ordered->rows[i]);
       if (sibling.transmitter != path->transmitter || sibling.receiver != path->receiver) break;
-      if (wt_differs_at(path, &sibling, at, other)) return 1;
+      if (wt_differs_at(world, path, &sibling, at, image)) return 1;
     }
   return 0;
 }
 
-// Only where the direction after the edge is that of the direct or of a reflected ray: other paths are not asked for.
-inline wt_lit_sides wt_lit_sides_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
-                                    const wt_path* path, const wt_edge* edge) {
-  wt_lit_sides lit;
-  lit.direct = -1;
-  if (wt_length3(edge->k_in - edge->k_out) < WT_NEAR_BOUNDARY_RAD)
-    lit.direct = wt_has_sibling(ordered, row, path, edge->at, WT_NONE);
-  for (int face = 0; face < 2; ++face) {
-    lit.reflected[face] = -1;
-    const wt_double3 mirrored = wt_mirrored(edge->k_in, wt_face_normal(&edge->frame, face));
-    if (wt_length3(mirrored - edge->k_out) >= WT_NEAR_BOUNDARY_RAD) continue;
-    const wt_uint surface = world->wedges[edge->number].surfaces[face];
-    lit.reflected[face] = wt_has_sibling(ordered, row, path, edge->at, surface | WT_STEP_REFLECTION);
+// Near a boundary of the edge the rows tell on which side the receiver is: what a ray passes or meets within 0.1 mm of
+// the edge is decided in float32, and reflections so close to each other are one path.
+inline wt_known_waves wt_waves_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                                  const wt_path* path, const wt_edge* edge, const wt_turn* turn) {
+  wt_known_waves known = wt_nothing_known();
+  const double angle = WT_UNDECIDED_M * (1.0 / edge->before_m + 1.0 / edge->after_m);
+  known.undecided = fmin(WT_UNDECIDED_RAD + angle, 1e-3);
+  for (int i = 0; i < WT_BOUNDARIES; ++i) {
+    const wt_boundary boundary = turn->boundaries[i];
+    if (fabs(boundary.epsilon) > known.undecided || !wt_has_wave(&edge->frame, boundary)) continue;
+    wt_image_steps image;
+    image.surfaces[0] = world->wedges[edge->number].surfaces[0];
+    image.surfaces[1] = world->wedges[edge->number].surfaces[1];
+    image.count = (wt_uint)(boundary.image < 0 ? -boundary.image : boundary.image);
+    image.first = boundary.image > 0;
+    known.lit[i] = wt_has_sibling(world, ordered, row, path, edge->at, &image);
   }
-  return lit;
+  return known;
 }
 
-inline void wt_diffract_at(const wt_field_world* world, const wt_edge* edge, wt_lit_sides lit, wt_transfer* transfer) {
+// ordered: null where it is not known which rays pass the edge.
+inline void wt_diffract_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                           const wt_path* path, const wt_edge* edge, wt_transfer* transfer) {
+  const wt_turn turn = wt_turn_at(&edge->frame, edge->k_in, edge->k_out);
+  wt_known_waves known = ordered ? wt_waves_at(world, ordered, row, path, edge, &turn) : wt_nothing_known();
+  known.most_images = (int)(world->reflections + 1u) - (int)path->depth;
   wt_wedge_face faces[2];
   for (int face = 0; face < 2; ++face) {
     const wt_uint surface = world->wedges[edge->number].surfaces[face];
@@ -155,8 +186,9 @@ inline void wt_diffract_at(const wt_field_world* world, const wt_edge* edge, wt_
     faces[face].thickness_m = material->thickness_m;
   }
   const double distance_m = edge->before_m * edge->after_m / (edge->before_m + edge->after_m) * wt_sine2(edge);
-  const wt_wave_map wave = wt_diffract(edge->frame, faces, edge->k_in, edge->k_out, distance_m, world->wavelength_m,
-                                       world->transmissions >= (wt_is_half_plane(edge) ? 1u : 2u), lit);
+  const wt_wave_map wave =
+      wt_diffract(edge->frame, faces, edge->k_in, edge->k_out, &turn, distance_m, world->wavelength_m,
+                  world->transmissions >= (wt_is_half_plane(edge) ? 1u : 2u), &known);
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }
 

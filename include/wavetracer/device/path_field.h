@@ -181,11 +181,8 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   if (edge_count > 1) wave.spread *= wt_snap_to_shared_face(world, edges);
   wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
   for (wt_uint i = 0; i < edge_count; ++i) {
-    wt_lit_sides lit;
-    lit.direct = lit.reflected[0] = lit.reflected[1] = -1;
-    if (edge_count == 1) lit = wt_lit_sides_of(world, ordered, row, &path, edges + i);
     wt_pass(world, &path, k, &wave);
-    wt_diffract_at(world, edges + i, lit, &wave.transfer);
+    wt_diffract_at(world, edge_count == 1 ? ordered : 0, row, &path, edges + i, &wave.transfer);
     k = wt_pass_surfaces(world, &path, length_m, k + 1, &wave);
   }
 #else

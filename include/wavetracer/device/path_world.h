@@ -31,6 +31,7 @@ typedef struct {
   double wavelength_m;
   wt_ulong seed;
   wt_uint transmissions;                   // the most of a path
+  wt_uint reflections;                     // likewise
   wt_uint scatters;                        // not 0: mirrored waves lose what is scattered
   wt_uint foliage_count;                   // kinds of vegetation
   const WT_GLOBAL wt_foliage* foliages;    // of each kind

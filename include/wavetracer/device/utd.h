@@ -11,6 +11,7 @@ namespace wavetracer::device {
 #endif
 
 #define WT_UNDECIDED_RAD 1e-6  // geometry in double from the same points is no further off
+#define WT_BOUNDARIES 4
 #define WT_GRAZING_RAD 1e-9
 
 // In the world's axes.
@@ -24,11 +25,6 @@ typedef struct {
   wt_double2 permittivity;
   double thickness_m;
 } wt_wedge_face;
-
-// Do these rays reach the receiver? -1: not known.
-typedef struct {
-  int direct, reflected[2];
-} wt_lit_sides;
 
 // The field at the edge in components along from, times the matrix, leaves it in components along to.
 typedef struct {
@@ -149,23 +145,65 @@ inline wt_double2 wt_boundary_term(double epsilon, double n, double root_2kl) {
   return wt_transition_over_root(root_2kl * sine) * copysign(ratio, epsilon);
 }
 
-inline double wt_decided(wt_boundary boundary, const wt_lit_sides* lit) {
-  if (boundary.image < -1 || boundary.image > 1 || fabs(boundary.epsilon) > WT_UNDECIDED_RAD) return boundary.epsilon;
-  const int known = boundary.image == 0 ? lit->direct : lit->reflected[boundary.image > 0];
-  return known < 0 ? boundary.epsilon : copysign(boundary.epsilon, known ? 1.0 : -1.0);
+// How a ray turns at the edge: the azimuths of its source and its receiver, and the boundaries that are nearest.
+typedef struct {
+  double in, away;
+  wt_boundary boundaries[WT_BOUNDARIES];
+} wt_turn;
+
+inline wt_turn wt_turn_at(const wt_wedge_frame* wedge, wt_double3 k_in, wt_double3 k_out) {
+  wt_turn turn;
+  turn.in = wt_azimuth_of(wedge, -k_in);
+  turn.away = wt_azimuth_of(wedge, k_out);
+  for (int i = 0; i < WT_BOUNDARIES; ++i)
+    turn.boundaries[i] = wt_nearest_boundary(turn.in, turn.away, wedge->exterior, i / 2, i % 2 ? 1 : -1);
+  return turn;
+}
+
+// Can the wave of this boundary be there at all? Outside of a convex wedge nothing is reflected twice.
+inline int wt_has_wave(const wt_wedge_frame* wedge, wt_boundary boundary) {
+  return wedge->exterior < WT_PI || (boundary.image >= -1 && boundary.image <= 1);
+}
+
+// What is known of the waves at the boundaries of a turn, in their order.
+typedef struct {
+  int lit[WT_BOUNDARIES];  // does the wave reach the receiver? -1: not known
+  double undecided;        // radians; no farther from a boundary angles leave the side to what is known
+  int most_images;         // waves that are reflected in a corner more often than this, and than once, are left out
+} wt_known_waves;
+
+inline wt_known_waves wt_nothing_known(void) {
+  wt_known_waves known;
+  for (int i = 0; i < WT_BOUNDARIES; ++i) known.lit[i] = -1;
+  known.undecided = WT_UNDECIDED_RAD;
+  known.most_images = 0x7FFFFFFF;
+  return known;
+}
+
+inline double wt_decided(wt_boundary boundary, const wt_known_waves* known, int i) {
+  if (known->lit[i] < 0 || fabs(boundary.epsilon) > known->undecided) return boundary.epsilon;
+  return copysign(boundary.epsilon, known->lit[i] ? 1.0 : -1.0);
 }
 
 // The jump of the geometrical field at a boundary, from shadow to light. Outside of a convex wedge nothing is reflected
 // twice: one reflection, at the face on this side, is all. On the boundary both choices of angles agree; between
 // boundaries their mean makes the coefficient reciprocal.
-// there: the wave; back: that of the link the other way.
+// In a corner an image of several reflections has two boundaries, one for either order of the faces, and away from them
+// their terms nearly cancel (just so at a right angle, and where nothing is bent): there its weight is that of the
+// other. there: the wave; back: that of the link the other way. near: 1 on the boundary, 0 far away.
 inline wt_matrix wt_jump(const wt_corner* corner, const wt_corner_wave* there, const wt_corner_wave* back,
-                         wt_boundary boundary, int odd, int transmits) {
+                         wt_boundary boundary, int odd, int transmits, double near) {
   const int convex = corner->exterior >= WT_PI, turn = boundary.turn;
-  const int image = !convex ? boundary.image : odd ? turn : 0;
+  const int image = !convex ? boundary.image : odd ? turn : 0, images = image < 0 ? -image : image;
+  const double share = images > 1 ? 0.5 * near : 0.5;
   wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
-  sum = wt_matrix_sum(sum, 0.5, wt_image_wave(corner, there, image));
-  sum = wt_matrix_sum(sum, 0.5, wt_other_way(wt_image_wave(corner, back, odd ? image : -image)));
+  sum = wt_matrix_sum(sum, share, wt_image_wave(corner, there, image));
+  sum = wt_matrix_sum(sum, share, wt_other_way(wt_image_wave(corner, back, odd ? image : -image)));
+  if (images > 1) {
+    const int other = image < 0 ? images - 2 : 2 - images;
+    sum = wt_matrix_sum(sum, 0.5 - share, wt_image_wave(corner, there, other));
+    sum = wt_matrix_sum(sum, 0.5 - share, wt_other_way(wt_image_wave(corner, back, odd ? other : -other)));
+  }
   if (!odd && transmits && convex) {
     const int count = corner->exterior > 2.0 * WT_PI - WT_GRAZING_RAD ? 1 : 2;
     sum = wt_matrix_sum(sum, -0.5, wt_met(corner, there, turn < 0, count, 1));
@@ -174,9 +212,11 @@ inline wt_matrix wt_jump(const wt_corner* corner, const wt_corner_wave* there, c
   return sum;
 }
 
-// The matrix is in sqrt(m), see Diffraction in host/radio/utd.hpp. distance_m: s s' sin^2 beta0 / (s + s').
+// The matrix is in sqrt(m), see Diffraction in host/radio/utd.hpp. turn: of these directions. distance_m: s s' sin^2
+// beta0 / (s + s').
 inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces, wt_double3 k_in, wt_double3 k_out,
-                               double distance_m, double wavelength_m, int transmits, wt_lit_sides lit) {
+                               const wt_turn* turn, double distance_m, double wavelength_m, int transmits,
+                               const wt_known_waves* known) {
   wt_wave_map out;
   out.matrix = wt_diagonal(wt_real(0.0), wt_real(0.0));
   // Within 1e-9 of the edge, half of the digits of a double, azimuths mean nothing.
@@ -195,16 +235,19 @@ inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces,
   corner.faces[1] = faces[1];
   corner.wavelength_m = wavelength_m;
   const double n = wedge.exterior / WT_PI;
-  const double in = wt_azimuth_of(&wedge, -k_in), away = wt_azimuth_of(&wedge, k_out);
+  const double in = turn->in, away = turn->away;
   const double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
   const wt_corner_wave there = wt_wave_from(in, cosine, sine), back = wt_wave_from(away, -cosine, sine);
 
   const double root_2kl = sqrt(4.0 * WT_PI * distance_m / wavelength_m);
-  for (int term = 0; term < 4; ++term) {
-    const int odd = term / 2;
-    const wt_boundary boundary = wt_nearest_boundary(in, away, wedge.exterior, odd, term % 2 ? 1 : -1);
-    const wt_double2 factor = wt_boundary_term(wt_decided(boundary, &lit), n, root_2kl);
-    const wt_matrix jump = wt_jump(&corner, &there, &back, boundary, odd, transmits);
+  for (int term = 0; term < WT_BOUNDARIES; ++term) {
+    const wt_boundary boundary = turn->boundaries[term];
+    const int images = boundary.image < 0 ? -boundary.image : boundary.image;
+    if (wedge.exterior < WT_PI && images > 1 && images > known->most_images) continue;  // no such wave ends here
+    const wt_double2 factor = wt_boundary_term(wt_decided(boundary, known, term), n, root_2kl);
+    const double away_from = root_2kl * wt_cos_sin(0.5 * boundary.epsilon).y;
+    const wt_matrix jump =
+        wt_jump(&corner, &there, &back, boundary, term / 2, transmits, 1.0 / (1.0 + away_from * away_from));
     for (int i = 0; i < 4; ++i) out.matrix.m[i] = out.matrix.m[i] + wt_times(factor, jump.m[i]);
   }
   const int grazing = fmin(in, away) < WT_GRAZING_RAD || wedge.exterior - fmax(in, away) < WT_GRAZING_RAD;
