@@ -175,12 +175,15 @@ std::vector<Path> bends_between(const Scene& scene, const Limits& limits, std::s
   const size_t reflections = from.surfaces.size() + to.surfaces.size();
   std::vector<Path> result;
   for (const uint32_t first : wedges) {
-    if (const auto p = diffraction_point(scene.wedges[first], a, b)) result.push_back({{diffraction, first, *p}});
+    const auto p = diffraction_point(scene.wedges[first], a, b);
+    if (p && !is_faint(scene.wedges[first], a, b, limits.wavelength_m)) result.push_back({{diffraction, first, *p}});
     if (limits.max_diffractions < 2 || reflections + 2 > limits.max_depth) continue;
     for (const uint32_t second : wedges) {
-      if (second == first) continue;
-      if (const auto p = diffraction_points(scene.wedges[first], scene.wedges[second], a, b))
-        result.push_back({{diffraction, first, (*p)[0]}, {diffraction, second, (*p)[1]}});
+      const Wedge &v = scene.wedges[first], &w = scene.wedges[second];
+      if (second == first || is_corner(v) || is_corner(w)) continue;
+      const auto q = diffraction_points(v, w, a, b);
+      if (!q || is_faint(v, a, (*q)[1], limits.wavelength_m) || is_faint(w, (*q)[0], b, limits.wavelength_m)) continue;
+      result.push_back({{diffraction, first, (*q)[0]}, {diffraction, second, (*q)[1]}});
     }
   }
   return result;

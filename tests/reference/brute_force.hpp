@@ -15,8 +15,9 @@ struct Limits {
   bool transmission = false;
   uint32_t max_transmissions = 2;  // a path
   bool diffraction = false;
-  uint32_t max_diffractions = 1;  // a path, 1 or 2; two follow each other, with no reflection between them
-  bool free_edges = true;         // wedges of one face diffract
+  uint32_t max_diffractions = 1;            // a path, 1 or 2; two follow each other, with no reflection between them
+  bool free_edges = true;                   // wedges of one face diffract
+  double wavelength_m = 299792458 / 5.9e9;  // corners diffract where that is not faint (wedge_points.hpp)
 };
 
 // All paths of reflections, transmissions and diffractions at Scene::wedges within the limits, by the image method and

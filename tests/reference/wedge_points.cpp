@@ -66,6 +66,24 @@ std::optional<std::array<dvec3, 2>> diffraction_points(const Wedge& first, const
   return std::array{p, *q};
 }
 
+bool is_corner(const Wedge& wedge) { return wedge.exterior_rad < std::numbers::pi; }
+
+bool is_faint(const Wedge& wedge, const dvec3& a, const dvec3& b, double wavelength_m) {
+  using std::numbers::pi;
+  if (wedge.exterior_rad > pi + 1e-3 || wedge.exterior_rad <= pi / 2) return false;
+  const auto azimuth = [&](const dvec3& p) {
+    return std::atan2(glm::dot(p - wedge.start, wedge.normal), glm::dot(p - wedge.start, wedge.face));
+  };
+  const auto away_m = [&](const dvec3& p) { return glm::length(glm::cross(p - wedge.start, wedge.along)); };
+  const double in = azimuth(a), out = azimuth(b), r = away_m(a), s = away_m(b);
+  const double between_m = std::hypot(r + s, glm::dot(b - a, wedge.along));
+  const double root = std::sqrt(4 * pi * pi * r * s / between_m / wavelength_m);
+  for (const double off : {pi - in - out, pi + in + out - 2 * wedge.exterior_rad, pi + in - out, pi - in + out,
+                           pi + in - out - 2 * wedge.exterior_rad, pi - in + out - 2 * wedge.exterior_rad})
+    if (!(1 / (2 * std::abs(std::sin(off / 2)) * root) < 0.01)) return false;
+  return true;
+}
+
 bool in_free_sector(const Wedge& wedge, const dvec3& point, const dvec3& neighbour) {
   const dvec3 d = neighbour - point;
   const double x = glm::dot(d, wedge.face), y = glm::dot(d, wedge.normal);
