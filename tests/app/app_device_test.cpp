@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include "folders.hpp"
 #include "gate.hpp"
 #include "program.hpp"
 
@@ -114,7 +115,7 @@ TEST_CASE("a small stack is enough to begin with") {
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  const std::string command = "ulimit -s 64 && exec '" WAVETRACER_PROGRAM "' run -c '" + file + "' -o '" +
+  const std::string command = "ulimit -s 64 && exec '" + wavetracer::test::program() + "' run -c '" + file + "' -o '" +
                               folder.path("out") + "' > '" + folder.path("said") + "' 2>&1";
   CHECK(std::system(command.c_str()) == 0);
   CHECK(std::filesystem::file_size(folder.path("out/paths.h5")) > 0);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include "folders.hpp"
 #include "program.hpp"
 #include "wavetracer/version.hpp"
 
@@ -319,7 +320,7 @@ TEST_CASE("hints at misspelt keys are those of their table, a map as a scene nam
 
 TEST_CASE("the configs that come with the program are valid") {
   for (const std::string name : {"cache", "city", "demo", "drive", "edges"}) {
-    const Outcome validate = run_program({"validate", "-c", WAVETRACER_SOURCE "/configs/" + name + ".toml"});
+    const Outcome validate = run_program({"validate", "-c", wavetracer::test::source_folder() + "/configs/" + name + ".toml"});
     CAPTURE(validate.err);
     CHECK(validate.code == 0);
   }
@@ -327,7 +328,7 @@ TEST_CASE("the configs that come with the program are valid") {
 
 TEST_CASE("scene info --edges lists every edge that diffracts, and nothing else") {
   const Folder folder;
-  const std::string scenes = WAVETRACER_SOURCE "/tests/reference/scenes/";
+  const std::string scenes = wavetracer::test::source_folder() + "/tests/reference/scenes/";
   const Outcome wedge = run_program({"scene", "info", scenes + "simple_wedge/simple_wedge.xml", "--edges"});
   CHECK(wedge.code == 0);
   CHECK(wedge.err.empty());
@@ -360,7 +361,7 @@ TEST_CASE("scene info --edges lists every edge that diffracts, and nothing else"
 
 TEST_CASE("scene info --edges of a room: its edges diffract nowhere but outside, and a wrong file is refused") {
   const Folder folder;
-  const std::string box = WAVETRACER_SOURCE "/tests/reference/scenes/box/box.xml";
+  const std::string box = wavetracer::test::source_folder() + "/tests/reference/scenes/box/box.xml";
   const Outcome room = run_program({"scene", "info", box, "--edges"});
   CHECK(room.code == 0);
   CHECK(std::ranges::count(room.out, '\n') == 1 + 12);  // of the outside: twelve, of 270 degrees

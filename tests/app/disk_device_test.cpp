@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <ctime>
 #include <fstream>
+#include "folders.hpp"
 #include "gate.hpp"
 #include "output/reader.hpp"
 #include "program.hpp"
@@ -38,7 +39,7 @@ void check_same_bytes(const fs::path& found, const fs::path& expected) {
 
 // A copy of the room in a folder of its own; returns the path of its scene file.
 std::string room_in(const Folder& folder, const std::string& name) {
-  fs::copy(WAVETRACER_SOURCE "/configs/scenes/room", folder.path(name), fs::copy_options::recursive);
+  fs::copy(wavetracer::test::source_folder() + "/configs/scenes/room", folder.path(name), fs::copy_options::recursive);
   return folder.path(name + "/room.xml");
 }
 

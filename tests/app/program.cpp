@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include "folders.hpp"
 
 extern char** environ;
 
@@ -57,7 +58,7 @@ size_t lines_of(const std::string& file) {
 }
 
 Program::Program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
-  std::vector<std::string> words = {WAVETRACER_PROGRAM};
+  std::vector<std::string> words = {wavetracer::test::program()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = changed_environment(environment);
   posix_spawn_file_actions_t actions;
@@ -66,9 +67,9 @@ Program::Program(const std::vector<std::string>& arguments, const std::vector<st
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
   const int failed =
-      posix_spawn(&process_, WAVETRACER_PROGRAM, &actions, nullptr, pointers(words).data(), pointers(variables).data());
+      posix_spawn(&process_, words[0].c_str(), &actions, nullptr, pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
-  if (failed) throw std::runtime_error("cannot start " WAVETRACER_PROGRAM);
+  if (failed) throw std::runtime_error("cannot start " + wavetracer::test::program());
 }
 
 Outcome Program::wait() {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fstream>
 #include <sstream>
+#include "folders.hpp"
 #include "program.hpp"
 
 namespace {
@@ -108,7 +109,7 @@ TEST_CASE("every configuration that comes with the program validates and runs") 
   if (!device_present()) return;
   const Folder folder;
   size_t count = 0;
-  for (const auto& entry : fs::directory_iterator(WAVETRACER_SOURCE "/configs")) {
+  for (const auto& entry : fs::directory_iterator(wavetracer::test::source_folder() + "/configs")) {
     if (entry.path().extension() != ".toml") continue;
     const std::string file = entry.path().string(), out = folder.path(entry.path().stem().string());
     CAPTURE(file);

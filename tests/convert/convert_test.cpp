@@ -7,6 +7,7 @@
 #include <sstream>
 #include "base/pending_folder.hpp"
 #include "convert/unicode.hpp"
+#include "folders.hpp"
 #include "output/sample_run.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path runs() { return fs::path(WAVETRACER_BINARY_DIR) / "tests" / "convert"; }
+fs::path runs() { return fs::path(test::build_folder()) / "tests" / "convert"; }
 
 fs::path write_run(const fs::path& folder, const SampleRun& sample, const std::vector<FrameResult>& frames) {
   write_outputs(folder, sample.run(), frames);

@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "convert/convert.hpp"
 #include "convert/kml_text.hpp"
+#include "folders.hpp"
 #include "results/saved_world.hpp"
 #include "scene/load.hpp"
 #include "scene/volume_surface.hpp"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests/convert_geometry";
+const fs::path folder = fs::path(test::build_folder()) / "tests/convert_geometry";
 constexpr const char* projection = "+proj=tmerc +lat_0=48.137 +lon_0=11.575 +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m";
 
 const SavedRun& run() {

@@ -6,6 +6,7 @@
 #include <map>
 #include <regex>
 #include <vector>
+#include "folders.hpp"
 #include "gpu/device_records.hpp"
 #include "gpu/gpu.hpp"
 #include "gpu/temporary.hpp"
@@ -25,7 +26,7 @@ std::map<std::string, std::vector<std::string>> declared_records() {
       field("(\\w+)\\s*(\\[[^;]*\\])?[,;]");
   for (const std::string& header : headers) {
     const std::string text =
-        std::regex_replace(read_file(WAVETRACER_SOURCE "/include/wavetracer/device/" + header), comment, "");
+        std::regex_replace(read_file(test::source_folder() + "/include/wavetracer/device/" + header), comment, "");
     for (std::sregex_iterator r(text.begin(), text.end(), record), end; r != end; ++r) {
       const std::string body = (*r)[1];
       for (std::sregex_iterator f(body.begin(), body.end(), field); f != end; ++f) declared[(*r)[2]].push_back((*f)[1]);

@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 #include <vector>
+#include "folders.hpp"
 #include "gpu/gpu.hpp"
 #include "gpu/temporary.hpp"
 #include "wavetracer/error.hpp"
@@ -47,7 +48,7 @@ TEST_CASE("embedded files are the files of the source tree, byte for byte") {
   std::string previous;
   for (const gpu::EmbeddedFile& file : gpu::embedded_files()) {
     CAPTURE(file.path);
-    CHECK(std::string(file.text) == read_file(std::filesystem::path(WAVETRACER_SOURCE) / file.path));
+    CHECK(std::string(file.text) == read_file(std::filesystem::path(test::source_folder()) / file.path));
     CHECK(previous < file.path);
     previous = file.path;
     trailing |= file.path == "kernels/lib/memory_order.clh";
@@ -60,7 +61,7 @@ TEST_CASE("an embedded program keeps the place of each of its lines") {
   size_t checked = 0;
   for (const auto& [place, line] : located_lines(gpu::program_source("probe_memory_order"))) {
     const auto& [file, number] = place;
-    const auto original = lines_of(read_file(std::filesystem::path(WAVETRACER_SOURCE) / file));
+    const auto original = lines_of(read_file(std::filesystem::path(test::source_folder()) / file));
     CAPTURE(file);
     CAPTURE(number);
     REQUIRE(number >= 1);
@@ -68,7 +69,7 @@ TEST_CASE("an embedded program keeps the place of each of its lines") {
     CHECK(line == original[number - 1]);
     checked += file == "kernels/lib/memory_order.clh";
   }
-  CHECK(checked == lines_of(read_file(WAVETRACER_SOURCE "/kernels/lib/memory_order.clh")).size());
+  CHECK(checked == lines_of(read_file(test::source_folder() + "/kernels/lib/memory_order.clh")).size());
 }
 
 TEST_CASE("kernels of tests are found wherever kernels come from, and are not built into the program") {

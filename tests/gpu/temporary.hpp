@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include "contains.hpp"
+#include "folders.hpp"
 #include "temporary_folder.hpp"
 
 namespace wavetracer::test {
@@ -59,7 +60,7 @@ class TemporaryKernels {
   TemporaryKernels() {
     give_pocl_a_lasting_cache();
     std::filesystem::create_directory(kernels());
-    std::filesystem::create_directory_symlink(std::filesystem::path(WAVETRACER_SOURCE) / "include",
+    std::filesystem::create_directory_symlink(std::filesystem::path(test::source_folder()) / "include",
                                               folder_.path() / "include");
   }
   std::filesystem::path kernels() const { return folder_.path() / "kernels"; }

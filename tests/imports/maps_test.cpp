@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/file.hpp"
+#include "folders.hpp"
 #include "imported.hpp"
 #include "map_files.hpp"
 #include "scene/georeference.hpp"

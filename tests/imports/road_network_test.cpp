@@ -1,5 +1,6 @@
 // Road networks: the one that comes with the program, and small ones with every fault.
 #include "imports/road_network.hpp"
+#include "folders.hpp"
 
 #include <doctest/doctest.h>
 #include <zlib.h>
@@ -14,7 +15,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-const std::string town = WAVETRACER_SOURCE "/configs/sumo/town.net.xml";
+const std::string town = test::source_folder() + "/configs/sumo/town.net.xml";
 
 std::string net(const std::string& lane) {
   return "<net version=\"1.16\">\n<edge id=\"e\">\n" + lane + "\n</edge>\n</net>\n";

@@ -11,6 +11,7 @@
 
 #include "app/program.hpp"
 #include "base/file.hpp"
+#include "folders.hpp"
 #include "imports/imports.hpp"
 #include "imports/map.hpp"
 #include "imports/rings.hpp"
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace wavetracer;
 
-const fs::path source = fs::path(WAVETRACER_SOURCE) / "configs/sumo";
+const fs::path source = fs::path(test::source_folder()) / "configs/sumo";
 
 // Distance from the nearest street axis: they are 120 m apart, and end at 0 and 240. Lanes are 3.2 m wide, houses stand
 // 12 m from the axis. A crossing is a square of 14.4 m, in which those who turn, and the middle of a bus before all,

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include "folders.hpp"
 #include "jobs/run_record.hpp"
 #include "jobs/sample_parts.hpp"
 #include "jobs/shards.hpp"
@@ -144,7 +145,7 @@ TEST_CASE("a hostile part is an error that names it, and nothing is written") {
                        InputError);
   std::ofstream(first, std::ios::binary) << first_bytes;
   // A part on which the library may fault (1.10.8 does): the second one, which the error must name.
-  const std::string fault = slurp(fs::path(WAVETRACER_SOURCE) / "tests/fuzz/corpus/merge/fault_in_attribute.h5");
+  const std::string fault = slurp(fs::path(test::source_folder()) / "tests/fuzz/corpus/merge/fault_in_attribute.h5");
   std::ofstream(part, std::ios::binary) << fault;
   note_as_written(manifest);
   CHECK_THROWS_WITH_AS(merge_found(find_parts({a}), folder.path() / "out", ""), doctest::Contains(part.c_str()),

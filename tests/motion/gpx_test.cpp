@@ -1,6 +1,7 @@
 // GPX: files that gpxpy 1.6.2 and GPSBabel 1.8.0 wrote, times, what is left out and told, and errors with their lines.
 // The projection of these tests is 10^5 m per degree, the ground a slope along x.
 #include "motion/gpx.hpp"
+#include "folders.hpp"
 
 #include "motion/pose.hpp"
 #include "motion_files.hpp"
@@ -36,7 +37,9 @@ std::string problem(const std::string& content, const TrajectoryOptions& options
   return "no error";
 }
 
-std::filesystem::path sample(const char* name) { return std::filesystem::path(WAVETRACER_MOTION_FILES) / name; }
+std::filesystem::path sample(const char* name) {
+  return std::filesystem::path(test::source_folder() + "/tests/motion/files") / name;
+}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // Traces of OSI: those that ASAM's own bindings wrote (files/make_osi.py), and messages of our own that are wrong.
 // Closed forms of that drive: a circle of 20 m at 10 m/s, nose down by 0.1 rad.
 #include "motion/osi.hpp"
+#include "folders.hpp"
 
 #include <cmath>
 #include <protozero/pbf_writer.hpp>
@@ -15,11 +16,11 @@ using doctest::Contains;
 namespace {
 
 Trajectories read_file(const std::string& name, const TrajectoryOptions& options = {}) {
-  return read_trajectories(std::string(WAVETRACER_SOURCE) + "/tests/motion/files/" + name, options);
+  return read_trajectories(test::source_folder() + "/tests/motion/files/" + name, options);
 }
 
 std::string content_of(const std::string& name) {
-  std::ifstream in(std::string(WAVETRACER_SOURCE) + "/tests/motion/files/" + name, std::ios::binary);
+  std::ifstream in(test::source_folder() + "/tests/motion/files/" + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

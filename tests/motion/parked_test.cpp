@@ -1,5 +1,6 @@
 // Files of parked vehicles: columns in any order, what may be missing, and errors with file and line.
 #include "motion/parked.hpp"
+#include "folders.hpp"
 
 #include "motion_files.hpp"
 
@@ -44,7 +45,7 @@ TEST_CASE("what is wrong with such a file") {
 }
 
 TEST_CASE("vehicles that SUMO has parked stand where it puts them: on the lot, or on their lane") {
-  const Trajectories t = read_trajectories(std::string(WAVETRACER_SOURCE) + "/tests/motion/files/parked.fcd.xml");
+  const Trajectories t = read_trajectories(test::source_folder() + "/tests/motion/files/parked.fcd.xml");
   REQUIRE(t.tracks.size() == 2);
   for (const Track& track : t.tracks) {
     const Sample& last = track.samples.back();

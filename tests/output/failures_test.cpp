@@ -9,6 +9,7 @@
 #include <span>
 #include "base/pending_file.hpp"
 #include "contains.hpp"
+#include "folders.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/output.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 // An empty folder of the test's own, removed with everything in it.
 struct Scratch {
-  fs::path path = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "output" / "failures";
+  fs::path path = fs::path(test::build_folder()) / "tests" / "output" / "failures";
   Scratch() {
     fs::remove_all(path);
     fs::create_directories(path);

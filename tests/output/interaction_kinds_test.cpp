@@ -10,6 +10,7 @@
 #include <string>
 
 #include "contains.hpp"
+#include "folders.hpp"
 #include "output/reader.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -18,7 +19,7 @@ using test::slurp;
 
 namespace {
 
-const std::filesystem::path source = WAVETRACER_SOURCE;
+const std::filesystem::path source = test::source_folder();
 
 // With each run of spaces and line breaks as one space.
 std::string flowing(const std::string& file) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include "folders.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/output.hpp"
@@ -17,7 +18,7 @@ using test::slurp;
 
 namespace {
 
-const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "output" / "sample";
+const fs::path folder = fs::path(test::build_folder()) / "tests" / "output" / "sample";
 
 using Values = std::vector<double>;
 using Shape = std::vector<hsize_t>;

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <utility>
 
+#include "folders.hpp"
 #include "radio/fields.hpp"
 #include "radio/oracle_lists.hpp"
 #include "radio/world.hpp"
@@ -206,7 +207,7 @@ std::string summary(const Errors& errors) {
 }  // namespace
 
 TEST_CASE("coefficients, delays and angles agree with the reference path lists") {
-  const std::filesystem::path shared = WAVETRACER_SHARED;
+  const std::filesystem::path shared = test::shared_folder();
   const std::filesystem::path lists = shared / "oracle", scenes = shared / "scenes";
   if (!std::filesystem::is_directory(lists) || !std::filesystem::is_directory(scenes)) {
     MESSAGE("skipped: no reference path lists in " << shared.string() << " (set WAVETRACER_SHARED)");

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "folders.hpp"
 #include "radio/antenna.hpp"
 #include "radio/world.hpp"
 #include "wavetracer/error.hpp"
@@ -21,7 +22,7 @@ const std::string header = "theta_deg,phi_deg,v_re,v_im,h_re,h_im\n";
 
 // A file that is removed when its test ends.
 struct PatternFile {
-  std::string path = std::string(WAVETRACER_BINARY_DIR) + "/pattern_file_test.csv";
+  std::string path = test::build_folder() + "/pattern_file_test.csv";
   explicit PatternFile(const std::string& text) { std::ofstream(path) << text; }
   ~PatternFile() { std::filesystem::remove(path); }
 };

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "folders.hpp"
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
 #include "radio/oracle_lists.hpp"
@@ -110,7 +111,7 @@ std::vector<double> differences_db(const std::string& name, const std::filesyste
 // next to its incident term, so that its total field jumps at the reflection boundary. Here one heuristic is compared
 // with another, where both faces are lit; how far they are apart is their uncertainty.
 TEST_CASE("gains of single diffractions of the reference paths, both faces lit") {
-  const std::filesystem::path shared = WAVETRACER_SHARED;
+  const std::filesystem::path shared = test::shared_folder();
   const std::string name = "street_canyon_cars_all";
   if (!std::filesystem::exists(shared / "oracle" / (name + ".json"))) {
     MESSAGE("no " << shared.string() << ": skipped");

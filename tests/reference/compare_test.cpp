@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <cmath>
 #include <fstream>
+#include "folders.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
@@ -12,7 +13,8 @@ using namespace wavetracer::reference;
 
 namespace {
 
-const std::filesystem::path lists_folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests" / "reference" / "oracle";
+const std::filesystem::path lists_folder =
+    std::filesystem::path(test::source_folder()) / "tests" / "reference" / "oracle";
 
 // Copies path i of the list to its end.
 void repeat_path(Paths& paths, size_t i) {

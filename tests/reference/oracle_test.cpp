@@ -2,6 +2,7 @@
 // Of specular lists only the orders that brute force reaches are compared; up to there those lists are complete.
 #include <doctest/doctest.h>
 #include <tuple>
+#include "folders.hpp"
 #include "reference/brute_force.hpp"
 #include "reference/compare.hpp"
 #include "scene/load.hpp"
@@ -11,7 +12,7 @@ using namespace wavetracer::reference;
 
 namespace {
 
-const std::filesystem::path reference_folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests" / "reference";
+const std::filesystem::path reference_folder = std::filesystem::path(test::source_folder()) / "tests" / "reference";
 
 Scene load(const Case& reference) {
   return load_scene_file(reference_folder / "scenes" / reference.scene / (reference.scene + ".xml"), {}, {});

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "folders.hpp"
 #include "scene/info.hpp"
 #include "scene/model.hpp"
 #include "scene_files.hpp"
@@ -226,7 +227,7 @@ TEST_CASE("scene keys of the configuration") {
 }
 
 TEST_CASE("the scenes that come with the program") {
-  const std::filesystem::path folder = std::filesystem::path(WAVETRACER_SOURCE) / "configs/scenes";
+  const std::filesystem::path folder = std::filesystem::path(test::source_folder()) / "configs/scenes";
   const Scene room = load_scene_file(folder / "room/room.xml", {});
   CHECK(room.triangles.size() == 12);
   CHECK(room.surfaces.size() == 6);

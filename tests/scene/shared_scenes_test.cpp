@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "folders.hpp"
 #include "scene/load.hpp"
 #include "wavetracer/error.hpp"
 
@@ -15,7 +16,7 @@ using namespace wavetracer;
 
 namespace {
 
-const std::filesystem::path scenes = std::filesystem::path(WAVETRACER_SHARED) / "scenes";
+const std::filesystem::path scenes = std::filesystem::path(test::shared_folder()) / "scenes";
 
 bool absent() {
   if (std::filesystem::exists(scenes)) return false;

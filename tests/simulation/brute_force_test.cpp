@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "folders.hpp"
 #include "passes/triangles.hpp"
 #include "reference/brute_force.hpp"
 #include "simulation/run.hpp"

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "folders.hpp"
 #include "reference/compare.hpp"
 #include "simulation/run.hpp"
 
@@ -17,7 +18,7 @@ using glm::dvec3;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-const std::filesystem::path source_folder = WAVETRACER_SOURCE, shared_folder = WAVETRACER_SHARED;
+const std::filesystem::path project = test::source_folder(), shared = test::shared_folder();
 
 Config config_for(const reference::Case& list, const std::filesystem::path& scenes) {
   Config config = config_of(scenes / list.scene / (list.scene + ".xml"), list.transmitters_m, list.receivers_m, 1000000,
@@ -43,8 +44,8 @@ reference::Comparison compare(const reference::Case& list, const Paths& paths) {
 
 // The list of ../shared, where it and its scene are there.
 std::optional<reference::Case> munich(const std::string& name) {
-  const std::filesystem::path list = shared_folder / "oracle" / (name + ".json");
-  if (std::filesystem::exists(list) && std::filesystem::exists(shared_folder / "scenes" / "munich"))
+  const std::filesystem::path list = shared / "oracle" / (name + ".json");
+  if (std::filesystem::exists(list) && std::filesystem::exists(shared / "scenes" / "munich"))
     return reference::load_case(list);
   MESSAGE("skipped: no " << list.string() << " (set WAVETRACER_SHARED)");
   return std::nullopt;
@@ -137,15 +138,15 @@ double widest_sector_rad(const Scene& scene, const std::array<dvec3, 2>& edge, c
 TEST_CASE("the small lists with diffraction and transmission: every path at the defaults") {
   for (const std::string name : {"simple_wedge", "floor_wall", "box_one_screen"}) {
     CAPTURE(name);
-    const reference::Case list = reference::load_case(source_folder / "tests/reference/oracle" / (name + ".json"));
-    CHECK(compare(list, run(config_for(list, source_folder / "tests/reference/scenes")).paths).recall == 1);
+    const reference::Case list = reference::load_case(project / "tests/reference/oracle" / (name + ".json"));
+    CHECK(compare(list, run(config_for(list, project / "tests/reference/scenes")).paths).recall == 1);
   }
 }
 
 TEST_CASE("a street canyon with cars: every path of the list, and of its kinds") {
   const reference::Case list =
-      reference::load_case(source_folder / "tests/reference/oracle/street_canyon_cars_all.json");
-  Config config = config_for(list, source_folder / "tests/reference/scenes");
+      reference::load_case(project / "tests/reference/oracle/street_canyon_cars_all.json");
+  Config config = config_for(list, project / "tests/reference/scenes");
   config.trace.free_edges = false;  // as the list has it
   config.trace.diffraction_rays = 1000000;
   const reference::Comparison c = compare(list, run(config).paths);
@@ -159,7 +160,7 @@ TEST_CASE("a street canyon with cars: every path of the list, and of its kinds")
 TEST_CASE("munich, transmission: every path, no other") {
   const auto list = munich("munich_transmission");
   if (!list) return;
-  const reference::Comparison c = compare(*list, run(config_for(*list, shared_folder / "scenes")).paths);
+  const reference::Comparison c = compare(*list, run(config_for(*list, shared / "scenes")).paths);
   CHECK(c.recall == 1);
   CHECK(c.extra == 0);
   CHECK(c.kinds.at("transmission").reference > 0);
@@ -170,7 +171,7 @@ TEST_CASE("munich, transmission: every path, no other") {
 TEST_CASE("munich, diffraction: every path whose edge is one when all faces there are counted") {
   const auto list = munich("munich_diffraction");
   if (!list) return;
-  Simulation simulation(config_for(*list, shared_folder / "scenes"));
+  Simulation simulation(config_for(*list, shared / "scenes"));
   const reference::Comparison c = compare(*list, simulation.run_frame(0).paths);
   const Scene& scene = simulation.scene();
   CHECK(c.kinds.at("specular").recall == 1);

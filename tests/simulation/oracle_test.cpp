@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "folders.hpp"
 #include "reference/compare.hpp"
 #include "simulation/run.hpp"
 
@@ -58,7 +59,7 @@ reference::Comparison solve(const reference::Case& list, const std::filesystem::
 }  // namespace
 
 TEST_CASE("the small lists: every path, gains to 0.02 dB, matrices to 0.2 %") {
-  const std::filesystem::path folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests/reference";
+  const std::filesystem::path folder = std::filesystem::path(test::source_folder()) / "tests/reference";
   for (const std::string name : {"simple_reflector", "double_reflector", "triple_reflector", "box_depth5",
                                  "box_one_screen", "floor_wall", "simple_wedge", "street_canyon_cars_specular"}) {
     CAPTURE(name);
@@ -74,7 +75,7 @@ TEST_CASE("munich: recall of paths and of power, no path twice") {
   // The lists are float32: their reflection points are up to 19 cm off at grazing incidence, and their fields are those
   // of the wrong angles there. So the median of the gain errors is compared here; tests/radio compares the 99th
   // percentile at the lists' own points.
-  const std::filesystem::path shared = WAVETRACER_SHARED;
+  const std::filesystem::path shared = test::shared_folder();
   for (const std::string name :
        {"munich_roof", "munich_street_0", "munich_street_1", "munich_street_2", "munich_street_deep"}) {
     const std::filesystem::path list = shared / "oracle" / (name + ".json");

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "folders.hpp"
 #include "passes/exact.hpp"
 #include "passes/image_method.hpp"
 #include "passes/solved_rows.hpp"
@@ -231,7 +232,7 @@ TEST_CASE("paths through walls: all that brute force finds, and no other") {
 }
 
 TEST_CASE("a box with a screen: every path of the reference list and its field") {
-  const std::filesystem::path folder = std::filesystem::path(WAVETRACER_SOURCE) / "tests/reference";
+  const std::filesystem::path folder = std::filesystem::path(test::source_folder()) / "tests/reference";
   const reference::Case list = reference::load_case(folder / "oracle/box_one_screen.json");
   Config config;
   config.scene.file = (folder / "scenes/box_one_screen/box_one_screen.xml").string();

@@ -2,6 +2,7 @@
 // bodies, antennas at them, and vehicles that are parked.
 #include <map>
 
+#include "folders.hpp"
 #include "simulation/world_fixture.hpp"
 
 using namespace wavetracer;
@@ -9,7 +10,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-const std::string car_glb = std::string(WAVETRACER_SOURCE) + "/tests/simulation/files/car.glb";
+const std::string car_glb = test::source_folder() + "/tests/simulation/files/car.glb";
 
 // A vehicle that begins at (10, 20, 0) and looks along +y.
 Config ego(const std::string& type = "passenger") {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <set>
 #include <sstream>
+#include "folders.hpp"
 #include "output/median.hpp"
 #include "study/made_order_rows.hpp"
 #include "study/ray_counts.hpp"
@@ -72,7 +73,7 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
     labels.insert(label(series));
     CHECK(series.each_depth == (series.method == "direction-origin"));
     // The field table must know its values.
-    Config applied = load_config(WAVETRACER_SOURCE "/configs/city.toml");
+    Config applied = load_config(test::source_folder() + "/configs/city.toml");
     apply(applied, series, 1000);
     CHECK_NOTHROW(parse_config(resolved_config(applied), "resolved.toml"));
   }
@@ -95,7 +96,7 @@ TEST_CASE("an unknown experiment is answered with the known ones and the nearest
 
 TEST_CASE("the built-in city is that of configs/city.toml") {
   const Config city = experiment_config(find_experiment("figure-6.1"), "", {});
-  const Config demo = load_config(WAVETRACER_SOURCE "/configs/city.toml");
+  const Config demo = load_config(test::source_folder() + "/configs/city.toml");
   CHECK(city.scene.generate == demo.scene.generate);
   REQUIRE(city.transmitters.size() == 1);
   CHECK(city.transmitters[0].position_m == demo.transmitters.at(0).position_m);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include "base/file.hpp"
+#include "folders.hpp"
 #include "output/sample_run.hpp"
 #include "viewer/made_runs.hpp"
 #include "viewer/ray_blocks.hpp"
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path pages = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "viewer";
+const fs::path pages = fs::path(test::build_folder()) / "tests" / "viewer";
 
 }  // namespace
 

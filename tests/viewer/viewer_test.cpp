@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include "base/file.hpp"
+#include "folders.hpp"
 #include "output/sample_run.hpp"
 #include "plots/figure.hpp"
 #include "radio/links.hpp"
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path folder = fs::path(WAVETRACER_BINARY_DIR) / "tests" / "viewer";
+const fs::path folder = fs::path(test::build_folder()) / "tests" / "viewer";
 
 ViewPage write_page(const std::string& name, const ViewOptions& options = {}) {
   ViewPage page = make_view(SavedRun(folder / name), options);
