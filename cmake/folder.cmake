@@ -34,15 +34,57 @@ endfunction()
 
 # wavetracer_unity(TARGET): its sources are compiled several at a time, which takes a third of the time. So names in
 # anonymous namespaces differ within a folder. Which sources meet changes when a file is added: so the build for the
-# sanitizers compiles a folder of host/ as one.
+# sanitizers compiles a folder of host/ as one. Not CMake's own unity files: those name sources by the paths of this
+# clone, and ccache would have to preprocess each in every other one.
 function(wavetracer_unity target)
+  if(NOT WAVETRACER_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES WAVETRACER_UNITY ON)
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
+  # A type of an anonymous namespace is seen by an include of the generated file, which GCC takes for a header.
+  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>")
+  cmake_language(EVAL CODE "cmake_language(DEFER CALL wavetracer_write_unity [[${target}]])")  # when all sources are known
+endfunction()
+
+# Replaces the sources of a target by files that include several of them. A target opts out with its property
+# WAVETRACER_UNITY, a source with SKIP_UNITY_BUILD_INCLUSION.
+function(wavetracer_write_unity target)
+  get_target_property(wanted ${target} WAVETRACER_UNITY)
+  if(NOT wanted)
+    return()
+  endif()
   set(batch 8)
   if(WAVETRACER_SANITIZE AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/host/")
-    set(batch 0)
+    set(batch 1000)
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${WAVETRACER_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
-  # A type of an anonymous namespace is seen by an include of the generated file, which GCC takes for a header.
-  target_compile_options(${target} PRIVATE "$<$<AND:$<BOOL:${WAVETRACER_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>")
+  get_target_property(sources ${target} SOURCES)
+  set(compiled "")
+  set(text "")
+  set(count 0)
+  foreach(source IN LISTS sources ITEMS "")
+    get_filename_component(path "${source}" ABSOLUTE)
+    get_source_file_property(alone "${path}" SKIP_UNITY_BUILD_INCLUSION)
+    string(FIND "${path}" "${CMAKE_BINARY_DIR}/" generated)
+    if(source AND (alone OR generated EQUAL 0 OR NOT source MATCHES "\\.cpp$"))
+      list(APPEND compiled "${source}")
+      continue()
+    endif()
+    if(source)
+      file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR} "${path}")
+      string(APPEND text "#include \"${name}\"\n")
+      math(EXPR count "${count} + 1")
+    endif()
+    list(LENGTH compiled number)
+    if(text AND (count EQUAL batch OR NOT source))
+      set(file ${CMAKE_CURRENT_BINARY_DIR}/unity/${target}_${number}.cpp)
+      file(CONFIGURE OUTPUT ${file} CONTENT "${text}" @ONLY)
+      list(APPEND compiled ${file})
+      set(text "")
+      set(count 0)
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES SOURCES "${compiled}")
 endfunction()
 
 # wavetracer_optimization(TARGET): for the sanitizers only what computes for long is optimized, of other builds all but the
