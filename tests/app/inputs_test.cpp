@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <map>
 #include "config/field_table.hpp"
+#include "folders.hpp"
 #include "program.hpp"
 
 namespace {
@@ -17,8 +18,9 @@ const std::string generated = "scene.generate = \"--blocks 2\"\n",
 const std::map<std::string, std::string> with_file{
     {"scene.file", "scene.file = \"FILE.obj\"\n" + pair},
     {"scene.streets",
-     "scene.file = \"" WAVETRACER_SOURCE "/configs/scenes/room/room.xml\"\nscene.streets = \"FILE.net.xml\"\n"
-     "[[transmitter]]\nname = \"t\"\nposition_m = [1, 1, 2]\n[[receiver]]\nname = \"r\"\nposition_m = [2, 2, 1]\n"},
+     "scene.file = \"" + wavetracer::test::source_folder() +
+         "/configs/scenes/room/room.xml\"\nscene.streets = \"FILE.net.xml\"\n"
+         "[[transmitter]]\nname = \"t\"\nposition_m = [1, 1, 2]\n[[receiver]]\nname = \"r\"\nposition_m = [2, 2, 1]\n"},
     {"trajectories.file", generated + pair + "[trajectories]\nfile = \"FILE.csv\"\n"},
     {"array.codebook", generated + sender + "array = \"panel\"\n" + hearer +
                            "[[array]]\nname = \"panel\"\nrows = 2\ncolumns = 2\ncodebook = \"FILE.csv\"\n"},

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <future>
+#include "folders.hpp"
 #include "program.hpp"
 
 namespace {
@@ -19,8 +20,8 @@ struct Printed {
 // redirection: of the shell, such as ">/dev/full".
 Printed with_output(const std::string& words, const std::string& redirection) {
   const Folder folder;
-  const std::string command =
-      std::string("'") + WAVETRACER_PROGRAM + "' " + words + " " + redirection + " 2>'" + folder.path("err") + "'";
+  const std::string command = std::string("'") + wavetracer::test::program() + "' " + words + " " + redirection +
+                              " 2>'" + folder.path("err") + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path("err"))};
 }
@@ -34,7 +35,7 @@ const std::string two_ends =
 TEST_CASE("every command that prints fails where standard output is full or closed") {
   const Folder folder;
   const std::string config = "'" + folder.file("a.toml", two_ends) + "'";
-  const std::string room = "'" WAVETRACER_SOURCE "/configs/scenes/room/room.xml'";
+  const std::string room = "'" + wavetracer::test::source_folder() + "/configs/scenes/room/room.xml'";
   for (const std::string& words : {std::string("--version"),
                                    std::string("--help"),
                                    std::string("help"),
@@ -78,9 +79,9 @@ TEST_CASE("the list of devices that nobody got is an error") {
 TEST_CASE("a message for a closed standard error goes nowhere, least of all into a file that is written") {
   const Folder folder;
   const std::string page = folder.path("page.md");
-  CHECK(
-      std::system((std::string("'") + WAVETRACER_PROGRAM + "' documentation --reference -o '" + page + "' <&- >&- 2>&-")
-                      .c_str()) == 0);
+  CHECK(std::system((std::string("'") + wavetracer::test::program() + "' documentation --reference -o '" + page +
+                     "' <&- >&- 2>&-")
+                        .c_str()) == 0);
   CHECK(contents(page) == run_program({"documentation", "--reference"}).out);
 }
 
@@ -97,8 +98,8 @@ TEST_CASE("-o with a pipe, or a link, writes there; standard output by its name 
   CHECK(fs::is_symlink(folder.path("link")));
   CHECK(contents(folder.path("page.md")) == text);
   const std::string through = folder.path("through");
-  CHECK(std::system((std::string("'") + WAVETRACER_PROGRAM + "' documentation --reference -o /dev/stdout | cat > '" +
-                     through + "'")
+  CHECK(std::system((std::string("'") + wavetracer::test::program() +
+                     "' documentation --reference -o /dev/stdout | cat > '" + through + "'")
                         .c_str()) == 0);
   CHECK(contents(through) == text);
 }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include "base/file.hpp"
+#include "folders.hpp"
 #include "temporary_folder.hpp"
 
 namespace fs = std::filesystem;
@@ -14,7 +15,7 @@ using wavetracer::test::TemporaryFolder;
 TEST_CASE("without the module the message says what to do, the exit code is 1, and GDAL is not even opened") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.geojson", R"({"type":"FeatureCollection","features":[]})");
-  const std::string program = WAVETRACER_PROGRAM, log = (folder.path() / "log").string();
+  const std::string program = wavetracer::test::program(), log = (folder.path() / "log").string();
   // What the program says, with what the loader opens (LD_DEBUG=files); variables: of its environment.
   const auto said = [&](const std::string& variables) {
     const int status = std::system(fmt::format("{} LD_DEBUG=files '{}' convert '{}' -o '{}' > '{}' 2>&1", variables,

@@ -7,6 +7,7 @@
 #include "app/program.hpp"
 #include "app/room_drive.hpp"
 #include "app/same_data.hpp"
+#include "folders.hpp"
 
 namespace {
 
@@ -140,8 +141,8 @@ namespace {
 // As `ulimit -v` sets it in a shell, in KiB.
 Outcome run_limited(long limit, const std::string& file, const Folder& folder) {
   const std::string out = folder.path("limited.out"), err = folder.path("limited.err");
-  const std::string command = "ulimit -v " + std::to_string(limit) + " && exec " WAVETRACER_PROGRAM " run -c " + file +
-                              " -o " + folder.path("limited") + " > " + out + " 2> " + err;
+  const std::string command = "ulimit -v " + std::to_string(limit) + " && exec " + wavetracer::test::program() +
+                              " run -c " + file + " -o " + folder.path("limited") + " > " + out + " 2> " + err;
   Outcome outcome;
   const int status = std::system(("sh -c '" + command + "'").c_str());
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

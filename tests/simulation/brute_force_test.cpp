@@ -153,7 +153,7 @@ class RoundedFile {
   std::filesystem::path path_;
 };
 
-const std::filesystem::path scenes = std::filesystem::path(WAVETRACER_SOURCE) / "tests/reference/scenes";
+const std::filesystem::path scenes = std::filesystem::path(test::source_folder()) / "tests/reference/scenes";
 
 }  // namespace
 
