@@ -48,7 +48,7 @@ function(wavetracer_unity target)
 endfunction()
 
 # Replaces the sources of a target by files that include several of them. A target opts out with its property
-# WAVETRACER_UNITY, a source with SKIP_UNITY_BUILD_INCLUSION.
+# WAVETRACER_UNITY, a source with SKIP_UNITY_BUILD_INCLUSION or options of its own.
 function(wavetracer_write_unity target)
   get_target_property(wanted ${target} WAVETRACER_UNITY)
   if(NOT wanted)
@@ -65,8 +65,9 @@ function(wavetracer_write_unity target)
   foreach(source IN LISTS sources ITEMS "")
     get_filename_component(path "${source}" ABSOLUTE)
     get_source_file_property(alone "${path}" SKIP_UNITY_BUILD_INCLUSION)
+    get_source_file_property(options "${path}" COMPILE_OPTIONS)
     string(FIND "${path}" "${CMAKE_BINARY_DIR}/" generated)
-    if(source AND (alone OR generated EQUAL 0 OR NOT source MATCHES "\\.cpp$"))
+    if(source AND (alone OR options OR generated EQUAL 0 OR NOT source MATCHES "\\.cpp$"))
       list(APPEND compiled "${source}")
       continue()
     endif()
