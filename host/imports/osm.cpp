@@ -1,6 +1,5 @@
-// Buildings of OpenStreetMap files, XML or PBF, by libosmium; its assembler makes areas of ways and multipolygons.
-// Objects may come in any order, as Overpass writes them, and in several versions, of which the last one counts. Memory
-// is bounded by the size of the file.
+// Buildings of OpenStreetMap files, XML or PBF, by libosmium, whose assembler makes areas of ways and multipolygons.
+// Objects may come in any order and in several versions, of which the last one counts. Memory is bounded by the file.
 #include <fmt/format.h>
 
 #include <algorithm>

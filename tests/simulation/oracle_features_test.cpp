@@ -144,8 +144,7 @@ TEST_CASE("the small lists with diffraction and transmission: every path at the 
 }
 
 TEST_CASE("a street canyon with cars: every path of the list, and of its kinds") {
-  const reference::Case list =
-      reference::load_case(project / "tests/reference/oracle/street_canyon_cars_all.json");
+  const reference::Case list = reference::load_case(project / "tests/reference/oracle/street_canyon_cars_all.json");
   Config config = config_for(list, project / "tests/reference/scenes");
   config.trace.free_edges = false;  // as the list has it
   config.trace.diffraction_rays = 1000000;
