@@ -272,7 +272,7 @@ inline const std::vector<Record> records{
       FIELD(wt_fields_arguments, row_count), FIELD(wt_fields_arguments, row_capacity),
       FIELD(wt_fields_arguments, vertex_capacity), FIELD(wt_fields_arguments, max_depth),
       FIELD(wt_fields_arguments, transmissions), FIELD(wt_fields_arguments, scatters), FIELD(wt_fields_arguments, air),
-      FIELD(wt_fields_arguments, foliage_count), FIELD(wt_fields_arguments, padding)}},
+      FIELD(wt_fields_arguments, foliage_count), FIELD(wt_fields_arguments, reflections)}},
     {"wt_vegetation_arguments",
      sizeof(wt_vegetation_arguments),
      {FIELD(wt_vegetation_arguments, visible_count), FIELD(wt_vegetation_arguments, visible_counter),
