@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::string_view unused = ": no mesh has this material";
 
-std::string_view strip(std::string_view text, std::string_view prefix) {
+std::string_view without_prefix(std::string_view text, std::string_view prefix) {
   if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
   return text;
 }
 
 // The name as written, without "mat-", without "mat-" and "itu_".
 std::array<std::string, 3> spellings(std::string_view name) {
-  const std::string_view bare = strip(name, "mat-");
-  return {std::string(name), std::string(bare), std::string(strip(bare, "itu_"))};
+  const std::string_view bare = without_prefix(name, "mat-");
+  return {std::string(name), std::string(bare), std::string(without_prefix(bare, "itu_"))};
 }
 
 // Names of vegetation that need no [[material]].

@@ -14,7 +14,7 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr int most_rounds = 50;
+constexpr int most_border_rounds = 50;
 
 class Borders {
  public:
@@ -37,7 +37,7 @@ class Borders {
     std::vector<uint32_t> active;  // triangles that may belong to a neighbour
     for (uint32_t r = 0; r < regions_.size(); ++r)
       if (!regions_[r].exact) active.insert(active.end(), regions_[r].triangles.begin(), regions_[r].triangles.end());
-    for (int round = 0; round < most_rounds && !active.empty(); ++round) {
+    for (int round = 0; round < most_border_rounds && !active.empty(); ++round) {
       std::vector<std::pair<uint32_t, uint32_t>> moves;  // triangle, region
       for (const uint32_t t : active) {
         if (regions_[region_of_[t]].exact) continue;
