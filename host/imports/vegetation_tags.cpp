@@ -13,16 +13,18 @@ constexpr double highest_tree_m = 100, widest_crown_m = 50, usual_tree_m = 10, u
 constexpr double m_per_degree = 111195;
 
 using Counts = std::map<std::string, uint64_t>;
-constexpr double least_m = 1e-3;
+constexpr double least_plant_m = 1e-3;
 
 std::optional<double> tree_height_m(const Tags& tags, Counts& guessed) {
   return tagged_value(
-      tags, {"height of a tree or wood", {"height", "est_height"}, parse_length_m, least_m, highest_tree_m}, guessed);
+      tags, {"height of a tree or wood", {"height", "est_height"}, parse_length_m, least_plant_m, highest_tree_m},
+      guessed);
 }
 
 double tree_crown_m(const Tags& tags, double height_m, Counts& guessed) {
   const double slender = tag(tags, "leaf_type") == "needleleaved" ? 1.0 / 3 : 0.5;
-  return tagged_value(tags, {"diameter_crown", {"diameter_crown"}, parse_length_m, least_m, widest_crown_m}, guessed)
+  return tagged_value(tags, {"diameter_crown", {"diameter_crown"}, parse_length_m, least_plant_m, widest_crown_m},
+                      guessed)
       .value_or(slender * height_m);
 }
 
