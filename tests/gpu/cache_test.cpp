@@ -96,7 +96,8 @@ TEST_CASE("a folder that cannot be made or read is no error") {
   const TemporaryFolder folder;
   write_file(folder.path() / "file", "not a folder");
   const ProgramCache under_a_file(folder.path() / "file" / "programs");
-  CHECK(under_a_file.store(key, compiled).find("cannot be kept in " + (folder.path() / "file/programs").string()) == 0);
+  CHECK(under_a_file.store(key, compiled)
+            .find("compiled kernels cannot be kept in " + (folder.path() / "file/programs").string()) == 0);
   CHECK_FALSE(under_a_file.load(key));
   // A folder where the program's file should be: the rename fails and the temporary file goes.
   const ProgramCache blocked(folder.path() / "programs");

@@ -68,7 +68,7 @@ inline const std::vector<Record> records{
      sizeof(wt_solve_arguments),
      {FIELD(wt_solve_arguments, candidate_count), FIELD(wt_solve_arguments, max_depth),
       FIELD(wt_solve_arguments, capacity), FIELD(wt_solve_arguments, triangle_slots),
-      FIELD(wt_solve_arguments, blocker_mask)}},
+      FIELD(wt_solve_arguments, blocker_mask), FIELD(wt_solve_arguments, wavelength_m)}},
     {"wt_legs_arguments",
      sizeof(wt_legs_arguments),
      {FIELD(wt_legs_arguments, triangle_slots), FIELD(wt_legs_arguments, extent_m),
