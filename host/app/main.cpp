@@ -77,6 +77,8 @@ int run_and_report(int argc, char** argv) {
     return run_program(argc, argv);
   } catch (const wavetracer::DeviceError& e) {
     return fail(e.code(), e.what() + wavetracer::app::limit_hint());
+  } catch (const wavetracer::RuntimeError& e) {  // a library that found no memory may not say so
+    return fail(e.code(), e.what() + wavetracer::app::limit_hint());
   } catch (const wavetracer::Error& e) {
     return fail(e.code(), e.what());
   } catch (const std::bad_alloc&) {
