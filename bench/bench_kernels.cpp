@@ -186,16 +186,17 @@ class Suite {
   // Directions that differ from those of the host, which evaluates the same header.
   size_t wrong_directions(const RayQueue& rays, const std::vector<uint32_t>& order, const LaunchDirections& d) {
     const std::vector<float> heights = LaunchHeights(context_).values();
-    const auto direction = d.map == "wt_direction_horizon"     ? device::wt_direction_horizon
-                           : d.map == "wt_direction_hilbert"   ? device::wt_direction_hilbert
-                           : d.map == "wt_direction_fibonacci" ? device::wt_direction_fibonacci
-                                                               : device::wt_direction_random;
+    const auto place = d.places == "wt_place_hilbert"     ? device::wt_place_hilbert
+                       : d.places == "wt_place_fibonacci" ? device::wt_place_fibonacci
+                                                          : device::wt_place_random;
     std::vector<float> x, y, z;
     for (const auto& [plane, axis] : {std::pair{&x, 0u}, {&y, 1u}, {&z, 2u}})
       *plane = rays.planes.read((WT_RAY_DIRECTION + axis) * size_t{rays.capacity}, checked_);
     size_t count = 0;
     for (size_t i = 0; i < checked_; i++) {
-      const device::wt_direction expected = direction(order[i], d.parameter, d.level, d.faces, heights.data(), 0);
+      uint32_t height, turn;
+      place(order[i], d.parameter, d.level, d.faces, &height, &turn);
+      const device::wt_direction expected = device::wt_spread(height, turn, d.by_table, heights.data(), 0);
       count += x[i] != expected.x || y[i] != expected.y || z[i] != expected.z;
     }
     return count;

@@ -1,7 +1,7 @@
 // generate_rays: the launch rays of one transmitter, a range of its launch indices, into a range of a ray queue.
 // A ray's number in the launch, of which `number` is that of the first, says its quarter.
-// WT_DIRECTIONS names the map (wt_direction_horizon, _hilbert, _fibonacci, _random) and WT_PLACES its places on the
-// cylinder (wt_place_...); heights are the tables of horizon and of windows.
+// WT_PLACES names the map's places on the cylinder (wt_place_hilbert, _fibonacci, _random); WT_BY_TABLE is 1 where
+// their heights are spread by a table, else 0. heights are the tables of horizon and of windows.
 #ifdef WT_CPU
 #define WT_LANES 16
 #endif
@@ -20,7 +20,7 @@ inline uint16 numbered(uint number) { return number + (uint16)(0, 1, 2, 3, 4, 5,
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong16 index, uint16 number, wt_map_arguments map,
                        const global float* heights, wt_launcher_arguments from) {
-  const wt_window_ray ray = wt_launch_ray(index, map, heights, (uint16)from.heights, from.window);
+  const wt_window_ray ray = wt_launch_ray(index, map, heights, (uint16)from.heights, from.window, 0u);
   const wt_direction d = ray.along;
   wt_store16(rays, capacity, WT_RAY_ORIGIN, slot, from.origin[0] + ray.start.x);
   wt_store16(rays, capacity, WT_RAY_ORIGIN + 1, slot, from.origin[1] + ray.start.y);
@@ -39,7 +39,7 @@ inline uint numbered(uint number) { return number; }
 
 inline void store_rays(global float* rays, uint capacity, uint slot, ulong index, uint number, wt_map_arguments map,
                        const global float* heights, wt_launcher_arguments from) {
-  const wt_window_ray ray = wt_launch_ray(index, map, heights, from.heights, from.window);
+  const wt_window_ray ray = wt_launch_ray(index, map, heights, from.heights, from.window, 0u);
   const wt_direction d = ray.along;
   wt_store_float3(rays, capacity, WT_RAY_ORIGIN, slot,
                   (float3)(from.origin[0] + ray.start.x, from.origin[1] + ray.start.y, from.origin[2] + ray.start.z));
@@ -95,13 +95,8 @@ inline uint launcher_word(const global float4* launchers, uint launcher, uint wo
 // The ray of a sample, turned about z, or within its window, by the angle of the launch.
 inline wt_window_ray sample_ray(WT_U64 cell, wt_map_arguments map, const global float* heights, WT_U32 table,
                                 uint window, wt_samples_arguments args) {
-  wt_window_ray out;
-  if (window) {
-    WT_U32 height, turn;
-    WT_PLACES(cell, (WT_U64)(map.parameter), map.level, map.faces, &height, &turn);
-    return wt_through_window(height, turn + args.turn, heights, table);
-  }
-  out = wt_launch_ray(cell, map, heights, table, 0u);
+  wt_window_ray out = wt_launch_ray(cell, map, heights, table, window, args.turn);
+  if (window) return out;
   const wt_direction d = out.along;
   out.along.x = args.cosine * d.x - args.sine * d.y;
   out.along.y = args.sine * d.x + args.cosine * d.y;

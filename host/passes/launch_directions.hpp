@@ -13,8 +13,8 @@ namespace wavetracer {
 struct LaunchDirections {
   // rays: of a launch, for each transmitter, 1 .. 2^31.
   LaunchDirections(Directions directions, uint64_t rays, uint64_t seed)
-      : map("wt_direction_" + directions.text()),
-        places("wt_place_" + directions.text()),
+      : by_table(directions == "horizon"),
+        places("wt_place_" + (by_table ? "hilbert" : directions.text())),
         parameter(directions == "random" ? seed : ~uint64_t{0} / rays) {
     // The fewest cells that suffice: faces of 120 degrees are about square at the horizon, and up to eleven fill the
     // gap to the next level.
@@ -22,11 +22,12 @@ struct LaunchDirections {
     while (uint64_t{faces} << (2 * level) < rays) ++faces;
   }
 
-  // What kernels that evaluate the map are built with.
-  gpu::Definitions definitions() const { return {{"WT_DIRECTIONS", map}, {"WT_PLACES", places}}; }
+  // Kernels that evaluate the map are built with these.
+  gpu::Definitions definitions() const { return {{"WT_PLACES", places}, {"WT_BY_TABLE", by_table ? "1" : "0"}}; }
 
-  std::string map, places;  // names of the functions: directions, and places on the cylinder
-  uint64_t parameter;       // its step or seed
+  bool by_table;       // heights are spread by a table
+  std::string places;  // the name of the function that gives places on the cylinder
+  uint64_t parameter;  // its step or seed
   uint32_t level = 0, faces = 3;
 
   wt_map_arguments arguments() const { return {parameter, level, faces}; }

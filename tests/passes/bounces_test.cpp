@@ -17,11 +17,11 @@ using Chain = std::vector<uint32_t>;
 
 // What is left of a batch: of each sequence, root first, its quarters and its age; the ends of the samples, likewise by
 // their sequences; how many rays made so many hits.
-struct Outcome {
+struct Discovered {
   std::map<Chain, std::pair<uint32_t, uint32_t>> sequences;
   std::vector<Chain> ends;
   std::vector<uint32_t> ended;
-  bool operator==(const Outcome&) const = default;
+  bool operator==(const Discovered&) const = default;
 };
 
 Chain chain_of(const std::vector<uint64_t>& table, uint32_t node) {
@@ -43,8 +43,8 @@ RayQueue with_samples(const std::vector<Ray>& rays) {
   return queue;
 }
 
-Outcome outcome(Sequences& set, const gpu::Buffer<uint32_t>& ends, std::vector<uint32_t> ended) {
-  Outcome out;
+Discovered outcome(Sequences& set, const gpu::Buffer<uint32_t>& ends, std::vector<uint32_t> ended) {
+  Discovered out;
   out.ended = std::move(ended);
   const std::vector<uint64_t> table = set.table().read();
   const std::vector<uint32_t> quarters = set.quarters().read(), ages = set.ages()->read();
@@ -60,7 +60,7 @@ gpu::Buffer<uint32_t> roots_of(const std::vector<Ray>& rays) {
   return context().buffer(roots, "ends");
 }
 
-Outcome at_once(const DeviceScene& scene, const std::vector<Ray>& rays, uint32_t interactions) {
+Discovered at_once(const DeviceScene& scene, const std::vector<Ray>& rays, uint32_t interactions) {
   Sequences set(context(), 1 << 16, true);
   set.begin_frame();
   gpu::Buffer<uint32_t> ends = roots_of(rays);
@@ -70,7 +70,7 @@ Outcome at_once(const DeviceScene& scene, const std::vector<Ray>& rays, uint32_t
   return outcome(set, ends, {after.ended, after.ended + interactions + 1});
 }
 
-Outcome depth_by_depth(const DeviceScene& scene, const std::vector<Ray>& rays, uint32_t interactions) {
+Discovered depth_by_depth(const DeviceScene& scene, const std::vector<Ray>& rays, uint32_t interactions) {
   Sequences set(context(), 1 << 16, true);
   set.begin_frame();
   gpu::Buffer<uint32_t> ends = roots_of(rays);
@@ -111,7 +111,7 @@ TEST_CASE("what the loop over depths enters, in one launch") {
       CAPTURE(count);
       CAPTURE(interactions);
       const std::vector<Ray> rays = launch_rays(count, 9);
-      const Outcome loop = depth_by_depth(scene, rays, interactions);
+      const Discovered loop = depth_by_depth(scene, rays, interactions);
       CHECK(at_once(scene, rays, interactions) == loop);
       if (count == many) CHECK(loop.sequences.size() > many / 30 * interactions);
       if (count == many) CHECK(loop.ended[interactions] > many / 150);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "passes/generate_rays.hpp"
+#include "passes/host_launch.hpp"
 #include "passes/order_keys.hpp"
 #include "passes/triangles.hpp"
 #include "wavetracer/device/directions.h"
@@ -49,12 +50,8 @@ GenerateRays window_generator(const LaunchDirections& directions) {
   return GenerateRays(context(), directions, heights);
 }
 
-device::wt_window_ray host_ray(Directions map, const LaunchDirections& launch, uint64_t i, uint32_t more = 0) {
-  const auto place = map == "fibonacci" ? device::wt_place_fibonacci
-                     : map == "random"  ? device::wt_place_random
-                                        : device::wt_place_hilbert;
-  uint32_t height, turn;
-  place(i, launch.parameter, launch.level, launch.faces, &height, &turn);
+device::wt_window_ray host_ray(const HostLaunch& launch, uint64_t i, uint32_t more = 0) {
+  const auto [height, turn] = launch.place(i);
   return device::wt_through_window(height, turn + more, window_tables().data(), height_table_size);
 }
 
@@ -73,8 +70,8 @@ TEST_CASE("windows: device rays are the host's, bit for bit, alone, of several l
   for (const Directions map : window_maps) {
     CAPTURE(map);
     constexpr uint32_t n = 1000;
-    const LaunchDirections launch(map, n, seed);
-    GenerateRays generate = window_generator(launch);
+    const HostLaunch launch(map, n, seed);
+    GenerateRays generate = window_generator(LaunchDirections(map, n, seed));
     const Float3 origin{1.5f, -2.25f, 40};
     RayQueue alone = make_ray_queue(context(), n, "alone"), several = make_ray_queue(context(), 2 * n, "several");
     generate(alone, through_window({1.5, -2.25, 40}), 0, n);
@@ -87,10 +84,10 @@ TEST_CASE("windows: device rays are the host's, bit for bit, alone, of several l
     const std::vector<Ray> a = download(alone), b = download(several), c = download(ordered);
     size_t different = 0;
     for (uint32_t i = 0; i < n; ++i) {
-      const Ray expected = ray_of(host_ray(map, launch, i), origin, WT_ROOT | 3, i);
+      const Ray expected = ray_of(host_ray(launch, i), origin, WT_ROOT | 3, i);
       different += a[i] != expected;
       if (i < 992) different += b[i] != expected;
-      different += c[i] != ray_of(host_ray(map, launch, order[i]), origin, WT_ROOT | 3, order[i]);
+      different += c[i] != ray_of(host_ray(launch, order[i]), origin, WT_ROOT | 3, order[i]);
     }
     CHECK(different == 0);
     // The other launcher of the same launch goes everywhere.
@@ -101,7 +98,8 @@ TEST_CASE("windows: device rays are the host's, bit for bit, alone, of several l
 
 TEST_CASE("windows: samples of launchers with and without one share a level, turned within the window") {
   constexpr uint32_t level = 3, cells = sample_faces << (2 * level);
-  const LaunchDirections launch("hilbert", cells, 0);
+  const LaunchDirections directions("hilbert", cells, 0);
+  const HostLaunch launch("hilbert", cells, 0);
   SampleList list = make_sample_list(context(), 2 * cells);
   std::vector<uint32_t> cell(2 * cells), owner(2 * cells);
   for (uint32_t i = 0; i < 2 * cells; ++i) cell[i] = i / 2, owner[i] = i % 2;
@@ -114,16 +112,15 @@ TEST_CASE("windows: samples of launchers with and without one share a level, tur
          {1.f, 2.f, 3.f, 0.f, std::bit_cast<float>(uint32_t{WT_ROOT | 3}), std::bit_cast<float>(uint32_t{WT_NONE}),
           std::bit_cast<float>(window * height_table_size), std::bit_cast<float>(window)})
       launchers.push_back(word);
-  GenerateRays generate = window_generator(launch);
+  GenerateRays generate = window_generator(directions);
   RayQueue queue = make_ray_queue(context(), 2 * cells, "rays", WT_RAY_PLANES + 1);
   const DirectionTurn turn{0.6f, 0.8f, 633866811};
-  generate.samples(queue, list, 0, 2 * cells, context().buffer(launchers, "launchers"), launch, turn);
+  generate.samples(queue, list, 0, 2 * cells, context().buffer(launchers, "launchers"), directions, turn);
   const std::vector<Ray> rays = download(queue);
   size_t different = 0;
   for (uint32_t i = 0; i < cells; ++i) {
-    different += rays[2 * i] != ray_of(host_ray("hilbert", launch, i, turn.turn), {1, 2, 3}, WT_ROOT | 3, i);
-    const device::wt_direction d =
-        device::wt_direction_hilbert(i, launch.parameter, launch.level, launch.faces, nullptr, 0);
+    different += rays[2 * i] != ray_of(host_ray(launch, i, turn.turn), {1, 2, 3}, WT_ROOT | 3, i);
+    const device::wt_direction d = launch.direction(i);
     const Float3 turned{turn.cosine * d.x - turn.sine * d.y, turn.sine * d.x + turn.cosine * d.y, d.z};
     different += rays[2 * i + 1].direction != turned;
     different += rays[2 * i + 1].origin != Float3{1, 2, 3};
@@ -137,11 +134,11 @@ TEST_CASE("windows: rays fill them evenly, have unit length, and start where a l
     CAPTURE(map);
     constexpr uint64_t n = 40000;
     constexpr int columns = 16, rows = 8;
-    const LaunchDirections launch(map, n, seed);
+    const HostLaunch launch(map, n, seed);
     std::vector<double> counts(columns * rows, 0);
     double off_m = 0, length = 0;
     for (uint64_t i = 0; i < n; ++i) {
-      const device::wt_window_ray ray = host_ray(map, launch, i);
+      const device::wt_window_ray ray = host_ray(launch, i);
       const glm::dvec3 d{ray.along.x, ray.along.y, ray.along.z}, start{ray.start.x, ray.start.y, ray.start.z};
       length = std::max(length, std::abs(glm::length(d) - 1));
       const double azimuth = std::atan2(glm::dot(d, window_y), glm::dot(d, window_x)), height = glm::dot(d, window_z);
@@ -163,11 +160,11 @@ TEST_CASE("windows: rays fill them evenly, have unit length, and start where a l
 
 TEST_CASE("windows: starts keep the digits that float32 would lose at the distance of a satellite") {
   // Neighbours of a row of 10^7 rays are 0.2 m apart on the scene; without starts of their own they would be 2 m or 0.
-  const LaunchDirections launch("fibonacci", 10'000'000, 0);
+  const HostLaunch launch("fibonacci", 10'000'000, 0);
   double smallest_m = 1e9;
   std::vector<double> across;
   for (uint64_t i = 0; i < 20000; ++i) {
-    const device::wt_window_ray ray = host_ray("fibonacci", launch, i);
+    const device::wt_window_ray ray = host_ray(launch, i);
     across.push_back(glm::dot(glm::dvec3(ray.start.x, ray.start.y, ray.start.z), window_y));
   }
   std::sort(across.begin(), across.end());

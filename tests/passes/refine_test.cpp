@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "passes/host_launch.hpp"
 #include "passes/launch_directions.hpp"
 #include "passes/on_device.hpp"
 #include "passes/triangles.hpp"
@@ -118,12 +119,10 @@ TEST_CASE("listed samples become four each, a level further down, for the same l
 
 TEST_CASE("the four cells of a cell tile it") {
   // The cell of the lattice of equal areas of `of_level` in which the direction of a cell of `level` lies.
-  const auto map_of = [](uint32_t level) {
-    return LaunchDirections("hilbert", uint64_t{sample_faces} << (2 * level), 0);
-  };
+  const auto map_of = [](uint32_t level) { return HostLaunch("hilbert", uint64_t{sample_faces} << (2 * level), 0); };
   const auto place = [&](uint32_t cell, uint32_t level, uint32_t of_level) {
-    const LaunchDirections map = map_of(level), lattice = map_of(of_level);
-    const device::wt_direction d = device::wt_direction_hilbert(cell, map.parameter, map.level, map.faces, nullptr, 0);
+    const HostLaunch map = map_of(level), lattice = map_of(of_level);
+    const device::wt_direction d = map.direction(cell);
     const double turn = std::atan2(double{d.y}, double{d.x}) / (2 * std::numbers::pi);
     const double size = std::ldexp(1, static_cast<int>(lattice.level));
     return std::pair{static_cast<int>((turn < 0 ? turn + 1 : turn) * lattice.faces * size),

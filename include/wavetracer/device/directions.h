@@ -50,11 +50,6 @@ inline void wt_place_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned fac
   *turn = face * width + WT_TO_U32(WT_TO_U64(column) * width >> 32);
 }
 
-// The same places for the launch "horizon", whose heights are spread later.
-inline void wt_place_horizon(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
-  wt_place_hilbert(i, step, level, faces, height, turn);
-}
-
 // Fibonacci lattice: equal steps in z, golden-ratio turns. 2^64 / golden ratio = 0x9E3779B97F4A7C15.
 inline void wt_place_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_U32* height, WT_U32* turn) {
   (void)level, (void)faces;
@@ -70,37 +65,10 @@ inline void wt_place_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned face
   *turn = WT_TO_U32(bits & 0xFFFFFFFFu);
 }
 
-// The directions of these places. Heights of "horizon" are spread as its table says: dense towards the horizon, see
-// host/simulation/launch_slopes.hpp. The other three are uniform.
-inline wt_direction wt_direction_horizon(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
-                                         WT_U32 table) {
-  WT_U32 height, turn;
-  wt_place_horizon(i, step, level, faces, &height, &turn);
-  return wt_cylinder_to_heights(height, turn, heights, table);
-}
-
-inline wt_direction wt_direction_hilbert(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
-                                         WT_U32 table) {
-  (void)heights, (void)table;
-  WT_U32 height, turn;
-  wt_place_hilbert(i, step, level, faces, &height, &turn);
-  return wt_cylinder_to_sphere(height, turn);
-}
-
-inline wt_direction wt_direction_fibonacci(WT_U64 i, WT_U64 step, unsigned level, unsigned faces, WT_TABLE heights,
-                                           WT_U32 table) {
-  (void)heights, (void)table;
-  WT_U32 height, turn;
-  wt_place_fibonacci(i, step, level, faces, &height, &turn);
-  return wt_cylinder_to_sphere(height, turn);
-}
-
-inline wt_direction wt_direction_random(WT_U64 i, WT_U64 seed, unsigned level, unsigned faces, WT_TABLE heights,
-                                        WT_U32 table) {
-  (void)heights, (void)table;
-  WT_U32 height, turn;
-  wt_place_random(i, seed, level, faces, &height, &turn);
-  return wt_cylinder_to_sphere(height, turn);
+// The direction of a place. by_table: its height is spread as the table says, for the launch "horizon", which has the
+// places of hilbert: dense towards the horizon, see host/simulation/launch_slopes.hpp. Else directions are uniform.
+inline wt_direction wt_spread(WT_U32 height, WT_U32 turn, unsigned by_table, WT_TABLE heights, WT_U32 table) {
+  return by_table ? wt_cylinder_to_heights(height, turn, heights, table) : wt_cylinder_to_sphere(height, turn);
 }
 
 // A window: the part of all directions that an antenna far outside of a scene launches through, see
