@@ -49,7 +49,7 @@ double number_at(const char* bytes, int64_t type) {
   }
 }
 
-// What a normalised integer is divided by (section 3.11); 1 for all else.
+// A normalised integer is divided by this (section 3.11); 1 for all else.
 double largest_of(int64_t type) {
   return type == i8 ? 127 : type == u8 ? 255 : type == i16 ? 32767 : type == u16 ? 65535 : 1;
 }
@@ -62,7 +62,7 @@ size_t components_of(const std::string& type) {
   return 0;
 }
 
-// What a character of base64 stands for; 64 for all others.
+// The number that a character of base64 stands for; 64 for all others.
 uint32_t base64_digit(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<uint32_t>(c - 'A');
   if (c >= 'a' && c <= 'z') return static_cast<uint32_t>(c - 'a') + 26;

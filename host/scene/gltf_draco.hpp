@@ -17,7 +17,7 @@ class DracoMesh {
   DracoMesh& operator=(const DracoMesh&) = delete;
 
   std::vector<std::array<uint32_t, 3>> triangles() const;
-  // Of the attribute with this id; empty where there is none of so many components.
+  // The numbers of the attribute with this id; empty where there is none of so many components.
   std::optional<std::vector<double>> numbers(uint32_t id, size_t components) const;
 
  private:

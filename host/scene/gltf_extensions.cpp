@@ -61,7 +61,7 @@ bool is_known(std::string_view name) {
          std::ranges::any_of(harmless, [&](std::string_view beginning) { return name.starts_with(beginning); });
 }
 
-// What to do about an extension that is required and not read.
+// Advice about an extension that is required and not read.
 std::string advice_for(std::string_view name) {
   if (name.find("meshopt") != std::string_view::npos) return "export it without compression";
   if (name == "CESIUM_RTC") return "convert it with its centre applied to the nodes";

@@ -1,4 +1,4 @@
-// Which extensions of glTF are read, and which change nothing that a scene is made of.
+// The extensions of glTF that are read, and those that change nothing that a scene is made of.
 #pragma once
 #include <string>
 #include <vector>

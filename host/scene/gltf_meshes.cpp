@@ -21,7 +21,7 @@ enum Mode : int64_t { triangles = 4, strip = 5, fan = 6 };
 constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 constexpr uint32_t unused_vertex = std::numeric_limits<uint32_t>::max();
 
-// Of a list of corners; what is left over at the end makes no triangle.
+// The triangles of a list of corners; corners that are left over at the end make none.
 std::vector<Triangle> triangles_of(const std::vector<uint32_t>& corners, int64_t mode) {
   std::vector<Triangle> out;
   const size_t step = mode == Mode::triangles ? 3 : 1;
@@ -56,6 +56,12 @@ void drop_unused(std::vector<glm::dvec3>& vertices, std::vector<Triangle>& trian
 
 }  // namespace
 
+double GltfPlace::largest_stretch() const {
+  double out = joints.empty() ? wavetracer::largest_stretch(world) : 0;
+  for (const glm::dmat4& joint : joints) out = std::max(out, wavetracer::largest_stretch(joint));
+  return out;
+}
+
 struct GltfMeshes::Primitive {
   std::unique_ptr<DracoMesh> draco = {};  // where the attributes are, if they are compressed
   std::vector<double> positions = {};
@@ -63,6 +69,11 @@ struct GltfMeshes::Primitive {
   std::vector<glm::dvec3> vertices = {};  // placed
 
   size_t count() const { return positions.size() / 3; }
+  double reach() const {
+    double out = 0;
+    for (const double x : positions) out = std::max(out, std::abs(x));
+    return out;
+  }
 };
 
 std::vector<double> GltfMeshes::attribute(const json& from, const char* name, size_t components, const Primitive& of) {
@@ -112,7 +123,7 @@ bool GltfMeshes::read_primitive(const json& from, Primitive& to) {
     if (to.count() >= unused_vertex) data_.fail("a mesh has too many vertices for 32-bit indices");
     read_indices(from, mode, to);
   }
-  for (const double x : to.positions) largest_ = std::max(largest_, std::abs(x));
+  largest_ = std::max(largest_, to.reach());
   for (const Triangle& t : to.triangles)
     for (const uint32_t v : t)
       if (v >= to.count())
@@ -176,6 +187,7 @@ std::vector<RawMesh> GltfMeshes::read(const json& mesh, const GltfPlace& by) {
     drop_unused(primitive.vertices, primitive.triangles);
     RawMesh& added = out.emplace_back();
     added.where = file_.path.string();
+    added.rounding = float32_rounding(primitive.reach()) * by.largest_stretch();
     added.vertices = std::move(primitive.vertices);
     added.triangles = std::move(primitive.triangles);
     if (from.contains("material")) {

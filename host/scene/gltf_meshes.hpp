@@ -11,11 +11,14 @@
 
 namespace wavetracer {
 
-// Where the vertices of a node go: by the node, or by the joints of its skin.
+// The transforms that place the vertices of a node: its own, or those of the joints of its skin.
 struct GltfPlace {
   glm::dmat4 world{1};
   std::vector<glm::dmat4> joints = {};     // world times inverse bind matrix; none without a skin
   std::vector<double> morph_weights = {};  // of the node; none: those of the mesh
+
+  // The most by which it makes lengths along an axis longer.
+  double largest_stretch() const;
 };
 
 class GltfMeshes {

@@ -1,4 +1,4 @@
-// What flattening leaves alone: curves, steps, thin plates, bends; and what it does to coarse files.
+// Flattening leaves alone what is no plane: curves, steps, thin plates, bends; and what it does to coarse files.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cells.hpp"
+#include "gltf_builder.hpp"
 #include "scene/ply.hpp"
 #include "scene_files.hpp"
 
@@ -119,4 +120,23 @@ TEST_CASE("a facade in float32 at 691 km is one wall, and the scene says how coa
   SceneConfig exact = test::of_concrete();
   exact.plane_tolerance_m = 0;
   CHECK(load_scene_file(folder.path() / "wall.ply", exact).surfaces.size() > 10);
+}
+
+TEST_CASE("glTF: meshes are as coarse as float32 at their reach, by the scale of their node") {
+  test::Gltf far;
+  const nlohmann::json primitive = {
+      {"attributes", {{"POSITION", far.positions({691000, 0, 0, 691001, 0, 0, 691000, 1, 0})}}}};
+  far.mesh(primitive, {{"children", {1}}});
+  far.add("nodes", {{"mesh", 0}, {"scale", {2, 0.5, 4}}});
+  const RawScene two = far.read();
+  REQUIRE(two.meshes.size() == 2);
+  CHECK(two.meshes[0].rounding == 0.03125);  // 2^19 <= 691000 < 2^20: half a step of 24 binary digits
+  CHECK(two.meshes[1].rounding == 0.125);
+
+  test::Gltf near;
+  near.mesh({{"attributes", {{"POSITION", near.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}},
+            {{"translation", {691000, 0, 0}}});  // in double
+  const RawScene one = near.read();
+  REQUIRE(one.meshes.size() == 1);
+  CHECK(one.meshes[0].rounding == 0x1p-24);
 }
