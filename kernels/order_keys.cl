@@ -1,5 +1,5 @@
 // order_keys: the sort key of every ray, from its launch index before rays exist or from the queue before any depth.
-// WT_LAUNCH_KEY and WT_QUEUE_KEY name the keys below, WT_DIRECTIONS and WT_PLACES the map of launch_keys (see
+// WT_LAUNCH_KEY and WT_QUEUE_KEY name the keys below, WT_PLACES and WT_BY_TABLE the map of launch_keys (see
 // generate_rays). Keys are padded, so the last item may write past the count.
 #ifdef WT_CPU
 #define WT_LANES 16
@@ -67,7 +67,7 @@ kernel void launch_keys(global uint* keys, uint count, ulong first_index, wt_map
   if (k >= count) return;
   wt_direction o;
   o.x = o.y = o.z = 0.0f;
-  const wt_direction d = wt_launch_ray(launch_index(first_index + k), map, heights, (WT_U32)(table), window).along;
+  const wt_direction d = wt_launch_ray(launch_index(first_index + k), map, heights, (WT_U32)(table), window, 0u).along;
   store(WT_LAUNCH_KEY(o, d, bins), keys + k);
 }
 
