@@ -1,5 +1,5 @@
-// Where a test finds its inputs, its outputs and the program. Functions and not macros: a path of the machine in a
-// source would be another source to ccache in every clone.
+// Folders in which a test finds its inputs, its outputs and the program. They are functions and not macros: a path of
+// the machine in a source would be another source to ccache in every clone.
 #pragma once
 
 #include <string>

@@ -44,11 +44,9 @@ std::string page_html(const Study& study, const std::string& command_line, const
   for (const std::string& item : recommendations(study)) text += fmt::format("<li>{}</li>\n", escaped(item));
   text +=
       "</ul>\n<h2>Every setting</h2>\n<p>One axis changes at a time, everything else is as in the configuration. "
-      "Losses "
-      "and errors are against the reference of the axis, which is in bold; rays, auto and reuse share theirs. Gains "
-      "are "
-      "of links that have paths in both; the errors of spreads are means over these links. On the plot, what loses "
-      "nothing lies on the bottom.</p>\n";
+      "Losses and errors are against the reference of the axis, which is in bold; rays, auto and reuse share theirs. "
+      "Gains are of links that have paths in both; the errors of spreads are means over these links. On the plot, what "
+      "loses nothing lies on the bottom.</p>\n";
   return study::document_html("Speed against error", style, text + svg + table_html(study.rows));
 }
 

@@ -75,12 +75,9 @@ int run_program(int argc, char** argv) {
 int run_and_report(int argc, char** argv) {
   try {
     return run_program(argc, argv);
-  } catch (const wavetracer::DeviceError& e) {
-    return fail(e.code(), e.what() + wavetracer::app::limit_hint());
-  } catch (const wavetracer::RuntimeError& e) {  // a library that found no memory may not say so
-    return fail(e.code(), e.what() + wavetracer::app::limit_hint());
-  } catch (const wavetracer::Error& e) {
-    return fail(e.code(), e.what());
+  } catch (const wavetracer::Error& e) {  // of a device or a library that found no memory and may not say so, or others
+    const bool may_lack_memory = e.code() == ExitCode::device || e.code() == ExitCode::runtime;
+    return fail(e.code(), e.what() + (may_lack_memory ? wavetracer::app::limit_hint() : ""));
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::runtime, "out of memory: lower trace.batch_rays or trace.rays, or use a smaller scene" +
                                        wavetracer::app::limit_hint());
@@ -95,7 +92,7 @@ int run_and_report(int argc, char** argv) {
   }
 }
 
-// What was printed has arrived, or the program fails.
+// Makes the program fail where its output has not arrived.
 int flush_and_report(int code) {
   const std::string problem = wavetracer::app::output_problem();
   if (problem.empty() || code == static_cast<int>(ExitCode::runtime)) return code;

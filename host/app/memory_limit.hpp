@@ -10,7 +10,8 @@ namespace wavetracer::app {
 // why it was ended; the exit code is then that of a runtime error. Signals to this process go on to the child.
 int explained(const std::function<int()>& program);
 
-// What to add to a message about something that was not to be had, such as a device or a thread; empty without a limit.
+// Words for the end of a message about something that was not to be had, such as a device or a thread: they name the
+// limit of memory. Empty without a limit.
 std::string limit_hint();
 
 }  // namespace wavetracer::app

@@ -39,7 +39,7 @@ class ContentHash {
   void take(const std::byte* whole_stripe);
 };
 
-// Of the content of a plain file; nothing where it cannot be read to its end.
+// Hashes the content of a plain file; returns nothing where it cannot be read to its end.
 std::optional<uint64_t> content_hash(const std::filesystem::path& file);
 
 }  // namespace wavetracer

@@ -39,7 +39,7 @@ int open_unnamed(const fs::path& folder) {
   return named;
 }
 
-// Whether both names lead to one file.
+// Do both names lead to one file?
 bool is_same(const struct stat& status, const fs::path& other) {
   struct stat there {};
   return ::stat(other.c_str(), &there) == 0 && there.st_dev == status.st_dev && there.st_ino == status.st_ino;
@@ -104,11 +104,16 @@ int unnamed_file(const fs::path& wanted_for) {
       fmt::format("cannot write {}: {}; set TMPDIR to a folder that can be written to", wanted_for.string(), problem));
 }
 
+fs::path nearest_existing(const fs::path& folder, std::error_code& error) {
+  fs::path there = fs::absolute(folder, error).lexically_normal();
+  while (!error && !fs::exists(there, error) && !error && there.has_relative_path()) there = there.parent_path();
+  return there;
+}
+
 std::string write_obstacle(const fs::path& folder) {
   std::error_code error;
-  fs::path there = fs::absolute(folder, error).lexically_normal();
-  if (error) return error.message();
-  while (!fs::exists(there, error) && !error && there.has_relative_path()) there = there.parent_path();
+  const fs::path there = nearest_existing(folder, error);
+  if (there.empty()) return error.message();
   const auto why = [&there](const std::string& what) { return fmt::format("{}: {}", there.string(), what); };
   if (error) return why(error.message());
   if (!fs::is_directory(there, error)) return why("not a folder");

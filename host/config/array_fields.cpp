@@ -58,8 +58,7 @@ Table array_table() {
       .doc =
           "Places of the elements of antenna arrays: a panel of rows and columns, or positions. Antennas refer to an "
           "array by its name; their position is its centre. Paths are computed between the centres; responses.h5, "
-          "beams and "
-          "the library have them between elements.",
+          "beams and the library have them between elements.",
       .fields =
           {
               {.name = "name",

@@ -58,9 +58,8 @@ Table cache_table() {
           {.name = "locking",
            .slot = c(&CacheConfig::locking),
            .doc = "Only with kind = \"open\" or \"thesis\". mutex: one ray at a time uses an entry; other rays that "
-                  "ask for it "
-                  "meanwhile are traced. readers: the lock for readers and writers of the thesis; an entry must be "
-                  "renewed after readers_number reads."},
+                  "ask for it meanwhile are traced. readers: the lock for readers and writers of the thesis; an entry "
+                  "must be renewed after readers_number reads."},
           {.name = "readers_number",
            .slot = c(&CacheConfig::readers_number),
            .unit = "reads",

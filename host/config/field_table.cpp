@@ -75,8 +75,7 @@ Table trace_table() {
            .range = {1, 2},
            .doc = "2 adds paths over two edges, with a straight line from one edge to the other: the field behind a "
                   "whole building. Pairs of edges that buildings hide from each other are passed over; the others are "
-                  "candidates, "
-                  "which cost time: in a city of 36 blocks some ten times as much as one diffraction."},
+                  "candidates, which cost time: in a city of 36 blocks some ten times as much as one diffraction."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
            .doc = "Edges that belong to one face only also diffract, as half planes: screens, signs and the borders of "

@@ -260,8 +260,7 @@ Table station_table() {
   return ends_table<&Config::stations>(
       "station",
       "An antenna that sends and receives, as that of a road-side unit; one table per station. It is one radio with "
-      "one "
-      "name: a transmitter after those of [[transmitter]], and a receiver after those of [[receiver]].",
+      "one name: a transmitter after those of [[transmitter]], and a receiver after those of [[receiver]].",
       "\"rsu\"", "[0.0, 0.0, 6.0]", true);
 }
 

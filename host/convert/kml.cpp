@@ -29,8 +29,7 @@ Georeference place_of(const SavedWorld& world, const ExportOptions& options) {
   if (const auto found = scene.empty() ? std::nullopt : find_georeference(scene)) return *found;
   throw InputError(fmt::format(
       "kml: where on the earth the scene is, is not known; give --projection with the PROJ string of its coordinates, "
-      "such "
-      "as \"+proj=tmerc +lat_0=48.14 +lon_0=11.57 +ellps=WGS84 +units=m\" (x east and y north of that point){}",
+      "such as \"+proj=tmerc +lat_0=48.14 +lon_0=11.57 +ellps=WGS84 +units=m\" (x east and y north of that point){}",
       scene.empty() ? "" : fmt::format(", or put a georeference.json beside {}", scene)));
 }
 

@@ -18,10 +18,9 @@ constexpr const char* conventions =
 
 std::string conventions_text() {
   return conventions + interaction_legend() +
-         ". surface counts as wavetracer scene info does. Where responses are there, h is (response, "
-         "frequency), absolute frequencies; those of link i of them are rows first_response(i) to first_response(i + "
-         "1) - "
-         "1, (time, rx antenna, tx antenna), the last of which goes fastest.";
+         ". surface counts as wavetracer scene info does. Where responses are there, h is (response, frequency), "
+         "absolute frequencies; those of link i of them are rows first_response(i) to first_response(i + 1) - 1, "
+         "(time, rx antenna, tx antenna), the last of which goes fastest.";
 }
 
 // rows x width values in MATLAB's order.

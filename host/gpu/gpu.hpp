@@ -59,7 +59,7 @@ using Definitions = std::map<std::string, std::string>;
 
 class Context;
 
-// What a buffer is called in messages, and what to do where it is too large.
+// The name of a buffer in messages, and advice for where it is too large.
 struct BufferName {
   BufferName(const char* name_of_it,
              const char* advice_for_it =
@@ -236,7 +236,7 @@ class Context {
   void set_profiling(bool on);
   // Seconds spent building programs (from source or from the disk cache) so far, and how many were built from source.
   double build_seconds() const;
-  // What the user should know of caches on the disk that cannot be written to, so far.
+  // Notes for the user, so far, about caches on the disk that cannot be written to.
   std::vector<std::string> notes() const;
   size_t builds_from_source() const;
 

@@ -19,12 +19,11 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t least_room = uint64_t{16} << 20;  // bytes; the kernels of a run take some megabytes
 
-// Why PoCL cannot keep its cache in the folder; empty where it can. It ends the process where the disk fills up.
+// Says why PoCL cannot keep its cache in the folder; empty where it can. PoCL ends the process where the disk fills up.
 std::string obstacle(const fs::path& folder) {
   if (std::string why = write_obstacle(folder); !why.empty()) return why;
   std::error_code error;
-  fs::path there = fs::absolute(folder, error);
-  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  const fs::path there = nearest_existing(folder, error);
   const fs::space_info space = fs::space(there, error);
   if (error || space.available >= least_room) return "";
   return fmt::format("{}: {} KiB are left, and {} MiB may be needed", there.string(), space.available >> 10,
@@ -44,7 +43,7 @@ fs::path own_folder() {
   return {};
 }
 
-// Whether a file that the OpenCL loader reads names PoCL.
+// Does a file that the OpenCL loader reads name PoCL?
 bool is_installed() {
   std::error_code error;
   const std::string chosen = environment("OCL_ICD_VENDORS");
@@ -59,7 +58,7 @@ bool is_installed() {
   return false;
 }
 
-// Of the folder that give_pocl_a_cache() has chosen.
+// The words about the folder that give_pocl_a_cache() has chosen.
 std::string& chosen_note() {
   static std::string note;
   return note;
@@ -91,8 +90,7 @@ void give_pocl_a_cache() {
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);
   chosen_note() = fmt::format(
       "PoCL, the OpenCL of CPUs, cannot write its cache ({}) and keeps it in {} instead: set POCL_CACHE_DIR to choose "
-      "a "
-      "folder",
+      "a folder",
       why, folder.string());
 }
 

@@ -13,10 +13,10 @@ std::filesystem::path pocl_cache_folder();
 // and PoCL's own choice cannot be written to, POCL_CACHE_DIR is set to a folder of this user below a temporary one.
 void give_pocl_a_cache();
 
-// What give_pocl_a_cache() has done, for the user; empty where it has done nothing.
+// Tells the user what give_pocl_a_cache() has done; empty where it has done nothing.
 std::string pocl_cache_note();
 
-// What the user can do about a cache that cannot be written to; empty where it can, and where there is no PoCL.
+// Tells the user what to do about a cache that cannot be written to; empty where it can, and where there is no PoCL.
 std::string pocl_cache_problem();
 
 }  // namespace wavetracer::gpu

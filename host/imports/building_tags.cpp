@@ -214,7 +214,7 @@ std::optional<double> tagged_value(const Tags& tags, const TaggedValue& what,
 
 namespace {
 
-// Where the whole building is below the ground; empty where it is not.
+// Says where the whole building is below the ground; empty where it is not.
 std::string_view below_ground(const Tags& tags) {
   const std::string_view location = tag(tags, "location");
   if (location == "underground") return "underground";

@@ -1,4 +1,4 @@
-// How much of a polygon others cover, seen from above.
+// Computes how much of a polygon others cover, seen from above.
 #pragma once
 #include <span>
 

@@ -162,7 +162,7 @@ class OsmReader {
     note(relation, gone, built, built, kept_relations_, relations_);
   }
 
-  // Whether an area is made of the relation.
+  // Is an area made of the relation?
   bool is_multipolygon(const osmium::Relation& relation) const {
     return relation.tags().has_tag("type", "multipolygon") && is_area(relation.tags());
   }

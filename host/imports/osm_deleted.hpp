@@ -1,5 +1,5 @@
-// What an editor has deleted: in a file that JOSM saved, a deleted object stays, with action='delete', until it is
-// sent. libosmium does not read that attribute.
+// Objects that an editor has deleted: in a file that JOSM saved, a deleted object stays, with action='delete', until it
+// is sent. libosmium does not read that attribute.
 #pragma once
 #include <cstdint>
 #include <string_view>

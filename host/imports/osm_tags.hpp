@@ -1,4 +1,4 @@
-// Which objects of OpenStreetMap are built, by their tags.
+// Tells by their tags which objects of OpenStreetMap are built.
 // Keys are those of https://wiki.openstreetmap.org/wiki/Map_features.
 #pragma once
 #include <array>
@@ -30,8 +30,8 @@ inline Tags kept_of(const osmium::TagList& tags) {
   return out;
 }
 
-// What stands in the way of waves besides buildings, in words; empty: nothing of this kind. It is built if it is asked
-// for (ImportOptions::vegetation).
+// Names an object that stands in the way of waves and is no building; empty: it is nothing of this kind. It is built if
+// it is asked for (ImportOptions::vegetation).
 inline std::string_view greenery(const osmium::TagList& tags) {
   if (is_tree(tags)) return "tree (natural=tree)";
   if (is_row(tags)) return "row of trees (natural=tree_row)";

@@ -27,7 +27,7 @@ inline void keep_last_versions(std::vector<ObjectVersion>& objects) {
   objects.resize(kept);
 }
 
-// Where nodes are. A version without a place says that the node was deleted.
+// The places of nodes. A version without a place says that the node was deleted.
 class NodePlaces {
  public:
   void add(int64_t id, uint32_t version, osmium::Location place) { nodes_.push_back({id, place, version}); }

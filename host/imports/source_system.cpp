@@ -164,8 +164,7 @@ void SourceSystem::choose_order(const glm::dvec2& middle, double roofs_up) {
   if (!possible[0] && !possible[1])
     throw InputError(
         fmt::format("{}: the middle of the model, ({}, {}), is not in the area of its coordinate system {}, which is "
-                    "{} to {} degrees "
-                    "east and {} to {} degrees north: is another one meant?",
+                    "{} to {} degrees east and {} to {} degrees north: is another one meant?",
                     s.name, middle.x, middle.y, s.code, s.west, s.east, s.south, s.north));
   const bool usual = !s.by_authority && !east_first[0] && east_first[1];
   s.first_is_second = usual;

@@ -7,7 +7,7 @@ namespace wavetracer {
 
 // object: the text of a JSON object that is not empty, which ends in its brace. The same with the key added.
 std::string with_check(std::string object);
-// Whether the text, of with_check(), is as it was written. Blanks and line ends behind it do not count.
+// Is the text, which with_check() has made, as it was written? Blanks and line ends behind it do not count.
 bool check_fits(std::string_view text);
 
 }  // namespace wavetracer

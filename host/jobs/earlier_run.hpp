@@ -34,7 +34,7 @@ std::filesystem::path merged_record(const std::filesystem::path& directory);
 // Removes the folder if it is empty and no link.
 void remove_if_empty(const std::filesystem::path& folder);
 
-// What killed processes were writing into this folder of shards. Those that live have their files in it
+// Removes what killed processes were writing into this folder of shards. Those that live have their files in it
 // (jobs/process_files.hpp), and nothing of theirs is touched.
 void remove_dead_temporaries(const std::filesystem::path& shards);
 

@@ -1,7 +1,5 @@
 // The signal handler sets a flag and says so by write(), which a handler may call; nothing else.
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
-// EndOnInterrupt and RemoveOnInterrupt wait for signals on a thread of their own, which may remove folders as a handler
-// may not.
 #include "jobs/interrupt.hpp"
 #include <unistd.h>
 #include <csignal>
@@ -38,16 +36,6 @@ std::vector<fs::path> missing(fs::path path) {
   return out;
 }
 
-// Calls end() when one of the signals has come, here or, where `elsewhere` is true, to a handler; else returns when it
-// is asked to stop.
-template <class End>
-void wait_for_signal(const std::stop_token& stop, bool elsewhere, const End& end) {
-  const sigset_t set = ending_signals();
-  const timespec tenth{0, 100'000'000};
-  while (!stop.stop_requested())
-    if ((elsewhere && interrupted()) || sigtimedwait(&set, nullptr, &tenth) >= 0) end();
-}
-
 [[noreturn]] void end_interrupted(const std::string& message) {
   if (!message.empty()) std::cerr << "wavetracer: " << message << std::endl;
   _exit(static_cast<int>(ExitCode::interrupted));
@@ -82,39 +70,34 @@ void catch_interrupts(bool acknowledge) {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-EndOnInterrupt::EndOnInterrupt(std::function<void()> clean_up, std::string message) {
+SignalThread::SignalThread(bool handled_too, std::function<void()> end) {
   const sigset_t set = ending_signals();
   pthread_sigmask(SIG_BLOCK, &set, &before_);
-  waiting_ = std::jthread([clean_up = std::move(clean_up), message = std::move(message)](const std::stop_token& stop) {
-    wait_for_signal(stop, true, [&] {  // threads of drivers that were there before do not block the signals
-      clean_up();
-      end_interrupted(message);
-    });
+  waiting_ = std::jthread([handled_too, end = std::move(end)](const std::stop_token& stop) {
+    const sigset_t awaited = ending_signals();
+    const timespec tenth{0, 100'000'000};
+    while (!stop.stop_requested())
+      if ((handled_too && interrupted()) || sigtimedwait(&awaited, nullptr, &tenth) >= 0) end();
   });
 }
 
-EndOnInterrupt::~EndOnInterrupt() {
+SignalThread::~SignalThread() {
   waiting_.request_stop();
   waiting_.join();
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output) {
-  const fs::path temporary = temporary_beside(behind_links(output.has_filename() ? output : output.parent_path()));
-  const sigset_t set = ending_signals();
-  pthread_sigmask(SIG_BLOCK, &set, &before_);
-  // Counted here and not by the thread, which may start after the output has got its name.
-  waiting_ =
-      std::jthread([temporary, folders = missing(output), named = final_names().load()](const std::stop_token& stop) {
-        wait_for_signal(stop, false, [&] { remove_and_end(temporary, folders, named); });
-      });
-}
+EndOnInterrupt::EndOnInterrupt(std::function<void()> clean_up, std::string message)
+    : thread_(true, [clean_up = std::move(clean_up), message = std::move(message)] {
+        clean_up();
+        end_interrupted(message);
+      }) {}
 
-RemoveOnInterrupt::~RemoveOnInterrupt() {
-  waiting_.request_stop();
-  waiting_.join();
-  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-}
+// Names are counted here and not by the thread, which may start after the output has got its name.
+RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output)
+    : thread_(false, [temporary = temporary_beside(behind_links(output.has_filename() ? output : output.parent_path())),
+                      folders = missing(output),
+                      named = final_names().load()] { remove_and_end(temporary, folders, named); }) {}
 
 bool interrupted() { return raised != 0; }
 

@@ -13,30 +13,41 @@ namespace wavetracer {
 void catch_interrupts(bool acknowledge = true);
 bool interrupted();
 
-// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130. For what takes long and leaves
-// nothing to keep, such as loading a scene. clean_up: called before, on another thread; message: said on stderr, if
-// any.
-class EndOnInterrupt {
+// While it lives, SIGINT and SIGTERM go to a thread of its own, which may do what a handler may not.
+class SignalThread {
  public:
-  EndOnInterrupt(std::function<void()> clean_up, std::string message);
-  ~EndOnInterrupt();
-
- private:
-  sigset_t before_;
-  std::jthread waiting_;
-};
-
-// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130, and leave nothing of what is being
-// written to `output` (PendingFile and PendingFolder) behind, nor the folders above it that are not there yet. For
-// commands whose work has no places to stop at.
-class RemoveOnInterrupt {
- public:
-  explicit RemoveOnInterrupt(const std::filesystem::path& output);
-  ~RemoveOnInterrupt();
+  // end: called there, once one of them has come, and ends the process. handled_too: also where it came to the handler
+  // of catch_interrupts(), as threads that were there before do not block the signals.
+  SignalThread(bool handled_too, std::function<void()> end);
+  ~SignalThread();
+  SignalThread(const SignalThread&) = delete;
+  SignalThread& operator=(const SignalThread&) = delete;
 
  private:
   sigset_t before_;  // the signals that were blocked
   std::jthread waiting_;
+};
+
+// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130. It is for work that takes long and
+// leaves nothing to keep, such as loading a scene. clean_up: called before, on another thread; message: said on stderr,
+// if it is not empty.
+class EndOnInterrupt {
+ public:
+  EndOnInterrupt(std::function<void()> clean_up, std::string message);
+
+ private:
+  SignalThread thread_;
+};
+
+// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130, and leave nothing of what is being
+// written to `output` (PendingFile and PendingFolder) behind, nor the folders above it that are not there yet. It is
+// for commands whose work has no places to stop at.
+class RemoveOnInterrupt {
+ public:
+  explicit RemoveOnInterrupt(const std::filesystem::path& output);
+
+ private:
+  SignalThread thread_;
 };
 
 }  // namespace wavetracer

@@ -107,8 +107,7 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
     if (manifests.empty() && fs::exists(merged_record(directory), none))
       throw InputError(
           fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, and its parts were removed "
-                      "when that was "
-                      "proved (output.keep_shards = true keeps them)",
+                      "when that was proved (output.keep_shards = true keeps them)",
                       directory.string()));
     if (manifests.empty())
       throw InputError(fmt::format("{}: this folder contains no parts of a run, because {} contains no manifest",

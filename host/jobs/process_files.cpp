@@ -171,11 +171,10 @@ void check_not_in_use(const fs::path& folder, const std::optional<ProcessInfo>& 
   for (const ProcessInfo& process : processes_in(folder)) {
     if (me && (process.name == me->name || (process.job == me->job && process.rank != me->rank))) continue;
     if (!alive(process)) continue;
-    throw RuntimeError(
-        fmt::format("{}: process {} on {} writes there since {}; wait until it is done, or choose another folder with "
-                    "-o (a process "
-                    "on another host that was killed counts as running until {:.0f} s after its last sign of life)",
-                    folder.string(), process.pid, process.host, process.since, heartbeat_limit_s));
+    throw RuntimeError(fmt::format(
+        "{}: process {} on {} writes there since {}; wait until it is done, or choose another folder with -o (a "
+        "process on another host that was killed counts as running until {:.0f} s after its last sign of life)",
+        folder.string(), process.pid, process.host, process.since, heartbeat_limit_s));
   }
 }
 

@@ -81,7 +81,7 @@ class Shards {
   // Of a complete run: its outputs.
   std::vector<std::filesystem::path> outputs() const;
   size_t count() const { return shards_.size(); }
-  // What was left out as it is not as it was written, in words that begin with the file.
+  // Names what was left out because it is not as it was written, in words that begin with the file.
   const std::vector<std::string>& damaged() const { return damaged_; }
   const std::filesystem::path& folder() const { return folder_; }
 

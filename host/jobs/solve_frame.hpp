@@ -17,7 +17,7 @@ namespace wavetracer {
 std::optional<FrameResult> solve_frame(Simulation& simulation, uint32_t frame, bool alone, Progress& progress,
                                        std::optional<TransmitterRange> block = {});
 
-// What the repeats of one frame have told.
+// The result of repeating one frame.
 class FrameRepeats {
  public:
   void add(const FrameResult& frame);
@@ -32,7 +32,7 @@ class FrameRepeats {
   std::set<std::string> warnings_;
 };
 
-// Whether repeats of a frame find the same paths on a device that works.
+// Do repeats of a frame find the same paths on a device that works?
 bool repeats_agree(const Config& config);
 
 }  // namespace wavetracer

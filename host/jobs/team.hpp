@@ -6,7 +6,7 @@
 
 namespace wavetracer {
 
-// What --resume has found damaged, and computes again.
+// The files that --resume has found damaged and computes again.
 void say_damaged(const Shards& shards, Progress& progress);
 Units units_of(const DriveTask& task);
 // Solves its frames and hands them to the writer; false where an interrupt came first, which leaves the unit open

@@ -27,11 +27,11 @@ struct wavetracer_simulation {
   uint64_t number;  // of this process, so that frames know whose they are
   pid_t process;    // that opened it
 
-  // Whose turn it is (Turn).
+  // Holds whose turn it is (Turn).
   mutable std::mutex turn = {};
   mutable std::atomic<std::thread::id> user = {};
 
-  // Who watches; may change while a frame is solved, also by itself.
+  // Guards the function that watches: it may change while a frame is solved, and may change itself.
   std::mutex watching = {};
   wavetracer_observer observer = nullptr;
   void* observer_user = nullptr;

@@ -11,7 +11,7 @@ namespace wavetracer {
 
 Trajectories read_fcd(ByteStream& stream, const TrajectoryOptions& options);
 
-// Whether a text begins with the header of SUMO's CSV: columns "timestep_time", "vehicle_id" and so on; or "time",
+// Does a text begin with the header of SUMO's CSV: columns "timestep_time", "vehicle_id" and so on; or "time",
 // "id", "x", "y" with semicolons between them and one that SUMO alone has, such as "angle". Other outputs of SUMO as
 // CSV pass as well: the reader says which columns they lack.
 bool is_fcd_csv(std::string_view text);

@@ -19,10 +19,8 @@ constexpr double fcd_degree = std::numbers::pi / 180;
 
 constexpr std::string_view geo_advice =
     "the coordinates are longitude and latitude (--fcd-output.geo), which need a georeference.json beside the scene "
-    "file "
-    "(docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one); or run sumo without that option, "
-    "so "
-    "that it writes metres";
+    "file (docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one); or run sumo without that "
+    "option, so that it writes metres";
 
 size_t decimals(std::string_view text) {
   const size_t point = text.find('.');
@@ -92,7 +90,7 @@ void FcdSamples::in_degrees(uint64_t line) {
   degrees_ = true;
 }
 
-// How far vehicles drive by their speeds, and how far their coordinates move meanwhile.
+// Compares how far vehicles drive by their speeds with how far their coordinates move meanwhile.
 FcdSamples::Motion FcdSamples::motion() const {
   const double longest_s = 1.5 * median_step(tracks_.tracks());  // not across gaps
   Motion out;
@@ -135,8 +133,7 @@ void FcdSamples::place_degrees() {
   if (!degrees_)
     tracks_.warn(
         fmt::format("{}: x and y are taken as longitude and latitude (--fcd-output.geo): as metres they would hardly "
-                    "move, whatever "
-                    "their speeds are",
+                    "move, whatever their speeds are",
                     tracks_.file()));
   if (decimals_ < enough)
     tracks_.warn(

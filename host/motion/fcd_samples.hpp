@@ -1,4 +1,4 @@
-// What SUMO's floating car data says of vehicles, persons and containers, whether it is XML or CSV.
+// Reads what SUMO's floating car data says of vehicles, persons and containers, whether it is XML or CSV.
 // Assumes that a file has one run, its timesteps in order.
 #pragma once
 #include <functional>

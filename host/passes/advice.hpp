@@ -1,4 +1,4 @@
-// What to do where a buffer is larger than the device allows: what its length depends on.
+// Advice for where a buffer is larger than the device allows: it names what the length depends on.
 #pragma once
 
 namespace wavetracer::advice {
@@ -6,8 +6,7 @@ namespace wavetracer::advice {
 // Lists of what may be paths, and of paths.
 inline constexpr const char* links =
     "Ask for fewer links at a time (links.max_distance_m, links.transmitters, links.receivers; with diffraction a "
-    "lower "
-    "trace.batch_receivers, where frames reuse nothing), lower trace.max_depth, trace.max_diffractions or "
+    "lower trace.batch_receivers, where frames reuse nothing), lower trace.max_depth, trace.max_diffractions or "
     "trace.diffraction_rays, or choose a device with more memory";
 inline constexpr const char* tiles =
     "Raise trace.tile_m (twice as long tiles are a quarter as many), or choose a device with more memory";

@@ -33,8 +33,8 @@ class Fields {
   void begin_read(uint32_t frame, RowCounts expected);
   // Their columns. count: how many there are. To be called once the device has finished.
   Paths columns(RowCounts count);
-  // Of the paths that columns() or carrier() gave last: those that are closer to an edge than the theory of diffraction
-  // goes.
+  // Counts, of the paths that columns() or carrier() gave last, those that are closer to an edge than the theory of
+  // diffraction goes.
   uint32_t near_edges() const { return near_edges_; }
   // The same of what differs at the carrier of these tables; its frequency is for the caller to say.
   void begin_read_carrier(RowCounts expected);

@@ -24,7 +24,7 @@ uint32_t grow_until_filled(const Run& run, const Length& length, const Capacity&
   }
 }
 
-// What a pass makes of `items` in a list of at most `most` elements: of all of them, or of one part after the other.
+// The list, of at most `most` elements, that a pass makes of `items`: of all of them, or of one part after the other.
 // list(first, end): makes the list of these items, and returns its length. take(length): what follows of the list.
 // again(): before another list. too_long(length): the list of one item alone is longer than `most`; must throw.
 template <class List, class Take, class Again, class TooLong>

@@ -1,4 +1,4 @@
-// What the steps of solved paths name besides surfaces, for the passes that check legs (kernels/lib/leg.clh).
+// Tables of what the steps of solved paths name besides surfaces, for the passes that check legs (kernels/lib/leg.clh).
 #pragma once
 #include "gpu/gpu.hpp"
 #include "wavetracer/device/records.h"

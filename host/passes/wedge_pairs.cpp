@@ -11,7 +11,7 @@ namespace {
 
 size_t words_of(uint64_t wedges) { return wedges * wedges / 2 + 1; }
 
-// What is known of pairs may take this much memory, 32,000 wedges. Of more, which are corners first, each frame finds
+// The bits of known pairs may take this much memory, 32,000 wedges. Of more, which are corners first, each frame finds
 // it out again.
 uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
   const uint64_t most = std::min({uint64_t{1} << 31, device.max_buffer, device.global_memory / 16});

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double half_plane_rad = 2 * std::numbers::pi - 1e-6;
 
-// Of all surfaces of the world, those of instances in the coordinates of their models.
+// Takes all surfaces of the world, those of instances in the coordinates of their models.
 std::vector<glm::dvec3> surface_normals(const Scene& scene, const std::vector<Scene>& models,
                                         const std::vector<Instance>& instances) {
   std::vector<glm::dvec3> normals;
@@ -47,7 +47,7 @@ Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scen
   moving_count_ = static_cast<uint32_t>(records.size()) - static_count_;
   const std::vector<glm::dvec3> normals = surface_normals(scene, models, instances);
 
-  // Of each surface three lists, one behind the other: what the side against its normal sees, both, the other side.
+  // Each surface has three lists, one behind the other: what the side against its normal sees, both, the other side.
   std::vector<uint32_t> next(3 * normals.size() + 1, 0);
   const auto visit = [&](const auto& act) {
     for (uint32_t k = 0; k < records.size(); ++k) {

@@ -95,8 +95,7 @@ Responses empty_responses(const ElementModel& model, const FrameResult& frame, s
   if (out.row_offset.back() > most_response_bytes / row_bytes)
     throw RuntimeError(fmt::format(
         "the responses of frame {} have {} rows (time, receiving antenna, transmitting antenna) of {} frequencies, "
-        "more "
-        "than {} GiB: lower response.subcarriers, response.times or the number of links (links.max_distance_m)",
+        "more than {} GiB: lower response.subcarriers, response.times or the number of links (links.max_distance_m)",
         frame.frame, out.row_offset.back(), frequencies, most_response_bytes >> 30));
   out.h.resize(out.row_offset.back() * frequencies);
   return out;

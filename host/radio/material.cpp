@@ -29,8 +29,7 @@ std::string range_problem(std::span<const Material> materials, double frequency_
   if (unknown.empty()) return "";
   return fmt::format(
       "radio.frequency_hz = {:g}: {}; choose a frequency in that range, {}{}or give permittivity and conductivity_s_m "
-      "in "
-      "a [[material]] table with name = \"{}\"",
+      "in a [[material]] table with name = \"{}\"",
       frequency_hz, unknown, newer,
       measured ? "set scene.extrapolate_materials = true to use what was measured nearest to it, " : "", first);
 }

@@ -21,7 +21,7 @@ void resize_columns(Paths& paths, size_t rows, size_t vertices, uint32_t frame);
 // Returns how many have WT_ROW_NEAR_EDGE.
 uint32_t fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
                       std::span<const device::wt_vertex_row> vertices);
-// Of the same rows at another carrier, what differs there; returns likewise.
+// Fills what differs for the same rows at another carrier; returns likewise.
 uint32_t fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports);
 // Both of the first two.
 Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,

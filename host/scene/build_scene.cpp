@@ -207,7 +207,7 @@ void compact_vertices(Scene& scene, std::vector<double>& rounding_m) {
   }
 }
 
-// What several triangles of one plane cover scatters once (earlier_faces.hpp).
+// Warns of places that several triangles of one plane cover: they scatter once (earlier_faces.hpp).
 void warn_of_covered_faces(Scene& scene) {
   if (std::ranges::none_of(scene.materials, [](const Material& m) { return m.scattering > 0 && !m.vegetation; }))
     return;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/join_regions.hpp"
 #include "scene/topology.hpp"
 
 namespace wavetracer {
@@ -59,10 +58,7 @@ class Polynomial {
 class CurvatureTest {
  public:
   CurvatureTest(const FlatMesh& mesh, const FlatNeighbours& neighbours, const std::vector<FlatRegion>& regions)
-      : scene_(mesh.scene), neighbours_(neighbours), region_of_(scene_.triangles.size()) {
-    for (uint32_t r = 0; r < regions.size(); ++r)
-      for (const uint32_t t : regions[r].triangles) region_of_[t] = r;
-  }
+      : scene_(mesh.scene), neighbours_(neighbours), region_of_(mesh.region_of_triangle(regions)) {}
 
   bool is_curved(uint32_t r, const FlatRegion& region) const {
     return smooth_border(r, region) > most_smooth_border && noise(region) < least_noise;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/edge_pieces.hpp"
+#include "scene/topology.hpp"
 
 namespace wavetracer {
 namespace {
@@ -54,19 +55,14 @@ uint32_t FlatNeighbours::first_touching(uint32_t t) const {
                                touching_.begin());
 }
 
-glm::dvec3 FlatNeighbours::apex(uint32_t t, uint32_t edge) const {
-  const Edge& e = scene_.edges[edge];
-  for (const uint32_t v : scene_.triangles[t])
-    if (v != e.vertices[0] && v != e.vertices[1]) return scene_.vertices[v];
-  return scene_.vertices[scene_.triangles[t][0]];
-}
-
 bool FlatNeighbours::unfolded(const FlatNeighbour& pair, const glm::dvec3& normal) const {
   const Edge& edge = scene_.edges[pair.edge];
   const glm::dvec3 &a = scene_.vertices[edge.vertices[0]], &b = scene_.vertices[edge.vertices[1]];
   const glm::dvec3 side = glm::cross(normal, b - a);
-  const double own = glm::dot(side, apex(pair.triangle, pair.edge) - a);
-  const double others = glm::dot(side, apex(pair.other, pair.other_edge) - a);
+  const auto across = [&](uint32_t t, uint32_t e) {
+    return glm::dot(side, scene_.vertices[apex(scene_, t, scene_.edges[e])] - a);
+  };
+  const double own = across(pair.triangle, pair.edge), others = across(pair.other, pair.other_edge);
   return (own > 0 && others < 0) || (own < 0 && others > 0);
 }
 

@@ -1,4 +1,4 @@
-// Which triangles continue one another: over the edges of the mesh, and where free edges run along each other.
+// Triangles that continue one another: over the edges of the mesh, and where free edges run along each other.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -38,13 +38,12 @@ class FlatNeighbours {
     for (const uint32_t e : triangle_edges_[t]) visit(e, scene_.edges[e].face_count == 1);
   }
 
-  // Whether the other triangle goes on where the first one ends, seen along the normal, instead of folding back.
+  // Does the other triangle go on where the first one ends, seen along the normal, instead of folding back?
   bool unfolded(const FlatNeighbour& pair, const glm::dvec3& normal) const;
   double length_m(uint32_t edge) const;
 
  private:
   uint32_t first_touching(uint32_t t) const;
-  glm::dvec3 apex(uint32_t t, uint32_t edge) const;
 
   const Scene& scene_;
   std::span<const std::array<uint32_t, 3>> triangle_edges_;

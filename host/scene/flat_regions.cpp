@@ -104,7 +104,7 @@ class RegionGrower {
       const size_t before = region.triangles.size();
       if (round > 0) {
         region.exact = false;
-        region.plane = fit(region);
+        region.plane = mesh_.sums(region.vertices).fit().plane;
         if (drop_strays()) {
           if (region.triangles.empty()) return false;
           ++retreats;
@@ -117,17 +117,7 @@ class RegionGrower {
     }
   }
 
-  Plane fit(const FlatRegion& region) const {
-    PlaneSums sums(scene_.vertices[region.vertices[0]]);
-    for (const uint32_t v : region.vertices) sums.add(scene_.vertices[v]);
-    return sums.fit().plane;
-  }
-
-  dvec3 centre() const {
-    dvec3 sum(0);
-    for (const uint32_t v : regions_.back().vertices) sum += scene_.vertices[v];
-    return sum / static_cast<double>(regions_.back().vertices.size());
-  }
+  dvec3 centre() const { return mesh_.centre(regions_.back().vertices); }
   double radius_m() const {
     const dvec3 middle = centre();
     double out_m = 0;
@@ -155,14 +145,10 @@ class RegionGrower {
 
   bool belongs(const FlatNeighbour& pair, const Plane& plane) const {
     const auto& corners = scene_.triangles[pair.other];
-    if (std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return has_vertex_[v] == current_; }))
-      return std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_near(v, plane); });
+    if (!mesh_.are_near(corners, plane)) return false;
+    if (std::ranges::all_of(corners, [&](uint32_t v) { return has_vertex_[v] == current_; })) return true;
     return std::abs(glm::dot(shapes_[pair.other].normal, plane.normal)) >= least_cosine &&
-           std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_near(v, plane); }) &&
            neighbours_.unfolded(pair, plane.normal);
-  }
-  bool is_near(uint32_t v, const Plane& plane) const {
-    return std::abs(height_over(plane, scene_.vertices[v])) <= mesh_.tolerance_m[v];
   }
 
   // Takes out triangles with a corner that the new plane has left, for good, and what hangs on them. False where there
@@ -171,8 +157,7 @@ class RegionGrower {
     FlatRegion& region = regions_.back();
     bool any = false;
     for (const uint32_t t : region.triangles) {
-      const auto& corners = scene_.triangles[t];
-      if (std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_near(v, region.plane); })) continue;
+      if (mesh_.are_near(scene_.triangles[t], region.plane)) continue;
       banned_from_[t] = current_;
       any = true;
     }

@@ -1,28 +1,11 @@
 // Regions of a mesh that are one plane within a tolerance: what was a plane before coordinates were rounded or
 // measured. Assumes a welded mesh with its edges (host/scene/topology.hpp).
 #pragma once
-#include <array>
-#include <cstdint>
-#include <span>
 #include <vector>
 
-#include "scene/plane_fit.hpp"
-#include "wavetracer/scene.hpp"
+#include "scene/flat_mesh.hpp"
 
 namespace wavetracer {
-
-struct FlatRegion {
-  std::vector<uint32_t> triangles, vertices;  // each once
-  Plane plane;                                // that of its largest triangle if it is exact, else the fitted one
-  bool exact = true;                          // flat as it is: its vertices need not move
-};
-
-// What the search knows of the mesh.
-struct FlatMesh {
-  const Scene& scene;
-  std::span<const std::array<uint32_t, 3>> triangle_edges;
-  std::span<const double> tolerance_m;  // per vertex
-};
 
 // Divides triangles into regions, largest planes first. The rules:
 //

@@ -77,7 +77,7 @@ class Flattener {
     std::array<dvec3, 3> used;  // unit, orthogonal
     size_t count = 0;
 
-    // What a normal has besides the directions that are used.
+    // The part of a normal that is across the directions that are used.
     dvec3 rest(dvec3 n) const {
       for (size_t k = 0; k < count; ++k) n -= glm::dot(n, used[k]) * used[k];
       return n;
@@ -95,7 +95,7 @@ class Flattener {
     return true;
   }
 
-  // Where a vertex comes to lie. Calls left(region) for planes that it cannot reach within its tolerance.
+  // Returns where a vertex comes to lie. Calls left(region) for planes that it cannot reach within its tolerance.
   template <class Left>
   dvec3 place(uint32_t v, const Left& left) const {
     Place place{scene_.vertices[v], {}};
@@ -182,11 +182,9 @@ class Flattener {
         sums.add(scene_.vertices[v]);
     }
     const Plane plane = sums.fit().plane;
-    const bool all = std::ranges::all_of(region.vertices, [&](uint32_t v) {
-      return std::abs(height_over(plane, scene_.vertices[v])) <= mesh_.tolerance_m[v];
-    });
-    if (all) region.plane = plane;
-    return all;
+    if (!mesh_.are_near(region.vertices, plane)) return false;
+    region.plane = plane;
+    return true;
   }
 
   const FlatMesh& mesh_;

@@ -54,9 +54,7 @@ class RegionJoiner {
   }
 
   void find_pairs() {
-    std::vector<uint32_t> region_of(scene_.triangles.size());
-    for (uint32_t r = 0; r < regions_.size(); ++r)
-      for (const uint32_t t : regions_[r].triangles) region_of[t] = r;
+    const std::vector<uint32_t> region_of = mesh_.region_of_triangle(regions_);
     std::vector<std::pair<uint32_t, uint32_t>> pairs;
     for (uint32_t t = 0; t < region_of.size(); ++t) {
       neighbours_.visit(t, [&](const FlatNeighbour& n) {
@@ -67,7 +65,7 @@ class RegionJoiner {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     if (pairs.empty()) return;
-    for (const FlatRegion& region : regions_) sums_.push_back(sums_of(region.vertices));
+    for (const FlatRegion& region : regions_) sums_.push_back(mesh_.sums(region.vertices));
     for (const auto& [a, b] : pairs) {
       beside_[a].push_back(b);
       beside_[b].push_back(a);
@@ -87,12 +85,6 @@ class RegionJoiner {
     return out_m;
   }
 
-  PlaneSums sums_of(const std::vector<uint32_t>& vertices) const {
-    PlaneSums sums(scene_.vertices[vertices[0]]);
-    for (const uint32_t v : vertices) sums.add(scene_.vertices[v]);
-    return sums;
-  }
-
   void push(uint32_t a, uint32_t b) {
     if (a > b) std::swap(a, b);
     PlaneSums both = sums_[a];
@@ -100,24 +92,19 @@ class RegionJoiner {
     if (const double rms_m = both.fit().rms_m; rms_m <= most_m_) queue_.push({rms_m, a, b, version_[a], version_[b]});
   }
 
-  bool are_near(const std::vector<uint32_t>& vertices, const Plane& plane, double factor) const {
-    return std::all_of(vertices.begin(), vertices.end(), [&](uint32_t v) {
-      return std::abs(height_over(plane, scene_.vertices[v])) <= factor * mesh_.tolerance_m[v];
-    });
-  }
-
   void try_join(uint32_t a, uint32_t b) {
     PlaneSums both = sums_[a];
     both.join(sums_[b]);
     const Plane nearly = both.fit().plane;  // shared vertices count twice
-    if (!are_near(regions_[b].vertices, nearly, 1.5) || !are_near(regions_[a].vertices, nearly, 1.5)) return;
+    if (!mesh_.are_near(regions_[b].vertices, nearly, 1.5) || !mesh_.are_near(regions_[a].vertices, nearly, 1.5))
+      return;
     for (const uint32_t r : {a, b}) std::sort(regions_[r].vertices.begin(), regions_[r].vertices.end());
     std::vector<uint32_t> vertices;
     std::set_union(regions_[a].vertices.begin(), regions_[a].vertices.end(), regions_[b].vertices.begin(),
                    regions_[b].vertices.end(), std::back_inserter(vertices));
-    const PlaneSums sums = sums_of(vertices);
+    const PlaneSums sums = mesh_.sums(vertices);
     const Plane plane = sums.fit().plane;
-    if (!are_near(vertices, plane, 1)) return;
+    if (!mesh_.are_near(vertices, plane)) return;
     FlatRegion &into = regions_[a], &from = regions_[b];
     into.triangles.insert(into.triangles.end(), from.triangles.begin(), from.triangles.end());
     into.vertices = std::move(vertices);

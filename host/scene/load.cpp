@@ -99,7 +99,7 @@ void apply_units(RawScene& raw, const SceneConfig& config) {
   for (SceneNode& node : raw.nodes) convert(node.position_m);
 }
 
-// What is smaller than a thirty-second of a wavelength turns the phase of a reflection by 22 degrees at most. Welding
+// An error of a thirty-second of a wavelength turns the phase of a reflection by 22 degrees at most. Welding
 // moves vertices by a millimetre anyway, and what is beyond two may be a kerb. Small models have small details.
 double plane_tolerance_m(const RawScene& raw, const SceneConfig& config, double frequency_hz) {
   constexpr double speed_of_light_m_s = 299792458, most_of_extent = 1e-3;

@@ -20,7 +20,7 @@
 namespace wavetracer {
 namespace {
 
-// What the properties of shapes of a type may be. Normals and texture coordinates are light's alone: a surface is the
+// The properties that shapes of a type may have. Normals and texture coordinates are light's alone: a surface is the
 // same from both sides. The last five are those of Mitsuba 0.6.
 const std::vector<std::string>* properties_of(std::string_view type) {
   static const std::vector<std::string> mesh = {
@@ -35,7 +35,7 @@ const std::vector<std::string>* properties_of(std::string_view type) {
   return nullptr;
 }
 
-// Of Mitsuba: a square of two units on z = 0, and a cube of two units.
+// The shapes of Mitsuba: a square of two units on z = 0, and a cube of two units.
 RawMesh rectangle() {
   RawMesh out;
   out.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -74,7 +74,7 @@ class MitsubaReader {
   }
 
   void add_element(pugi::xml_node node) {
-    // What no surface comes from, and what belongs into other elements.
+    // Elements that no surface comes from, and those that belong into others.
     static const std::set<std::string_view> skipped = {"bsdf",   "integrator", "sensor", "emitter",
                                                        "medium", "texture",    "film",   "alias"};
     static const std::set<std::string_view> misplaced = {"volume", "phase", "sampler", "rfilter", "ref"};

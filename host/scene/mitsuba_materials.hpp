@@ -15,7 +15,7 @@ class MitsubaMaterials {
   // Adds materials and warnings to raw. Those at the top of the file are added at once: references may point forward.
   MitsubaMaterials(const MitsubaFiles& files, RawScene& raw);
 
-  // What a shape is made of: by its <bsdf>, or by a reference to one. no_material where it has neither. name: of the
+  // The material of a shape: by its <bsdf>, or by a reference to one. no_material where it has neither. name: of the
   // shape, for a material without an id.
   uint32_t of_shape(pugi::xml_node shape, const std::string& name);
 

@@ -90,7 +90,7 @@ class TransformReader {
     return {value[0], value[1], value[2]};
   }
 
-  // Where a camera that looks from origin to target has its axes: x to the left, y up, z forward.
+  // The axes of a camera that looks from origin to target: x to the left, y up, z forward.
   glm::dmat4 look_at(pugi::xml_node node) const {
     files_.check_attributes(node, {"origin", "target", "up"});
     const glm::dvec3 origin = point(node, "origin"), forward = point(node, "target") - origin, up = point(node, "up");

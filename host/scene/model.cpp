@@ -43,8 +43,7 @@ class ModelReader {
     if (float_spacing > 1e-3) {
       raw_.warnings.push_back(
           fmt::format("{}: coordinates reach {:.0f}, where float32 keeps only {:.3g}: move the model to its origin, or "
-                      "use PLY with "
-                      "double coordinates",
+                      "use PLY with double coordinates",
                       raw_.file, largest_, float_spacing));
     }
     return std::move(raw_);
@@ -142,7 +141,7 @@ class PlainFiles : public Assimp::DefaultIOSystem {
   std::vector<std::string>& opened_;
 };
 
-// Of which nodes have names in the place of numbers.
+// Is it a file of glTF 1, in which names stand where glTF 2 has numbers?
 bool is_version_1(const GltfFile& file) {
   const auto asset = file.document.find("asset");
   if (asset == file.document.end() || !asset->is_object()) return false;

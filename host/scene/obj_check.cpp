@@ -20,7 +20,7 @@ enum class Statement { read, harmless, flat, curved, called, unknown };
 
 Statement statement_of(std::string_view word) {
   static const std::set<std::string_view> read = {"v", "f", "fo", "o", "g", "usemtl", "mtllib"};
-  // How things look, and the parameters of curves, which are left out where the curve itself is.
+  // These say how things look, or are parameters of curves, which are left out where the curve itself is.
   static const std::set<std::string_view> harmless = {
       "vt",         "vn",        "vp",    "s",     "mg",  "bevel", "c_interp", "d_interp", "lod",
       "usemap",     "maplib",    "parm",  "trim",  "sp",  "hole",  "scrv",     "end",      "con",

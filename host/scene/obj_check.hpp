@@ -1,4 +1,4 @@
-// What of an OBJ file assimp passes over without a word: statements that it does not know, curves, lines and points.
+// Finds what assimp passes over in an OBJ file without a word: statements that it does not know, curves, lines, points.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,4 +1,4 @@
-// How coarse the coordinates of a file are.
+// Tells how coarse the coordinates of a file are.
 #include "scene/raw_scene.hpp"
 
 #include <algorithm>

@@ -36,7 +36,7 @@ struct RawMesh {
   double rounding = 0;
 };
 
-// What a coordinate, or the largest one of vertices, may lose in float32.
+// The most that a coordinate, or the largest one of vertices, may lose in float32.
 double float32_rounding(double coordinate);
 double float32_rounding(std::span<const glm::dvec3> vertices);
 // The most by which a transform makes lengths along an axis longer.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/join_regions.hpp"
 #include "scene/topology.hpp"
 
 namespace wavetracer {
@@ -23,13 +22,8 @@ class Borders {
         scene_(mesh.scene),
         neighbours_(neighbours),
         regions_(regions),
-        region_of_(scene_.triangles.size()) {
-    for (uint32_t r = 0; r < regions.size(); ++r) {
-      for (const uint32_t t : regions[r].triangles) region_of_[t] = r;
-      dvec3 sum(0);
-      for (const uint32_t v : regions[r].vertices) sum += scene_.vertices[v];
-      centres_.push_back(sum / static_cast<double>(regions[r].vertices.size()));
-    }
+        region_of_(mesh.region_of_triangle(regions)) {
+    for (const FlatRegion& region : regions) centres_.push_back(mesh.centre(region.vertices));
   }
 
   void straighten() {
@@ -76,9 +70,9 @@ class Borders {
   }
 
   bool fits(uint32_t t, const FlatRegion& region) const {
-    return std::all_of(scene_.triangles[t].begin(), scene_.triangles[t].end(), [&](uint32_t v) {
-      const double most_m = region.exact ? flat_as_it_is_m : mesh_.tolerance_m[v];
-      return std::abs(height_over(region.plane, scene_.vertices[v])) <= most_m;
+    if (!region.exact) return mesh_.are_near(scene_.triangles[t], region.plane);
+    return std::ranges::all_of(scene_.triangles[t], [&](uint32_t v) {
+      return std::abs(height_over(region.plane, scene_.vertices[v])) <= flat_as_it_is_m;
     });
   }
 
@@ -103,13 +97,8 @@ class Borders {
     std::sort(region.vertices.begin(), region.vertices.end());
     region.vertices.erase(std::unique(region.vertices.begin(), region.vertices.end()), region.vertices.end());
     if (region.exact || region.vertices.empty()) return;
-    PlaneSums sums(scene_.vertices[region.vertices[0]]);
-    for (const uint32_t v : region.vertices) sums.add(scene_.vertices[v]);
-    const Plane plane = sums.fit().plane;
-    if (std::all_of(region.vertices.begin(), region.vertices.end(), [&](uint32_t v) {
-          return std::abs(height_over(plane, scene_.vertices[v])) <= mesh_.tolerance_m[v];
-        }))
-      region.plane = plane;
+    const Plane plane = mesh_.sums(region.vertices).fit().plane;
+    if (mesh_.are_near(region.vertices, plane)) region.plane = plane;
   }
 
   const FlatMesh& mesh_;

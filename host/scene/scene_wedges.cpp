@@ -67,7 +67,8 @@ class FaceFinder {
         const uint32_t t = scene_.edge_faces[edge.first_face + k], surface = scene_.triangle_surface[t];
         const std::optional<dvec3> side = across_piece(piece, surface);
         if (!side) continue;
-        const bool behind = glm::dot(*side, apex_of(t, edge) - scene_.vertices[edge.vertices[0]]) < 0;
+        const dvec3& top = scene_.vertices[apex(scene_, t, edge)];
+        const bool behind = glm::dot(*side, top - scene_.vertices[edge.vertices[0]]) < 0;
         found.push_back({0, behind ? -*side : *side, surface});
       }
     }
@@ -100,14 +101,7 @@ class FaceFinder {
     return std::abs(glm::dot(scene_.surfaces[surface].normal, p) - scene_.surfaces[surface].offset_m) <= touch_m;
   }
 
-  dvec3 apex_of(uint32_t t, const Edge& edge) const {
-    for (const uint32_t v : scene_.triangles[t]) {
-      if (v != edge.vertices[0] && v != edge.vertices[1]) return scene_.vertices[v];
-    }
-    return scene_.vertices[scene_.triangles[t][0]];
-  }
-
-  // Whether a point that lies in the plane of triangle t is inside of it.
+  // Is a point that lies in the plane of triangle t inside of it?
   bool holds(uint32_t t, const dvec3& p) const {
     const dvec3& normal = scene_.surfaces[scene_.triangle_surface[t]].normal;
     bool left = true, right = true;  // of all sides

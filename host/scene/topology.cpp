@@ -81,14 +81,6 @@ class SurfaceGrower {
   std::vector<uint32_t> seed_of_, stack_;
 };
 
-// The corner of triangle t that is not on the edge.
-uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge) {
-  for (uint32_t v : scene.triangles[t]) {
-    if (v != edge.vertices[0] && v != edge.vertices[1]) return v;
-  }
-  return scene.triangles[t][0];
-}
-
 bool same_plane(const Surface& a, const Surface& b, const dvec3& on_edge) {
   const double sine = glm::length(glm::cross(a.normal, b.normal));
   const double gap_m = glm::dot(a.normal, on_edge) - a.offset_m - (glm::dot(b.normal, on_edge) - b.offset_m);
@@ -113,6 +105,13 @@ bool is_flat(const Scene& scene, const Edge& edge) {
 }
 
 }  // namespace
+
+uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge) {
+  for (uint32_t v : scene.triangles[t]) {
+    if (v != edge.vertices[0] && v != edge.vertices[1]) return v;
+  }
+  return scene.triangles[t][0];
+}
 
 TriangleShape triangle_shape(const Scene& scene, uint32_t t) {
   const auto& [a, b, c] = scene.triangles[t];

@@ -32,7 +32,7 @@ struct TriangleShape {
   double area_m2, height_m;
 };
 TriangleShape triangle_shape(const Scene& scene, uint32_t t);
-// Whether triangle t, of that shape, lies in the plane as it is.
+// Does triangle t, which has that shape, lie in the plane as it is?
 bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane);
 
 // Fills edges and edge_faces, sorted by vertex pair, and the counts of free and non-manifold edges.
@@ -43,6 +43,9 @@ std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene);
 // one plane of `flat` have that plane, to the last bit; the others grow from their largest.
 void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
                    std::span<const std::array<uint32_t, 3>> triangle_edges, const Flattened& flat);
+
+// The corner of triangle t that is not on its edge, into Scene::vertices.
+uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge);
 
 // Fills Edge::flat.
 void find_flat_edges(Scene& scene);

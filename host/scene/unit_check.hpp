@@ -1,4 +1,4 @@
-// Whether a scene can be in metres: files in millimetres have houses of kilometres.
+// Tells if a scene can be in metres: files in millimetres have houses of kilometres.
 #pragma once
 #include <string>
 

@@ -12,7 +12,7 @@
 namespace wavetracer {
 
 namespace {
-// Of a difference of times near this one.
+// The rounding of a difference of times near this one.
 double interval_tolerance_s(double time_s) { return std::max(1e-9, 2 * time_spacing_s(time_s)); }
 }  // namespace
 

@@ -32,7 +32,7 @@ class FinishedPaths {
   // The paths, once the device has finished, with the counters as it left them. left_out: gets paths that
   // radio/fields.hpp does not count. carriers: gets the fields that were started besides; may be nullptr.
   Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
-  // Of those that take() gave, at each carrier: as Fields::near_edges().
+  // Fields::near_edges() of the paths that take() gave, at each carrier.
   std::vector<uint32_t> near_edges() const {
     std::vector<uint32_t> out;
     for (const Fields& fields : fields_) out.push_back(fields.near_edges());

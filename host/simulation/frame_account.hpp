@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// What no counter has: rows of scattering, and the parts of a list but its last one.
+// Counts what no counter has: rows of scattering, and the parts of a list but its last one.
 struct Uncounted {
   uint64_t candidates = 0, solved = 0;
 };

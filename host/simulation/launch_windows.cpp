@@ -90,7 +90,7 @@ std::optional<LaunchWindow> tilted_window(const LaunchBounds& box, const glm::dv
 
 // The part between two heights of a table, of which it has the shares.
 std::vector<float> part_of(std::span<const float> table, double low, double high) {
-  // Where the table reaches a height, in cells: heights fall from 1 to -1.
+  // Returns where the table reaches a height, in cells: heights fall from 1 to -1.
   const auto place_of = [&](double height) {
     size_t k = 1;
     while (k + 1 < table.size() && double{table[k]} > height) ++k;

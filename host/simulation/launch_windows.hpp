@@ -1,5 +1,5 @@
 // Launches from antennas far outside of the scene: drones, platforms in the stratosphere, satellites, sites beside it.
-// Of all their directions few meet anything, so their rays go through a window: the part of the sphere in which the
+// Few of all their directions meet anything, so their rays go through a window: the part of the sphere in which the
 // scene and the vehicles appear. Rays that all leave the world would tell nothing, not even that something is missed.
 #pragma once
 #include <optional>
@@ -45,7 +45,7 @@ class LaunchWindows {
   std::vector<Launcher> of(const std::vector<Launcher>& launchers, const WorldState& state, SlopeTables& tables) const;
 
  private:
-  // Of the vehicles that are there, without the one that carries the launcher.
+  // The vehicles that are there, without the one that carries the launcher.
   LaunchBounds vehicles(const WorldState& state, uint32_t source) const;
   Launcher through(const LaunchWindow& window, Launcher from, SlopeTables& tables) const;
 

@@ -32,7 +32,7 @@ struct Setup {
 
   // What was made since the last stage is this one of `seconds`.
   void end_stage(const char* name) { seconds[name] = watch.lap(); }
-  // Whether there is anything that rays might meet.
+  // Is there anything that rays might meet?
   bool has_surfaces() const { return !scene.surfaces.empty() || !world.instances().empty(); }
 
   Stopwatch watch;

@@ -136,12 +136,11 @@ std::vector<std::string> Simulation::warnings() const {
   const Setup& s = state_->setup;
   std::vector<std::string> out = s.scene.report.warnings;
   if (s.cache && s.cache->as_printed())
-    out.push_back(
-        fmt::format("cache.kind = \"{}\" is the table as A. Zhdanov's thesis prints it, with its faults: rays get "
-                    "results of others, "
-                    "so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
-                    s.config.cache.kind.text(), s.config.trace.reception == "sphere" ? " or wrong" : "",
-                    s.config.cache.kind == "thesis" ? "open" : "chained"));
+    out.push_back(fmt::format(
+        "cache.kind = \"{}\" is the table as A. Zhdanov's thesis prints it, with its faults: rays get results of "
+        "others, so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
+        s.config.cache.kind.text(), s.config.trace.reception == "sphere" ? " or wrong" : "",
+        s.config.cache.kind == "thesis" ? "open" : "chained"));
   if (frame_count() > 1 && !s.world.live())
     if (const auto text =
             unmeasured_warning(s.trace.discover_every_s, s.world.step_s(), frame_count(), s.config.output.shard_frames))

@@ -11,13 +11,14 @@
 #include <set>
 
 #include "base/spelling.hpp"
-#include "base/times.hpp"
 #include "motion/frame_clock.hpp"
 #include "radio/antenna.hpp"
 #include "simulation/live_places.hpp"
 #include "simulation/name_pattern.hpp"
 #include "simulation/place_finder.hpp"
 #include "simulation/receiver_grid.hpp"
+#include "simulation/world_clock.hpp"
+#include "simulation/world_ends.hpp"
 #include "simulation/world_links.hpp"
 #include "simulation/world_models.hpp"
 #include "simulation/world_reach.hpp"
@@ -27,8 +28,6 @@
 
 namespace wavetracer {
 namespace {
-
-glm::dvec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 // A vehicle at one instant. Where it is absent, it is as it was last, or will be first.
 struct VehicleState {
@@ -44,31 +43,11 @@ VehicleState vehicle_at(const Track& track, double time_s) {
   return {*pose_at(track, last.time_s), false};
 }
 
-std::string range_in_words(const TimeConfig& config) {
-  if (!config.start_s) return fmt::format("ends at {} s", time_text(config.end_s.value_or(0)));
-  if (!config.end_s) return fmt::format("begins at {} s", time_text(*config.start_s));
-  return fmt::format("goes from {} to {} s", time_text(*config.start_s), time_text(*config.end_s));
-}
-
 // A place on a vehicle: an antenna, or the origin of its model. Axes as the vehicle's: ahead, left, up.
 glm::dvec3 position_at(const Pose& pose, const glm::dvec3& arm_m) { return pose.position_m + pose.orientation * arm_m; }
 glm::dvec3 velocity_at(const Pose& pose, const glm::dvec3& arm_m) {
   return pose.velocity_m_s + glm::cross(pose.angular_velocity_rad_s, pose.orientation * arm_m);
 }
-
-struct MountedEnd {
-  uint32_t track;
-  glm::dvec3 offset_m;
-  glm::dmat3 rotation;  // antenna axes to vehicle axes
-  bool above_ground;    // offset_m.z is the height above the ground
-};
-
-// All ends of one role: those that stand, then those on vehicles.
-struct EndsOfRole {
-  std::vector<RadioEnd> ends;
-  std::vector<EndState> standing;
-  std::vector<MountedEnd> mounted;
-};
 
 }  // namespace
 
@@ -82,14 +61,13 @@ struct World::State {
   std::vector<uint32_t> instance_track;
   EndsOfRole transmitters, receivers;
   LinkRules links;
-  std::vector<uint32_t> receiver_of_transmitter, transmitter_of_receiver;
+  TwinEnds twins;
   double reach_m = 0;
   std::vector<std::string> warnings;
   glm::dvec3 scene_origin_m{0};
   double lowest_m = 0, highest_m = 0;    // z of the scene
   std::shared_ptr<const Ground> ground;  // where an antenna of a vehicle stands above it
 
-  void add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m);
   void add_instances(VehicleModels& vehicles, const Scene& scene);
   void add_mounts(const std::vector<MountConfig>& mounts, const glm::dvec3& origin_m);
   glm::dvec3 offset_of(const MountConfig& mount, uint32_t track) const;
@@ -97,8 +75,6 @@ struct World::State {
   glm::dvec3 mounted_position(const MountedEnd& end, const Pose& pose) const;
   EndState mounted_state(const MountedEnd& end, const VehicleState& vehicle) const;
   void set_links(const LinksConfig& config);
-  void set_twins();
-  void set_clock(const TimeConfig& config);
   double from_ground_m(const MountedEnd& end) const;
   void set_reach(const glm::dvec3& origin_m);
   void warn_outside(const Scene& scene);
@@ -106,14 +82,6 @@ struct World::State {
   WorldState live_state(double time_s, const std::vector<PlacedPose>& placed) const;
   void set_names(const std::vector<std::string>& ids, LiveFrame& frame) const;
 };
-
-void World::State::add_standing(EndsOfRole& role, const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
-  role.ends = ends;
-  for (const RadioEnd& end : ends)
-    role.standing.push_back({.position_m = vector_of(end.position_m) - origin_m,
-                             .rotation = rotation_of(end.orientation_deg),
-                             .velocity_m_s = vector_of(end.velocity_m_s)});
-}
 
 void World::State::add_instances(VehicleModels& vehicles, const Scene& scene) {
   uint64_t next_surface = scene.surfaces.size(), next_wedge = scene.wedges.size();
@@ -227,56 +195,6 @@ void World::State::set_links(const LinksConfig& config) {
   links = LinkRules(config, side(transmitters), side(receivers));
 }
 
-// A transmitter and a receiver are one end where they stand in one place, or on one vehicle in one place.
-void World::State::set_twins() {
-  using PlaceKey = std::tuple<uint32_t, bool, double, double, double>;
-  const auto place = [](const EndsOfRole& role, size_t i) {
-    const bool stands = i < role.standing.size();
-    if (stands) {
-      const glm::dvec3& p = role.standing[i].position_m;
-      return PlaceKey{no_vehicle, false, p.x, p.y, p.z};
-    }
-    const MountedEnd& end = role.mounted[i - role.standing.size()];
-    return PlaceKey{end.track, end.above_ground, end.offset_m.x, end.offset_m.y, end.offset_m.z};
-  };
-  receiver_of_transmitter.assign(transmitters.ends.size(), no_end);
-  transmitter_of_receiver.assign(receivers.ends.size(), no_end);
-  std::map<PlaceKey, uint32_t> at;
-  for (uint32_t rx = 0; rx < receivers.ends.size(); ++rx) at.emplace(place(receivers, rx), rx);
-  for (uint32_t tx = 0; tx < transmitters.ends.size(); ++tx) {
-    const auto found = at.find(place(transmitters, tx));
-    if (found == at.end() || transmitter_of_receiver[found->second] != no_end) continue;
-    receiver_of_transmitter[tx] = found->second;
-    transmitter_of_receiver[found->second] = tx;
-  }
-}
-
-void World::State::set_clock(const TimeConfig& config) {
-  if (trajectories.tracks.empty() || live) {
-    clock.emplace(0, 0, 1);
-    return;
-  }
-  const double first_s = trajectories.first_time_s, last_s = trajectories.last_time_s;
-  const double start_s = config.start_s.value_or(first_s), end_s = config.end_s.value_or(last_s);
-  if (start_s > last_s + time_tolerance_s(last_s) || end_s < first_s - time_tolerance_s(first_s))
-    throw ConfigError(
-        fmt::format("[time] {}, and the trajectories go from {} to {} s: no frame would have a vehicle; "
-                    "give a time.start_s and a time.end_s within that range, or leave both out",
-                    range_in_words(config), time_text(first_s), time_text(last_s)));
-  const double step_s = config.step_s.value_or(trajectories.step_s);
-  if (!(step_s > 0) && start_s != end_s)
-    throw ConfigError(
-        "time.step_s is not given, and no vehicle has two samples from which it follows: give time.step_s");
-  clock.emplace(start_s, end_s, step_s > 0 ? step_s : 1);
-  const double frames = static_cast<double>(clock->frame_count()), step = clock->step_s();
-  const double before = std::clamp(std::ceil((first_s - time_tolerance_s(first_s) - start_s) / step), 0.0, frames);
-  const double until = std::clamp(std::floor((last_s + time_tolerance_s(last_s) - start_s) / step) + 1, before, frames);
-  if (const double empty = frames - (until - before); empty > 0)
-    warnings.push_back(
-        fmt::format("{} of {} frames have no vehicle: [time] {}, and the trajectories go from {} to {} s", empty,
-                    frames, range_in_words(config), time_text(first_s), time_text(last_s)));
-}
-
 // How far the ground below an antenna may be from its vehicle.
 double World::State::from_ground_m(const MountedEnd& end) const {
   if (!end.above_ground) return 0;
@@ -336,14 +254,17 @@ World::World(const Config& config, const Scene& scene) : state_(std::make_unique
   for (Track& track : s.trajectories.tracks)
     for (Sample& sample : track.samples) sample.position_m -= scene.origin_m;
   s.warnings = s.trajectories.warnings;
-  s.add_standing(s.transmitters, standing_transmitters(config, places), scene.origin_m);
-  s.add_standing(s.receivers, standing_receivers(config, scene, places), scene.origin_m);
+  s.transmitters = standing_ends(standing_transmitters(config, places), scene.origin_m);
+  s.receivers = standing_ends(standing_receivers(config, scene, places), scene.origin_m);
   s.add_instances(vehicles, scene);
   for (std::string& warning : model_warnings(s.models, scene)) s.warnings.push_back(std::move(warning));
   s.add_mounts(config.mounts, scene.origin_m);
   s.set_links(config.links);
-  s.set_twins();
-  s.set_clock(config.time);
+  s.twins = find_twins(s.transmitters, s.receivers);
+  if (s.live || s.trajectories.tracks.empty())
+    s.clock.emplace(0, 0, 1);
+  else
+    s.clock.emplace(make_clock(config.time, s.trajectories, s.warnings));
   s.set_reach(scene.origin_m);
   if (!s.live) s.warn_outside(scene);
 }
@@ -362,8 +283,8 @@ uint64_t World::frame_count() const { return state_->clock->frame_count(); }
 double World::time_s(uint64_t frame) const { return state_->clock->time_s(frame); }
 double World::step_s() const { return state_->clock->step_s(); }
 double World::reach_m() const { return state_->reach_m; }
-const std::vector<uint32_t>& World::receiver_of_transmitter() const { return state_->receiver_of_transmitter; }
-const std::vector<uint32_t>& World::transmitter_of_receiver() const { return state_->transmitter_of_receiver; }
+const std::vector<uint32_t>& World::receiver_of_transmitter() const { return state_->twins.receiver_of_transmitter; }
+const std::vector<uint32_t>& World::transmitter_of_receiver() const { return state_->twins.transmitter_of_receiver; }
 const std::vector<std::string>& World::warnings() const { return state_->warnings; }
 
 WorldState World::State::state(double time_s, const std::vector<VehicleState>& vehicles) const {

@@ -47,8 +47,8 @@ class VehicleModels {
   std::vector<Scene> models_;
 };
 
-// What was said of the files of models when they were read, and of sizes that no vehicle has; each once, and nothing
-// that was said of the scene.
+// Lists what was said of the files of models when they were read, and of sizes that no vehicle has; each once, and
+// nothing that was said of the scene.
 std::vector<std::string> model_warnings(const std::vector<Scene>& models, const Scene& scene);
 
 }  // namespace wavetracer

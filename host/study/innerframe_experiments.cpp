@@ -109,10 +109,9 @@ CacheFigure innerframe_figure(const std::string& name, Directions directions) {
 constexpr const char* innerframe_paragraph =
     "The thesis expects that of a group of coherent rays inside a frame only one need be traced (sections 1.1 and "
     "3.2.2), after Popov, who groups paths by quantised ends, controls the error by |A(e)| |A(l)| = C_E^2 / (P(e) P(l) "
-    "N) (equation 2.3), and traces up to 50 times fewer rays and renders 2.5 to 6.7 times as fast (section 2.1); "
-    "it measures none of it. For a cell of directions, C_E is the root of the rays that a launch has in it. Measured "
-    "on {device} "
-    "with cache.innerframe";
+    "N) (equation 2.3), and traces up to 50 times fewer rays and renders 2.5 to 6.7 times as fast (section 2.1); it "
+    "measures none of it. For a cell of directions, C_E is the root of the rays that a launch has in it. Measured on "
+    "{device} with cache.innerframe";
 
 const std::vector<Experiment> innerframe = {
     {.name = "innerframe",

@@ -75,8 +75,7 @@ void require_segments(double segments, const Config& config) {
   if (segments > 0) return;
   throw ConfigError(
       fmt::format("{}no transmitter launches rays in the frames that are measured, because no link is wanted there: "
-                  "see [links], and "
-                  "whether vehicles with antennas are there at [time] start_s",
+                  "see [links], and whether vehicles with antennas are there at [time] start_s",
                   config.file.empty() ? "" : config.file + ": "));
 }
 

@@ -1,5 +1,5 @@
-// Where processes of the program wait for the test (gate.cpp says how), so that what happens next does not depend on
-// who is faster.
+// Gates at which processes of the program wait for the test (gate.cpp says how), so that what happens next does not
+// depend on who is faster.
 #pragma once
 #include <sys/types.h>
 #include <functional>
@@ -9,7 +9,8 @@
 
 class Gate {
  public:
-  // Of programs that are to wait: before a file gets a name with `at` in it, and without `but` if that is given.
+  // The environment of programs that are to wait: before a file gets a name with `at` in it, and without `but` if that
+  // is given.
   std::vector<std::string> at_name(const std::string& at, const std::string& but = "") const;
   // Before a folder is synced.
   std::vector<std::string> at_sync() const;

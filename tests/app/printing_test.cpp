@@ -1,4 +1,4 @@
-// What the program prints arrives, or the exit code says that it did not; what is written by the name of a pipe or a
+// Output of the program arrives, or the exit code says that it did not; what is written by the name of a pipe or a
 // device goes there. The shell leads standard output to /dev/full, which no write reaches.
 #include <doctest/doctest.h>
 #include <sys/stat.h>

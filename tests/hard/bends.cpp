@@ -39,8 +39,8 @@ Config traced(const Bend& bend, const SceneFile& file, const Points& transmitter
   return config;
 }
 
-// Where waves of up to five reflections end, for a source at this azimuth: reflection unfolds, so a wave is a straight
-// line past the edge, and receivers are at its end if their azimuths, unfolded, are pi from the source's.
+// Returns where waves of up to five reflections end, for a source at this azimuth: reflection unfolds, so a wave is a
+// straight line past the edge, and receivers are at its end if their azimuths, unfolded, are pi from the source's.
 std::vector<double> boundaries_of(double in_rad, double exterior_rad) {
   std::vector<double> out;
   for (int turns = 0; turns <= 2; ++turns)
@@ -86,8 +86,8 @@ HardCase across_boundaries(const std::string& device, const Bend& bend, double i
   return out;
 }
 
-// What both faces reflect and the edge diffracts, in steps of a centimetre through the mirror image of a source that is
-// 110 m away: of a plane wall it would be the image.
+// Sums what both faces reflect and the edge diffracts, in steps of a centimetre through the mirror image of a source
+// that is 110 m away: of a plane wall it would be the image.
 HardCase along_a_line(const std::string& device, double bent_rad, bool lying) {
   const double c = std::cos(bent_rad), s = std::sin(bent_rad);
   const auto turned = [&](double x, double y, double z) { return lying ? glm::dvec3{x, z, -y} : glm::dvec3{x, y, z}; };
@@ -110,7 +110,7 @@ HardCase along_a_line(const std::string& device, double bent_rad, bool lying) {
   return out;
 }
 
-// Where the diffracted wave of a corner is left out, it is faint.
+// A diffracted wave of a corner that is left out is faint.
 HardCase left_out(const std::string& device, const Bend& bend) {
   const double exterior_rad = glm::radians(bend.exterior_deg);
   Points receivers;

@@ -106,7 +106,7 @@ inline size_t geometrical_paths(const Paths& paths, uint32_t tx, uint32_t rx) {
   return count;
 }
 
-// How far receivers stand from a shadow boundary, along the circle about the edge: exactly on it, 1 nm beside it and
+// The distances of receivers from a shadow boundary, along the circle about the edge: exactly on it, 1 nm beside it and
 // twice as far each time, to 0.03 mm. The first and the last, at 1 mm, are clear of it on either side.
 inline std::vector<double> boundary_steps() {
   std::vector<double> out{0};

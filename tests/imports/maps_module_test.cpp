@@ -16,7 +16,7 @@ TEST_CASE("without the module the message says what to do, the exit code is 1, a
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.geojson", R"({"type":"FeatureCollection","features":[]})");
   const std::string program = wavetracer::test::program(), log = (folder.path() / "log").string();
-  // What the program says, with what the loader opens (LD_DEBUG=files); variables: of its environment.
+  // Returns what the program says, with what the loader opens (LD_DEBUG=files); variables: of its environment.
   const auto said = [&](const std::string& variables) {
     const int status = std::system(fmt::format("{} LD_DEBUG=files '{}' convert '{}' -o '{}' > '{}' 2>&1", variables,
                                                program, file.string(), (folder.path() / "out").string(), log)

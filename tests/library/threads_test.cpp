@@ -57,7 +57,7 @@ void run_threads(unsigned count, const std::function<void()>& body) {
   for (std::thread& thread : threads) thread.join();
 }
 
-// How a forked process ends that does this; one that hangs is ended after half a minute.
+// Returns how a forked process ends that does this; one that hangs is ended after half a minute.
 int forked(const std::function<int()>& body, bool at_once) {
   const pid_t child = fork();
   if (child == 0) {

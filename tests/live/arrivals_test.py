@@ -5,15 +5,10 @@ import math
 import random
 import sys
 
-from live_server import CONFIG, Server, frame, vehicle
+from live_server import CONFIG, Server, expect, frame, vehicle
 
 SMALL = ["trace.rays=2000", "trace.max_depth=2"]
 AUTO = ["trace.rays='auto'", "trace.max_depth=2", "trace.max_rays=50000"]
-
-
-def expect(condition, what):
-    if not condition:
-        raise SystemExit(f"failed: {what}")
 
 
 def finite(answer):

@@ -5,7 +5,7 @@ import re
 import subprocess
 import sys
 
-from live_server import SOURCE, Server
+from live_server import SOURCE, Server, expect
 
 sys.path.insert(0, os.path.join(SOURCE, "docs/examples"))
 import live_client
@@ -29,11 +29,6 @@ rays = 10000
 max_depth = 2
 reuse = false
 """
-
-
-def expect(condition, what):
-    if not condition:
-        raise SystemExit(f"failed: {what}")
 
 
 def poses(step):

@@ -9,12 +9,7 @@ import sys
 import tempfile
 import time
 
-from live_server import PROGRAM, Server, frame, vehicle
-
-
-def expect(condition, what):
-    if not condition:
-        raise SystemExit(f"failed: {what}")
+from live_server import Server, expect, frame, vehicle
 
 
 def alive(server):

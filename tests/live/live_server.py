@@ -123,3 +123,15 @@ def vehicle(name, x, y, yaw_deg=0, kind="passenger", **more):
 
 def frame(number, time_s, vehicles, **more):
     return {"message": "frame", "frame": number, "time_s": time_s, "vehicles": vehicles, **more}
+
+
+# An instant of two cars and a truck on the streets of CONFIG.
+POSES = [vehicle("ego", 3, -60, 90, velocity_m_s=[0, 10, 0], angular_velocity_rad_s=[0, 0, 0]),
+         vehicle("other", -3, -30, -90, velocity_m_s=[0, -15, 0], angular_velocity_rad_s=[0, 0, 0]),
+         vehicle("lorry", -20, 3, 180, "truck", velocity_m_s=[-8, 0, 0], angular_velocity_rad_s=[0, 0, 0])]
+
+
+def expect(condition, what):
+    """Ends the test where the condition is false; what: said then."""
+    if not condition:
+        raise SystemExit(f"failed: {what}")

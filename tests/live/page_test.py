@@ -7,12 +7,7 @@ import shutil
 import tempfile
 import time
 
-from live_server import Server, frame, vehicle
-
-
-def expect(condition, what):
-    if not condition:
-        raise SystemExit(f"failed: {what}")
+from live_server import Server, expect, frame, vehicle
 
 
 def meta_of(page):

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-from live_server import CONFIG, PROGRAM, SOURCE, Client, Server, frame, vehicle
+from live_server import CONFIG, POSES, PROGRAM, SOURCE, Server, expect, frame, vehicle
 
 # A drive of one frame: ego looks along +y, other meets it, a truck turns the corner.
 TRACKS = """
@@ -29,14 +29,6 @@ start_s = 0.0
 end_s = 0.0
 step_s = 0.1
 """
-POSES = [vehicle("ego", 3, -60, 90, velocity_m_s=[0, 10, 0], angular_velocity_rad_s=[0, 0, 0]),
-         vehicle("other", -3, -30, -90, velocity_m_s=[0, -15, 0], angular_velocity_rad_s=[0, 0, 0]),
-         vehicle("lorry", -20, 3, 180, "truck", velocity_m_s=[-8, 0, 0], angular_velocity_rad_s=[0, 0, 0])]
-
-
-def expect(condition, what):
-    if not condition:
-        raise SystemExit(f"failed: {what}")
 
 
 def same_as_run():

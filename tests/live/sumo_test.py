@@ -9,7 +9,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as tree
 
-from live_server import SOURCE, Server
+from live_server import SOURCE, Server, expect
 
 CONFIG = """
 [scene]
@@ -27,11 +27,6 @@ max_depth = 1
 ROUTES = """<routes><vType id="car" vClass="passenger" length="5" sigma="0"/>
 <route id="r" edges="A1B1 B1B0"/><vehicle id="first" type="car" route="r" depart="0"/>
 <vehicle id="second" type="car" route="r" depart="3"/></routes>"""
-
-
-def expect(condition, what):
-    if not condition:
-        raise SystemExit(f"failed: {what}")
 
 
 def main():

@@ -5,16 +5,7 @@ import json
 import socket
 import sys
 
-from live_server import Server, frame, vehicle
-
-POSES = [vehicle("ego", 3, -60, 90, velocity_m_s=[0, 10, 0], angular_velocity_rad_s=[0, 0, 0]),
-         vehicle("other", -3, -30, -90, velocity_m_s=[0, -15, 0], angular_velocity_rad_s=[0, 0, 0]),
-         vehicle("lorry", -20, 3, 180, "truck", velocity_m_s=[-8, 0, 0], angular_velocity_rad_s=[0, 0, 0])]
-
-
-def expect(condition, what):
-    if not condition:
-        raise SystemExit(f"failed: {what}")
+from live_server import POSES, Server, expect, frame, vehicle
 
 
 def lines_of(*messages):

@@ -95,7 +95,7 @@ TEST_CASE("devices are written to and stay devices; a full one is an error") {
     CHECK(type_of(null) == fs::file_type::character);
     CHECK_THROWS_WITH_AS(write_file(full, "text"), doctest::Contains("No space left"), RuntimeError);
     CHECK(type_of(full) == fs::file_type::character);
-    // Of files that appear together, an error takes back those that are files.
+    // An error takes back those of files that appear together, if they are plain files.
     std::vector<PendingFile> files;
     for (const char* name : {"first", "null", "full"})
       files.emplace_back(folder.path() / name, std::as_bytes(std::span(std::string_view("text"))));

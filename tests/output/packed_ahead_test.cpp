@@ -142,7 +142,7 @@ TEST_CASE("threads of low priority do tasks in their order, and none after they 
   threads.enqueue([&] { done.push_back(1); });
   while (!begun) std::this_thread::yield();
   std::thread stopping([&] { threads.stop(); });
-  // What is enqueued and dropped at once, instead of being kept with the others, tells that stop() has begun.
+  // A task that is enqueued and dropped at once, instead of being kept with the others, tells that stop() has begun.
   for (bool stopped = false; !stopped; std::this_thread::yield()) {
     const auto kept = std::make_shared<int>(0);
     threads.enqueue([kept] {});

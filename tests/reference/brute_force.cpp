@@ -119,7 +119,7 @@ bool bends_rightly(const Scene& scene, const Vertex& vertex, const dvec3& before
   return in_free_sector(wedge, vertex.point, before) && in_free_sector(wedge, vertex.point, after);
 }
 
-// Where the leg between a vertex and its neighbour begins: away from the face of a wedge that it is nearer to.
+// Returns where the leg between a vertex and its neighbour begins: away from the face of a wedge that it is nearer to.
 Stop stop_at(const Scene& scene, const Vertex& vertex, const dvec3& neighbour) {
   if (vertex.kind == reflection) {
     const Surface& surface = scene.surfaces[vertex.number];

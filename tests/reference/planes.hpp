@@ -28,7 +28,7 @@ struct Passage {
   glm::dvec3 point{0};
 };
 
-// Where a leg begins or ends.
+// The point where a leg begins or ends.
 struct Stop {
   glm::dvec3 point{0};
   bool antenna = true;            // else an interaction

@@ -54,7 +54,7 @@ inline RawMesh cells(const Cells& c, const Height& height, const dvec3& corner =
 
 inline const Height road = [](double x, double y) { return 0.021347 * x + 0.024719 * y; };
 
-// Of a scene: the largest distance of a corner from the plane of its surface.
+// The largest distance of a corner of a scene from the plane of its surface.
 inline double off_plane_m(const Scene& s) {
   double out_m = 0;
   for (uint32_t t = 0; t < s.triangles.size(); ++t) {

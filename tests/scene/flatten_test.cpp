@@ -51,7 +51,7 @@ TEST_CASE("a sloping road with few decimals, or with noise, is one plane near th
     }
     CHECK(worst_m < 1.5e-4);
   }
-  // What is beyond the tolerance is not called one plane.
+  // Triangles beyond the tolerance are not called one plane.
   CHECK(build({cells({.noise_m = 3e-3}, road)}, {}, cells_tolerance_m).surfaces.size() > 100);
   const Scene as_it_is = build({cells({.decimals = 3}, road)}, {}, 0);
   CHECK(as_it_is.surfaces.size() > 10);

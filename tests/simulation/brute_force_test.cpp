@@ -17,7 +17,7 @@ namespace {
 // tx, rx, kinds of interactions, surfaces and wedges
 using Key = std::tuple<uint32_t, uint32_t, std::vector<uint8_t>, std::vector<uint32_t>>;
 
-// Of the path whose vertices are first to end.
+// The key of the path whose vertices are first to end.
 Key key_of(uint32_t tx, uint32_t rx, const std::vector<uint8_t>& kinds, const std::vector<uint32_t>& surfaces,
            uint64_t first, uint64_t end) {
   const auto part = [&](const auto& values) {
@@ -216,8 +216,8 @@ TEST_CASE("a town of rounded cells, order 3: its walls are surfaces") {
     const std::vector<Quad> quads = town(2, 2, seed);
     const RoundedFile file(quads, 3);
     const Simulation simulation(config_of(file.path(), {{0.4, 14.1, 4.3}}, {{1, 2, 3}}, 1000, 1));
-    // Of 1,200 triangles. One wall of the second town is two surfaces: its cells are within 0.1 mm of two planes that
-    // differ by 12 microradians, and what is as flat as that is not moved.
+    // The town has 1,200 triangles. One wall of the second town is two surfaces: its cells are within 0.1 mm of two
+    // planes that differ by 12 microradians, and what is as flat as that is not moved.
     CHECK(simulation.scene().surfaces.size() == quads.size() + (seed == 8 ? 1 : 0));
     Random random(seed + 10);
     Points receivers;

@@ -1,4 +1,4 @@
-// Which antennas launch through a window, and that nothing of the scene or of its vehicles is beside it.
+// Tests which antennas launch through a window, and that nothing of the scene or of its vehicles is beside it.
 #include "simulation/launch_windows.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,5 @@
-// Where the theory of diffraction ends: edges within a wavelength of an antenna, of another edge, and shorter ones.
+// Tests where the theory of diffraction ends: edges within a wavelength of an antenna, of another edge, and shorter
+// ones.
 #include "simulation/bends.hpp"
 
 using namespace wavetracer;

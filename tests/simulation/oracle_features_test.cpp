@@ -74,7 +74,7 @@ double distance_m(const dvec3& p, const dvec3& a, const dvec3& b) {
   return glm::distance(p, a + way * std::clamp(glm::dot(p - a, way) / glm::dot(way, way), 0.0, 1.0));
 }
 
-// Of more than least_rad of free space.
+// Is the point on a wedge with more than least_rad of free space?
 bool on_wedge(const Scene& scene, const dvec3& p, double within_m, double least_rad) {
   return std::ranges::any_of(scene.wedges, [&](const Wedge& w) {
     return w.exterior_rad > least_rad && distance_m(p, w.start, w.start + w.along * w.length_m) <= within_m;

@@ -135,7 +135,7 @@ typedef struct {
   wt_uint capacity;
 } wt_wedge_prefixes_arguments;
 
-// Of wedge_join and wedge_pairs: `lanes` work-items take one of the prefixes first to end - 1, in their order, as that
+// For wedge_join and wedge_pairs: `lanes` work-items take one of the prefixes first to end - 1, in their order, as that
 // of the transmitter.
 typedef struct {
   wt_uint count;  // of all prefixes

@@ -145,7 +145,7 @@ inline wt_double2 wt_boundary_term(double epsilon, double n, double root_2kl) {
   return wt_transition_over_root(root_2kl * sine) * copysign(ratio, epsilon);
 }
 
-// How a ray turns at the edge: the azimuths of its source and its receiver, and the boundaries that are nearest.
+// The turn of a ray at the edge: the azimuths of its source and its receiver, and the boundaries that are nearest.
 typedef struct {
   double in, away;
   wt_boundary boundaries[WT_BOUNDARIES];
@@ -165,7 +165,7 @@ inline int wt_has_wave(const wt_wedge_frame* wedge, wt_boundary boundary) {
   return wedge->exterior < WT_PI || (boundary.image >= -1 && boundary.image <= 1);
 }
 
-// What is known of the waves at the boundaries of a turn, in their order.
+// Describes the waves at the boundaries of a turn, in their order.
 typedef struct {
   int lit[WT_BOUNDARIES];  // does the wave reach the receiver? -1: not known
   double undecided;        // radians; no farther from a boundary angles leave the side to what is known

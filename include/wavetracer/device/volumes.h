@@ -52,7 +52,7 @@ inline int wt_left_of(wt_double2 a, wt_double2 b, double area) {
   return a.x < b.x;
 }
 
-// Where the line of a leg passes a triangle of a closed mesh, in metres from the beginning of the leg, and which way.
+// Finds where the line of a leg passes a triangle of a closed mesh, in metres from its beginning, and which way.
 typedef struct {
   double at_m;
   int side;  // 1: it leaves the mesh there, -1: it enters, 0: it passes the triangle by
@@ -84,8 +84,9 @@ inline wt_crossing wt_crossing_at(const WT_GLOBAL double* triangle, wt_double3 f
   return out;
 }
 
-// How much nearer than its end the leg leaves (or, negative, enters) a closed mesh by this triangle. Summed over all
-// triangles that is the length inside: what enters before the leg begins counts 0, what leaves after its end all of it.
+// Returns how much nearer than its end the leg leaves (or, negative, enters) a closed mesh by this triangle. Summed
+// over all triangles that is the length inside: what enters before the leg begins counts 0, what leaves after its end
+// all of it.
 inline double wt_leaves_at(const WT_GLOBAL double* triangle, wt_double3 from, wt_double3 along, double length_m,
                            wt_uint axis) {
   const wt_crossing c = wt_crossing_at(triangle, from, along, axis);
@@ -135,7 +136,7 @@ inline wt_share wt_share_inside(const WT_GLOBAL wt_volume* volume, wt_double3 fr
   return share;
 }
 
-// How much of the leg is inside of the volume, in metres. triangles: nine doubles each, of all meshes.
+// Returns how much of the leg is inside of the volume, in metres. triangles: nine doubles each, of all meshes.
 inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_double3 from,
                                wt_double3 to) {
   const wt_double3 leg = to - from;
@@ -235,7 +236,7 @@ inline int wt_meets_earlier(wt_volumes all, wt_uint volume, wt_leg leg, wt_share
   return 0;
 }
 
-// How much of the leg is in the space of this volume, in metres: inside of it, and of none before it.
+// Returns how much of the leg is in the space of this volume, in metres: inside of it, and of none before it.
 inline double wt_length_in_space(wt_volumes all, wt_uint volume, wt_double3 from, wt_double3 to) {
   const WT_GLOBAL wt_volume* own = all.volumes + volume;
   const double whole_m = wt_length_inside(own, all.triangles, from, to);
