@@ -42,7 +42,7 @@ Server::Server(Simulation& simulation, const Listener& listener, std::string tok
 
 void Server::run(const std::function<bool()>& stop) {
   while (!stop()) {
-    wait(Clock::now());
+    const bool knocks = wait(Clock::now());
     const Clock::time_point now = Clock::now();
     take_lines(now);
     take_answer(now);
@@ -55,14 +55,15 @@ void Server::run(const std::function<bool()>& stop) {
       if (client->gone()) log_(fmt::format("client {} left", client->number()));
       return client->gone();
     });
+    if (knocks) accept(now);  // after those who left have given up their places
     give_next();
   }
   const Clock::time_point now = Clock::now();
   for (const auto& client : clients_) client->end(bye_line("the server stops"), now);
 }
 
-// Waits for whatever comes first, and moves bytes.
-void Server::wait(Clock::time_point now) {
+// Waits for whatever comes first, and moves bytes. Returns true where somebody wants to connect.
+bool Server::wait(Clock::time_point now) {
   std::vector<pollfd> polled{
       {listener_.descriptor(), POLLIN, 0}, {solver_.descriptor(), POLLIN, 0}, {parser_.descriptor(), POLLIN, 0}};
   const size_t first = polled.size();
@@ -72,7 +73,7 @@ void Server::wait(Clock::time_point now) {
     if (const auto pause = client->pause(now)) timeout = std::min(timeout, *pause);
   }
   const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
-  if (poll(polled.data(), polled.size(), static_cast<int>(milliseconds)) <= 0) return;
+  if (poll(polled.data(), polled.size(), static_cast<int>(milliseconds)) <= 0) return false;
   const Clock::time_point woken = Clock::now();
   for (size_t i = 0; i < clients_.size(); ++i) {
     const short events = polled[first + i].revents;
@@ -82,7 +83,7 @@ void Server::wait(Clock::time_point now) {
       clients_[i]->hang_up();
     if (events & POLLOUT) clients_[i]->send(woken);
   }
-  if (polled[0].revents) accept(woken);
+  return polled[0].revents != 0;
 }
 
 void Server::accept(Clock::time_point now) {

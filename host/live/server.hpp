@@ -52,7 +52,7 @@ class Server {
   void give_next();
   // Says the refusals that no frame is before any more; false where there was none.
   bool flush_refusals(Client& client, Clock::time_point now);
-  void wait(Clock::time_point now);
+  bool wait(Clock::time_point now);
   void end(Client& client, std::string_view code, const std::string& text, Clock::time_point now);
   // The same, without words where many are being told already.
   void turn_away(Client& client, std::string_view code, const std::string& text, Clock::time_point now);
