@@ -1,4 +1,5 @@
-// occlusion: is a leg of a solved path obstructed? One leg per work-item; lib/legs.clh has the rule.
+// occlusion: is a leg of a solved path obstructed? One leg per work-item; lib/legs.clh has the rule. The first legs of
+// all paths come first, so that neighbours traverse alike, and later legs find most of what is hidden already decided.
 // Consumes solved paths; sets wt_solved::blocked. wedges, surface_of_tile: see lib/leg.clh. blockers: where given, what
 // hides a path is noted there.
 #include "lib/blockers.clh"
@@ -11,7 +12,7 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
                       const global double* vertices, const global uint* sequences, const global wt_wedge* wedges,
                       const global uint* surface_of_tile, global uint* blockers, const global wt_counters* counters,
                       wt_legs_arguments args) {
-  const uint i = get_global_id(0) / (args.max_depth + 1), leg = get_global_id(0) % (args.max_depth + 1);
+  const uint i = get_global_id(0) % args.solved_count, leg = get_global_id(0) / args.solved_count;
   if (i >= wt_length(counters, args.solved_counter, args.solved_count) || leg > solved[i].depth) return;
   // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One
   // that comes too soon to see it does no harm.
