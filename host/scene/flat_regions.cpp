@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
 
 #include "scene/curved_regions.hpp"
 #include "scene/flat_neighbours.hpp"
@@ -36,29 +35,13 @@ class RegionGrower {
   }
 
   std::vector<FlatRegion> grow() {
-    std::vector<uint32_t> order(shapes_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [this](uint32_t a, uint32_t b) { return comes_before(a, b); });
-    for (const uint32_t seed : order) {
+    for (const uint32_t seed : largest_first(scene_, shapes_)) {
       if (region_of_[seed] == no_region) grow_from(seed);
     }
     return std::move(regions_);
   }
 
  private:
-  // The larger triangle first; of equal ones by place, not by number.
-  bool comes_before(uint32_t a, uint32_t b) const {
-    if (shapes_[a].area_m2 != shapes_[b].area_m2) return shapes_[a].area_m2 > shapes_[b].area_m2;
-    const dvec3 p = corner_sum(a), q = corner_sum(b);
-    for (int k = 0; k < 3; ++k)
-      if (p[k] != q[k]) return p[k] < q[k];
-    return a < b;
-  }
-  dvec3 corner_sum(uint32_t t) const {
-    const auto& [a, b, c] = scene_.triangles[t];
-    return scene_.vertices[a] + scene_.vertices[b] + scene_.vertices[c];
-  }
-
   void grow_from(uint32_t seed) {
     current_ = static_cast<uint32_t>(regions_.size());
     FlatRegion& region = regions_.emplace_back();

@@ -30,12 +30,12 @@ class Flattener {
     Flattened out = move();
     while (give_up()) out = move();
     for (uint32_t r = 0; r < regions_.size(); ++r) {
-      if (regions_[r].exact) continue;
+      std::vector<uint32_t>& plane_of = regions_[r].exact ? out.exact_plane : out.triangle_plane;
       for (const uint32_t t : regions_[r].triangles) {
         if (has_lost(r, t))
-          ++out.left_out;
+          out.left_out += !regions_[r].exact;
         else
-          out.triangle_plane[t] = static_cast<uint32_t>(out.planes.size());
+          plane_of[t] = static_cast<uint32_t>(out.planes.size());
       }
       out.planes.push_back(regions_[r].plane);
     }
@@ -114,6 +114,7 @@ class Flattener {
     Flattened out;
     out.vertices = scene_.vertices;
     out.triangle_plane.assign(scene_.triangles.size(), no_plane);
+    out.exact_plane.assign(scene_.triangles.size(), no_plane);
     lost_.assign(regions_.size(), {});
     for (uint32_t v = 0; v < scene_.vertices.size(); ++v) {
       if (!must_move(v)) continue;

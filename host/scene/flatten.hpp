@@ -14,9 +14,10 @@ namespace wavetracer {
 constexpr uint32_t no_plane = 0xFFFFFFFFu;
 
 struct Flattened {
-  std::vector<glm::dvec3> vertices;      // as many as before
-  std::vector<Plane> planes;             // whose vertices were moved
-  std::vector<uint32_t> triangle_plane;  // per triangle: into planes, or no_plane; its corners lie in that plane
+  std::vector<glm::dvec3> vertices;  // as many as before
+  std::vector<Plane> planes;
+  std::vector<uint32_t> triangle_plane;  // per triangle: into planes, or no_plane; its corners were moved into it
+  std::vector<uint32_t> exact_plane;     // per triangle: into planes, or no_plane; it lies within 0.1 mm of it as it is
   uint64_t moved = 0;                    // vertices
   double farthest_m = 0;                 // that one of them was moved
   uint64_t left_out = 0;                 // triangles of planes that a corner could not be put onto

@@ -23,54 +23,72 @@ class SurfaceGrower {
         material_(material),
         triangle_edges_(triangle_edges),
         flat_(flat),
-        seed_of_(scene.triangles.size(), unassigned) {
+        seed_of_(scene.triangles.size(), unassigned),
+        in_exact_(scene.triangles.size(), false) {
     shapes_.reserve(scene.triangles.size());
     for (uint32_t t = 0; t < scene.triangles.size(); ++t) shapes_.push_back(triangle_shape(scene, t));
   }
 
   // The seed of every triangle's surface.
   std::vector<uint32_t> grow() {
-    std::vector<uint32_t> order(shapes_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [this](uint32_t a, uint32_t b) {
-      return shapes_[a].area_m2 != shapes_[b].area_m2 ? shapes_[a].area_m2 > shapes_[b].area_m2 : a < b;
-    });
-    for (uint32_t seed : order) {
+    for (const uint32_t seed : largest_first(scene_, shapes_)) {
       if (seed_of_[seed] == unassigned) grow_from(seed);
     }
     return std::move(seed_of_);
   }
 
+  // The plane of a seed.
   Plane plane_of(uint32_t t) const {
     if (flat_.triangle_plane[t] != no_plane) return flat_.planes[flat_.triangle_plane[t]];
+    return in_exact_[t] ? flat_.planes[flat_.exact_plane[t]] : own_plane(t);
+  }
+
+ private:
+  Plane own_plane(uint32_t t) const {
     const dvec3 n = shapes_[t].area_m2 > 0 ? oriented(shapes_[t].normal) : dvec3(0, 0, 1);  // a strip that went flat
     return {n, glm::dot(n, scene_.vertices[scene_.triangles[t][0]])};
   }
 
- private:
+  // A part of an exact plane has the plane of its seed if all of it lies in that, else the exact one.
   void grow_from(uint32_t seed) {
-    const Plane plane = plane_of(seed);
-    stack_.assign(1, seed);
-    seed_of_[seed] = seed;
-    while (!stack_.empty()) {
-      const uint32_t t = stack_.back();
-      stack_.pop_back();
-      for (uint32_t e : triangle_edges_[t]) {
+    const size_t before = grown_.size();
+    if (grow(seed, plane_of(seed)) || flat_.exact_plane[seed] == no_plane) return;
+    for (size_t i = before; i < grown_.size(); ++i) seed_of_[grown_[i]] = unassigned;
+    grown_.resize(before);
+    in_exact_[seed] = true;
+    grow(seed, plane_of(seed));
+  }
+
+  // False where a neighbour of the same material in the seed's exact plane stays outside.
+  bool grow(uint32_t seed, const Plane& plane) {
+    bool whole = true;
+    const size_t first = grown_.size();
+    take(seed, seed);
+    for (size_t k = first; k < grown_.size(); ++k) {
+      for (uint32_t e : triangle_edges_[grown_[k]]) {
         const Edge& edge = scene_.edges[e];
         for (uint32_t i = 0; i < edge.face_count; ++i) {
           const uint32_t other = scene_.edge_faces[edge.first_face + i];
-          if (seed_of_[other] != unassigned || material_[other] != material_[seed] || !continues(seed, other, plane))
-            continue;
-          seed_of_[other] = seed;
-          stack_.push_back(other);
+          if (seed_of_[other] != unassigned || material_[other] != material_[seed]) continue;
+          if (continues(seed, other, plane))
+            take(other, seed);
+          else
+            whole &= flat_.exact_plane[other] != flat_.exact_plane[seed];
         }
       }
     }
+    return whole;
+  }
+  void take(uint32_t t, uint32_t seed) {
+    seed_of_[t] = seed;
+    grown_.push_back(t);
   }
 
   bool continues(uint32_t seed, uint32_t t, const Plane& plane) const {
     if (flat_.triangle_plane[t] != flat_.triangle_plane[seed]) return false;
-    return flat_.triangle_plane[t] != no_plane || lies_in_plane(scene_, t, shapes_[t], plane);
+    if (flat_.triangle_plane[t] != no_plane || (in_exact_[seed] && flat_.exact_plane[t] == flat_.exact_plane[seed]))
+      return true;
+    return lies_in_plane(scene_, t, shapes_[t], plane);
   }
 
   const Scene& scene_;
@@ -78,7 +96,8 @@ class SurfaceGrower {
   std::span<const std::array<uint32_t, 3>> triangle_edges_;
   const Flattened& flat_;
   std::vector<TriangleShape> shapes_;
-  std::vector<uint32_t> seed_of_, stack_;
+  std::vector<uint32_t> seed_of_, grown_;
+  std::vector<bool> in_exact_;  // per seed: its surface has the exact plane
 };
 
 bool same_plane(const Surface& a, const Surface& b, const dvec3& on_edge) {
@@ -121,6 +140,23 @@ TriangleShape triangle_shape(const Scene& scene, uint32_t t) {
   const double longest = std::max({glm::length(u), glm::length(v), glm::length(v - u)});
   // Divided, not multiplied by a reciprocal: the normals of axis-parallel triangles are exact.
   return {twice_area > 0 ? n / twice_area : dvec3(0), twice_area / 2, longest > 0 ? twice_area / longest : 0};
+}
+
+std::vector<uint32_t> largest_first(const Scene& scene, std::span<const TriangleShape> shapes) {
+  const auto corner_sum = [&](uint32_t t) {
+    const auto& [a, b, c] = scene.triangles[t];
+    return scene.vertices[a] + scene.vertices[b] + scene.vertices[c];
+  };
+  std::vector<uint32_t> order(shapes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    if (shapes[a].area_m2 != shapes[b].area_m2) return shapes[a].area_m2 > shapes[b].area_m2;
+    const dvec3 p = corner_sum(a), q = corner_sum(b);
+    for (int k = 0; k < 3; ++k)
+      if (p[k] != q[k]) return p[k] < q[k];
+    return a < b;
+  });
+  return order;
 }
 
 bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane) {

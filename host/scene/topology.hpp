@@ -32,6 +32,8 @@ struct TriangleShape {
   double area_m2, height_m;
 };
 TriangleShape triangle_shape(const Scene& scene, uint32_t t);
+// All triangles, which have those shapes: the larger one first, of equal ones by place and not by number.
+std::vector<uint32_t> largest_first(const Scene& scene, std::span<const TriangleShape> shapes);
 // Does triangle t, which has that shape, lie in the plane as it is?
 bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane);
 
