@@ -7,7 +7,7 @@ namespace wavetracer::test {
 namespace {
 
 // |R|^2 + |T|^2 of a slab at several angles, less 1; V and H are TM and TE, or the other way round.
-std::vector<double> balances(const std::string& device, double conductivity_s_m, double thickness_m) {
+std::vector<double> balances(const std::string& device, double conductivity_s_m, double thickness_m, double hz) {
   MaterialConfig slab;
   slab.name = "slab";
   slab.permittivity = 5.3;
@@ -21,6 +21,7 @@ std::vector<double> balances(const std::string& device, double conductivity_s_m,
   Config config = config_of(file.path(), {tx}, receivers, 20000, 1);
   config.materials = {slab};
   config.trace.transmission = true;
+  config.radio.frequency_hz = hz;
   const Paths paths = run(config, device).paths;
   std::vector<double> out;
   for (uint32_t rx = 0; rx < receivers.size(); rx += 2)
@@ -29,7 +30,7 @@ std::vector<double> balances(const std::string& device, double conductivity_s_m,
       for (const uint32_t side : {rx, rx + 1})
         for (const size_t row : rows_between(paths, 0, side))
           if (paths.depth[row] == 1)
-            power += std::norm(paths.a[row][port] / friis(paths.delay_s[row] * speed_of_light));
+            power += std::norm(paths.a[row][port] / friis(paths.delay_s[row] * speed_of_light, hz));
       out.push_back(power - 1);
     }
   return out;
@@ -37,9 +38,14 @@ std::vector<double> balances(const std::string& device, double conductivity_s_m,
 
 void add_slabs(const std::string& device, HardCases& cases) {
   double lossless = 0, lossy = -1, dark = 1;
-  for (const double thickness_m : {0.003, 0.02, 0.3}) {
-    for (const double b : balances(device, 0, thickness_m)) lossless = std::max(lossless, std::abs(b));
-    for (const double b : balances(device, 0.05, thickness_m)) {
+  for (const auto& [thickness_m, hz] : {std::pair{0.003, frequency_hz},
+                                        {0.02, frequency_hz},
+                                        {0.3, frequency_hz},
+                                        {0.02, 0.7e9},
+                                        {0.003, 28e9},
+                                        {0.02, 60e9}}) {
+    for (const double b : balances(device, 0, thickness_m, hz)) lossless = std::max(lossless, std::abs(b));
+    for (const double b : balances(device, 0.05, thickness_m, hz)) {
       lossy = std::max(lossy, b);
       dark = std::min(dark, b + 1);
     }

@@ -74,6 +74,24 @@ void add_millionth(const std::string& device, HardCases& cases) {
   }
 }
 
+// Two rays over a conductor, H, at other frequencies: the sum of two spherical waves, the second with -1.
+void add_bands(const std::string& device, HardCases& cases) {
+  const double height_m = 1.5, distance_m = 73;
+  const double straight_m = distance_m, mirrored_m = std::hypot(distance_m, 2 * height_m);
+  for (const double hz : other_bands_hz) {
+    const MeshFile file({ground("conductor", 0, 0)});
+    Config config = config_of(file.path(), {{0, 0, height_m}}, {{distance_m, 0, height_m}}, 20000, 1);
+    config.materials = {material("conductor")};
+    config.radio.frequency_hz = hz;
+    const std::vector<Response> h =
+        responses(run(config, device).paths, 0, 1, std::numeric_limits<double>::infinity(), hz);
+    const auto wave = [&](double m) { return std::polar(friis(m, hz), -2 * pi * hz / speed_of_light * m); };
+    const Complex exact = wave(straight_m) - wave(mirrored_m);
+    cases.push_back({fmt::format("two rays over a conductor, {} m, {} GHz", distance_m, hz / 1e9),
+                     "the sum of both waves, H", std::abs(std::abs(h[0][3]) / std::abs(exact) - 1), 1e-6, "of it"});
+  }
+}
+
 // The same ground, cut otherwise, along the way of a receiver: paths and gains must not change.
 HardCase slivers(const std::string& device) {
   Points receivers;
@@ -90,6 +108,7 @@ HardCase slivers(const std::string& device) {
 HardCases grazing(const std::string& device) {
   HardCases cases;
   add_figures(device, cases);
+  add_bands(device, cases);
   add_millionth(device, cases);
   cases.push_back(slivers(device));
   return cases;

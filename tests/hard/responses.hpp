@@ -22,6 +22,7 @@ using std::numbers::pi;
 
 constexpr double frequency_hz = 5.9e9;  // the default of a configuration
 constexpr double wavelength_m = speed_of_light / frequency_hz;
+constexpr double other_bands_hz[] = {0.7e9, 28e9, 60e9};
 
 // h(f) between ports, element 2 r + t from tx port t to rx port r.
 using Response = std::array<Complex, 4>;
@@ -39,7 +40,7 @@ inline std::vector<Response> responses(const Paths& paths, uint32_t tx, size_t r
   return sums;
 }
 
-inline double friis(double length_m) { return wavelength_m / (4 * pi * length_m); }
+inline double friis(double length_m, double hz = frequency_hz) { return speed_of_light / hz / (4 * pi * length_m); }
 inline double decibels(double amplitude) { return 20 * std::log10(amplitude); }
 
 // The kinds of a path's interactions in order, "" the line of sight: R, S, T, D.
@@ -106,11 +107,13 @@ inline size_t geometrical_paths(const Paths& paths, uint32_t tx, uint32_t rx) {
   return count;
 }
 
-// The distances of receivers from a shadow boundary, along the circle about the edge: exactly on it, 1 nm beside it and
-// twice as far each time, to 0.03 mm. The first and the last, at 1 mm, are clear of it on either side.
-inline std::vector<double> boundary_steps() {
+// The distances of receivers from a shadow boundary, along the circle about the edge: exactly on it, 1 nm beside it,
+// then twice as far each time, but by no more than a phase of 2 milliradians at once, to 0.03 mm. The first and the
+// last, at 1 mm, are clear of it on either side.
+inline std::vector<double> boundary_steps(double hz = frequency_hz) {
   std::vector<double> out{0};
-  for (double d = 1e-9; d < 4e-5; d *= 2) out.insert(out.end(), {-d, d});
+  for (double d = 1e-9; d < 4e-5; d += std::min(d, 2e-3 * speed_of_light / (2 * pi * hz)))
+    out.insert(out.end(), {-d, d});
   out.insert(out.end(), {-1e-3, 1e-3});
   std::sort(out.begin(), out.end());
   return out;
@@ -118,7 +121,7 @@ inline std::vector<double> boundary_steps() {
 
 // The field of tx port t at the receivers of a boundary, seen in steps: its largest deviation from the straight line
 // through the fields of the two receivers before, over its size. A jump is there in full; a smooth field leaves its
-// curvature, of which standing waves have most: (2 k 16 um)^2 / 2, below 5e-5 at 5.9 GHz.
+// curvature, of which standing waves have most: (2 * 2e-3)^2 / 2, that is 8e-6.
 inline double boundary_jump(const std::vector<double>& at_m, const std::vector<Response>& h, size_t first, size_t t) {
   double worst = 0, size = 0;
   for (size_t i = 3; i + 1 < at_m.size(); ++i) {
