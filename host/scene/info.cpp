@@ -97,6 +97,10 @@ std::string describe_scene(const Scene& scene) {
   }
   out += fmt::format("dropped    {} degenerate and {} duplicate triangles; {} vertices welded into others\n",
                      report.degenerate_triangles, report.duplicate_triangles, report.welded_vertices);
+  if (report.covered_m2 > 0)
+    out +=
+        fmt::format("covered    {:.3g} m2 of surfaces, where a smaller one of another material lies in their plane\n",
+                    report.covered_m2);
   if (!scene.volumes.empty()) {
     const auto earlier = earlier_volumes(scene.volumes);
     out += fmt::format("vegetation {} volumes, {} of which may overlap earlier ones: what volumes share counts once\n",
