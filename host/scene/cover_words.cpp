@@ -6,6 +6,10 @@
 
 namespace wavetracer {
 
+std::string area_words(double area_m2) {
+  return area_m2 < 100 ? fmt::format("{:.3g} m2", area_m2) : fmt::format("{:.0f} m2", area_m2);
+}
+
 void SharedPlaces::add(uint32_t cover_material, uint32_t covered_material, bool equally_large, double area_m2) {
   area_m2_[{cover_material, covered_material, equally_large}] += area_m2;
 }
@@ -29,10 +33,10 @@ std::vector<std::string> SharedPlaces::warnings(const Scene& scene) const {
   for (size_t i = 0; i < std::min(lines.size(), most); ++i) {
     const auto& [area_m2, cover, covered, equally_large] = lines[i];
     out.push_back(
-        fmt::format("surfaces of {0} and {1} lie on each other in one plane, on {2:.3g} m2: {0} counts there, because "
+        fmt::format("surfaces of {0} and {1} lie on each other in one plane, on {2}: {0} counts there, because "
                     "{3}. If {1} is "
                     "meant, leave out the {0} there, or draw one of them at least 1 cm in front of the other",
-                    cover, covered, area_m2,
+                    cover, covered, area_words(area_m2),
                     equally_large ? "both surfaces are equally large and its name comes first in the alphabet"
                                   : "its surface is the smaller one, as a road drawn on the ground"));
   }

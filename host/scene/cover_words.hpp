@@ -10,6 +10,9 @@
 
 namespace wavetracer {
 
+// An area in square metres, in three digits or all those before the point.
+std::string area_words(double area_m2);
+
 class SharedPlaces {
  public:
   // Adds a place of so many square metres. equally_large: both surfaces are, so that their materials' names decide.

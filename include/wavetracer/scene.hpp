@@ -36,7 +36,7 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-// Coplanar, edge-connected triangles of one material. The plane is dot(normal, p) = offset_m.
+// Coplanar triangles of one material, connected but for what is cut out. The plane is dot(normal, p) = offset_m.
 struct Surface {
   glm::dvec3 normal{0, 0, 1};
   double offset_m = 0;

@@ -35,8 +35,8 @@ TEST_CASE("a road drawn on the ground reflects as it does alone, to the last bit
 }
 
 TEST_CASE("a body of a vehicle has one material in each place") {
-  const Quad side{{-2, 1, 0.3}, {4, 0, 0}, {0, 0, 1.2}}, window{{-1, 1, 0.8}, {2, 0, 0}, {0, 0, 0.5}};
-  const Part body{{side}, "metal"}, glass{{window}, "glass"};
+  const Part body{{{{-2, 1, 0.3}, {4, 0, 0}, {0, 0, 1.2}}, {{-2, 1, 1.5}, {4, 0, 0}, {0, -2, 0}}}, "metal"},
+      glass{{{{-1, 1, 0.8}, {2, 0, 0}, {0, 0, 0.5}}}, "glass"};  // a window on the side of a body that has a roof
   for (const SceneFile& file : {SceneFile({body, glass}), SceneFile({glass, body})}) {
     Config config;
     config.tracks = {{"ego", "passenger", {{0, 10, 20, 0}, {2, 10, 40, 0}}}};
@@ -47,6 +47,9 @@ TEST_CASE("a body of a vehicle has one material in each place") {
     const World world(config, static_scene());
     const Scene& model = world.models().at(0);
     CHECK(model.report.covered_m2 == doctest::Approx(1));
-    CHECK(model.surfaces.size() == 2);
+    CHECK(model.surfaces.size() == 3);
+    CHECK(std::ranges::count_if(model.report.warnings, [](const std::string& w) {
+            return w.find("glass counts there") != std::string::npos;
+          }) == 1);
   }
 }
