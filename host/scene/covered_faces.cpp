@@ -12,6 +12,7 @@
 #include "scene/coplanar_pairs.hpp"
 #include "scene/cover_cut.hpp"
 #include "scene/cover_order.hpp"
+#include "scene/cover_planes.hpp"
 #include "scene/cover_words.hpp"
 #include "scene/topology.hpp"
 #include "scene/vertex_use.hpp"
@@ -46,6 +47,7 @@ class FaceCovering {
       if (order.covers(scene.triangle_surface[covered], scene.triangle_surface[cover])) std::swap(covered, cover);
       equally_large_.push_back(order.equally_large(scene.triangle_surface[covered], scene.triangle_surface[cover]));
     }
+    share_planes(scene, order, pairs_);
   }
 
   void cut() {

@@ -115,7 +115,7 @@ std::string describe_scene(const Scene& scene) {
                      report.degenerate_triangles, report.duplicate_triangles, report.welded_vertices);
   if (report.covered_m2 > 0)
     out += fmt::format("covered    {} of surfaces, where a smaller one of another material lies in their plane\n",
-                       report.covered_m2);
+                       area_words(report.covered_m2));
   if (!scene.volumes.empty()) {
     const auto earlier = earlier_volumes(scene.volumes);
     out += fmt::format("vegetation {} volumes, {} of which may overlap earlier ones: what volumes share counts once\n",

@@ -209,6 +209,24 @@ TEST_CASE("nothing diffracts at the border of what was cut") {
   test::check_contract(s);
 }
 
+TEST_CASE("a door whose corners are rounded to float32 gets the plane of its wall, and its border is no bend") {
+  const auto rounded = [](double along_m, double z_m) {
+    const dvec3 p(100 + std::cos(0.5) * along_m, 70 + std::sin(0.5) * along_m, z_m);
+    return dvec3(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
+  };
+  const std::vector<Triangle> halves{{0, 1, 2}, {0, 2, 3}};
+  const RawMesh wall = test::mesh({rounded(0, 0), rounded(20, 0), rounded(20, 9), rounded(0, 9)}, halves),
+                door = test::mesh({rounded(4.1, 0.3), rounded(5.1, 0.3), rounded(5.1, 2.3), rounded(4.1, 2.3)}, halves);
+  CHECK(build_painted({{door, "wood"}}).surfaces[0].normal != build_painted({{wall, "brick"}}).surfaces[0].normal);
+  for (const Scene& s :
+       {build_painted({{wall, "brick"}, {door, "wood"}}), build_painted({{door, "wood"}, {wall, "brick"}})}) {
+    REQUIRE(s.surfaces.size() == 2);
+    CHECK(s.surfaces[0].normal == s.surfaces[1].normal);
+    CHECK(s.surfaces[0].offset_m == s.surfaces[1].offset_m);
+    CHECK(s.wedges.size() == 4);  // the rim of the wall
+  }
+}
+
 TEST_CASE("what is covered scatters once") {
   const auto scattering_m2 = [](const Scene& s) {
     double sum = 0;
