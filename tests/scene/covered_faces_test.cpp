@@ -9,76 +9,23 @@
 #include <numeric>
 #include <random>
 
+#include "painted.hpp"
 #include "scene/info.hpp"
 #include "scene/tiles.hpp"
-#include "scene/topology.hpp"
-#include "wedge_check.hpp"
 
 using namespace wavetracer;
 using glm::dvec3;
+using test::area_m2;
 using test::box;
+using test::build_painted;
+using test::cells;
+using test::holds;
+using test::materials_at;
+using test::Painted;
 using test::quad;
+using test::turned_over;
 
 namespace {
-
-// A mesh and the name of its material.
-struct Painted {
-  RawMesh mesh;
-  std::string material;
-};
-
-Scene build_painted(const std::vector<Painted>& parts, double scattering = 0) {
-  RawScene raw;
-  raw.file = "test";
-  ResolvedMaterials resolved;
-  for (const Painted& part : parts) {
-    raw.meshes.push_back(part.mesh);
-    const auto same = std::ranges::find(resolved.materials, part.material, &Material::name);
-    resolved.mesh_material.push_back(static_cast<uint32_t>(same - resolved.materials.begin()));
-    if (same != resolved.materials.end()) continue;
-    Material material{.name = part.material, .scattering = scattering};
-    if (part.material == "leaves") material.vegetation = VegetationLaw{};
-    resolved.materials.push_back(material);
-  }
-  return build_scene(raw, std::move(resolved), EdgeSearch::of_model, 1e-3);
-}
-
-RawMesh turned_over(RawMesh in) {
-  for (Triangle& t : in.triangles) std::swap(t[1], t[2]);
-  return in;
-}
-
-// A rectangle of nu times nv cells, each with a diagonal.
-RawMesh cells(dvec3 corner, dvec3 u, dvec3 v, uint32_t nu, uint32_t nv) {
-  RawMesh out;
-  for (uint32_t j = 0; j <= nv; ++j)
-    for (uint32_t i = 0; i <= nu; ++i) out.vertices.push_back(corner + u * (1.0 * i / nu) + v * (1.0 * j / nv));
-  for (uint32_t j = 0; j < nv; ++j)
-    for (uint32_t i = 0; i < nu; ++i) {
-      const uint32_t a = j * (nu + 1) + i, b = a + 1, c = a + nu + 1, d = c + 1;
-      out.triangles.push_back({a, b, d});
-      out.triangles.push_back({a, d, c});
-    }
-  return out;
-}
-
-double area_m2(const Scene& s, const std::string& material) {
-  double sum = 0;
-  for (uint32_t t = 0; t < s.triangles.size(); ++t)
-    if (s.materials[s.surfaces[s.triangle_surface[t]].material].name == material) sum += triangle_shape(s, t).area_m2;
-  return sum;
-}
-
-// The materials of all triangles within 1 um of a point of the file.
-std::vector<std::string> materials_at(const Scene& s, const dvec3& p) {
-  std::vector<std::string> out;
-  for (uint32_t t = 0; t < s.triangles.size(); ++t) {
-    const auto& [a, b, c] = s.triangles[t];
-    if (test::distance_m(p - s.origin_m, {s.vertices[a], s.vertices[b], s.vertices[c]}) > 1e-6) continue;
-    out.push_back(s.materials[s.surfaces[s.triangle_surface[t]].material].name);
-  }
-  return out;
-}
 
 // All orders of the parts give one material at each of many points of the first one: that of the last part that holds
 // the point. Parts are given from the largest to the smallest, all in the plane of the first.
@@ -96,10 +43,7 @@ void check_in_all_orders(const std::vector<Painted>& parts, const dvec3& corner,
     for (const dvec3& p : points) {
       std::string expected;
       for (const Painted& part : parts)
-        for (const auto& [a, b, c] : part.mesh.triangles) {
-          const std::vector<dvec3>& at = part.mesh.vertices;
-          if (test::distance_m(p, {at[a], at[b], at[c]}) <= 1e-9) expected = part.material;
-        }
+        if (holds(part.mesh, p)) expected = part.material;
       CHECK(materials_at(s, p) == std::vector<std::string>{expected});
     }
   } while (std::ranges::next_permutation(order).found);
