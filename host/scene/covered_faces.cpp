@@ -87,22 +87,48 @@ class FaceCovering {
     for (std::string& warning : places.warnings(scene_)) scene_.report.warnings.push_back(std::move(warning));
   }
 
-  // The vertex of every corner of the pieces: that of the triangles where one is there, else a new one.
+  // The vertex of every corner of the pieces: one of their own surface, else a new one. Surfaces that cover share none
+  // with what is cut, so that a ground and the houses on it stay bodies of their own.
   std::vector<uint32_t> find_vertices() {
+    std::vector<size_t> first_corner, by_surface;
+    for (size_t i = 0, corner = 0; i < pieces_.size(); corner += pieces_[i++].polygon.size()) {
+      first_corner.push_back(corner);
+      by_surface.push_back(i);
+    }
+    const auto surface_of = [&](size_t i) { return scene_.triangle_surface[pieces_[i].triangle]; };
+    std::ranges::stable_sort(by_surface, {}, surface_of);
+    std::vector<uint32_t> out(pieces_.empty() ? 0 : first_corner.back() + pieces_.back().polygon.size());
+    for (size_t i = 0; i < by_surface.size();) {
+      size_t end = i;
+      while (end < by_surface.size() && surface_of(by_surface[end]) == surface_of(by_surface[i])) ++end;
+      find_vertices_of(std::span(by_surface).subspan(i, end - i), first_corner, out);
+      i = end;
+    }
+    return out;
+  }
+
+  // The same for the pieces of one surface.
+  void find_vertices_of(std::span<const size_t> pieces, std::span<const size_t> first_corner,
+                        std::vector<uint32_t>& out) {
     std::vector<uint32_t> known;
-    for (const auto& [covered, cover] : pairs_)
-      for (const uint32_t t : {covered, cover})
-        known.insert(known.end(), scene_.triangles[t].begin(), scene_.triangles[t].end());
+    for (const size_t i : pieces) {
+      const auto& corners = scene_.triangles[pieces_[i].triangle];
+      known.insert(known.end(), corners.begin(), corners.end());
+    }
     std::ranges::sort(known);
     const auto repeated = std::ranges::unique(known);
     known.erase(repeated.begin(), repeated.end());
     std::vector<dvec3> points;
+    std::vector<size_t> corner_of;  // of each point behind those that are known: its place in out
     for (const uint32_t v : known) points.push_back(scene_.vertices[v]);
-    for (const PieceOfTriangle& piece : pieces_)
-      points.insert(points.end(), piece.polygon.begin(), piece.polygon.end());
+    for (const size_t i : pieces)
+      for (size_t k = 0; k < pieces_[i].polygon.size(); ++k) {
+        points.push_back(pieces_[i].polygon[k]);
+        corner_of.push_back(first_corner[i] + k);
+      }
     const Weld weld = weld_vertices(points, same_point_m);
     constexpr uint32_t none = 0xFFFFFFFFu;
-    std::vector<uint32_t> vertex_of(weld.positions.size(), none), out;
+    std::vector<uint32_t> vertex_of(weld.positions.size(), none);
     for (size_t i = 0; i < points.size(); ++i) {
       uint32_t& vertex = vertex_of[weld.vertex[i]];
       if (i < known.size()) {
@@ -113,9 +139,8 @@ class FaceCovering {
         vertex = static_cast<uint32_t>(scene_.vertices.size());
         scene_.vertices.push_back(weld.positions[weld.vertex[i]]);
       }
-      out.push_back(vertex);
+      out[corner_of[i - known.size()]] = vertex;
     }
-    return out;
   }
 
   // Pieces take the place of their triangles.

@@ -194,6 +194,7 @@ TEST_CASE("places that nobody sees are settled without a word") {
   const Scene standing = build_painted({{ground, "soil"}, {low, "brick"}});
   CHECK(standing.report.warnings.empty());
   CHECK(standing.report.covered_m2 == doctest::Approx(100));
+  CHECK(standing.report.nonmanifold_edges == 0);  // house and ground stay bodies of their own
   CHECK(area_m2(standing, "soil") == doctest::Approx(7900));
   // A door that is drawn on a house, and a box that is sunk into one up to its front, can be seen.
   CHECK(build_painted({{low, "brick"}, {quad({3, 0, 0}, {1, 0, 0}, {0, 0, 2}), "wood"}}).report.warnings.size() == 1);
