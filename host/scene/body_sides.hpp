@@ -12,7 +12,7 @@ namespace wavetracer {
 
 class BodySides {
  public:
-  // Assumes a scene with its surfaces, and outlives none of both; triangle_edges as find_edges() returns them.
+  // Assumes a scene with its surfaces, and triangle_edges as find_edges() returns them; both must outlive this.
   BodySides(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges)
       : scene_(scene), triangle_edges_(triangle_edges), known_(scene.surfaces.size()) {}
 
