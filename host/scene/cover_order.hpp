@@ -15,8 +15,8 @@ namespace wavetracer {
 class CoverOrder {
  public:
   // Surfaces of one material and plane that go on beyond T-junctions count as one: a ground of tiles is as large as all
-  // of them together. Assumes a scene whose surfaces are known, and outlives this; triangle_edges as find_edges()
-  // returns them.
+  // of them together. Assumes a scene whose surfaces are known and which outlives this; triangle_edges as
+  // find_edges() returns them.
   CoverOrder(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges);
 
   // Does a surface cover another one of another material? Of two, exactly one does; the order of the file is no matter.
