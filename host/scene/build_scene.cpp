@@ -1,4 +1,4 @@
-// Building a Scene in steps: gather, recentre, weld, clean, flatten, connect, find wedges.
+// Building a Scene in steps: gather, recentre, weld, clean, flatten, connect, cut what is covered, find wedges.
 // Every step is deterministic and sequential; a million triangles take a few seconds.
 #include "scene/build_scene.hpp"
 
@@ -8,12 +8,15 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
+#include <tuple>
 
+#include "scene/covered_faces.hpp"
 #include "scene/earlier_faces.hpp"
 #include "scene/flatten_scene.hpp"
 #include "scene/scene_wedges.hpp"
 #include "scene/topology.hpp"
 #include "scene/unit_check.hpp"
+#include "scene/vertex_use.hpp"
 #include "scene/volume_overlaps.hpp"
 #include "scene/volumes.hpp"
 #include "scene/weld.hpp"
@@ -106,38 +109,32 @@ void warn_small(Scene& scene) {
         extent_m));
 }
 
-// Indices of triangles that repeat an earlier one's vertices, in any order; the second counts those of another
-// material.
+// Triangles that repeat the vertices of an earlier one of their material, in any order.
 struct Duplicates {
   std::vector<bool> is_duplicate;
-  uint64_t count = 0, other_material = 0;
+  uint64_t count = 0;
 };
 
 Duplicates find_duplicates(const std::vector<Triangle>& triangles, const std::vector<uint32_t>& material) {
   struct Key {
     Triangle corners;
-    uint32_t triangle;
+    uint32_t material, triangle;
+    bool repeats(const Key& other) const { return corners == other.corners && material == other.material; }
   };
   std::vector<Key> keys;
   keys.reserve(triangles.size());
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     Triangle sorted = triangles[t];
     std::sort(sorted.begin(), sorted.end());
-    keys.push_back({sorted, t});
+    keys.push_back({sorted, material[t], t});
   }
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-    return a.corners != b.corners ? a.corners < b.corners : a.triangle < b.triangle;
-  });
+  std::ranges::sort(keys, {}, [](const Key& key) { return std::tie(key.corners, key.material, key.triangle); });
   Duplicates out;
   out.is_duplicate.resize(triangles.size());
-  for (size_t i = 1, kept = 0; i < keys.size(); ++i) {
-    if (keys[i].corners != keys[kept].corners) {
-      kept = i;
-      continue;
-    }
+  for (size_t i = 1; i < keys.size(); ++i) {
+    if (!keys[i].repeats(keys[i - 1])) continue;
     out.is_duplicate[keys[i].triangle] = true;
     ++out.count;
-    out.other_material += material[keys[i].triangle] != material[keys[kept].triangle];
   }
   return out;
 }
@@ -170,11 +167,6 @@ void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>&
   }
   const Duplicates duplicates = find_duplicates(scene.triangles, triangle_material);
   scene.report.duplicate_triangles += duplicates.count;
-  if (duplicates.other_material > 0) {
-    scene.report.warnings.push_back(
-        fmt::format("{} triangles repeat another one in a different material; the first of each was kept",
-                    duplicates.other_material));
-  }
   size_t kept = 0;
   for (size_t t = 0; t < scene.triangles.size(); ++t) {
     if (duplicates.is_duplicate[t]) continue;
@@ -185,26 +177,6 @@ void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>&
   scene.triangles.resize(kept);
   scene.triangle_object.resize(kept);
   triangle_material.resize(kept);
-}
-
-// Removes vertices that only dropped triangles used, keeping the order of the others.
-void compact_vertices(Scene& scene, std::vector<double>& rounding_m) {
-  std::vector<uint32_t> moved(scene.vertices.size(), none);
-  for (const Triangle& t : scene.triangles) {
-    for (uint32_t v : t) moved[v] = 0;
-  }
-  uint32_t kept = 0;
-  for (size_t v = 0; v < moved.size(); ++v) {
-    if (moved[v] == none) continue;
-    scene.vertices[kept] = scene.vertices[v];
-    rounding_m[kept] = rounding_m[v];
-    moved[v] = kept++;
-  }
-  scene.vertices.resize(kept);
-  rounding_m.resize(kept);
-  for (Triangle& t : scene.triangles) {
-    for (uint32_t& v : t) v = moved[v];
-  }
 }
 
 // Warns of places that several triangles of one plane cover: they scatter once (earlier_faces.hpp).
@@ -254,11 +226,13 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch ed
   std::vector<double> rounding_m;
   weld_and_clean(scene, soup, resolved.mesh_material, triangle_material, rounding_m);
   if (scene.triangles.empty()) throw InputError(fmt::format("{}: all triangles of the scene are degenerate", raw.file));
-  compact_vertices(scene, rounding_m);
+  std::vector<double> left_rounding_m;
+  for (const uint32_t v : drop_unused_vertices(scene)) left_rounding_m.push_back(rounding_m[v]);
 
   const auto triangle_edges = find_edges(scene);
-  const Flattened flat = flatten_scene(scene, triangle_edges, tolerance_m, rounding_m);
+  const Flattened flat = flatten_scene(scene, triangle_edges, tolerance_m, left_rounding_m);
   find_surfaces(scene, triangle_material, triangle_edges, flat);
+  cut_covered_faces(scene, triangle_edges);
   find_flat_edges(scene);
   find_wedges(scene, edges);
   scene.lower = scene.upper = scene.vertices[0];

@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "scene/cover_words.hpp"
 #include "scene/volume_overlaps.hpp"
 
 namespace wavetracer {
@@ -51,6 +52,21 @@ std::string point(glm::dvec3 p) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(p[axis]) < 5e-4) p[axis] = 0;
   return fmt::format("{:>12.3f} {:>12.3f} {:>9.3f}", p.x, p.y, p.z);
+}
+
+// How far vertices were moved, and the warnings.
+std::string describe_flattening(const LoadReport& report) {
+  std::string out = fmt::format(
+      "flattened  {} vertices moved onto the planes of their surfaces, by {:.2g} mm at most{}\n",
+      report.flattened_vertices, report.flattened_by_m * 1000,
+      report.plane_tolerance_m > 0 ? fmt::format(" (up to {:.2g} mm are allowed)", report.plane_tolerance_m * 1000)
+                                   : " (scene.plane_tolerance_m is 0)");
+  if (report.bent_triangles > 0)
+    out += fmt::format(
+        "           {} triangles stay as they are, because a corner is farther than that from where its planes meet\n",
+        report.bent_triangles);
+  for (const std::string& warning : report.warnings) out += fmt::format("warning    {}\n", warning);
+  return out;
 }
 
 }  // namespace
@@ -97,23 +113,16 @@ std::string describe_scene(const Scene& scene) {
   }
   out += fmt::format("dropped    {} degenerate and {} duplicate triangles; {} vertices welded into others\n",
                      report.degenerate_triangles, report.duplicate_triangles, report.welded_vertices);
+  if (report.covered_m2 > 0)
+    out += fmt::format("covered    {} of surfaces, where a smaller one of another material lies in their plane\n",
+                       area_words(report.covered_m2));
   if (!scene.volumes.empty()) {
     const auto earlier = earlier_volumes(scene.volumes);
     out += fmt::format("vegetation {} volumes, {} of which may overlap earlier ones: what volumes share counts once\n",
                        scene.volumes.size(),
                        std::ranges::count_if(earlier, [](const auto& list) { return !list.empty(); }));
   }
-  out += fmt::format("flattened  {} vertices moved onto the planes of their surfaces, by {:.2g} mm at most{}\n",
-                     report.flattened_vertices, report.flattened_by_m * 1000,
-                     report.plane_tolerance_m > 0
-                         ? fmt::format(" (up to {:.2g} mm are allowed)", report.plane_tolerance_m * 1000)
-                         : " (scene.plane_tolerance_m is 0)");
-  if (report.bent_triangles > 0)
-    out += fmt::format(
-        "           {} triangles stay as they are, because a corner is farther than that from where its planes meet\n",
-        report.bent_triangles);
-  for (const std::string& warning : report.warnings) out += fmt::format("warning    {}\n", warning);
-  return out;
+  return out + describe_flattening(report);
 }
 
 std::string describe_edges(const Scene& scene) {

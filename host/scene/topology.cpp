@@ -217,26 +217,42 @@ void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
     if (index == unassigned) {
       index = static_cast<uint32_t>(scene.surfaces.size());
       const Plane plane = grower.plane_of(seed);
-      const dvec3 corner = scene.vertices[scene.triangles[t][0]];
       scene.surfaces.push_back(
-          {plane.normal, plane.offset_m, corner, corner, triangle_material[seed], scene.triangle_object[seed], 0, 0});
+          {plane.normal, plane.offset_m, {}, {}, triangle_material[seed], scene.triangle_object[seed], 0, 0});
     }
     scene.triangle_surface[t] = index;
-    Surface& surface = scene.surfaces[index];
+  }
+  list_surfaces(scene);
+}
+
+void list_surfaces(Scene& scene) {
+  std::vector<Surface> listed;
+  std::vector<uint32_t> number(scene.surfaces.size(), unassigned);
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    uint32_t& index = number[scene.triangle_surface[t]];
+    if (index == unassigned) {
+      index = static_cast<uint32_t>(listed.size());
+      Surface& surface = listed.emplace_back(scene.surfaces[scene.triangle_surface[t]]);
+      surface.lower = surface.upper = scene.vertices[scene.triangles[t][0]];
+      surface.triangle_count = 0;
+    }
+    scene.triangle_surface[t] = index;
+    Surface& surface = listed[index];
     ++surface.triangle_count;
     for (uint32_t v : scene.triangles[t]) {
       surface.lower = glm::min(surface.lower, scene.vertices[v]);
       surface.upper = glm::max(surface.upper, scene.vertices[v]);
     }
   }
+  scene.surfaces = std::move(listed);
   uint32_t first = 0;
   std::vector<uint32_t> next;  // where each surface's next triangle goes
   for (Surface& surface : scene.surfaces) {
     next.push_back(surface.first_triangle = first);
     first += surface.triangle_count;
   }
-  scene.surface_triangles.resize(count);
-  for (uint32_t t = 0; t < count; ++t) scene.surface_triangles[next[scene.triangle_surface[t]]++] = t;
+  scene.surface_triangles.resize(scene.triangles.size());
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t) scene.surface_triangles[next[scene.triangle_surface[t]]++] = t;
 }
 
 void find_flat_edges(Scene& scene) {

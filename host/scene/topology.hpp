@@ -46,6 +46,10 @@ std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene);
 void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
                    std::span<const std::array<uint32_t, 3>> triangle_edges, const Flattened& flat);
 
+// Numbers surfaces anew by their lowest triangle, from triangle_surface; those without triangles go. Their planes,
+// materials and objects stay; boxes, triangle counts and surface_triangles are made anew.
+void list_surfaces(Scene& scene);
+
 // The corner of triangle t that is not on its edge, into Scene::vertices.
 uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge);
 

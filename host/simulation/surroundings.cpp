@@ -49,9 +49,16 @@ struct Surroundings::Index {
   TriangleGrid triangles;
   std::vector<uint32_t> body;  // of each triangle
   std::vector<SceneBox> body_box, object_box;
+  std::vector<uint32_t> wide_surfaces;  // of objects as wide as a ground is
 
   explicit Index(const Scene& scene);
   void join_bodies(const Scene& scene);
+  bool is_wide(const Scene& scene, uint32_t object) const {
+    const dvec3 size = scene.upper - scene.lower, wide = object_box[object].upper - object_box[object].lower;
+    return wide.x * wide.y >= 0.5 * size.x * size.y;
+  }
+  // The wide object in whose plane p is, where what covers that in its plane is cut out of it, as below a house.
+  std::optional<uint32_t> wide_object_at(const Scene& scene, const dvec3& p) const;
 };
 
 Surroundings::Index::Index(const Scene& scene) : triangles(scene) {
@@ -59,6 +66,18 @@ Surroundings::Index::Index(const Scene& scene) : triangles(scene) {
   const std::vector<SceneBox>& boxes = triangles.boxes();
   object_box.resize(scene.objects.size(), {dvec3(1e300), dvec3(-1e300)});
   for (uint32_t t = 0; t < boxes.size(); ++t) object_box[scene.triangle_object[t]].grow(boxes[t]);
+  for (uint32_t i = 0; i < scene.surfaces.size(); ++i)
+    if (is_wide(scene, scene.surfaces[i].object)) wide_surfaces.push_back(i);
+}
+
+std::optional<uint32_t> Surroundings::Index::wide_object_at(const Scene& scene, const dvec3& p) const {
+  for (const uint32_t i : wide_surfaces) {
+    const Surface& s = scene.surfaces[i];
+    if (p.x >= s.lower.x && p.x <= s.upper.x && p.y >= s.lower.y && p.y <= s.upper.y &&
+        std::abs(glm::dot(s.normal, p) - s.offset_m) <= on_surface_m)
+      return s.object;
+  }
+  return {};
 }
 
 void Surroundings::Index::join_bodies(const Scene& scene) {
@@ -120,11 +139,11 @@ std::optional<Surroundings::Depth> Surroundings::below_ground(const dvec3& p) co
   const std::vector<Crossing> above = crossings(p, {p.x, p.y, top_m});
   if (above.empty() || above.front().distance_m <= on_surface_m) return {};
   if (p.z > bottom_m && !crossings(p, {p.x, p.y, bottom_m}).empty()) return {};
+  const double depth_m = above.front().distance_m;
   const uint32_t object = scene_.triangle_object[above.front().triangle];
-  const dvec3 size = scene_.upper - scene_.lower,
-              wide = index_->object_box[object].upper - index_->object_box[object].lower;
-  if (!(wide.x * wide.y >= 0.5 * size.x * size.y)) return {};
-  return Depth{above.front().distance_m, object};
+  if (index_->is_wide(scene_, object)) return Depth{depth_m, object};
+  const std::optional<uint32_t> ground = index_->wide_object_at(scene_, p + dvec3(0, 0, depth_m));
+  return ground ? std::optional(Depth{depth_m, *ground}) : std::nullopt;
 }
 
 bool Surroundings::has_ground() const {

@@ -36,7 +36,7 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-// Coplanar, edge-connected triangles of one material. The plane is dot(normal, p) = offset_m.
+// Coplanar triangles of one material, connected but for what is cut out. The plane is dot(normal, p) = offset_m.
 struct Surface {
   glm::dvec3 normal{0, 0, 1};
   double offset_m = 0;
@@ -87,14 +87,15 @@ struct SceneNode {
 // What was left out when the scene was loaded, and why; every count is reported to the user.
 struct LoadReport {
   uint64_t degenerate_triangles = 0;  // zero area, dropped
-  uint64_t duplicate_triangles = 0;   // same three welded vertices as an earlier one, dropped
-  uint64_t welded_vertices = 0;       // vertices that were merged into another
-  double plane_tolerance_m = 0;       // of vertices about the plane of their surface (host/scene/flatten.hpp)
-  uint64_t flattened_vertices = 0;    // that were moved onto their planes
-  double flattened_by_m = 0;          // the farthest that one of them was moved
-  uint64_t bent_triangles = 0;        // that stay off the plane which they belong to
-  uint64_t nonmanifold_edges = 0;     // more than two faces
-  uint64_t free_edges = 0;            // one face
+  uint64_t duplicate_triangles = 0;   // same three welded vertices and material as an earlier one, dropped
+  double covered_m2 = 0;            // of surfaces, where smaller ones of their plane count (host/scene/cover_order.hpp)
+  uint64_t welded_vertices = 0;     // vertices that were merged into another
+  double plane_tolerance_m = 0;     // of vertices about the plane of their surface (host/scene/flatten.hpp)
+  uint64_t flattened_vertices = 0;  // that were moved onto their planes
+  double flattened_by_m = 0;        // the farthest that one of them was moved
+  uint64_t bent_triangles = 0;      // that stay off the plane which they belong to
+  uint64_t nonmanifold_edges = 0;   // more than two faces
+  uint64_t free_edges = 0;          // one face
   // Pieces of edges at which nothing diffracts (host/scene/scene_wedges.hpp), edges that are flat not counted:
   uint64_t flat_pieces = 0;    // of two faces in one plane
   uint64_t corner_pieces = 0;  // of three faces or more with right angles between them, as the foot of a wall

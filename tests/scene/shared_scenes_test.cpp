@@ -33,7 +33,7 @@ TEST_CASE("small shared scenes") {
   struct Expected {
     const char* name;
     size_t triangles, surfaces, free_edges;
-  };
+  };  // in the canyons six houses stand on the ground, out of which their floors are cut
   constexpr Expected expected[] = {{"box", 12, 6, 0},
                                    {"box_one_screen", 14, 7, 4},
                                    {"box_two_screens", 16, 8, 8},
@@ -42,8 +42,8 @@ TEST_CASE("small shared scenes") {
                                    {"double_reflector", 4, 2, 8},
                                    {"triple_reflector", 6, 3, 12},
                                    {"simple_wedge", 4, 2, 6},
-                                   {"simple_street_canyon", 74, 37, 4},
-                                   {"simple_street_canyon_with_cars", 234, 101, 4}};
+                                   {"simple_street_canyon", 108, 37, 70},
+                                   {"simple_street_canyon_with_cars", 268, 101, 70}};
   for (const Expected& e : expected) {
     CAPTURE(e.name);
     const Scene scene = load(e.name);
@@ -60,14 +60,15 @@ TEST_CASE("munich") {
   if (absent()) return;
   const Scene scene = load("munich");
   CHECK(scene.objects.size() == 2367);
-  CHECK(scene.triangles.size() == 38938);
-  CHECK(scene.edges.size() == 62002);
-  CHECK(scene.report.free_edges == 7217);
-  CHECK(scene.report.nonmanifold_edges == 14);
+  CHECK(scene.triangles.size() == 39001);
+  CHECK(scene.edges.size() == 62175);
+  CHECK(scene.report.free_edges == 7373);
+  CHECK(scene.report.nonmanifold_edges == 13);
   CHECK(scene.surfaces.size() > 17000);
   CHECK(scene.surfaces.size() < 17432);  // what merging without the rule for slivers gives
   CHECK(scene.materials.size() == 5);
-  CHECK(scene.report.warnings.empty());
+  REQUIRE(scene.report.warnings.size() == 1);  // marble facades and metal ones lie on each other
+  CHECK(scene.report.warnings[0].starts_with("surfaces of marble and metal lie on each other in one plane, on 442 m2"));
 }
 
 TEST_CASE("edges of the shared scenes that diffract") {
@@ -82,7 +83,7 @@ TEST_CASE("edges of the shared scenes that diffract") {
   const Scene canyon = load("simple_street_canyon");
   CHECK(canyon.wedges.size() == 6 * 8);
   CHECK(canyon.report.ground_rims == 4);
-  CHECK(canyon.report.corner_pieces == 6 * 4);
+  CHECK(canyon.report.corner_pieces >= 6 * 4);  // in pieces where borders of what is cut meet the feet
   CHECK(load("box_one_screen").wedges.size() == 12 + 4);
   CHECK(load("floor_wall").wedges.size() == 4);  // the wall hangs above the floor
   // Buildings without floors: their feet are free edges of the mesh, and do not diffract where they meet the ground.

@@ -44,15 +44,15 @@ TEST_CASE("on the shared edge of two patches of one material, and on the diagona
   }
 }
 
-TEST_CASE("two coincident walls: one path, of the lower surface") {
-  // Overlapping, not equal: the loader keeps both.
+TEST_CASE("two coincident walls: one path, of the smaller surface") {
+  // The larger one stays where the smaller one is not.
   const SceneFile file({Part{{{{0, -5, -5}, {0, 10, 0}, {0, 0, 10}}}, "metal"},
                         Part{{{{0, -3, -4}, {0, 9, 0}, {0, 0, 8}}}, "concrete"}});
   Simulation simulation(config_of(file.path(), {{-3, 0.3, 0.2}}, {{-2, -0.4, 0.7}}, 20000, 4));
   REQUIRE(simulation.scene().surfaces.size() == 2);
   const Paths paths = simulation.run_frame(0).paths;
   CHECK(paths.size() == 2);
-  CHECK(paths.vertex_surface == std::vector<uint32_t>{0});
+  CHECK(paths.vertex_surface == std::vector<uint32_t>{1});
 }
 
 TEST_CASE("between coincident walls facing each other: every order once") {

@@ -1,0 +1,57 @@
+// Surfaces are joined over the free edges that flat_neighbours.hpp finds along each other.
+#include "scene/cover_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "scene/flat_neighbours.hpp"
+#include "scene/topology.hpp"
+
+namespace wavetracer {
+namespace {
+
+// So sums in another order give the same number, but for one in some 10^10.
+double in_six_digits(double x) {
+  if (!(x > 0)) return 0;
+  const double step = std::pow(10.0, std::floor(std::log10(x)) - 5);
+  return std::round(x / step) * step;
+}
+
+bool goes_on(const Scene& scene, const FlatNeighbours& neighbours, const FlatNeighbour& pair) {
+  const Surface &a = scene.surfaces[scene.triangle_surface[pair.triangle]],
+                &b = scene.surfaces[scene.triangle_surface[pair.other]];
+  if (a.material != b.material || !neighbours.unfolded(pair, a.normal)) return false;
+  return std::ranges::all_of(scene.triangles[pair.other], [&](uint32_t v) {
+    return std::abs(glm::dot(a.normal, scene.vertices[v]) - a.offset_m) <= flat_as_it_is_m;
+  });
+}
+
+}  // namespace
+
+CoverOrder::CoverOrder(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges)
+    : scene_(scene), area_m2_(scene.surfaces.size(), 0) {
+  std::vector<uint32_t> parent(scene.surfaces.size());  // a forest whose roots are the lowest surfaces
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t s) {
+    while (parent[s] != s) s = parent[s] = parent[parent[s]];
+    return s;
+  };
+  const FlatNeighbours neighbours(scene, triangle_edges);
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t)
+    neighbours.visit(t, [&](const FlatNeighbour& pair) {
+      const uint32_t a = root(scene.triangle_surface[t]), b = root(scene.triangle_surface[pair.other]);
+      if (a != b && goes_on(scene, neighbours, pair)) parent[std::max(a, b)] = std::min(a, b);
+    });
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t)
+    area_m2_[root(scene.triangle_surface[t])] += triangle_shape(scene, t).area_m2;
+  for (uint32_t s = 0; s < area_m2_.size(); ++s) area_m2_[s] = root(s) == s ? in_six_digits(area_m2_[s]) : 0;
+  for (uint32_t s = 0; s < area_m2_.size(); ++s) area_m2_[s] = area_m2_[root(s)];
+}
+
+std::pair<double, std::string_view> CoverOrder::key(uint32_t surface) const {
+  return {area_m2_[surface], scene_.materials[scene_.surfaces[surface].material].name};
+}
+
+}  // namespace wavetracer
