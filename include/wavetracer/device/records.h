@@ -109,6 +109,7 @@ typedef struct {
   double exterior;      // radians
   double cosine, sine;  // of exterior
   wt_uint surfaces[2];  // numbered through the world
+  wt_uint planes[2];    // surfaces that stand for the planes of the faces
   wt_uint instance;     // WT_NONE: static
   wt_uint padding;
 } wt_wedge;
