@@ -12,10 +12,11 @@ namespace {
 
 constexpr double same_db = 1e-9;
 
-// Of each receiver: how many paths reach it, and their power in dB, all ports of both ends.
+// Of each receiver: how many paths reach it, and the power of those over two edges and of all, in dB, all ports of both
+// ends.
 struct Reached {
-  std::vector<size_t> paths, twice_diffracted;
-  std::vector<double> power_db;
+  std::vector<size_t> paths;
+  std::vector<double> twice_diffracted_db, power_db;
 };
 
 Reached reach(const std::vector<Part>& parts, const Points& transmitters, const Points& receivers,
@@ -25,15 +26,19 @@ Reached reach(const std::vector<Part>& parts, const Points& transmitters, const 
   config.trace = diffracting(100000, max_depth);
   config.trace.max_diffractions = 2;
   const Paths paths = run(config).paths;
-  Reached out{std::vector<size_t>(receivers.size()), std::vector<size_t>(receivers.size()),
+  Reached out{std::vector<size_t>(receivers.size()), std::vector<double>(receivers.size()),
               std::vector<double>(receivers.size())};
   for (size_t i = 0; i < paths.size(); ++i) {
     const auto first = paths.vertex_interaction.begin() + static_cast<ptrdiff_t>(paths.vertex_offset[i]);
+    const bool twice = std::count(first, first + paths.depth[i], diffraction) == 2;
     ++out.paths[paths.rx[i]];
-    out.twice_diffracted[paths.rx[i]] += std::count(first, first + paths.depth[i], diffraction) == 2;
-    for (const std::complex<double>& a : paths.a[i]) out.power_db[paths.rx[i]] += std::norm(a);
+    for (const std::complex<double>& a : paths.a[i]) {
+      out.power_db[paths.rx[i]] += std::norm(a);
+      if (twice) out.twice_diffracted_db[paths.rx[i]] += std::norm(a);
+    }
   }
-  for (double& power : out.power_db) power = 10 * std::log10(power);
+  for (auto* powers : {&out.twice_diffracted_db, &out.power_db})
+    for (double& power : *powers) power = 10 * std::log10(power);
   return out;
 }
 
@@ -41,7 +46,8 @@ void check_same(const Reached& reached, const Reached& expected) {
   CHECK(reached.paths == expected.paths);
   for (size_t i = 0; i < expected.power_db.size(); ++i) {
     CAPTURE(i);
-    CHECK(expected.twice_diffracted[i] > 0);
+    CHECK(expected.twice_diffracted_db[i] > -300);
+    CHECK(std::abs(reached.twice_diffracted_db[i] - expected.twice_diffracted_db[i]) < same_db);
     CHECK(std::abs(reached.power_db[i] - expected.power_db[i]) < same_db);
   }
 }
@@ -124,11 +130,12 @@ TEST_CASE("the same where the house is turned and moved, upright and laid down")
 TEST_CASE("a sheet of two pieces: waves run along both of its sides, as along one") {
   const auto canopy = [](double seam) {
     return std::vector<Part>{{{{{-6, -4, 5}, {seam, 0, 0}, {0, 8, 0}}}, "concrete"},
-                             {{{{seam - 6, -4, 5}, {12 - seam, 0, 0}, {0, 8, 0}}}, "concrete"}};
+                             {{{{seam - 6, -4, 5}, {12 - seam, 0, 0}, {0, 8, 0}}}, "concrete"},
+                             {ground, "concrete"}};
   };
   const Part whole{{{{-6, -4, 5}, {12, 0, 0}, {0, 8, 0}}}, "concrete"};
   const Points above{{-15, 0.4, 9}}, below{{14, 0.9, 2}};
-  check_same(reach(canopy(4), above, below), reach({whole}, above, below));
+  check_same(reach(canopy(4), above, below), reach({whole, {ground, "concrete"}}, above, below));
 }
 
 TEST_CASE("a leg across a courtyard or a street runs along no face") {
