@@ -17,7 +17,7 @@ inline int is_corner(const global wt_wedge* w) { return w->sine > 0.0; }
 
 // Does the way from one to the other run in the free space of both, or along a face of both?
 inline int in_sight(const global wt_wedge* v, const global wt_wedge* w) {
-  return wt_share_plane(v, w) || (may_see(v, w) && may_see(w, v));
+  return wt_share_plane(v, w, (double3)(0.0, 0.0, 0.0)) || (may_see(v, w) && may_see(w, v));
 }
 
 // What is known of two wedges: bits 0 to 15 which pairs of pieces were looked at, bits 16 to 31 which of them may see

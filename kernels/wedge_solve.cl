@@ -80,7 +80,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   const double wavelength = (double)args.wavelength_m;
   if (wt_is_faint(v, wt_in_wedge(v, a), wt_in_wedge(v, two ? q : b), wavelength)) return;
   if (two && wt_is_faint(w, wt_in_wedge(w, p), wt_in_wedge(w, b), wavelength)) return;
-  if (two && !wt_share_plane(v, w) && (!in_free_space(v, p, q) || !in_free_space(w, q, p))) return;
+  if (two && !wt_share_plane(v, w, q - p) && (!in_free_space(v, p, q) || !in_free_space(w, q, p))) return;
   if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, p, points)) return;
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;
 

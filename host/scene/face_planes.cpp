@@ -1,4 +1,4 @@
-// A forest over both sides of all surfaces.
+// Keeps a forest over both sides of all surfaces.
 #include "scene/face_planes.hpp"
 
 #include <algorithm>
@@ -27,9 +27,25 @@ FacePlanes::FacePlanes(const Scene& scene) : scene_(scene), parent_(2 * scene.su
 }
 
 void FacePlanes::join(uint32_t surface, uint32_t other, const dvec3& front, const dvec3& at) {
-  if (surface == other || !same_plane(scene_.surfaces[surface], scene_.surfaces[other], at)) return;
   const uint32_t a = root(side(surface, front)), b = root(side(other, front));
-  parent_[std::max(a, b)] = std::min(a, b);
+  if (a != b && in_one_plane(surface, other, at)) parent_[std::max(a, b)] = std::min(a, b);
+}
+
+bool FacePlanes::in_one_plane(uint32_t surface, uint32_t other, const dvec3& at) {
+  if (same_plane(scene_.surfaces[surface], scene_.surfaces[other], at)) return true;
+  const auto pair = std::minmax(surface, other);
+  if (apart_.contains(pair)) return false;
+  if (all_near(surface, other) && all_near(other, surface)) return true;
+  apart_.insert(pair);
+  return false;
+}
+
+bool FacePlanes::all_near(uint32_t surface, uint32_t other) const {
+  const Surface &from = scene_.surfaces[surface], &to = scene_.surfaces[other];
+  for (uint32_t i = 0; i < from.triangle_count; ++i)
+    for (const uint32_t v : scene_.triangles[scene_.surface_triangles[from.first_triangle + i]])
+      if (std::abs(glm::dot(to.normal, scene_.vertices[v]) - to.offset_m) > 2 * flat_as_it_is_m) return false;
+  return true;
 }
 
 void FacePlanes::number(std::span<Wedge> wedges) {

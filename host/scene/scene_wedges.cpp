@@ -178,7 +178,7 @@ bool diffracts(const Sector& sector) {
 }
 
 // Joins surfaces whose faces at a piece lie in one plane with nothing between them: within a wall, and across a sector
-// of 180 degrees.
+// of 180 degrees, or nearly so many.
 void join_planes(const EdgePiece& piece, std::span<const Wall> walls, std::span<const Sector> sectors,
                  FacePlanes& planes) {
   for (size_t i = 0; i < sectors.size(); ++i) {
@@ -187,7 +187,7 @@ void join_planes(const EdgePiece& piece, std::span<const Wall> walls, std::span<
     for (const HalfPlane& face : walls[i]) planes.join(from.surface, face.surface, front, piece.start);
     for (const HalfPlane& face : walls[(i + 1) % walls.size()])
       planes.join(to.surface, face.surface, last, piece.start);
-    if (std::abs(sectors[i].angle_rad - pi) <= same_plane_rad)
+    if (std::abs(sectors[i].angle_rad - pi) <= same_angle_rad)
       planes.join(from.surface, to.surface, front, piece.start);
   }
 }

@@ -13,7 +13,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// The numbers of planes that look up at this height, with those of the surfaces that wedges have there.
+// Holds the numbers of the planes that look up at a height, and of the surfaces that wedges have there.
 struct Roofs {
   std::set<uint32_t> planes, surfaces;
 };
@@ -24,7 +24,7 @@ Roofs roofs_at(const Scene& s, double z_m, const dvec3& up = {0, 0, 1}) {
     const std::array<dvec3, 2> normals{w.normal,
                                        w.face * std::sin(w.exterior_rad) - w.normal * std::cos(w.exterior_rad)};
     for (size_t face = 0; face < 2; ++face) {
-      if (glm::dot(normals[face], up) < 0.999999 || std::abs(glm::dot(s.origin_m + w.start, up) - z_m) > 1e-2) continue;
+      if (glm::dot(normals[face], up) < 0.99999 || std::abs(glm::dot(s.origin_m + w.start, up) - z_m) > 1e-2) continue;
       out.planes.insert(w.plane[face]);
       out.surfaces.insert(w.surface[face]);
     }
@@ -32,7 +32,7 @@ Roofs roofs_at(const Scene& s, double z_m, const dvec3& up = {0, 0, 1}) {
   return out;
 }
 
-// A house of 20 x 10 x 8 m without its roof, and the roof as rectangles x0, y0, x1, y1, one mesh each.
+// Makes a house of 20 x 10 x 8 m without its roof, and the roof as rectangles x0, y0, x1, y1, one mesh each.
 std::vector<RawMesh> house_under(const std::vector<std::array<double, 4>>& roof) {
   RawMesh walls = box({-10, -5, 0}, {10, 5, 8});
   walls.triangles.erase(walls.triangles.begin(), walls.triangles.begin() + 2);
@@ -74,6 +74,19 @@ TEST_CASE("planes in any direction: a house that lies on its side and was moved"
   const Roofs roofs = roofs_at(s, 8 + glm::dot(dvec3(410.3, -77.1, 12.9), up), up);
   CHECK(roofs.surfaces.size() >= 2);
   CHECK(roofs.planes.size() == 1);
+}
+
+TEST_CASE("planes whose corners were rounded are what they were, a bend that rises by more is one") {
+  const auto planes = [](double rise_m) {
+    std::vector<RawMesh> roof{quad({0, 0, 5}, {6, 0, 0}, {0, 8, 0}), quad({6, 1, 5}, {7, 0, rise_m}, {0, 6, 0})};
+    return roofs_at(build(roof, {0, 1}), 5).planes.size();
+  };
+  CHECK(planes(0) == 1);
+  CHECK(planes(1e-6) == 1);
+  CHECK(planes(1.5e-4) == 1);
+  CHECK(planes(-1.5e-4) == 1);
+  CHECK(planes(3e-4) == 2);
+  CHECK(planes(5e-3) == 2);
 }
 
 TEST_CASE("roofs of houses that touch are one plane; across a street, or a step, they are not") {
