@@ -8,8 +8,8 @@
 
 // Does some part of the other wedge lie in the free sector of this one?
 inline int may_see(const global wt_wedge* w, const global wt_wedge* other) {
-  return wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, 0.0))) ||
-         wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, other->length)));
+  return wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, 0.0)), 0.0) ||
+         wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, other->length)), 0.0);
 }
 
 // Corners do not count here: they are many, and what they diffract is faint.
