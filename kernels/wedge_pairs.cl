@@ -8,8 +8,8 @@
 
 // Does some part of the other wedge lie in the free sector of this one?
 inline int may_see(const global wt_wedge* w, const global wt_wedge* other) {
-  return wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, 0.0))) ||
-         wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, other->length)));
+  return wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, 0.0)), 0.0) ||
+         wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, other->length)), 0.0);
 }
 
 // Corners do not count here: they are many, and what they diffract is faint.
@@ -17,7 +17,7 @@ inline int is_corner(const global wt_wedge* w) { return w->sine > 0.0; }
 
 // Does the way from one to the other run in the free space of both, or along a face of both?
 inline int in_sight(const global wt_wedge* v, const global wt_wedge* w) {
-  return wt_share_face(v, w) || (may_see(v, w) && may_see(w, v));
+  return wt_share_plane(v, w, (double3)(0.0, 0.0, 0.0)) || (may_see(v, w) && may_see(w, v));
 }
 
 // What is known of two wedges: bits 0 to 15 which pairs of pieces were looked at, bits 16 to 31 which of them may see

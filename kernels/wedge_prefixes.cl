@@ -28,7 +28,7 @@ inline uint other_face(const global wt_wedge* w, uint seen) { return w->surfaces
 
 // Does the prefix see the wedge, as far as its last mirror shows it? boxes: of the surfaces.
 inline int sees(const wt_onlooker* from, const global wt_wedge* w, const global wt_surface* boxes, double3 at) {
-  if (!(w->length > 0.0) || !wt_in_sector(w, at)) return 0;
+  if (!(w->length > 0.0) || !wt_in_sector(w, at, wt_beneath(from->depth))) return 0;
   return from->depth == 0 || wt_may_show(boxes + from->last, convert_float3(from->image),
                                          convert_float3(wt_on_edge(w, 0.0)), convert_float3(wt_on_edge(w, w->length)));
 }

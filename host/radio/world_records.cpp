@@ -23,7 +23,10 @@ wt_wedge record_of(const Wedge& wedge, uint32_t first_surface, uint32_t instance
   record.exterior = wedge.exterior_rad;
   record.cosine = std::cos(wedge.exterior_rad);
   record.sine = std::sin(wedge.exterior_rad);
-  for (int face = 0; face < 2; ++face) record.surfaces[face] = first_surface + wedge.surface[face];
+  for (int face = 0; face < 2; ++face) {
+    record.surfaces[face] = first_surface + wedge.surface[face];
+    record.planes[face] = first_surface + wedge.plane[face];
+  }
   record.instance = instance;
   return record;
 }

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "scene/edge_pieces.hpp"
+#include "scene/face_planes.hpp"
 #include "scene/ground_rims.hpp"
 #include "scene/topology.hpp"
 #include "scene/triangle_grid.hpp"
@@ -176,6 +177,21 @@ bool diffracts(const Sector& sector) {
   return std::abs(sector.angle_rad - pi) > same_plane_rad && std::abs(sector.angle_rad - pi / 2) > right_angle_rad;
 }
 
+// Joins surfaces whose faces at a piece lie in one plane with nothing between them: within a wall, and across a sector
+// of 180 degrees, or nearly so many.
+void join_planes(const EdgePiece& piece, std::span<const Wall> walls, std::span<const Sector> sectors,
+                 FacePlanes& planes) {
+  for (size_t i = 0; i < sectors.size(); ++i) {
+    const HalfPlane &from = sectors[i].from, &to = sectors[i].to;
+    const dvec3 front = glm::cross(piece.along, from.direction), last = glm::cross(to.direction, piece.along);
+    for (const HalfPlane& face : walls[i]) planes.join(from.surface, face.surface, front, piece.start);
+    for (const HalfPlane& face : walls[(i + 1) % walls.size()])
+      planes.join(to.surface, face.surface, last, piece.start);
+    if (std::abs(sectors[i].angle_rad - pi) <= same_angle_rad)
+      planes.join(from.surface, to.surface, front, piece.start);
+  }
+}
+
 Wedge wedge_at(const EdgePiece& piece, const Sector& sector) {
   return {.start = piece.start,
           .along = piece.along,
@@ -194,13 +210,16 @@ void find_wedges(Scene& scene, EdgeSearch search) {
   if (search == EdgeSearch::none) return;
   const FaceFinder finder(scene);
   GroundRims rims(scene);
+  FacePlanes planes(scene);
   std::vector<WedgePiece> convex, concave;
   for (const EdgePiece& piece : finder.pieces()) {
     std::vector<HalfPlane> faces = finder.faces(piece);
     for (const HalfPlane& face : faces) rims.join(faces[0].surface, face.surface);
     const std::vector<Wall> walls = walls_of(faces);
+    const std::vector<Sector> sectors = sectors_of(walls);
+    join_planes(piece, walls, sectors, planes);
     const size_t before = convex.size() + concave.size();
-    for (const Sector& sector : sectors_of(walls))
+    for (const Sector& sector : sectors)
       if (diffracts(sector))
         (sector.angle_rad > pi ? convex : concave).push_back({piece.joints, wedge_at(piece, sector)});
     if (convex.size() + concave.size() == before)
@@ -209,6 +228,7 @@ void find_wedges(Scene& scene, EdgeSearch search) {
   scene.wedges = join_rows(convex);
   const std::vector<Wedge> corners = join_rows(concave);
   scene.wedges.insert(scene.wedges.end(), corners.begin(), corners.end());
+  planes.number(scene.wedges);
   if (search == EdgeSearch::of_scene)
     scene.report.ground_rims =
         std::erase_if(scene.wedges, [&](const Wedge& wedge) { return rims.are_of(wedge, finder.triangles()); });

@@ -100,12 +100,6 @@ class SurfaceGrower {
   std::vector<bool> in_exact_;  // per seed: its surface has the exact plane
 };
 
-bool same_plane(const Surface& a, const Surface& b, const dvec3& on_edge) {
-  const double sine = glm::length(glm::cross(a.normal, b.normal));
-  const double gap_m = glm::dot(a.normal, on_edge) - a.offset_m - (glm::dot(b.normal, on_edge) - b.offset_m);
-  return sine <= same_plane_rad && std::abs(gap_m) <= 2 * flat_as_it_is_m;
-}
-
 bool is_flat(const Scene& scene, const Edge& edge) {
   const uint32_t* faces = scene.edge_faces.data() + edge.first_face;
   const uint32_t first = scene.triangle_surface[faces[0]];
@@ -124,6 +118,13 @@ bool is_flat(const Scene& scene, const Edge& edge) {
 }
 
 }  // namespace
+
+bool same_plane(const Surface& a, const Surface& b, const dvec3& on_edge) {
+  const double sine = glm::length(glm::cross(a.normal, b.normal));
+  const double over_a_m = glm::dot(a.normal, on_edge) - a.offset_m, over_b_m = glm::dot(b.normal, on_edge) - b.offset_m;
+  const double gap_m = over_a_m - (glm::dot(a.normal, b.normal) < 0 ? -over_b_m : over_b_m);
+  return sine <= same_plane_rad && std::abs(gap_m) <= 2 * flat_as_it_is_m;
+}
 
 uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge) {
   for (uint32_t v : scene.triangles[t]) {

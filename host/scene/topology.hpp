@@ -25,6 +25,8 @@ constexpr double sliver_height_m = 0.02;
 // Surfaces whose normals differ by less are in one plane: that is what normals of double vertices are off by, and 1e-9
 // of a way are what points of reflections are decided to.
 constexpr double same_plane_rad = 1e-9;
+// Do two surfaces lie in one plane, with normals of either sense? Judged at a point of an edge of both.
+bool same_plane(const Surface& a, const Surface& b, const glm::dvec3& on_edge);
 
 // The unit normal of triangle t by its winding, and its height over the longest side (metres).
 struct TriangleShape {

@@ -27,7 +27,8 @@ inline Wedge wedge_of(const wt_wedge& w) {
           vector_of(w.face),
           vector_of(w.normal),
           w.exterior,
-          {w.surfaces[0], w.surfaces[1]}};
+          {w.surfaces[0], w.surfaces[1]},
+          {w.planes[0], w.planes[1]}};
 }
 
 // Is p in the free sector of the wedge, by angles, and by at least so much (or, if negative, at most so much outside)?
@@ -71,9 +72,8 @@ inline Sequence sequence_of(const std::vector<uint64_t>& table, uint32_t node) {
   return s;
 }
 
-inline bool share_face(const Wedge& v, const Wedge& w) {
-  return v.surface[0] == w.surface[0] || v.surface[0] == w.surface[1] || v.surface[1] == w.surface[0] ||
-         v.surface[1] == w.surface[1];
+inline bool share_plane(const Wedge& v, const Wedge& w) {
+  return v.plane[0] == w.plane[0] || v.plane[0] == w.plane[1] || v.plane[1] == w.plane[0] || v.plane[1] == w.plane[1];
 }
 
 }  // namespace wavetracer::test

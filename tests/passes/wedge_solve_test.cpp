@@ -151,10 +151,10 @@ TEST_CASE("two edges of a box and of panels, shared faces included: what bisecti
     const auto points = reference::diffraction_points(v, w, a, b);
     const bool apart = points && glm::distance((*points)[0], (*points)[1]) > 1e-4;
     const bool path = apart && in_sector(v, a) && in_sector(w, b) &&
-                      (share_face(v, w) || (in_sector(v, (*points)[1]) && in_sector(w, (*points)[0])));
+                      (share_plane(v, w) || (in_sector(v, (*points)[1]) && in_sector(w, (*points)[0])));
     REQUIRE(found.contains(i) == path);
     if (!path) continue;
-    (share_face(v, w) ? on_faces : across) += 1;
+    (share_plane(v, w) ? on_faces : across) += 1;
     const std::vector<glm::dvec3>& mine = found.at(i).points;
     CHECK(length_over(a, mine, b) <= length_over(a, {points->begin(), points->end()}, b) + 1e-12);
     for (size_t k = 0; k < 2; ++k) CHECK(glm::distance(mine[k], (*points)[k]) < 1e-6);

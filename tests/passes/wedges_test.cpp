@@ -23,6 +23,7 @@ struct Fleet {
     const Quad panel{{-0.4, -1, 0.2}, {0.3, 2.1, 0}, {0.1, 0, 1.4}};
     models.push_back(reference::scene_of_quads(reference::box_walls({-2, -0.9, 0.2}, {2.3, 0.9, 1.4})));
     models[0].wedges = reference::box_wedges({-2, -0.9, 0.2}, {2.3, 0.9, 1.4});
+    for (Wedge& w : models[0].wedges) w.plane = {w.surface[0] / 2, w.surface[1] / 2};  // not what they are, but others
     models.push_back(reference::scene_of_quads({panel}));
     models[1].wedges = reference::free_wedges(panel, 0);
     Random random(3);
@@ -69,8 +70,10 @@ TEST_CASE("wedges of instances are where their poses put them, frame after frame
         const wt_wedge& record = records[instance.first_wedge + k];
         CHECK(record.instance == i);
         CHECK(record.exterior == model[k].exterior_rad);
-        for (size_t face = 0; face < 2; ++face)
+        for (size_t face = 0; face < 2; ++face) {
           CHECK(record.surfaces[face] == instance.first_surface + model[k].surface[face]);
+          CHECK(record.planes[face] == instance.first_surface + model[k].plane[face]);
+        }
         if (!fleet.placements[i].present) {
           CHECK(std::isnan(record.length));
           continue;

@@ -78,6 +78,7 @@ std::vector<Wedge> box_wedges(const dvec3& lower, const dvec3& upper, uint32_t f
       wedge.exterior_rad = 1.5 * std::numbers::pi;
       wedge.surface = {first_surface + 2 * static_cast<uint32_t>(axis) + low,
                        first_surface + 2 * static_cast<uint32_t>(next) + high};
+      wedge.plane = wedge.surface;
       wedges.push_back(wedge);
     }
   }
@@ -96,7 +97,7 @@ std::vector<Wedge> free_wedges(const Quad& quad, uint32_t surface) {
     wedge.normal = glm::normalize(glm::cross(quad.u, quad.v));
     wedge.face = glm::cross(wedge.normal, wedge.along);
     wedge.exterior_rad = 2 * std::numbers::pi;
-    wedge.surface = {surface, surface};
+    wedge.surface = wedge.plane = {surface, surface};
     wedges.push_back(wedge);
   }
   return wedges;

@@ -89,20 +89,34 @@ inline double wt_edge_spreading(const wt_edge* edges, wt_uint count) {
   return 1.0 / (a->before_m * a->after_m * b->after_m * sqrt(xx * yy - xy * xy));
 }
 
-// The leg between two edges of one face runs along it, whatever rounding says: with the reflected wave it is one wave,
+// Points from the edge into face 0 or 1.
+inline wt_double3 wt_into_face(const wt_wedge_frame* frame, int face) {
+  if (face == 0) return frame->face;
+  const wt_double2 turn = wt_cos_sin(frame->exterior);
+  return frame->face * turn.x + frame->normal * turn.y;
+}
+
+// The leg between two edges of one plane runs along it, whatever rounding says: with the reflected wave it is one wave,
 // and is counted as such at both of its ends, which is once too often. Along a sheet of two free edges one wave runs on
 // each side; their signs differ at either end, so both arrive as the same. Returns the factor that makes up for it.
-inline double wt_snap_to_shared_face(const wt_field_world* world, wt_edge* edges) {
+// A leg that leaves one of the edges, or comes to it, from where the plane is not, as across a courtyard, runs in the
+// open.
+inline double wt_snap_to_shared_plane(const wt_field_world* world, wt_edge* edges) {
+  const wt_double3 away = edges[0].k_out, come = edges[1].k_in;
+  int sides = 0;
   for (int i = 0; i < 4; ++i) {
-    if (world->wedges[edges[0].number].surfaces[i / 2] != world->wedges[edges[1].number].surfaces[i % 2]) continue;
-    const wt_double3 normals[2] = {wt_face_normal(&edges[0].frame, i / 2), wt_face_normal(&edges[1].frame, i % 2)};
-    if (wt_dot3(normals[0], normals[1]) < 0.0) continue;
-    const wt_double3 away = edges[0].k_out, come = edges[1].k_in;
-    edges[0].k_out = wt_normalized(away - normals[0] * (wt_dot3(away, normals[0]) - WT_INSIDE_RAD));
-    edges[1].k_in = wt_normalized(come - normals[1] * (wt_dot3(come, normals[1]) + WT_INSIDE_RAD));
-    return wt_is_half_plane(&edges[0]) && wt_is_half_plane(&edges[1]) ? 4.0 : 2.0;
+    const int v = i / 2, w = i % 2;
+    if (world->wedges[edges[0].number].planes[v] != world->wedges[edges[1].number].planes[w]) continue;
+    if (wt_dot3(wt_into_face(&edges[0].frame, v), away) <= 0.0) continue;
+    if (wt_dot3(wt_into_face(&edges[1].frame, w), come) >= 0.0) continue;
+    const wt_double3 n = wt_face_normal(&edges[0].frame, v), m = wt_face_normal(&edges[1].frame, w);
+    const double rise_m = fmax(fabs(wt_dot3(n, away)), fabs(wt_dot3(m, come))) * edges[0].after_m;
+    if (wt_dot3(n, m) < 0.0 || rise_m > WT_ALONG_PLANE_M || ++sides > 1) continue;
+    edges[0].k_out = wt_normalized(away - n * (wt_dot3(away, n) - WT_INSIDE_RAD));
+    edges[1].k_in = wt_normalized(come - m * (wt_dot3(come, m) + WT_INSIDE_RAD));
   }
-  return 1.0;
+  if (sides == 0) return 1.0;
+  return sides > 1 && wt_is_half_plane(&edges[0]) && wt_is_half_plane(&edges[1]) ? 4.0 : 2.0;
 }
 
 // A wave that passes the edge of a corner as a ray: reflected `count` times at the wedge's surfaces, in turn, from

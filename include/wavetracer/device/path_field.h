@@ -178,7 +178,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   const wt_uint edge_count = wt_edges_of(world, &path, edges);
   out.near_edge = wt_is_near_edge(world, edges, edge_count);
   if (edge_count > 0) wave.spread = wt_edge_spreading(edges, edge_count);
-  if (edge_count > 1) wave.spread *= wt_snap_to_shared_face(world, edges);
+  if (edge_count > 1) wave.spread *= wt_snap_to_shared_plane(world, edges);
   wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
   for (wt_uint i = 0; i < edge_count; ++i) {
     wt_pass(world, &path, k, &wave);

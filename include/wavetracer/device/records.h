@@ -13,6 +13,10 @@
 // thick.
 #define WT_ON_SURFACE_M 1e-4
 
+// A way from one edge to another runs along a plane that bounds both if it rises above it or sinks below it by no more
+// than this: each edge, and the surfaces between them, may be off it by WT_ON_SURFACE_M.
+#define WT_ALONG_PLANE_M (3.0 * WT_ON_SURFACE_M)
+
 // Structure of arrays: a ray queue of capacity n is WT_RAY_PLANES * n words; plane p of ray i is word p * n + i.
 #define WT_RAY_ORIGIN 0     // three planes, float
 #define WT_RAY_DIRECTION 3  // three planes, float, unit length
@@ -109,6 +113,7 @@ typedef struct {
   double exterior;      // radians
   double cosine, sine;  // of exterior
   wt_uint surfaces[2];  // numbered through the world
+  wt_uint planes[2];    // surfaces that stand for the planes of the faces
   wt_uint instance;     // WT_NONE: static
   wt_uint padding;
 } wt_wedge;
