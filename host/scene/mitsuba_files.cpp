@@ -16,7 +16,7 @@ namespace wavetracer {
 namespace {
 
 constexpr size_t most_included_deep = 15, most_files = 1000;
-// Of characters in an attribute: parameters that name each other several times grow without bound.
+// An attribute has at most so many characters: parameters that name each other several times grow without bound.
 constexpr size_t longest_attribute = 65536;
 
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }

@@ -1,5 +1,5 @@
-// GDAL with the drivers of a target's corpus alone. It asks all two hundred of them what an input is, which took nine
-// tenths of the time, and none of that is code of this program.
+// GDAL with the drivers of a target's corpus alone. It asks all two hundred of them what an input is, which takes most
+// of the time, and none of that is code of this program.
 #pragma once
 #include <dlfcn.h>
 
