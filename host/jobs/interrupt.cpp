@@ -2,6 +2,7 @@
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
 #include "jobs/interrupt.hpp"
 #include <unistd.h>
+#include <atomic>
 #include <csignal>
 #include <iostream>
 #include <string>
@@ -17,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-volatile std::sig_atomic_t raised = 0;
+// Set by the thread that handles the signal, and read by others.
+std::atomic<bool> raised{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler might not touch it
 
 sigset_t ending_signals() {
   sigset_t set;
@@ -59,12 +62,12 @@ void catch_interrupts(bool acknowledge) {
   struct sigaction action = {};
   if (acknowledge)
     action.sa_handler = [](int) {
-      raised = 1;
+      raised = true;
       constexpr std::string_view text = "\ninterrupted: stopping after the step in progress; once more ends at once\n";
       if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody is there to read it
     };
   else
-    action.sa_handler = [](int) { raised = 1; };
+    action.sa_handler = [](int) { raised = true; };
   action.sa_flags = SA_RESTART | SA_RESETHAND;  // a write to a file goes on
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -99,6 +102,6 @@ RemoveOnInterrupt::RemoveOnInterrupt(const fs::path& output)
                       folders = missing(output),
                       named = final_names().load()] { remove_and_end(temporary, folders, named); }) {}
 
-bool interrupted() { return raised != 0; }
+bool interrupted() { return raised; }
 
 }  // namespace wavetracer

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <set>
 
 #include "scene/gltf_data.hpp"
 #include "scene/gltf_extensions.hpp"
@@ -18,6 +19,8 @@ namespace wavetracer {
 namespace {
 
 using nlohmann::json;
+
+constexpr uint64_t most_copied_vertices = 50'000'000;
 
 // The name of an entry of a list, or "nodes_3" where it has none.
 std::string name_in(const json& entry, const char* list, size_t index) {
@@ -155,14 +158,21 @@ class GltfReader {
     if (const json* instancing = extension_of(node, "EXT_mesh_gpu_instancing")) {
       for (const glm::dmat4& instance : instances_of(*instancing)) {
         place.world = world_[index] * instance;
-        add(meshes_.read(mesh, place), name);
+        add(mesh, place, name);
       }
       return;
     }
-    add(meshes_.read(mesh, place), name);
+    add(mesh, place, name);
   }
 
-  void add(std::vector<RawMesh> meshes, const std::string& name) {
+  void add(const json& from, const GltfPlace& place, const std::string& name) {
+    std::vector<RawMesh> meshes = meshes_.read(from, place);
+    // A short file names one mesh as often as it likes: what it holds once is bounded by its length, copies are not.
+    if (!used_.insert(&from).second)
+      for (const RawMesh& mesh : meshes) copied_vertices_ += mesh.vertices.size() + 1;
+    if (copied_vertices_ > most_copied_vertices)
+      data_.fail(fmt::format("the copies of its meshes, in nodes and instances, have more than {} vertices",
+                             most_copied_vertices));
     for (RawMesh& mesh : meshes) {
       mesh.name = name;
       raw_.meshes.push_back(std::move(mesh));
@@ -239,7 +249,8 @@ class GltfReader {
   RawScene raw_;
   std::vector<glm::dmat4> world_;
   std::vector<bool> parented_;
-  uint64_t meshes_seen_ = 0, hidden_nodes_ = 0;
+  uint64_t meshes_seen_ = 0, hidden_nodes_ = 0, copied_vertices_ = 0;
+  std::set<const json*> used_;  // meshes
 };
 
 }  // namespace

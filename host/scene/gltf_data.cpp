@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t fewest_zeros = 65536;  // elements that an accessor without data may have, however short the file is
+constexpr uint64_t fewest_zeros = 4096;  // elements that an accessor without data may have, however short the file is
 
 enum ComponentType : int64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 

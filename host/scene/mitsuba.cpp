@@ -95,9 +95,19 @@ class MitsubaReader {
   void add_group(pugi::xml_node node) {
     const std::string id = files_.attribute(node, "id");
     check_shape(node, "shapegroup", {"shape"});
+    check_no_instance(node);
     std::vector<RawMesh> meshes = read_parts(node);
     if (!groups_.try_emplace(id, std::move(meshes)).second)
       files_.fail(node, ": another shapegroup of this file has this id; keep one");
+  }
+
+  // Groups of instances of groups would grow as a power of the length of the file. Mitsuba refuses them, too.
+  void check_no_instance(pugi::xml_node shape) const {
+    for (const pugi::xml_node child : shape.children("shape")) {
+      if (files_.attribute(child, "type") == "instance")
+        files_.fail(child, ": an instance must not be part of a shapegroup; put the shapes of its group there");
+      check_no_instance(child);
+    }
   }
 
   void check_shape(pugi::xml_node shape, std::string_view type, const std::vector<std::string_view>& objects) const {
@@ -157,7 +167,7 @@ class MitsubaReader {
     if (of_file) file = file_of(shape);
     if (name.empty()) name = of_file ? file.stem().string() : type;
     const uint32_t material = materials_->of_shape(shape, name);
-    std::vector<RawMesh> out = of_file ? read_file_meshes(file, type) : std::vector<RawMesh>(1);
+    std::vector<RawMesh> out = of_file ? meshes_of_file(file, type) : std::vector<RawMesh>(1);
     if (!of_file) {
       out[0] = type == "cube" ? cube() : rectangle();
       out[0].where = files_.where(shape);
@@ -181,28 +191,43 @@ class MitsubaReader {
     return file;
   }
 
-  std::vector<RawMesh> read_file_meshes(const std::filesystem::path& file, const std::string& type) {
-    if (type == "obj") {
-      RawScene model = read_model(file, ModelFormat::obj);
-      std::move(model.warnings.begin(), model.warnings.end(), std::back_inserter(raw_.warnings));
-      std::move(model.files.begin(), model.files.end(), std::back_inserter(raw_.files));
-      return std::move(model.meshes);
+  // The meshes of a file. A second reading tells that more shapes may follow, so its meshes are kept for those.
+  std::vector<RawMesh> meshes_of_file(const std::filesystem::path& file, const std::string& type) {
+    MeshFile& known = mesh_files_[{file.string(), type}];
+    if (++known.uses > 2) return known.meshes;
+    RawScene read = type == "obj" ? read_model(file, ModelFormat::obj) : ply_scene(file);
+    if (known.uses == 1) {
+      std::ranges::move(read.warnings, std::back_inserter(raw_.warnings));
+      std::ranges::move(read.files, std::back_inserter(raw_.files));
+    } else {
+      known.meshes = read.meshes;
     }
+    return std::move(read.meshes);
+  }
+
+  static RawScene ply_scene(const std::filesystem::path& file) {
     PlyMesh ply = read_ply(file);
-    raw_.files.push_back(file.string());
-    std::move(ply.warnings.begin(), ply.warnings.end(), std::back_inserter(raw_.warnings));
-    std::vector<RawMesh> out(1);
-    out[0].where = file.string();
-    out[0].vertices = std::move(ply.vertices);
-    out[0].triangles = std::move(ply.triangles);
-    out[0].rounding = ply.rounding;
+    RawScene out;
+    out.files.push_back(file.string());
+    out.warnings = std::move(ply.warnings);
+    RawMesh& mesh = out.meshes.emplace_back();
+    mesh.where = file.string();
+    mesh.vertices = std::move(ply.vertices);
+    mesh.triangles = std::move(ply.triangles);
+    mesh.rounding = ply.rounding;
     return out;
   }
+
+  struct MeshFile {
+    uint64_t uses = 0;
+    std::vector<RawMesh> meshes = {};  // from the second use on
+  };
 
   MitsubaFiles files_;
   RawScene raw_;
   MitsubaMaterials* materials_ = nullptr;
   std::map<std::string, std::vector<RawMesh>> groups_;
+  std::map<std::pair<std::string, std::string>, MeshFile> mesh_files_;  // by name and type
 };
 
 }  // namespace

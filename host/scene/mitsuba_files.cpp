@@ -16,6 +16,8 @@ namespace wavetracer {
 namespace {
 
 constexpr size_t most_included_deep = 15, most_files = 1000;
+// An attribute has at most so many characters: parameters that name each other several times grow without bound.
+constexpr size_t longest_attribute = 65536;
 
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
@@ -56,9 +58,8 @@ const MitsubaFiles::Document& MitsubaFiles::document_of(pugi::xml_node node) con
 }
 
 std::string MitsubaFiles::position(const Document& document, std::ptrdiff_t offset) const {
-  const std::string& text = document.text;
-  const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
-  return fmt::format("{}:{}", document.path.string(), 1 + std::count(text.begin(), end, '\n'));
+  const auto before = std::ranges::lower_bound(document.line_ends, offset) - document.line_ends.begin();
+  return fmt::format("{}:{}", document.path.string(), 1 + before);
 }
 
 std::string MitsubaFiles::where(pugi::xml_node node) const { return position(document_of(node), node.offset_debug()); }
@@ -87,6 +88,9 @@ std::string MitsubaFiles::attribute(pugi::xml_node node, const char* name) const
     if (!best) fail(node, fmt::format(": the parameter '{}' has no <default>", value.substr(at)));
     value.replace(at, best->first.size() + 1, best->second);
     at += best->second.size();
+    if (value.size() > longest_attribute)
+      fail(node,
+           fmt::format(": {} is longer than {} characters once its parameters are replaced", name, longest_attribute));
   }
   return value;
 }
@@ -114,6 +118,8 @@ std::filesystem::path MitsubaFiles::find(pugi::xml_node node, const std::string&
 const MitsubaFiles::Document& MitsubaFiles::load(const std::filesystem::path& path) {
   documents_.push_back(std::make_unique<Document>(path, read_file(path)));
   Document& document = *documents_.back();
+  for (size_t at = document.text.find('\n'); at != std::string::npos; at = document.text.find('\n', at + 1))
+    document.line_ends.push_back(static_cast<std::ptrdiff_t>(at));
   const pugi::xml_parse_result parsed = document.xml.load_buffer(document.text.data(), document.text.size());
   if (!parsed)
     throw InputError(

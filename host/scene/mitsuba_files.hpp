@@ -31,7 +31,8 @@ class MitsubaFiles {
   static std::string describe(pugi::xml_node node);
   [[noreturn]] void fail(pugi::xml_node node, const std::string& what) const;
 
-  // An attribute with its $parameters replaced; the empty string where it is absent.
+  // An attribute with its $parameters replaced; the empty string where it is absent. Throws where a parameter is not
+  // known, and where the text becomes longer than 64 KiB.
   std::string attribute(pugi::xml_node node, const char* name) const;
   // Throws where an element has an attribute that is not among these.
   void check_attributes(pugi::xml_node node, std::initializer_list<std::string_view> known) const;
@@ -43,7 +44,8 @@ class MitsubaFiles {
   struct Document {
     std::filesystem::path path;
     std::string text;
-    pugi::xml_document xml;
+    pugi::xml_document xml = {};
+    std::vector<std::ptrdiff_t> line_ends = {};
   };
 
   const Document& document_of(pugi::xml_node node) const;

@@ -14,6 +14,8 @@
 #include <cctype>
 #include <cmath>
 #include <glm/mat4x4.hpp>
+#include <limits>
+#include <map>
 #include <set>
 
 #include "scene/gltf.hpp"
@@ -118,18 +120,19 @@ void keep_readers(Assimp::Importer& importer, const std::string& suffix) {
 
 // Opens plain files only: an OBJ names a file of materials, a glTF names buffers, and a pipe would be waited for.
 // assimp chooses its reader by the suffix, so it is given a name that has one, and this knows the file that it stands
-// for. Notes what was opened.
+// for. Notes what was opened. A file that was opened so often before, as by a thousand statements that name one library
+// of materials, has nothing new to say, and is not there any more.
 class PlainFiles : public Assimp::DefaultIOSystem {
  public:
-  PlainFiles(std::string name, std::string file, std::vector<std::string>& opened)
-      : name_(std::move(name)), file_(std::move(file)), opened_(opened) {}
+  PlainFiles(std::string name, std::string file, size_t most_openings, std::vector<std::string>& opened)
+      : name_(std::move(name)), file_(std::move(file)), most_openings_(most_openings), opened_(opened) {}
 
   bool Exists(const char* name) const override {
     std::error_code unnameable;
     return std::filesystem::is_regular_file(file_of(name), unnameable);
   }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    if (!Exists(name)) return nullptr;
+    if (!Exists(name) || ++openings_[file_of(name)] > most_openings_) return nullptr;
     if (std::find(opened_.begin(), opened_.end(), file_of(name)) == opened_.end()) opened_.push_back(file_of(name));
     return Assimp::DefaultIOSystem::Open(file_of(name), mode);
   }
@@ -138,7 +141,9 @@ class PlainFiles : public Assimp::DefaultIOSystem {
   const char* file_of(const char* name) const { return name == name_ ? file_.c_str() : name; }
 
   std::string name_, file_;
+  size_t most_openings_;
   std::vector<std::string>& opened_;
+  std::map<std::string, size_t> openings_;
 };
 
 // Is it a file of glTF 1, in which names stand where glTF 2 has numbers?
@@ -170,7 +175,9 @@ RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
   const std::string name = path.string() + (fits ? "" : obj ? ".obj" : ".glb");
   std::vector<std::string> files;
   Assimp::Importer importer;
-  importer.SetIOHandler(new PlainFiles(name, path.string(), files));  // which is the importer's now
+  const size_t most_openings =
+      obj ? 4 : std::numeric_limits<size_t>::max();  // assimp looks at a file before it reads it
+  importer.SetIOHandler(new PlainFiles(name, path.string(), most_openings, files));  // which is the importer's now
   keep_readers(importer, obj ? "obj" : "gltf");
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene || !scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {

@@ -19,6 +19,7 @@ size_t feed(const std::filesystem::path& path) {
   }
   std::cout << path.string() << std::endl;  // before it may end here
   std::ifstream in(path, std::ios::binary);
+  if (!in) return 0;
   const std::string content(std::istreambuf_iterator<char>(in), {});
   LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(content.data()), content.size());
   return 1;
@@ -30,5 +31,5 @@ int main(int count, char** arguments) {
   size_t fed = 0;
   for (int i = 1; i < count; ++i) fed += feed(arguments[i]);
   std::cout << fed << " inputs\n";
-  return fed > 0 ? 0 : 1;
+  return fed > 0 ? 0 : 1;  // a corpus that is not where it should be is no test
 }

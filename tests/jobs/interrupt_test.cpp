@@ -6,7 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <functional>
 #include <iostream>
+#include <thread>
 
 #include "base/file.hpp"
 #include "base/pending_file.hpp"
@@ -17,24 +20,37 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a process says that writes to `output` and is told to end before or after it has given the file its name.
-std::string interrupted_words(const fs::path& output, bool named, const fs::path& messages) {
+// What a process says on stderr that does this and waits to be ended.
+std::string last_words(const std::function<void()>& begin_and_wait, const fs::path& messages) {
   std::cout.flush();  // or both processes write what waits there
   const pid_t process = fork();
   if (process == 0) {
     const int file = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDERR_FILENO);
-    const RemoveOnInterrupt guard(output);
-    PendingFile pending(output, {});
-    if (named) pending.commit();
-    kill(getpid(), SIGTERM);
-    while (true) pause();
+    begin_and_wait();
   }
   int status = 0;
   REQUIRE(waitpid(process, &status, 0) == process);
   CHECK(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 130);
   return read_file(messages);
+}
+
+[[noreturn]] void wait_for_the_end() {
+  while (true) pause();
+}
+
+// The same of one that writes to `output` and is told to end before or after it has given the file its name.
+std::string interrupted_words(const fs::path& output, bool named, const fs::path& messages) {
+  return last_words(
+      [&] {
+        const RemoveOnInterrupt guard(output);
+        PendingFile pending(output, {});
+        if (named) pending.commit();
+        kill(getpid(), SIGTERM);
+        wait_for_the_end();
+      },
+      messages);
 }
 
 }  // namespace
@@ -46,4 +62,18 @@ TEST_CASE("an interrupt says that nothing was written only where this is so") {
   CHECK_FALSE(fs::exists(output));
   CHECK(interrupted_words(output, true, messages) == "wavetracer: interrupted; what was written is complete\n");
   CHECK(fs::exists(output));
+}
+
+TEST_CASE("a signal that any thread handles is seen by the thread that waits for it") {
+  const test::TemporaryFolder folder;
+  const std::string words = last_words(
+      [] {
+        catch_interrupts(false);
+        std::thread other(wait_for_the_end);
+        const EndOnInterrupt guard([] {}, "ended");
+        pthread_kill(other.native_handle(), SIGTERM);
+        wait_for_the_end();
+      },
+      folder.path() / "messages");
+  CHECK(words == "wavetracer: ended\n");  // and nothing that the thread sanitizer has to say
 }
