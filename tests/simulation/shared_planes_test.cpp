@@ -181,6 +181,32 @@ TEST_CASE("an antenna 0.05 mm under a roof is on it, there and back, whatever th
   }
 }
 
+TEST_CASE("a row of houses of unequal heights: the taller ones stand in the way along the lower ones' roofs") {
+  // The solid has no walls between houses but for what stands out over the lower one: at its foot a leg along that
+  // roof must not get into the house.
+  const std::vector<double> heights{9, 12, 15, 12, 9, 15};
+  std::vector<Quad> boxes, welded;
+  for (size_t i = 0; i <= heights.size(); ++i) {
+    const double x = 10.0 * static_cast<double>(i), height = i < heights.size() ? heights[i] : 0;
+    const double other = i > 0 ? heights[i - 1] : 0;
+    for (double z = 0; z < std::max(height, other); z = z == 0 ? 9 : z + 3) {
+      const double up = z == 0 ? 9 : 3;
+      if (z < height)
+        for (const double y : {0.0, 12.0}) welded.push_back({{x, y, z}, {10, 0, 0}, {0, 0, up}});
+      if ((z < height) != (z < other)) welded.push_back({{x, 0, z}, {0, 12, 0}, {0, 0, up}});
+    }
+    if (i == heights.size()) break;
+    welded.push_back({{x, 0, height}, {10, 0, 0}, {0, 12, 0}});
+    boxes = boxes + reference::box_walls({x, 0, 0}, {x + 10, 12, height});
+  }
+  const Points south{{-20, -15, 2}, {5, -15, 2}, {25, -15, 2}};
+  Points north;
+  for (int i = 0; i < 10; ++i) north.push_back({-15 + 10 * i, 26, 1.5});
+  const Part street{{{{-150, -150, 0}, {300, 0, 0}, {0, 300, 0}}}, "concrete"};
+  check_same(reach({{welded, "concrete"}, street}, south, north, 3),
+             reach({{boxes, "concrete"}, street}, south, north, 3));
+}
+
 TEST_CASE("a leg across a courtyard or a street runs along no face") {
   // Two arms, 9 m apart, with or without what joins them in the north.
   const auto arms = [](bool joined) {
