@@ -141,6 +141,7 @@ std::string program_source(const std::string& program) {
   if (!file)
     throw DeviceError(fmt::format("kernel program \"{}\": {}.cl is not in {}", program, program, source.place()));
   Expansion expansion(source);
+  if (const std::optional<File> prelude = source.find("lib/prelude.clh")) expansion.append(*prelude);
   expansion.append(*file);
   return expansion.take();
 }
