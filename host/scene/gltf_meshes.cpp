@@ -81,7 +81,8 @@ std::vector<double> GltfMeshes::attribute(const json& from, const char* name, si
   if (of.draco) {
     const json& ids = from.at("extensions").at(draco_extension).at("attributes");
     if (ids.contains(name)) {
-      if (auto out = of.draco->numbers(whole_at<uint32_t>(ids, name, draco_extension), components)) return *std::move(out);
+      if (auto out = of.draco->numbers(whole_at<uint32_t>(ids, name, draco_extension), components))
+        return *std::move(out);
       data_.fail(fmt::format("the compressed mesh has no {} of {} components", name, components));
     }
   }

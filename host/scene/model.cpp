@@ -144,7 +144,10 @@ class LoneFile : public Assimp::DefaultIOSystem {
  public:
   LoneFile(std::string name, std::string file) : name_(std::move(name)), file_(std::move(file)) {}
 
-  bool Exists(const char* name) const override { return name == name_; }
+  bool Exists(const char* name) const override {
+    std::error_code unnameable;
+    return name == name_ && std::filesystem::is_regular_file(file_, unnameable);
+  }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
     if (!Exists(name) || open_) return nullptr;
     Assimp::IOStream* const file = Assimp::DefaultIOSystem::Open(file_.c_str(), mode);
@@ -157,8 +160,8 @@ class LoneFile : public Assimp::DefaultIOSystem {
   bool open_ = false;
 };
 
-// Opens plain files only: a glTF names buffers, and a pipe would be waited for. assimp chooses its reader by the suffix,
-// so it is given a name that has one, and this knows the file that it stands for. Notes what was opened.
+// Opens plain files only: a glTF names buffers, and a pipe would be waited for. assimp chooses its reader by the
+// suffix, so it is given a name that has one, and this knows the file that it stands for. Notes what was opened.
 class PlainFiles : public Assimp::DefaultIOSystem {
  public:
   PlainFiles(std::string name, std::string file, std::vector<std::string>& opened)

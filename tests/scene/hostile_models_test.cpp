@@ -166,8 +166,11 @@ TEST_CASE("glTF: numbers that should be whole and small are refused with their n
     for (const char* key : {"byteOffset", "byteLength", "byteStride"}) member("bufferViews", key);
     refused([&](json& d) { d["accessors"][0]["byteOffset"] = number; }, ("an accessor: \"byteOffset" + is).c_str());
     refused([&](json& d) { d["meshes"][0]["primitives"][0]["mode"] = number; }, ("a mesh: \"mode" + is).c_str());
-    refused([&](json& d) { d["accessors"][0]["sparse"] = {{"count", number}, {"indices", {}}, {"values", {}}}; },
-            ("a sparse accessor: \"count" + is).c_str());
+    refused(
+        [&](json& d) {
+          d["accessors"][0]["sparse"] = {{"count", number}, {"indices", {}}, {"values", {}}};
+        },
+        ("a sparse accessor: \"count" + is).c_str());
   }
   refused([](json& d) { d["scene"] = -1; }, "\"scene\" is -1, but must be a whole number from 0 to ");
   refused([](json& d) { d["scene"] = "0"; }, "\"scene\" is of the type string, but must be a whole number");
