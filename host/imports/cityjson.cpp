@@ -217,7 +217,7 @@ class CityJsonReader {
       for (const Json& index : ring) {
         if (!index.is_number_unsigned() || index.get<uint64_t>() >= vertices_.size())
           fail(place, fmt::format("names vertex {}, but they are 0 to {}",
-                                  printable(index.dump(-1, ' ', true, Json::error_handler_t::replace)),
+                                  index.is_number() ? index.dump() : fmt::format("of the type {}", index.type_name()),
                                   static_cast<int64_t>(vertices_.size()) - 1));
         points.push_back(vertices_[index.get<size_t>()]);
       }

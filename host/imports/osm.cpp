@@ -11,6 +11,7 @@
 
 #include "imports/map.hpp"
 #include "imports/osm_deleted.hpp"
+#include "imports/osm_exponents.hpp"
 #include "imports/osm_tags.hpp"
 #include "imports/osm_versions.hpp"
 #include "imports/projecting.hpp"
@@ -37,7 +38,10 @@ class OsmReader {
 
   // Footprints in degrees (longitude, latitude): projected by the caller, who knows the middle only now.
   Map read() {
-    if (!is_pbf_) deleted_ = deleted_in_editor(content_);
+    if (!is_pbf_) {
+      check_exponents(content_, name_);
+      deleted_ = deleted_in_editor(content_);
+    }
     read_entities(osmium::osm_entity_bits::relation,
                   [this](const osmium::OSMObject& object) { relation(static_cast<const osmium::Relation&>(object)); });
     keep_last_versions(relations_);
@@ -194,10 +198,7 @@ class OsmReader {
         ++map_.left_out["way that is not closed, as if clipped at the border of an extract"];
       return;
     }
-    if (way.nodes().size() > most_way_nodes) {
-      ++map_.left_out[too_many_corners];
-      return;
-    }
+    if (way.nodes().size() > most_way_nodes) return void(++map_.left_out[too_many_corners]);
     build(way, "way", [&](osmium::area::Assembler& assembler, osmium::memory::Buffer& out) { assembler(way, out); });
   }
 
@@ -217,10 +218,7 @@ class OsmReader {
       nodes += members.back()->nodes().size();
     }
     if (members.empty()) return;
-    if (nodes > most_relation_nodes) {
-      ++map_.left_out[too_many_corners];
-      return;
-    }
+    if (nodes > most_relation_nodes) return void(++map_.left_out[too_many_corners]);
     if ((member_nodes_ += nodes) > most_repeated * way_nodes_ + most_relation_nodes) {
       ++map_.left_out["multipolygon with ways that belong to too many others"];
       return;

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include "base/json_whole.hpp"
 #include "base/read_text.hpp"
 #include "jobs/checked_text.hpp"
 #include "output/cache_json.hpp"
 #include "output/h5_outputs.hpp"
-#include "output/json_count.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -20,12 +20,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr uint64_t most_manifest_bytes = uint64_t{1} << 32;
-
-std::vector<uint64_t> whole_numbers(const Json& json) {
-  std::vector<uint64_t> out;
-  for (const Json& value : json) out.push_back(whole<uint64_t>(value));
-  return out;
-}
 
 [[noreturn]] void refuse(const std::string& what) { throw Json::other_error::create(501, what, nullptr); }
 
@@ -54,8 +48,8 @@ Json encode_missed(const MissedCounts& missed) {
 
 MissedCounts decode_missed(const Json& json) {
   MissedCounts out;
-  out.frames = whole<uint64_t>(json.at("frames"));
-  const std::vector<uint64_t> paths = whole_numbers(json.at("paths"));
+  out.frames = whole_at<uint64_t>(json, "frames");
+  const std::vector<uint64_t> paths = whole_list<uint64_t>(json, "paths");
   if (paths.size() != out.paths.size()) refuse("the counts of paths of the four quarters of a launch are wrong");
   std::ranges::copy(paths, out.paths.begin());
   if (json.at("powers").size() != out.powers.size())
@@ -72,56 +66,56 @@ Shard decode(const Json& json, ManifestOf what) {
   shard.run = {run.at("version"),
                run.at("config"),
                run.at("device_kind"),
-               whole<uint32_t>(run.at("first")),
-               whole<uint32_t>(run.at("last")),
-               whole<uint32_t>(run.at("repeat")),
+               whole_at<uint32_t>(run, "first"),
+               whole_at<uint32_t>(run, "last"),
+               whole_at<uint32_t>(run, "repeat"),
                run.at("inputs")};
   Totals& t = shard.totals;
-  t.first = whole<uint32_t>(json.at("first"));
-  t.last = whole<uint32_t>(json.at("last"));
+  t.first = whole_at<uint32_t>(json, "first");
+  t.last = whole_at<uint32_t>(json, "last");
   if (t.first > t.last || t.first < shard.run.first || t.last > shard.run.last)
     refuse("its frames are not among those of the run");
   shard.unit = {t.first, t.last, 0, 1};
   if (json.contains("blocks")) {
-    shard.unit.block = whole<uint32_t>(json.at("block"));
-    shard.unit.blocks = whole<uint32_t>(json.at("blocks"));
+    shard.unit.block = whole_at<uint32_t>(json, "block");
+    shard.unit.blocks = whole_at<uint32_t>(json, "blocks");
     if (shard.unit.block >= shard.unit.blocks || t.first != t.last) refuse("its block of links cannot exist");
   }
   t.frames = uint64_t{t.last} - t.first + 1;
   t.start_s = json.at("start_s");
   t.end_s = json.at("end_s");
-  t.vertices = whole<uint64_t>(json.at("vertices"));
-  t.links = whole<uint64_t>(json.at("links"));
+  t.vertices = whole_at<uint64_t>(json, "vertices");
+  t.links = whole_at<uint64_t>(json, "links");
   const Json& counts = json.at("counts");
-  const auto count = [&](const char* name) { return whole<uint64_t>(counts.at(name)); };
+  const auto count = [&](const char* name) { return whole_at<uint64_t>(counts, name); };
   t.counts = {count("rays"),       count("segments"), count("hits"),  count("sequences"),
               count("candidates"), count("solved"),   count("paths"), count("receptions")};
-  const std::vector<uint64_t> kinds = whole_numbers(json.at("kinds"));
+  const std::vector<uint64_t> kinds = whole_list<uint64_t>(json, "kinds");
   if (kinds.size() != t.kinds.size()) refuse("its kinds of paths are not those of this version");
   std::ranges::copy(kinds, t.kinds.begin());
-  t.segments_per_depth = whole_numbers(json.at("segments_per_depth"));
+  t.segments_per_depth = whole_list<uint64_t>(json, "segments_per_depth");
   if (json.contains("left_out")) {
     const Json& gone = json.at("left_out");
-    t.left_out = {whole<uint64_t>(gone.at("paths")), gone.at("power"), gone.at("all")};
+    t.left_out = {whole_at<uint64_t>(gone, "paths"), gone.at("power"), gone.at("all")};
   }
   if (json.contains("missed")) t.missed = decode_missed(json.at("missed"));
   if (json.contains("late")) {
     const Json& late = json.at("late");
-    t.late = {whole<uint64_t>(late.at("discoveries")), whole<uint64_t>(late.at("paths")), late.at("power"),
+    t.late = {whole_at<uint64_t>(late, "discoveries"), whole_at<uint64_t>(late, "paths"), late.at("power"),
               late.at("all"), late.at("largest_share")};
   }
   if (json.contains("cache")) t.cache = decode_cache(json.at("cache"));
-  t.timed_segments = json.value("timed_segments", uint64_t{0});
+  t.timed_segments = whole_or<uint64_t>(json, "timed_segments", 0);
   t.seconds = json.at("seconds").get<std::map<std::string, std::vector<double>>>();
   t.warnings = json.at("warnings").get<std::vector<std::string>>();
   if (json.contains("missing")) {
     const Json& missing = json.at("missing");
-    t.missing = {whole<uint64_t>(missing.at("links")), whole<uint64_t>(missing.at("in_grids")),
+    t.missing = {whole_at<uint64_t>(missing, "links"), whole_at<uint64_t>(missing, "in_grids"),
                  missing.at("why").get<std::vector<std::string>>(),
                  missing.at("why_in_grids").get<std::vector<std::string>>()};
   }
   for (const Json& file : json.at("files"))
-    shard.files.push_back({file.at("name"), whole<uint64_t>(file.at("bytes")), whole<uint64_t>(file.at("hash"))});
+    shard.files.push_back({file.at("name"), whole_at<uint64_t>(file, "bytes"), whole_at<uint64_t>(file, "hash")});
   what == ManifestOf::shards ? check_files(shard) : check_outputs(shard);
   return shard;
 }

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <span>
+#include "base/json_whole.hpp"
 #include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -125,9 +126,9 @@ std::optional<ProcessInfo> decode_process(std::string_view text) {
                        .job = json.at("job"),
                        .host = json.at("host"),
                        .machine = json.at("machine"),
-                       .rank = json.at("rank"),
-                       .pid = json.at("pid"),
-                       .start = json.at("start"),
+                       .rank = whole_at<uint32_t>(json, "rank"),
+                       .pid = whole_at<int64_t>(json, "pid"),
+                       .start = whole_at<uint64_t>(json, "start"),
                        .since = json.value("since", "an unknown time")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;

@@ -3,9 +3,9 @@
 #include "jobs/run_record.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include "base/json_whole.hpp"
 #include "base/read_text.hpp"
 #include "jobs/checked_text.hpp"
-#include "output/json_count.hpp"
 #include "radio/codebook.hpp"
 #include "wavetracer/error.hpp"
 
@@ -71,7 +71,7 @@ namespace {
 void restore_element_outputs(const Json& json, Config& config) {
   if (json.value("responses", false)) config.response.bandwidth_hz = 1;
   if (json.value("beams", false)) config.arrays.emplace_back().codebook = "dft";
-  if (json.contains("carriers") && whole<uint64_t>(json.at("carriers")) > 1) config.radio.frequencies_hz = {1, 2};
+  if (json.contains("carriers") && whole_at<uint64_t>(json, "carriers") > 1) config.radio.frequencies_hz = {1, 2};
 }
 
 }  // namespace
@@ -86,38 +86,38 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   const Json& order = json.at("order");
   out.config.order.method = OrderMethod::named(order.at("asked").get<std::string>());
   s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"), {}, order.at("reason")};
-  if (const auto local_size = whole<uint32_t>(order.at("local_size")); local_size > 0) s.order.local_size = local_size;
+  if (const auto local_size = whole_at<uint32_t>(order, "local_size"); local_size > 0) s.order.local_size = local_size;
   for (const auto& [feature, value] : json.at("features").items())
     s.features[feature] = {value.at("on"), value.at("reason")};
   s.setup_seconds = json.at("setup_seconds").get<StageSeconds>();
   s.command_line = json.at("command_line");
-  s.frames_asked = whole<uint64_t>(json.at("frames_asked"));
-  s.repeat_count = whole<uint32_t>(json.at("repeat_count"));
+  s.frames_asked = whole_at<uint64_t>(json, "frames_asked");
+  s.repeat_count = whole_at<uint32_t>(json, "repeat_count");
   s.warnings = json.at("warnings").get<std::vector<std::string>>();
   out.config.file = json.at("config_file");
   if (json.contains("config")) out.config.text = json.at("config");
   out.config.trace.reuse = json.at("reuse");
-  out.config.output.waypoints = whole<uint64_t>(json.at("waypoints"));
+  out.config.output.waypoints = whole_at<uint64_t>(json, "waypoints");
   if (json.contains("cache_entries")) out.config.output.cache_entries = json.at("cache_entries").get<bool>();
   restore_element_outputs(json, out.config);
-  if (json.contains("compression")) out.config.output.compression = whole<uint32_t>(json.at("compression"));
+  if (json.contains("compression")) out.config.output.compression = whole_at<uint32_t>(json, "compression");
   if (out.config.output.compression > 9) throw RuntimeError(name + ": \"compression\" is no level from 0 to 9");
   out.config.cache.kind = CacheKind::named(json.at("cache").at("kind").get<std::string>());
   out.config.cache.key = CacheKey::named(json.at("cache").at("key").get<std::string>());
   out.scene.file = json.at("scene_file");
   out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
   if (const auto flat = json.find("scene_flattened"); flat != json.end()) {  // older versions write none
-    out.scene.report.flattened_vertices = whole<uint64_t>(flat->at("vertices"));
+    out.scene.report.flattened_vertices = whole_at<uint64_t>(*flat, "vertices");
     out.scene.report.flattened_by_m = flat->at("by_m").get<double>();
-    out.scene.report.bent_triangles = whole<uint64_t>(flat->at("left_triangles"));
+    out.scene.report.bent_triangles = whole_at<uint64_t>(*flat, "left_triangles");
     out.scene.report.plane_tolerance_m = flat->at("tolerance_m").get<double>();
   }
-  const auto vehicles = whole<uint64_t>(json.at("vehicles"));
+  const auto vehicles = whole_at<uint64_t>(json, "vehicles");
   if (vehicles > most_vehicles) throw RuntimeError(name + ": \"vehicles\" is not a number of vehicles");
   out.instances.resize(vehicles);
   for (const Json& input : json.at("inputs"))
     s.inputs.push_back(
-        {input.at("name"), input.at("file"), whole<uint64_t>(input.at("bytes")), whole<uint64_t>(input.at("hash"))});
+        {input.at("name"), input.at("file"), whole_at<uint64_t>(input, "bytes"), whole_at<uint64_t>(input, "hash")});
   if (!check_fits(text))
     throw RuntimeError(name + ": the file is damaged, since its content is not what its key \"check\" says; run again");
   return out;

@@ -1,6 +1,7 @@
 // Both ways over the one list of counts.
 // Assumes a cache that is on: of one that is off there is nothing to say.
 #include "output/cache_json.hpp"
+#include "base/json_whole.hpp"
 #include "output/cache_counts.hpp"
 
 namespace wavetracer {
@@ -21,14 +22,14 @@ nlohmann::ordered_json encode_cache(const CacheSummary& cache) {
 CacheSummary decode_cache(const nlohmann::ordered_json& json) {
   CacheSummary cache;
   cache.on = true;
-  for (const auto& [name, count] : cache_counts) cache.*count = json.at(name);
-  cache.entries = json.at("entries");
-  cache.used = json.at("used");
-  cache.bytes = json.at("bytes");
-  cache.lookups_per_depth = json.at("lookups_per_depth").get<std::vector<uint64_t>>();
-  cache.hits_per_depth = json.at("hits_per_depth").get<std::vector<uint64_t>>();
-  cache.shared_per_depth = json.at("shared_per_depth").get<std::vector<uint64_t>>();
-  cache.entries_by_hits = json.at("entries_by_hits").get<std::vector<uint64_t>>();
+  for (const auto& [name, count] : cache_counts) cache.*count = whole_at<uint64_t>(json, name);
+  cache.entries = whole_at<uint64_t>(json, "entries");
+  cache.used = whole_at<uint64_t>(json, "used");
+  cache.bytes = whole_at<uint64_t>(json, "bytes");
+  cache.lookups_per_depth = whole_list<uint64_t>(json, "lookups_per_depth");
+  cache.hits_per_depth = whole_list<uint64_t>(json, "hits_per_depth");
+  cache.shared_per_depth = whole_list<uint64_t>(json, "shared_per_depth");
+  cache.entries_by_hits = whole_list<uint64_t>(json, "entries_by_hits");
   return cache;
 }
 

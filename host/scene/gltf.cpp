@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <set>
 
+#include "base/json_whole.hpp"
 #include "scene/gltf_data.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/gltf_meshes.hpp"
@@ -122,7 +123,7 @@ class GltfReader {
         if (!parented_[i]) out.push_back(i);
       return out;
     }
-    const size_t scene = document_.contains("scene") ? document_["scene"].get<size_t>() : 0;
+    const auto scene = whole_or<size_t>(document_, "scene", 0);
     for (const json& root : list_in(data_.item("scenes", json(scene)), "nodes")) {
       out.push_back(node_at(root));
       if (parented_[out.back()])

@@ -9,6 +9,7 @@
 
 #include "base/file.hpp"
 #include "base/input_file.hpp"
+#include "base/json_whole.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -166,10 +167,12 @@ const std::string& GltfData::buffer(const json& index) {
 std::string_view GltfData::view(const json& index) {
   const json& found = item("bufferViews", index);
   const std::string& bytes = buffer(found.at("buffer"));
-  const auto first = found.value("byteOffset", uint64_t{0}), length = found.at("byteLength").get<uint64_t>();
+  const std::string name = fmt::format("bufferViews[{}]", index.dump());
+  const auto first = whole_or<uint64_t>(found, "byteOffset", 0, name),
+             length = whole_at<uint64_t>(found, "byteLength", name);
   if (first > bytes.size() || length > bytes.size() - first)
-    fail(fmt::format("bufferViews[{}] ends at byte {} of a buffer of {}: the file is incomplete or damaged",
-                     index.dump(), first + length, bytes.size()));
+    fail(fmt::format("{} ends at byte {} of a buffer of {}: the file is incomplete or damaged", name, first + length,
+                     bytes.size()));
   return std::string_view(bytes).substr(first, length);
 }
 
@@ -177,8 +180,9 @@ GltfData::Elements GltfData::elements(const json& at, uint64_t count, size_t com
   const std::string_view bytes = view(at.at("bufferView"));
   const size_t step = bytes_of(type), size = step * components;
   if (size == 0) fail(fmt::format("an accessor has the componentType {}, which glTF does not know", type));
-  const auto first = at.value("byteOffset", uint64_t{0});
-  const auto stride = item("bufferViews", at.at("bufferView")).value("byteStride", uint64_t{size});
+  const auto first = whole_or<uint64_t>(at, "byteOffset", 0, "an accessor");
+  const auto stride = whole_or<uint64_t>(item("bufferViews", at.at("bufferView")), "byteStride", size,
+                                         fmt::format("bufferViews[{}]", at.at("bufferView").dump()));
   if (stride < size || stride > 65536) fail(fmt::format("a byteStride of {} is not possible here", stride));
   if (count > 0 &&
       (first > bytes.size() || bytes.size() - first < size || count - 1 > (bytes.size() - first - size) / stride))
@@ -192,9 +196,11 @@ GltfData::Elements GltfData::elements(const json& at, uint64_t count, size_t com
 void GltfData::put_sparse(const json& accessor, size_t components, std::vector<double>& out) {
   const json& sparse = accessor.at("sparse");
   const json &places = sparse.at("indices"), &values = sparse.at("values");
-  const auto count = sparse.at("count").get<uint64_t>();
-  const Elements at = elements(places, count, 1, places.at("componentType").get<int64_t>());
-  const Elements from = elements(values, count, components, accessor.at("componentType").get<int64_t>());
+  const auto count = whole_at<uint64_t>(sparse, "count", "a sparse accessor");
+  const auto place_type = whole_at<int64_t>(places, "componentType", "a sparse accessor"),
+             value_type = whole_at<int64_t>(accessor, "componentType", "a sparse accessor");
+  const Elements at = elements(places, count, 1, place_type);
+  const Elements from = elements(values, count, components, value_type);
   for (size_t k = 0; k < count; ++k) {
     const double place = at(k, 0);
     if (!(place >= 0 && place < static_cast<double>(out.size() / components)))
@@ -208,8 +214,9 @@ std::vector<double> GltfData::numbers(const json& index, size_t components) {
   if (const auto type = accessor.at("type").get<std::string>(); components_of(type) != components)
     fail(
         fmt::format("accessors[{}] is of type {}, but one of {} components is needed", index.dump(), type, components));
-  const auto count = accessor.at("count").get<uint64_t>();
-  const auto type = accessor.at("componentType").get<int64_t>();
+  const std::string name = fmt::format("accessors[{}]", index.dump());
+  const auto count = whole_at<uint64_t>(accessor, "count", name);
+  const auto type = whole_at<int64_t>(accessor, "componentType", name);
   std::vector<double> out;
   if (accessor.contains("bufferView")) {
     const Elements from = elements(accessor, count, components, type);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/json_whole.hpp"
 #include "scene/gltf_draco.hpp"
 
 namespace wavetracer {
@@ -80,7 +81,8 @@ std::vector<double> GltfMeshes::attribute(const json& from, const char* name, si
   if (of.draco) {
     const json& ids = from.at("extensions").at(draco_extension).at("attributes");
     if (ids.contains(name)) {
-      if (auto out = of.draco->numbers(ids.at(name).get<uint32_t>(), components)) return *std::move(out);
+      if (auto out = of.draco->numbers(whole_at<uint32_t>(ids, name, draco_extension), components))
+        return *std::move(out);
       data_.fail(fmt::format("the compressed mesh has no {} of {} components", name, components));
     }
   }
@@ -112,7 +114,7 @@ void GltfMeshes::read_indices(const json& from, int64_t mode, Primitive& to) {
 }
 
 bool GltfMeshes::read_primitive(const json& from, Primitive& to) {
-  const auto mode = from.value("mode", int64_t{Mode::triangles});
+  const auto mode = whole_or<int64_t>(from, "mode", Mode::triangles, "a mesh");
   if (mode < 0 || mode > Mode::fan) data_.fail(fmt::format("a mesh has the mode {}, which glTF does not know", mode));
   const json& attributes = from.at("attributes");
   if (mode < Mode::triangles || !attributes.contains("POSITION")) return false;
@@ -192,7 +194,7 @@ std::vector<RawMesh> GltfMeshes::read(const json& mesh, const GltfPlace& by) {
     added.triangles = std::move(primitive.triangles);
     if (from.contains("material")) {
       data_.item("materials", from["material"]);
-      added.material = from["material"].get<uint32_t>();
+      added.material = whole_at<uint32_t>(from, "material", "a mesh");
     }
   }
   return out;

@@ -14,8 +14,7 @@
 #include <cctype>
 #include <cmath>
 #include <glm/mat4x4.hpp>
-#include <limits>
-#include <map>
+#include <memory>
 #include <set>
 
 #include "scene/gltf.hpp"
@@ -118,21 +117,62 @@ void keep_readers(Assimp::Importer& importer, const std::string& suffix) {
   }
 }
 
-// Opens plain files only: an OBJ names a file of materials, a glTF names buffers, and a pipe would be waited for.
-// assimp chooses its reader by the suffix, so it is given a name that has one, and this knows the file that it stands
-// for. Notes what was opened. A file that was opened so often before, as by a thousand statements that name one library
-// of materials, has nothing new to say, and is not there any more.
+// An open file, which says when it is closed: assimp does that here and there without its IOSystem.
+class OpenFile : public Assimp::IOStream {
+ public:
+  OpenFile(Assimp::IOStream* file, bool& open) : file_(file), open_(open) { open_ = true; }
+  ~OpenFile() override { open_ = false; }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  size_t Read(void* buffer, size_t size, size_t count) override { return file_->Read(buffer, size, count); }
+  size_t Write(const void* buffer, size_t size, size_t count) override { return file_->Write(buffer, size, count); }
+  aiReturn Seek(size_t offset, aiOrigin origin) override { return file_->Seek(offset, origin); }
+  size_t Tell() const override { return file_->Tell(); }
+  size_t FileSize() const override { return file_->FileSize(); }
+  void Flush() override { file_->Flush(); }
+
+ private:
+  std::unique_ptr<Assimp::IOStream> file_;
+  bool& open_;
+};
+
+// An OBJ file and none that it names. Materials are known by the names that faces use, so libraries of materials say
+// nothing new; and assimp's reader of them writes to address 0 where a material is described before it is named. They
+// are asked for while the OBJ file itself is open.
+class LoneFile : public Assimp::DefaultIOSystem {
+ public:
+  LoneFile(std::string name, std::string file) : name_(std::move(name)), file_(std::move(file)) {}
+
+  bool Exists(const char* name) const override {
+    std::error_code unnameable;
+    return name == name_ && std::filesystem::is_regular_file(file_, unnameable);
+  }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    if (!Exists(name) || open_) return nullptr;
+    Assimp::IOStream* const file = Assimp::DefaultIOSystem::Open(file_.c_str(), mode);
+    return file != nullptr ? new OpenFile(file, open_) : nullptr;
+  }
+  void Close(Assimp::IOStream* file) override { delete file; }
+
+ private:
+  std::string name_, file_;
+  bool open_ = false;
+};
+
+// Opens plain files only: a glTF names buffers, and a pipe would be waited for. assimp chooses its reader by the
+// suffix, so it is given a name that has one, and this knows the file that it stands for. Notes what was opened.
 class PlainFiles : public Assimp::DefaultIOSystem {
  public:
-  PlainFiles(std::string name, std::string file, size_t most_openings, std::vector<std::string>& opened)
-      : name_(std::move(name)), file_(std::move(file)), most_openings_(most_openings), opened_(opened) {}
+  PlainFiles(std::string name, std::string file, std::vector<std::string>& opened)
+      : name_(std::move(name)), file_(std::move(file)), opened_(opened) {}
 
   bool Exists(const char* name) const override {
     std::error_code unnameable;
     return std::filesystem::is_regular_file(file_of(name), unnameable);
   }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    if (!Exists(name) || ++openings_[file_of(name)] > most_openings_) return nullptr;
+    if (!Exists(name)) return nullptr;
     if (std::find(opened_.begin(), opened_.end(), file_of(name)) == opened_.end()) opened_.push_back(file_of(name));
     return Assimp::DefaultIOSystem::Open(file_of(name), mode);
   }
@@ -141,9 +181,7 @@ class PlainFiles : public Assimp::DefaultIOSystem {
   const char* file_of(const char* name) const { return name == name_ ? file_.c_str() : name; }
 
   std::string name_, file_;
-  size_t most_openings_;
   std::vector<std::string>& opened_;
-  std::map<std::string, size_t> openings_;
 };
 
 // Is it a file of glTF 1, in which names stand where glTF 2 has numbers?
@@ -175,9 +213,12 @@ RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
   const std::string name = path.string() + (fits ? "" : obj ? ".obj" : ".glb");
   std::vector<std::string> files;
   Assimp::Importer importer;
-  const size_t most_openings =
-      obj ? 4 : std::numeric_limits<size_t>::max();  // assimp looks at a file before it reads it
-  importer.SetIOHandler(new PlainFiles(name, path.string(), most_openings, files));  // which is the importer's now
+  if (obj) {  // the handlers are the importer's then
+    files.push_back(path.string());
+    importer.SetIOHandler(new LoneFile(name, path.string()));
+  } else {
+    importer.SetIOHandler(new PlainFiles(name, path.string(), files));
+  }
   keep_readers(importer, obj ? "obj" : "gltf");
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene || !scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {

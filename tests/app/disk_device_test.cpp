@@ -137,9 +137,8 @@ TEST_CASE(
   const Folder folder;
   const std::string scene = room_in(folder, "room");
   folder.file("drive.csv", "time,id,x,y,type\n0,a,3,2,passenger\n0.7,a,5,4,passenger\n");
-  folder.file("box.mtl", "newmtl metal\n");
   folder.file("box.obj",
-              "mtllib box.mtl\nusemtl metal\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
+              "usemtl metal\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
               "f 2 3 4\n");
   std::string pattern = "theta_deg,phi_deg,v_re,v_im,h_re,h_im\n";
   for (const int theta : {0, 90, 180})
@@ -158,7 +157,7 @@ TEST_CASE(
   const Outcome first = run(file, out, {"--shard", "0/2"});
   CAPTURE(first.err);
   REQUIRE(first.code == 0);
-  for (const char* name : {"drive.csv", "lamp.csv", "box.obj", "box.mtl", "room/room.xml"}) {
+  for (const char* name : {"drive.csv", "lamp.csv", "box.obj", "room/room.xml"}) {
     const std::string content = slurp(folder.path(name));
     change(folder.path(name));
     const Outcome refused = run(file, out, {"--resume"});

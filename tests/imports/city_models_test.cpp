@@ -128,6 +128,8 @@ TEST_CASE("broken city models are refused with the place and the reason") {
   refused(city_json(gable_house(), "[[0,0,1e999]]"), "too large");
   refused(city_json(gable_house(), "[[0,0]]"), "vertices/0: must be three numbers");
   refused(city_json(gable_house(), "[[0,0,0]]"), "names vertex 3, but they are 0 to 0");
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  refused(city_json(building("b", solid("2", "[[[[" + deep + "]]]]"))), "names vertex of the type array, but they are");
   refused(city_json(building("b", solid("x", gable_solid))), "CityObjects/b/geometry/0: lod");
   refused(city_json(building("b", solid("2", gable_solid, R"("semantics":{"values":[[7]]})"))), "names surface 7");
   refused(city_json(building("b", solid("2", gable_solid), "BuildingPart", R"("parents":["c"],)")), "its parent 'c'");

@@ -225,6 +225,23 @@ TEST_CASE("options: no ground, other materials; errors name what is wrong") {
   CHECK_THROWS_WITH_AS(import_text("<net/>", folder), doctest::Contains(".osm.pbf"), InputError);
 }
 
+TEST_CASE("coordinates in scientific notation are places, or refused where they are beyond all numbers") {
+  OsmText map;
+  map.way(rectangle(0, 0, 10, 10), {{"building", "yes"}});
+  const TemporaryFolder folder;
+  const auto with_node = [&](const std::string& attributes) {
+    std::string text = map.text();
+    text.insert(text.rfind("</osm>"), "\n<node id=\"90000\" version=\"1\" " + attributes + "/>\n");
+    return import_text(text, folder);
+  };
+  for (const char* good : {"lat=\"1.2e1\" lon=\"5e-99\"", "lat=\"1\" lon=\"2\" note=\"flat='1e60'\""})
+    CHECK_NOTHROW(with_node(good));
+  for (const char* bad : {"lat=\"1e60\" lon=\"1\"", "lat=\"1\"\n lon = '-48e17'", "lat=\"1e9999\" lon=\"1\""}) {
+    CAPTURE(bad);
+    CHECK_THROWS_WITH_AS(with_node(bad), doctest::Contains("is no place on the globe"), InputError);
+  }
+}
+
 TEST_CASE("trees, rows and woods are volumes of leaves where they are asked for, and buildings stay what they are") {
   OsmText map;
   map.way(rectangle(-40, -40, -20, -20), {{"building", "yes"}, {"height", "8"}});

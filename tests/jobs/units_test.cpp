@@ -90,6 +90,14 @@ TEST_CASE("a process is alive while it runs; elsewhere, while its heart beats") 
 TEST_CASE("whatever stands in a process file, it is read or passed over") {
   for (const char* text : {"", "{", "[]", "3", "null", "{\"name\":3}", "{\"name\":\"a\"}", "\xff\xfe"})
     CHECK_FALSE(decode_process(text));
+  ProcessInfo me = this_process("job", 3);
+  me.rank = 7;
+  for (const char* rank : {"1e122", "-7", "7.5", "4294967303"}) {
+    std::string text = encode_process(me);
+    text.replace(text.find("\"rank\":7") + 7, 1, rank);
+    CAPTURE(text);
+    CHECK_FALSE(decode_process(text));
+  }
   CHECK_FALSE(decode_process(std::string(100000, '[')));
   const TemporaryFolder folder;
   folder.write("process_a", "{\"name\":");

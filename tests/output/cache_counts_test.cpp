@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 #include "jobs/shards.hpp"
+#include "output/cache_json.hpp"
 #include "output/reader.hpp"
 #include "output/sample_run.hpp"
 #include "temporary_folder.hpp"
@@ -131,4 +132,18 @@ TEST_CASE("a cache that was never asked has no hit rate, and no cache has nothin
   shards.write(sample.run(), sample.drive(3, 10));
   CHECK(slurp(folder.path() / "drive" / "shards" / "manifest.jsonl").find("cache") == std::string::npos);
   CHECK(Shards(folder.path() / "drive", sample_identity(12)).resume() == 1);
+}
+
+TEST_CASE("counts of a cache that are no whole numbers are refused with their names") {
+  CacheSummary cache;
+  cache.lookups_per_depth = {3};
+  const nlohmann::ordered_json good = encode_cache(cache);
+  CHECK(decode_cache(good).lookups_per_depth == cache.lookups_per_depth);
+  for (const char* key : {"hits", "bytes", "lookups_per_depth"})
+    for (const double number : {1e122, -1.0, 0.5}) {
+      nlohmann::ordered_json bad = good;
+      (bad[key].is_array() ? bad[key][0] : bad[key]) = number;
+      const std::string message = std::string("\"") + key + "\" is ";
+      CHECK_THROWS_WITH_AS(decode_cache(bad), doctest::Contains(message.c_str()), Json::type_error);
+    }
 }

@@ -58,15 +58,15 @@ const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 }  // namespace
 
-TEST_CASE("OBJ: a library of materials that is named a thousand times is not read a thousand times") {
+TEST_CASE("OBJ: libraries of materials are not read, and faces have the materials that they name") {
   const test::TemporaryFolder folder;
-  const std::filesystem::path library = folder.write("many.mtl", "newmtl brick\nnewmtl glass\n");
+  const std::filesystem::path library = folder.write("many.mtl", "map_Pm brick.png\nnewmtl brick\nnewmtl glass\n");
   const std::filesystem::path model = folder.write(
       "many.obj", triangle + repeated("mtllib many.mtl\n", 1000) + "usemtl glass\nf 1 2 3\nusemtl slate\nf 3 2 1\n");
   OpeningCount openings(library);
   const RawScene raw = read_model(model, ModelFormat::obj);
-  CHECK(openings.count() >= 1);
-  CHECK(openings.count() < 10);
+  CHECK(openings.count() == 0);
+  CHECK(raw.files == std::vector<std::string>{model.string()});
   REQUIRE(raw.meshes.size() == 2);
   CHECK(raw.materials.at(raw.meshes[0].material).name == "glass");
   CHECK(raw.materials.at(raw.meshes[1].material).name == "slate");
@@ -133,6 +133,51 @@ TEST_CASE("glTF: copies of a mesh end where they are too many; the same number o
     else
       CHECK(gltf.read().meshes.size() == 4096);
   }
+}
+
+TEST_CASE("OBJ: a file that is its own library of materials is not read as one") {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"own.obj", "own"}) {
+    const std::filesystem::path file =
+        folder.write(name, triangle + "f 1 2 3\nmtllib own\nmtllib own.obj\nmap_Pm a.png\nnewmtl b\nmap_Pm c.png\n");
+    const RawScene raw = read_model(file, ModelFormat::obj);
+    REQUIRE(raw.meshes.size() == 1);
+    CHECK(raw.meshes[0].triangles.size() == 1);
+    CHECK(raw.files == std::vector<std::string>{file.string()});
+  }
+}
+
+TEST_CASE("glTF: numbers that should be whole and small are refused with their names where they are not") {
+  const auto refused = [](const auto& change, const char* message) {
+    test::Gltf gltf;
+    gltf.mesh({{"attributes", {{"POSITION", gltf.positions({0, 0, 0, 1, 0, 0, 1, 2, 0})}}}});
+    change(gltf.document);
+    CAPTURE(message);
+    CHECK_THROWS_WITH_AS(gltf.read(), Contains(message), InputError);
+  };
+  using nlohmann::json;
+  for (const double number : {1e122, -1e122, 2.5}) {
+    const std::string is = "\" is " + json(number).dump() + ", but must be a whole number from ";
+    const auto member = [&](const char* list, const char* key) {
+      refused([&](json& d) { d[list][0][key] = number; }, fmt::format("{}[0]: \"{}{}", list, key, is).c_str());
+    };
+    refused([&](json& d) { d["scene"] = number; }, ("\"scene" + is).c_str());
+    for (const char* key : {"count", "componentType"}) member("accessors", key);
+    for (const char* key : {"byteOffset", "byteLength", "byteStride"}) member("bufferViews", key);
+    refused([&](json& d) { d["accessors"][0]["byteOffset"] = number; }, ("an accessor: \"byteOffset" + is).c_str());
+    refused([&](json& d) { d["meshes"][0]["primitives"][0]["mode"] = number; }, ("a mesh: \"mode" + is).c_str());
+    refused(
+        [&](json& d) {
+          d["accessors"][0]["sparse"] = {{"count", number}, {"indices", {}}, {"values", {}}};
+        },
+        ("a sparse accessor: \"count" + is).c_str());
+  }
+  refused([](json& d) { d["scene"] = -1; }, "\"scene\" is -1, but must be a whole number from 0 to ");
+  refused([](json& d) { d["scene"] = "0"; }, "\"scene\" is of the type string, but must be a whole number");
+  test::Gltf whole;
+  whole.mesh({{"attributes", {{"POSITION", whole.positions({0, 0, 0, 1, 0, 0, 1, 2, 0})}}}});
+  whole.document["accessors"][0]["count"] = 3.0;
+  CHECK(whole.read().meshes.size() == 1);
 }
 
 TEST_CASE("glTF: elements without data are as few as the file is short") {
