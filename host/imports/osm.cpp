@@ -100,7 +100,9 @@ class OsmReader {
     places_.add(node.id(), node.version(), gone || !node.location().valid() ? osmium::Location() : node.location());
     if (gone || node.tags().empty()) return;
     check_tags(node);
-    if (is_tree(node.tags())) note(node, false, true, false, kept_trees_, trees_);
+    if (!is_tree(node.tags())) return;
+    if (!node.location().valid()) return void(++map_.left_out["tree without a place"]);
+    note(node, false, true, false, kept_trees_, trees_);
   }
 
   // Texts of PBF may hold zero bytes, which end a text for libosmium: a key would be left without its value, and what

@@ -33,7 +33,7 @@ Statement statement_of(std::string_view word) {
   return word == "call" || word == "csh" ? Statement::called : Statement::unknown;
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 class ObjCheck {
  public:
@@ -72,6 +72,9 @@ class ObjCheck {
   void check(std::string_view line, size_t number) {
     const size_t first = line.find_first_not_of(" \t");
     if (first == std::string_view::npos || line[first] == '#') return;
+    // assimp would read on behind the end of the file.
+    if (line.find_first_of("\v\f") != std::string_view::npos)
+      fail(number, "a vertical tab or a form feed stands in this line: leave it out");
     const std::string_view text = line.substr(first);
     const std::string_view word = text.substr(0, text.find_first_of(" \t"));
     const Statement statement = statement_of(word);
@@ -89,7 +92,7 @@ class ObjCheck {
 
   void check_vertex(std::string_view numbers, size_t number) const {
     // Digits, and the letters of "inf" and "nan", which are refused later.
-    constexpr std::string_view possible = " \t\r\v\f0123456789+-.,eEnNaAiIfFtTyY";
+    constexpr std::string_view possible = " \t\r0123456789+-.,eEnNaAiIfFtTyY";
     if (numbers.substr(0, numbers.find('#')).find_first_not_of(possible) != std::string_view::npos)
       fail(number, fmt::format("'v{}' is not a vertex of numbers", numbers.substr(0, 80)));
   }
@@ -107,6 +110,9 @@ class ObjCheck {
   // Of materials only the names are used, so a library that is not there is missed only where its name looks wrong.
   void check_library(std::string_view name, size_t number) {
     name.remove_prefix(std::min(name.find_first_not_of(" \t"), name.size()));
+    const auto is_slash = [](char c) { return c == '/' || c == '\\'; };
+    if (std::ranges::adjacent_find(name, [&](char a, char b) { return is_slash(a) && is_slash(b); }) != name.end())
+      fail(number, "the name of the library has two slashes in a row: leave out one of them");  // assimp loses its way
     const std::filesystem::path file = path_.parent_path() / name;
     std::error_code unnameable;
     if (name.empty() || std::filesystem::exists(file, unnameable)) return;

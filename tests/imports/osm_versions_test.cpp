@@ -139,3 +139,19 @@ TEST_CASE("an outline whose id is too large for the assembler is left out and to
     CHECK(summary.left_out.at("outline whose id is too large") == 1);
   }
 }
+
+TEST_CASE("a tree without a place is counted, and the others are planted") {
+  OsmText map;
+  const int lost = map.tree(5, 30, {{"natural", "tree"}});
+  map.tree(9, 30, {{"natural", "tree"}});
+  std::string text = map.text();
+  const size_t at = text.find("lat=", text.find("<node id=\"" + std::to_string(lost) + "\""));
+  REQUIRE(at != text.npos);
+  text.replace(at, 4, "lap=");
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.vegetation = true;
+  const Imported imported = import_text(text, folder, options);
+  CHECK(imported.summary.vegetation == 1);
+  CHECK(imported.summary.left_out.at("tree without a place") == 1);
+}

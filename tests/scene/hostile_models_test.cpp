@@ -147,6 +147,18 @@ TEST_CASE("OBJ: a file that is its own library of materials is not read as one")
   }
 }
 
+TEST_CASE("OBJ: blanks and slashes that assimp cannot read are refused with their line") {
+  const test::TemporaryFolder folder;
+  for (const std::string line :
+       {"f 1 2 3\v", "f 1 2 3 \v\t\v", "f\f1 2 3", "v 0 0\v0", "mtllib a//b.mtl", "mtllib a\\\\b"}) {
+    CAPTURE(line);
+    const std::filesystem::path file = folder.write("a.obj", triangle + line);
+    CHECK_THROWS_WITH_AS(read_model(file, ModelFormat::obj), Contains("a.obj:4: "), InputError);
+  }
+  CHECK(read_model(folder.write("a.obj", triangle + "mtllib a/b.mtl\n# a // \v\nf 1 2 3\r\n"), ModelFormat::obj)
+            .meshes.size() == 1);
+}
+
 TEST_CASE("glTF: numbers that should be whole and small are refused with their names where they are not") {
   const auto refused = [](const auto& change, const char* message) {
     test::Gltf gltf;
