@@ -149,3 +149,17 @@ TEST_CASE("nodes outside of the earth, members that are themselves, huge numbers
   CHECK(survives("<additional><poly type=\"building\" id=\"\" shape=\"1e308,1e308 -1e308,0 0,-1e308\"/></additional>",
                  folder));
 }
+
+TEST_CASE("of two trees with one id and one version, the later one says where it stands") {
+  const TemporaryFolder folder;
+  ImportOptions options;
+  options.vegetation = true;
+  std::string trees;
+  for (const char* place : {"", "lat=\"48.137\" lon=\"11.575\""})
+    trees += std::string("<node id=\"9\" version=\"1\" ") + place + "><tag k=\"natural\" v=\"tree\"/></node>";
+  OsmText map;
+  map.way(rectangle(0, 0, 10, 10), {{"building", "yes"}});
+  std::string whole = map.text();
+  whole.insert(whole.rfind("</osm>"), trees);
+  CHECK_NOTHROW(import_text(whole, folder, options));
+}
