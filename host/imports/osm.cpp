@@ -129,8 +129,7 @@ class OsmReader {
     const auto& node = kept_trees_.get<const osmium::Node>(tree.offset);
     count_greenery(node);
     if (!vegetation_) return;
-    const osmium::Location place = places_.place(tree.id);  // of equal versions, this one may have none
-    plant({place.lon(), place.lat()}, fmt::format("node_{}", node.id()), node.tags());
+    plant({node.location().lon(), node.location().lat()}, fmt::format("node_{}", node.id()), node.tags());
   }
 
   // A tree, as the outline of its crown.
