@@ -1,5 +1,5 @@
-// Whole numbers in JSON that may be anybody's: nlohmann turns numbers into others without a word, even where that is
-// undefined.
+// Reads whole numbers of JSON from files of others: nlohmann turns numbers into other ones without a word, even where
+// that is undefined.
 #pragma once
 #include <fmt/format.h>
 #include <cmath>
@@ -33,7 +33,7 @@ std::optional<T> whole_number(const Json& value) {
 }
 
 // Throws nlohmann's type_error where the value is no whole number that T holds. key: its name, for that message;
-// where: the name of the object around it, for the message too, empty where whoever catches the error knows.
+// where: the name of the object around it, for the message too; empty if the caller adds it.
 template <std::integral T, typename Json>
 T whole(const Json& value, std::string_view key, std::string_view where = {}) {
   if (const std::optional<T> number = whole_number<T>(value)) return *number;

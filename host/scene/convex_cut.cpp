@@ -10,7 +10,7 @@ namespace {
 
 using glm::dvec3;
 
-// Where the line crosses, always seen from its inner end: both polygons at a side get the same point.
+// Returns the point where the line crosses, always seen from its inner end: both polygons at a side get the same point.
 dvec3 on_cut_line(const dvec3& inner, double inner_m, const dvec3& outer, double outer_m) {
   return inner + (outer - inner) * (inner_m / (inner_m - outer_m));
 }

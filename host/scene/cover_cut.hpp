@@ -1,4 +1,4 @@
-// What triangles of a plane leave of another triangle that they cover in part.
+// Finds the parts of a triangle that other triangles of its plane do not cover.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -23,8 +23,8 @@ CoverTriangle cover_triangle(const Scene& scene, std::span<const std::array<uint
 // The part of a polygon that a triangle covers; empty where that is narrower than welding moves vertices.
 ConvexPolygon covered_part(const ConvexPolygon& polygon, const CoverTriangle& cover);
 
-// What no triangle covers, as convex polygons that do not overlap, without those that are narrower than welding moves
-// vertices. The time grows as n log n with the number of covers that are spread over the polygon.
+// Returns the parts that no triangle covers, as convex polygons that do not overlap, without those that are narrower
+// than welding moves vertices. The time grows as n log n with the number of covers that are spread over the polygon.
 std::vector<ConvexPolygon> uncovered_parts(ConvexPolygon polygon, std::span<const CoverTriangle> covers);
 
 }  // namespace wavetracer

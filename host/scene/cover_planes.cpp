@@ -20,7 +20,7 @@ bool all_lie_in(const Scene& scene, const Surface& surface, const Surface& plane
   return true;
 }
 
-// Of equal areas and materials by place, not by number.
+// Orders surfaces of equal areas and materials by place, not by number.
 auto place_of(const Surface& s) { return std::tuple(s.lower.x, s.lower.y, s.lower.z, s.upper.x, s.upper.y, s.upper.z); }
 
 }  // namespace

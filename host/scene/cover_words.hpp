@@ -1,4 +1,4 @@
-// What to tell the user of places that surfaces of two materials share in one plane.
+// Makes the warnings about places that surfaces of two materials share in one plane.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -24,7 +24,7 @@ namespace {
 using glm::dvec3;
 using CoveredPair = std::pair<uint32_t, uint32_t>;  // the covered triangle, the one that covers it
 
-// What rounding moves a point that several triangles have: far less than welding does.
+// Rounding moves a point that several triangles have by less than this, which is far less than welding does.
 constexpr double same_point_m = 1e-6;
 
 struct PieceOfTriangle {

@@ -17,7 +17,8 @@ namespace wavetracer {
 // nor, above the roof, the two parts that a wall on it divides. Two surfaces lie in one plane if their planes are the
 // same (same_plane of host/scene/topology.hpp), or if they are bent by less than 1 mrad and all corners of each are
 // within 0.2 mm of the plane of the other: so walls whose corners were rounded are what they were. A row of surfaces
-// that bend one after the other may be a curve, so who asks about two edges of it looks at the way between them, too.
+// that bend one after the other may be a curve, so the way between two edges of it is asked as well (wt_share_plane of
+// kernels/lib/wedge.clh).
 class FacePlanes {
  public:
   explicit FacePlanes(const Scene& scene);  // joins surfaces that share flat edges of the mesh; scene outlives this

@@ -54,7 +54,7 @@ std::string point(glm::dvec3 p) {
   return fmt::format("{:>12.3f} {:>12.3f} {:>9.3f}", p.x, p.y, p.z);
 }
 
-// How far vertices were moved, and the warnings.
+// Adds how far vertices were moved, and the warnings.
 std::string describe_flattening(const LoadReport& report) {
   std::string out = fmt::format(
       "flattened  {} vertices moved onto the planes of their surfaces, by {:.2g} mm at most{}\n",

@@ -66,7 +66,7 @@ struct Wedge {
   glm::dvec3 normal{0, 1, 0};             // of face 0, into free space
   double exterior_rad = 0;                // n pi; 2 pi: a half plane
   std::array<uint32_t, 2> surface{0, 0};  // of face 0 and face 1, into Scene::surfaces; the same for a free edge
-  // Of face 0 and face 1: the lowest surface of those that make up one plane with it, see host/scene/face_planes.hpp.
+  // For face 0 and face 1: the lowest of the surfaces that make up one plane with it, see host/scene/face_planes.hpp.
   std::array<uint32_t, 2> plane{0, 0};
 };
 

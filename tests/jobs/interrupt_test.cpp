@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a process says on stderr that does this and waits to be ended.
+// Returns what a process that does this, and waits to be ended, says on stderr.
 std::string last_words(const std::function<void()>& begin_and_wait, const fs::path& messages) {
   std::cout.flush();  // or both processes write what waits there
   const pid_t process = fork();
