@@ -1,28 +1,20 @@
-// A forest of triangles, each pointing to a lower one; triangles that share an edge have one root.
+// Triangles that share an edge belong to one set of a forest, and the lowest one of a set comes first.
 // Assumes the edges of a scene that was built: faces are indices of its triangles.
 #include "scene/bodies.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include "base/forest.hpp"
 
 namespace wavetracer {
 
 std::vector<uint32_t> bodies_of(const Scene& scene) {
-  std::vector<uint32_t> parent(scene.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  Forest bodies(scene.triangles.size());
   for (const Edge& edge : scene.edges)
-    for (uint32_t k = 1; k < edge.face_count; ++k) {
-      const uint32_t a = root(scene.edge_faces[edge.first_face]), b = root(scene.edge_faces[edge.first_face + k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  std::vector<uint32_t> body(parent.size());
+    for (uint32_t k = 1; k < edge.face_count; ++k)
+      bodies.join(scene.edge_faces[edge.first_face], scene.edge_faces[edge.first_face + k]);
+  std::vector<uint32_t> body(bodies.size());
   uint32_t count = 0;
-  for (uint32_t t = 0; t < parent.size(); ++t) {
-    const uint32_t first = root(t);
+  for (uint32_t t = 0; t < bodies.size(); ++t) {
+    const uint32_t first = bodies.root(t);
     body[t] = first == t ? count++ : body[first];
   }
   return body;

@@ -35,6 +35,13 @@ std::array<CutLine, 3> side_lines(const Scene& scene, uint32_t t, const dvec3& n
   return out;
 }
 
+bool parted_by_a_side(const Scene& scene, uint32_t t, uint32_t other, const dvec3& normal, double touch_m) {
+  return std::ranges::any_of(side_lines(scene, t, normal), [&](const CutLine& side) {
+    return std::ranges::all_of(scene.triangles[other],
+                               [&](uint32_t v) { return side.beyond_m(scene.vertices[v]) <= touch_m; });
+  });
+}
+
 CutParts cut_convex(const ConvexPolygon& polygon, const CutLine& line, double touch_m) {
   std::vector<double> beyond_m;
   for (const dvec3& p : polygon) {

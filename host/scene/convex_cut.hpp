@@ -21,6 +21,10 @@ struct CutLine {
 // corners k and k + 1.
 std::array<CutLine, 3> side_lines(const Scene& scene, uint32_t t, const glm::dvec3& normal);
 
+// Does a side of triangle t, in a plane with this normal, have all of the other triangle outside of it, but for
+// touch_m?
+bool parted_by_a_side(const Scene& scene, uint32_t t, uint32_t other, const glm::dvec3& normal, double touch_m);
+
 // Both parts of a polygon; one is empty where the line does not cut it. Corners within touch_m of the line are on it,
 // so that no part is narrower. The winding is kept.
 struct CutParts {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "scene/weld.hpp"
 
@@ -21,12 +22,6 @@ dvec3 middle_of(std::span<const dvec3> corners) {
   dvec3 sum(0);
   for (const dvec3& p : corners) sum += p;
   return sum / static_cast<double>(corners.size());
-}
-
-bool comes_first(const dvec3& a, const dvec3& b) {
-  for (int k = 0; k < 3; ++k)
-    if (a[k] != b[k]) return a[k] < b[k];
-  return false;
 }
 
 class CoverCutter {
@@ -53,8 +48,9 @@ class CoverCutter {
     const dvec3 middle = middle_of(task.piece);
     while (!task.covers.empty()) {
       const auto nearest = std::ranges::min_element(task.covers, [&](uint32_t a, uint32_t b) {
-        const double a_m = glm::distance(middles_[a], middle), b_m = glm::distance(middles_[b], middle);
-        return a_m != b_m ? a_m < b_m : comes_first(middles_[a], middles_[b]);
+        const dvec3 &p = middles_[a], &q = middles_[b];
+        const double p_m = glm::distance(p, middle), q_m = glm::distance(q, middle);
+        return std::tie(p_m, p.x, p.y, p.z) < std::tie(q_m, q.x, q.y, q.z);
       });
       const uint32_t cover = *nearest;
       *nearest = task.covers.back();

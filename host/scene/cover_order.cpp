@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numeric>
 
+#include "base/forest.hpp"
 #include "scene/flat_neighbours.hpp"
 #include "scene/topology.hpp"
 
@@ -23,31 +22,24 @@ bool goes_on(const Scene& scene, const FlatNeighbours& neighbours, const FlatNei
   const Surface &a = scene.surfaces[scene.triangle_surface[pair.triangle]],
                 &b = scene.surfaces[scene.triangle_surface[pair.other]];
   if (a.material != b.material || !neighbours.unfolded(pair, a.normal)) return false;
-  return std::ranges::all_of(scene.triangles[pair.other], [&](uint32_t v) {
-    return std::abs(glm::dot(a.normal, scene.vertices[v]) - a.offset_m) <= flat_as_it_is_m;
-  });
+  return triangle_is_near(scene, pair.other, plane_of(a), flat_as_it_is_m);
 }
 
 }  // namespace
 
 CoverOrder::CoverOrder(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges)
     : scene_(scene), area_m2_(scene.surfaces.size(), 0) {
-  std::vector<uint32_t> parent(scene.surfaces.size());  // a forest whose roots are the lowest surfaces
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](uint32_t s) {
-    while (parent[s] != s) s = parent[s] = parent[parent[s]];
-    return s;
-  };
+  Forest joined(scene.surfaces.size());
   const FlatNeighbours neighbours(scene, triangle_edges);
   for (uint32_t t = 0; t < scene.triangles.size(); ++t)
     neighbours.visit(t, [&](const FlatNeighbour& pair) {
-      const uint32_t a = root(scene.triangle_surface[t]), b = root(scene.triangle_surface[pair.other]);
-      if (a != b && goes_on(scene, neighbours, pair)) parent[std::max(a, b)] = std::min(a, b);
+      const uint32_t a = scene.triangle_surface[t], b = scene.triangle_surface[pair.other];
+      if (joined.root(a) != joined.root(b) && goes_on(scene, neighbours, pair)) joined.join(a, b);
     });
   for (uint32_t t = 0; t < scene.triangles.size(); ++t)
-    area_m2_[root(scene.triangle_surface[t])] += triangle_shape(scene, t).area_m2;
-  for (uint32_t s = 0; s < area_m2_.size(); ++s) area_m2_[s] = root(s) == s ? in_six_digits(area_m2_[s]) : 0;
-  for (uint32_t s = 0; s < area_m2_.size(); ++s) area_m2_[s] = area_m2_[root(s)];
+    area_m2_[joined.root(scene.triangle_surface[t])] += triangle_shape(scene, t).area_m2;
+  for (uint32_t s = 0; s < area_m2_.size(); ++s) area_m2_[s] = joined.root(s) == s ? in_six_digits(area_m2_[s]) : 0;
+  for (uint32_t s = 0; s < area_m2_.size(); ++s) area_m2_[s] = area_m2_[joined.root(s)];
 }
 
 std::pair<double, std::string_view> CoverOrder::key(uint32_t surface) const {

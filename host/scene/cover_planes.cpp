@@ -13,13 +13,6 @@
 namespace wavetracer {
 namespace {
 
-bool all_lie_in(const Scene& scene, const Surface& surface, const Surface& plane) {
-  for (uint32_t k = 0; k < surface.triangle_count; ++k)
-    for (const uint32_t v : scene.triangles[scene.surface_triangles[surface.first_triangle + k]])
-      if (std::abs(glm::dot(plane.normal, scene.vertices[v]) - plane.offset_m) > flat_as_it_is_m) return false;
-  return true;
-}
-
 // Orders surfaces of equal areas and materials by place, not by number.
 auto place_of(const Surface& s) { return std::tuple(s.lower.x, s.lower.y, s.lower.z, s.upper.x, s.upper.y, s.upper.z); }
 
@@ -42,7 +35,7 @@ void share_planes(Scene& scene, const CoverOrder& order, std::span<const std::pa
     Surface& surface = scene.surfaces[cover];
     const Surface& plane = scene.surfaces[below];
     if (glm::length(glm::cross(surface.normal, plane.normal)) <= same_plane_rad) continue;
-    if (!all_lie_in(scene, surface, plane)) continue;
+    if (!surface_is_near(scene, surface, plane_of(plane), flat_as_it_is_m)) continue;
     surface.normal = plane.normal;
     surface.offset_m = plane.offset_m;
   }

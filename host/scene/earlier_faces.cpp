@@ -3,10 +3,10 @@
 #include "scene/earlier_faces.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scene/convex_cut.hpp"
+#include "scene/topology.hpp"
 #include "scene/triangle_grid.hpp"
 #include "scene/weld.hpp"
 
@@ -14,38 +14,15 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-using Face = std::array<dvec3, 3>;
 
-constexpr double in_plane_m = 1e-4;  // as coplanar surfaces are joined
+dvec3 normal_of(const Scene& scene, uint32_t t) { return triangle_shape(scene, t).normal; }
 
-Face face_of(const Scene& scene, uint32_t t) {
-  const auto& [a, b, c] = scene.triangles[t];
-  return {scene.vertices[a], scene.vertices[b], scene.vertices[c]};
-}
-
-dvec3 normal_of(const Face& f) { return glm::normalize(glm::cross(f[1] - f[0], f[2] - f[0])); }
-
-bool in_one_plane(const Face& a, const dvec3& normal, const Face& b) {
-  return std::ranges::all_of(b, [&](const dvec3& p) { return std::abs(glm::dot(p - a[0], normal)) <= in_plane_m; });
-}
-
-// Inwards from a side, in the plane.
-dvec3 inwards(const Face& f, size_t side, const dvec3& normal) {
-  return glm::normalize(glm::cross(normal, f[(side + 1) % 3] - f[side]));
-}
-
-// Does a side of f have all of the other triangle outside of it, but for what welding moves?
-bool parted_by_a_side(const Face& f, const dvec3& normal, const Face& other) {
-  for (size_t side = 0; side < 3; ++side) {
-    const dvec3 in = inwards(f, side, normal);
-    if (std::ranges::all_of(other, [&](const dvec3& p) { return glm::dot(p - f[side], in) <= weld_tolerance_m; }))
-      return true;
-  }
-  return false;
-}
-
-bool overlap(const Face& a, const dvec3& normal, const Face& b) {
-  return in_one_plane(a, normal, b) && !parted_by_a_side(a, normal, b) && !parted_by_a_side(b, normal_of(b), a);
+bool overlap(const Scene& scene, uint32_t t, uint32_t other) {
+  const dvec3 normal = normal_of(scene, t);
+  const Plane plane{normal, glm::dot(normal, scene.vertices[scene.triangles[t][0]])};
+  return triangle_is_near(scene, other, plane, flat_as_it_is_m) &&
+         !parted_by_a_side(scene, t, other, normal, weld_tolerance_m) &&
+         !parted_by_a_side(scene, other, t, normal_of(scene, other), weld_tolerance_m);
 }
 
 std::vector<bool> scattering_triangles(const Scene& scene) {
@@ -65,12 +42,9 @@ EarlierFaces::EarlierFaces(const Scene& scene) : scene_(scene), below_(scene.tri
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
     if (!scatters[t]) continue;
     std::vector<uint32_t>& below = below_[t];
-    const Face face = face_of(scene, t);
-    const dvec3 normal = normal_of(face);
     grid.grid().visit_box(grid.boxes()[t], [&](uint32_t cell) {
       for (const uint32_t other : grid[cell])
-        if (other < t && scatters[other] && std::ranges::find(below, other) == below.end() &&
-            overlap(face, normal, face_of(scene, other)))
+        if (other < t && scatters[other] && std::ranges::find(below, other) == below.end() && overlap(scene, t, other))
           below.push_back(other);
     });
   }
@@ -79,11 +53,8 @@ EarlierFaces::EarlierFaces(const Scene& scene) : scene_(scene), below_(scene.tri
 bool EarlierFaces::hold(uint32_t triangle, const dvec3& point) const {
   constexpr double rounding_m = 1e-9;
   return std::ranges::any_of(below_[triangle], [&](uint32_t other) {
-    const Face f = face_of(scene_, other);
-    const dvec3 normal = normal_of(f);
-    for (size_t side = 0; side < 3; ++side)
-      if (glm::dot(point - f[side], inwards(f, side, normal)) < -rounding_m) return false;
-    return true;
+    return std::ranges::all_of(side_lines(scene_, other, normal_of(scene_, other)),
+                               [&](const CutLine& side) { return side.beyond_m(point) >= -rounding_m; });
   });
 }
 

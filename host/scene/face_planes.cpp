@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "scene/topology.hpp"
 
@@ -12,8 +11,7 @@ namespace wavetracer {
 
 using glm::dvec3;
 
-FacePlanes::FacePlanes(const Scene& scene) : scene_(scene), parent_(2 * scene.surfaces.size()) {
-  std::iota(parent_.begin(), parent_.end(), 0u);
+FacePlanes::FacePlanes(const Scene& scene) : scene_(scene), sides_(2 * scene.surfaces.size()) {
   for (const Edge& edge : scene.edges) {
     if (!edge.flat) continue;
     const uint32_t first = scene.triangle_surface[scene.edge_faces[edge.first_face]];
@@ -27,41 +25,31 @@ FacePlanes::FacePlanes(const Scene& scene) : scene_(scene), parent_(2 * scene.su
 }
 
 void FacePlanes::join(uint32_t surface, uint32_t other, const dvec3& front, const dvec3& at) {
-  const uint32_t a = root(side(surface, front)), b = root(side(other, front));
-  if (a != b && in_one_plane(surface, other, at)) parent_[std::max(a, b)] = std::min(a, b);
+  const uint32_t a = side(surface, front), b = side(other, front);
+  if (sides_.root(a) != sides_.root(b) && in_one_plane(surface, other, at)) sides_.join(a, b);
 }
 
 bool FacePlanes::in_one_plane(uint32_t surface, uint32_t other, const dvec3& at) {
-  if (same_plane(scene_.surfaces[surface], scene_.surfaces[other], at)) return true;
+  const Surface &a = scene_.surfaces[surface], &b = scene_.surfaces[other];
+  if (same_plane(a, b, at)) return true;
   const auto pair = std::minmax(surface, other);
   if (apart_.contains(pair)) return false;
-  if (all_near(surface, other) && all_near(other, surface)) return true;
+  constexpr double near_m = 2 * flat_as_it_is_m;
+  if (surface_is_near(scene_, a, plane_of(b), near_m) && surface_is_near(scene_, b, plane_of(a), near_m)) return true;
   apart_.insert(pair);
   return false;
-}
-
-bool FacePlanes::all_near(uint32_t surface, uint32_t other) const {
-  const Surface &from = scene_.surfaces[surface], &to = scene_.surfaces[other];
-  for (uint32_t i = 0; i < from.triangle_count; ++i)
-    for (const uint32_t v : scene_.triangles[scene_.surface_triangles[from.first_triangle + i]])
-      if (std::abs(glm::dot(to.normal, scene_.vertices[v]) - to.offset_m) > 2 * flat_as_it_is_m) return false;
-  return true;
 }
 
 void FacePlanes::number(std::span<Wedge> wedges) {
   for (Wedge& wedge : wedges) {
     const dvec3 last = wedge.face * std::sin(wedge.exterior_rad) - wedge.normal * std::cos(wedge.exterior_rad);
-    wedge.plane = {root(side(wedge.surface[0], wedge.normal)) / 2, root(side(wedge.surface[1], last)) / 2};
+    wedge.plane = {sides_.root(side(wedge.surface[0], wedge.normal)) / 2,
+                   sides_.root(side(wedge.surface[1], last)) / 2};
   }
 }
 
 uint32_t FacePlanes::side(uint32_t surface, const dvec3& front) const {
   return 2 * surface + (glm::dot(scene_.surfaces[surface].normal, front) < 0);
-}
-
-uint32_t FacePlanes::root(uint32_t side) {
-  while (parent_[side] != side) side = parent_[side] = parent_[parent_[side]];
-  return side;
 }
 
 }  // namespace wavetracer

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/forest.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
@@ -30,13 +31,11 @@ class FacePlanes {
 
  private:
   bool in_one_plane(uint32_t surface, uint32_t other, const glm::dvec3& at);
-  bool all_near(uint32_t surface, uint32_t other) const;           // all corners of one to the plane of the other
   uint32_t side(uint32_t surface, const glm::dvec3& front) const;  // of the forest
-  uint32_t root(uint32_t side);
 
   const Scene& scene_;
   std::set<std::pair<uint32_t, uint32_t>> apart_;  // bent by too much
-  std::vector<uint32_t> parent_;  // of 2 surface, + 1 behind its normal: a forest, each pointing to a lower one
+  Forest sides_;                                   // of 2 surface, + 1 behind its normal
 };
 
 }  // namespace wavetracer

@@ -67,10 +67,7 @@ void Ground::index() {
   for (const auto& corners : triangles_) boxes.push_back(box_from_above(corners));
   if (boxes.empty()) return;
   grid_.emplace(boxes);
-  std::vector<CellLists::Entry> entries;
-  for (uint32_t t = 0; t < boxes.size(); ++t)
-    grid_->visit_box(boxes[t], [&](uint32_t cell) { entries.push_back({cell, t}); });
-  cells_.emplace(grid_->size(), entries);
+  cells_ = lists_of(*grid_, boxes);
 }
 
 std::optional<double> Ground::height_m(const glm::dvec2& place_m) const {

@@ -71,9 +71,7 @@ class Borders {
 
   bool fits(uint32_t t, const FlatRegion& region) const {
     if (!region.exact) return mesh_.are_near(scene_.triangles[t], region.plane);
-    return std::ranges::all_of(scene_.triangles[t], [&](uint32_t v) {
-      return std::abs(height_over(region.plane, scene_.vertices[v])) <= flat_as_it_is_m;
-    });
+    return triangle_is_near(scene_, t, region.plane, flat_as_it_is_m);
   }
 
   bool is_beyond(uint32_t t, uint32_t own, uint32_t other) const {

@@ -60,4 +60,11 @@ CellLists::CellLists(size_t cells, std::span<const Entry> entries) : first_(cell
   for (const Entry& entry : entries) items_[next[entry.cell]++] = entry.item;
 }
 
+CellLists lists_of(const SceneGrid& grid, std::span<const SceneBox> boxes) {
+  std::vector<CellLists::Entry> entries;
+  for (uint32_t i = 0; i < boxes.size(); ++i)
+    grid.visit_box(boxes[i], [&](uint32_t cell) { entries.push_back({cell, i}); });
+  return {grid.size(), entries};
+}
+
 }  // namespace wavetracer

@@ -93,4 +93,7 @@ class CellLists {
   std::vector<uint32_t> first_, items_;
 };
 
+// The boxes that overlap each cell, by their numbers.
+CellLists lists_of(const SceneGrid& grid, std::span<const SceneBox> boxes);
+
 }  // namespace wavetracer

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "scene/triangle_grid.hpp"
 
@@ -14,24 +13,13 @@ constexpr double flattest_z = std::numbers::sqrt2 / 2;  // of the normal, at 45 
 
 }  // namespace
 
-SurfaceSheets::SurfaceSheets(const Scene& scene, bool flat_alone) : scene_(scene), parent_(scene.surfaces.size()) {
-  std::iota(parent_.begin(), parent_.end(), 0u);
+SurfaceSheets::SurfaceSheets(const Scene& scene, bool flat_alone) : scene_(scene), sheets_(scene.surfaces.size()) {
   for (const Edge& edge : scene.edges)
     for (uint32_t k = 1; k < edge.face_count; ++k) {
       const uint32_t a = scene.triangle_surface[scene.edge_faces[edge.first_face]],
                      b = scene.triangle_surface[scene.edge_faces[edge.first_face + k]];
       if (!flat_alone || (is_flat(scene.surfaces[a]) && is_flat(scene.surfaces[b]))) join(a, b);
     }
-}
-
-uint32_t SurfaceSheets::root(uint32_t surface) {
-  while (parent_[surface] != surface) surface = parent_[surface] = parent_[parent_[surface]];
-  return surface;
-}
-
-void SurfaceSheets::join(uint32_t surface, uint32_t other) {
-  const uint32_t a = root(surface), b = root(other);
-  parent_[std::max(a, b)] = std::min(a, b);
 }
 
 std::vector<bool> SurfaceSheets::wide() {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/forest.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
@@ -12,16 +13,16 @@ class SurfaceSheets {
   // Joins surfaces that share edges of the mesh, flat ones alone (is_flat) where that is asked for. scene outlives
   // this.
   explicit SurfaceSheets(const Scene& scene, bool flat_alone = false);
-  void join(uint32_t surface, uint32_t other);
+  void join(uint32_t surface, uint32_t other) { sheets_.join(surface, other); }
   // The surface that stands for the sheet of this one.
-  uint32_t root(uint32_t surface);
+  uint32_t root(uint32_t surface) { return sheets_.root(surface); }
   // Of each surface that stands for a sheet: does the sheet span at least half of the scene, seen from above (half of
   // the area of the box around it)?
   std::vector<bool> wide();
 
  private:
   const Scene& scene_;
-  std::vector<uint32_t> parent_;  // of each surface: a forest, each pointing to a lower one
+  Forest sheets_;  // of surfaces
 };
 
 // Is the surface flatter than 45 degrees?

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <tuple>
 
 namespace wavetracer {
 namespace {
@@ -153,18 +154,26 @@ std::vector<uint32_t> largest_first(const Scene& scene, std::span<const Triangle
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     if (shapes[a].area_m2 != shapes[b].area_m2) return shapes[a].area_m2 > shapes[b].area_m2;
     const dvec3 p = corner_sum(a), q = corner_sum(b);
-    for (int k = 0; k < 3; ++k)
-      if (p[k] != q[k]) return p[k] < q[k];
-    return a < b;
+    return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
   });
   return order;
+}
+
+bool triangle_is_near(const Scene& scene, uint32_t t, const Plane& plane, double near_m) {
+  return std::ranges::all_of(scene.triangles[t],
+                             [&](uint32_t v) { return std::abs(height_over(plane, scene.vertices[v])) <= near_m; });
+}
+
+bool surface_is_near(const Scene& scene, const Surface& surface, const Plane& plane, double near_m) {
+  for (uint32_t k = 0; k < surface.triangle_count; ++k)
+    if (!triangle_is_near(scene, scene.surface_triangles[surface.first_triangle + k], plane, near_m)) return false;
+  return true;
 }
 
 bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane) {
   if (shape.height_m > sliver_height_m && std::abs(glm::dot(shape.normal, plane.normal)) <= 1 - normal_tolerance)
     return false;
-  return std::all_of(scene.triangles[t].begin(), scene.triangles[t].end(),
-                     [&](uint32_t v) { return std::abs(height_over(plane, scene.vertices[v])) <= flat_as_it_is_m; });
+  return triangle_is_near(scene, t, plane, flat_as_it_is_m);
 }
 
 std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene) {

@@ -36,6 +36,10 @@ struct TriangleShape {
 TriangleShape triangle_shape(const Scene& scene, uint32_t t);
 // All triangles, which have those shapes: the larger one first, of equal ones by place and not by number.
 std::vector<uint32_t> largest_first(const Scene& scene, std::span<const TriangleShape> shapes);
+// Are all corners of a triangle, or of a surface, within so many metres of the plane?
+bool triangle_is_near(const Scene& scene, uint32_t t, const Plane& plane, double near_m);
+bool surface_is_near(const Scene& scene, const Surface& surface, const Plane& plane, double near_m);
+inline Plane plane_of(const Surface& surface) { return {surface.normal, surface.offset_m}; }
 // Does triangle t, which has that shape, lie in the plane as it is?
 bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane);
 

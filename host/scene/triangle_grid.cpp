@@ -18,10 +18,7 @@ constexpr double side_tolerance = 1e-12;
 std::vector<SceneBox> boxes_of(const Scene& scene, double reach_m) {
   std::vector<SceneBox> out;
   out.reserve(scene.triangles.size());
-  for (const auto& [a, b, c] : scene.triangles) {
-    const dvec3 &p = scene.vertices[a], &q = scene.vertices[b], &r = scene.vertices[c];
-    out.push_back({glm::min(glm::min(p, q), r) - reach_m, glm::max(glm::max(p, q), r) + reach_m});
-  }
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t) out.push_back(triangle_box(scene, t, reach_m));
   return out;
 }
 
@@ -30,13 +27,6 @@ SceneBox bounds_of(std::span<const SceneBox> boxes) {
   SceneBox out = boxes[0];
   for (const SceneBox& box : boxes) out.grow(box);
   return out;
-}
-
-CellLists lists_of(const SceneGrid& grid, std::span<const SceneBox> boxes) {
-  std::vector<CellLists::Entry> entries;
-  for (uint32_t t = 0; t < boxes.size(); ++t)
-    grid.visit_box(boxes[t], [&](uint32_t cell) { entries.push_back({cell, t}); });
-  return {grid.size(), entries};
 }
 
 // Where the line a + t way meets a triangle (T. Moeller and B. Trumbore, J. Graphics Tools 2(1), 1997).
@@ -66,6 +56,12 @@ std::pair<double, double> part_within(const SceneBox& box, const dvec3& a, const
 }
 
 }  // namespace
+
+SceneBox triangle_box(const Scene& scene, uint32_t t, double reach_m) {
+  const auto& [a, b, c] = scene.triangles[t];
+  const dvec3 &p = scene.vertices[a], &q = scene.vertices[b], &r = scene.vertices[c];
+  return {glm::min(glm::min(p, q), r) - reach_m, glm::max(glm::max(p, q), r) + reach_m};
+}
 
 TriangleGrid::TriangleGrid(const Scene& scene, double reach_m)
     : scene_(scene),

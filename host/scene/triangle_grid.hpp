@@ -11,6 +11,9 @@
 
 namespace wavetracer {
 
+// The box around triangle t, wider by so much on all sides.
+SceneBox triangle_box(const Scene& scene, uint32_t t, double reach_m);
+
 class TriangleGrid {
  public:
   // reach_m: every box is wider by so much on all sides.

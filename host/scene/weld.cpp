@@ -1,5 +1,5 @@
 // Welding by a hash grid of cells four tolerances wide: each vertex looks into the cells within one tolerance of it,
-// 3.4 on average, so that no pair is split by a border. Groups are kept in a union-find forest whose roots are lowest.
+// 3.4 on average, so that no pair is split by a border. Groups are kept in a forest.
 #include "scene/weld.hpp"
 
 #include <algorithm>
@@ -8,29 +8,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/forest.hpp"
+
 namespace wavetracer {
 namespace {
 
 constexpr uint32_t no_vertex = 0xFFFFFFFFu;
-
-class Forest {
- public:
-  explicit Forest(size_t count) : parent_(count) {
-    for (size_t i = 0; i < count; ++i) parent_[i] = static_cast<uint32_t>(i);
-  }
-  uint32_t root(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(uint32_t a, uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 uint64_t mix(uint64_t x) {  // the finalizer of splitmix64 (Steele, Lea and Flood 2014)
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;

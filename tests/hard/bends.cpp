@@ -67,8 +67,7 @@ HardCase across_boundaries(const std::string& device, const Bend& bend, double i
       receivers.push_back(about_edge(bend, 5, azimuth_rad + step_m / (5 * bend.scale), -1));
   const SceneFile file({Part{faces_of(bend), bend.material}});
   const Paths paths = run(traced(bend, file, {about_edge(bend, 8, in_rad, 3)}, receivers), device).paths;
-  const std::vector<Response> h =
-      responses(paths, 0, receivers.size(), std::numeric_limits<double>::infinity(), bend.hz);
+  const std::vector<Response> h = responses_at(bend.hz, paths, 0, receivers.size());
   HardCase out{name_of(bend), "the total field is continuous where reflections end, V and H",
                boundaries.empty() ? std::numeric_limits<double>::infinity() : 0, tolerance, "of the field"};
   for (size_t b = 0; b < boundaries.size(); ++b) {

@@ -83,8 +83,7 @@ void add_bands(const std::string& device, HardCases& cases) {
     Config config = config_of(file.path(), {{0, 0, height_m}}, {{distance_m, 0, height_m}}, 20000, 1);
     config.materials = {material("conductor")};
     config.radio.frequency_hz = hz;
-    const std::vector<Response> h =
-        responses(run(config, device).paths, 0, 1, std::numeric_limits<double>::infinity(), hz);
+    const std::vector<Response> h = responses_at(hz, run(config, device).paths, 0, 1);
     const auto wave = [&](double m) { return std::polar(friis(m, hz), -2 * pi * hz / speed_of_light * m); };
     const Complex exact = wave(straight_m) - wave(mirrored_m);
     cases.push_back({fmt::format("two rays over a conductor, {} m, {} GHz", distance_m, hz / 1e9),

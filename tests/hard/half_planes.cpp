@@ -30,8 +30,7 @@ HardCase knife_edge(const std::string& device, double top_m, double before_m, do
   Config config = diffracting(file, {tx}, receivers);
   config.radio.frequency_hz = hz;
   config.scene.extrapolate_materials = true;  // ITU-R knows metal and concrete from 1 GHz on
-  const std::vector<Response> h =
-      responses(run(config, device).paths, 0, receivers.size(), std::numeric_limits<double>::infinity(), hz);
+  const std::vector<Response> h = responses_at(hz, run(config, device).paths, 0, receivers.size());
   HardCase out{
       fmt::format("knife edge at {} m, {} m before and {} m behind, {} GHz", top_m, before_m, behind_m, hz / 1e9),
       "loss of the exact Fresnel integral, nu from -3 to 5", 0, 0.05, "dB"};

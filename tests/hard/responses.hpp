@@ -40,6 +40,11 @@ inline std::vector<Response> responses(const Paths& paths, uint32_t tx, size_t r
   return sums;
 }
 
+// The same at a frequency, of all paths.
+inline std::vector<Response> responses_at(double hz, const Paths& paths, uint32_t tx, size_t receivers) {
+  return responses(paths, tx, receivers, std::numeric_limits<double>::infinity(), hz);
+}
+
 inline double friis(double length_m, double hz = frequency_hz) { return speed_of_light / hz / (4 * pi * length_m); }
 inline double decibels(double amplitude) { return 20 * std::log10(amplitude); }
 

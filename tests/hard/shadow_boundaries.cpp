@@ -55,7 +55,7 @@ HardCase case_of(const std::string& device, double interior_rad, const std::stri
     const auto first = static_cast<uint32_t>(b * at_m.size());
     const auto last = static_cast<uint32_t>(first + at_m.size() - 1);
     const uint32_t tx = boundaries[b].tx;
-    const std::vector<Response> h = responses(paths, tx, receivers.size(), std::numeric_limits<double>::infinity(), hz);
+    const std::vector<Response> h = responses_at(hz, paths, tx, receivers.size());
     for (const size_t port : {0, 1}) out.measured = std::max(out.measured, boundary_jump(at_m, h, first, port));
     // What passes the edge or is reflected beside it must be there on one side alone, or this is no boundary. Where
     // walls transmit, the direct path goes on as another.

@@ -76,7 +76,7 @@ TEST_CASE("directions have unit length") {
 }
 
 TEST_CASE("equal solid angles: chi-square over 192 bins of equal area") {
-  // Of independent samples the statistic has mean 191 and standard deviation 19.5; its 99.9 % point is 257.
+  // For independent samples the statistic has mean 191 and standard deviation 19.5; its 99.9 % point is 257.
   CHECK(chi_square(directions_of("random", 100000), 12, 16) < 257);
   CHECK(chi_square(directions_of("random", 100000), 12, 16) > 135);  // the 0.1 % point: suspiciously even below
   // Even maps are far below it: a bin is off by the cells on its border at most.

@@ -116,6 +116,19 @@ Points placed(const glm::dmat4& place, Points points) {
   return points;
 }
 
+// Calls check(parts, place) for each way to build the house, turned and moved, upright and laid down.
+void for_each_place(const glm::dvec3& moved,
+                    const std::function<void(const std::vector<Part>&, const glm::dmat4&)>& check) {
+  const glm::dmat4 move = glm::translate(glm::dmat4(1), moved);
+  for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.6, -0.3, 0.5))}) {
+    const glm::dmat4 place = glm::rotate(move, 0.61, axis);
+    for (const auto& [name, parts] : ways_to_build()) {
+      CAPTURE(name);
+      check(placed(place, parts), place);
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE("one house in pieces, of several names or made of several houses: the field of the one solid") {
@@ -127,31 +140,21 @@ TEST_CASE("one house in pieces, of several names or made of several houses: the 
 }
 
 TEST_CASE("the same where the house is turned and moved, upright and laid down") {
-  const glm::dmat4 move = glm::translate(glm::dmat4(1), {1234.5, -777.1, 3.3});
-  for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.6, -0.3, 0.5))}) {
-    const glm::dmat4 place = glm::rotate(move, 0.61, axis);
-    const Reached expected = reach({{solid, "concrete"}}, before, behind);
-    for (const auto& [name, parts] : ways_to_build()) {
-      CAPTURE(name);
-      check_same(reach(placed(place, parts), placed(place, before), placed(place, behind)), expected);
-    }
-  }
+  const Reached expected = reach({{solid, "concrete"}}, before, behind);
+  for_each_place({1234.5, -777.1, 3.3}, [&](const std::vector<Part>& parts, const glm::dmat4& place) {
+    check_same(reach(parts, placed(place, before), placed(place, behind)), expected);
+  });
 }
 
 TEST_CASE("the same to 0.001 dB where all corners were rounded to float32, and planes are bent by 10^-7") {
-  const glm::dmat4 move = glm::translate(glm::dmat4(1), {123.4, -77.1, 3.3});
-  for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.6, -0.3, 0.5))}) {
-    const glm::dmat4 place = glm::rotate(move, 0.61, axis);
-    const Reached expected = reach({{solid, "concrete"}}, before, behind);
-    for (const auto& [name, parts] : ways_to_build()) {
-      CAPTURE(name);
-      const Reached reached = reach(rounded(placed(place, parts)), placed(place, before), placed(place, behind));
-      for (size_t i = 0; i < behind.size(); ++i) {
-        CAPTURE(i);
-        CHECK(std::abs(reached.twice_diffracted_db[i] - expected.twice_diffracted_db[i]) < 1e-3);
-      }
+  const Reached expected = reach({{solid, "concrete"}}, before, behind);
+  for_each_place({123.4, -77.1, 3.3}, [&](const std::vector<Part>& parts, const glm::dmat4& place) {
+    const Reached reached = reach(rounded(parts), placed(place, before), placed(place, behind));
+    for (size_t i = 0; i < behind.size(); ++i) {
+      CAPTURE(i);
+      CHECK(std::abs(reached.twice_diffracted_db[i] - expected.twice_diffracted_db[i]) < 1e-3);
     }
-  }
+  });
 }
 
 TEST_CASE("a sheet of two pieces: waves run along both of its sides, as along one") {
