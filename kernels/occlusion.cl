@@ -1,10 +1,22 @@
-// occlusion: is a leg of a solved path obstructed? One leg per work-item; lib/legs.clh has the rule. The first legs of
-// all paths come first, so that neighbours traverse alike, and later legs find most of what is hidden already decided.
+// occlusion: is a leg of a solved path obstructed? One leg per work-item, of paths by legs from args.first_leg on, so
+// that neighbours traverse alike; lib/legs.clh has the rule. First legs have a launch of their own: paths over one tile
+// follow each other and share theirs, which is tested once, and later legs of what is hidden need no test.
 // Consumes solved paths; sets wt_solved::blocked. wedges, surface_of_tile: see lib/leg.clh. blockers: where given, what
 // hides a path is noted there.
 #include "lib/blockers.clh"
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
+
+// As many paths at most share a test.
+#define WT_SHARING 16u
+
+// Has path i the first leg of the path before it, and is it not the first of those that share its test?
+inline int wt_shares_first_leg(const global wt_solved* solved, const global uint* sequences, uint max_depth, uint i) {
+  if (i % WT_SHARING == 0 || solved[i].depth == 0 || solved[i - 1].depth == 0) return 0;
+  const uint step = sequences[(size_t)i * max_depth];
+  return (step & WT_STEP_KIND) == WT_STEP_SCATTERING && step == sequences[(size_t)(i - 1) * max_depth] &&
+         solved[i].transmitter == solved[i - 1].transmitter;
+}
 
 kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                       const global double4* transmitters, const global double4* receivers,
@@ -12,17 +24,24 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
                       const global double* vertices, const global uint* sequences, const global wt_wedge* wedges,
                       const global uint* surface_of_tile, global uint* blockers, const global wt_counters* counters,
                       wt_legs_arguments args) {
-  const uint i = get_global_id(0) % args.solved_count, leg = get_global_id(0) / args.solved_count;
-  if (i >= wt_length(counters, args.solved_counter, args.solved_count) || leg > solved[i].depth) return;
-  // Legs of a path follow each other, and most paths are obstructed: a leg that was found so spares the others. One
-  // that comes too soon to see it does no harm.
+  const uint i = get_global_id(0), leg = args.first_leg + get_global_id(1);
+  const uint count = wt_length(counters, args.solved_counter, args.solved_count);
+  if (i >= count || leg > solved[i].depth) return;
+  if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) return;
+  // Most paths are obstructed, and a leg that was found so spares the others. One that comes too soon to see it does no
+  // harm.
   if (wt_load_relaxed_u32(&solved[i].blocked)) return;
   const size_t row = (size_t)i * args.max_depth;
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
-  const wt_leg l = wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers);
+  wt_leg l;
+  wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers, &l);
   uint place;
-  if (!wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, l, &place))
+  if (!wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, &l, &place))
     return;
-  atomic_or(&solved[i].blocked, 1u);
-  wt_remember_blocker(blockers, args.blocker_mask, solved[i].node, solved[i].receiver, leg, place);
+  uint k = i;
+  do {
+    atomic_or(&solved[k].blocked, 1u);
+    wt_remember_blocker(blockers, args.blocker_mask, solved[k].node, solved[k].receiver, leg, place);
+    ++k;
+  } while (leg == 0 && k < count && wt_shares_first_leg(solved, sequences, args.max_depth, k));
 }

@@ -15,12 +15,19 @@ inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const gl
   const uint noted = blockers[wt_blocker_slot(node, receiver, mask)], k = noted >> WT_BLOCKER_SHIFT;
   if (noted == WT_NONE || k > depth) return 0;
   const wt_step_tables tables = {surfaces, 0, 0, 0};
-  const wt_stop start = k == 0 ? wt_end_stop(from) : wt_vertex_stop(&tables, points[k - 1], chain[k - 1]);
-  const wt_stop end = k == depth ? wt_end_stop(to) : wt_vertex_stop(&tables, points[k], chain[k]);
+  wt_leg leg;
+  if (k == 0)
+    wt_stop_at_end(from, &leg.from);
+  else
+    wt_stop_at_vertex(&tables, points[k - 1], chain[k - 1], &leg.from);
+  if (k == depth)
+    wt_stop_at_end(to, &leg.to);
+  else
+    wt_stop_at_vertex(&tables, points[k], chain[k], &leg.to);
   const double3 before = k > 1 ? points[k - 2] : from.xyz;
   // Vehicles are not remembered, so those of the antennas need not be passed over.
-  const wt_leg leg = wt_leg_between(&tables, start, end, before, k > 1 ? wt_rounding(before) : WT_ON_SURFACE_M);
-  return wt_obstructed_at(triangles, triangle_slots, surfaces, corners, leg, noted & (WT_BLOCKER_PLACES - 1));
+  wt_complete_leg(&tables, before, k > 1 ? wt_rounding(before) : WT_ON_SURFACE_M, &leg);
+  return wt_obstructed_at(triangles, triangle_slots, surfaces, corners, &leg, noted & (WT_BLOCKER_PLACES - 1));
 }
 
 inline void prefetch_blocker(const global uint* blockers, uint mask, const global wt_candidate* candidate) {

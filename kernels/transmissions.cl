@@ -43,20 +43,20 @@ inline int passes_before(const global wt_exact_surface* surfaces, const global w
   return a->along < b->along;
 }
 
-// Enters the crossings into the row of a path.
+// Enters the crossings, the last one of the path first, into its row.
 inline void enter(global wt_solved* path, global double* v, global uint* s, const wt_crossing* crossings, uint count) {
   const uint depth = path->depth;
   // From the back, so that nothing is written over before it has moved on.
-  uint to = depth + count;
+  uint to = depth + count, next = 0;
   path->depth = to;
-  for (uint from = depth; count > 0;) {
-    if (crossings[count - 1].leg == from) {
-      --count;
+  for (uint from = depth; next < count;) {
+    if (crossings[next].leg == from) {
       --to;
-      v[3 * to] = crossings[count].point.x;
-      v[3 * to + 1] = crossings[count].point.y;
-      v[3 * to + 2] = crossings[count].point.z;
-      s[to] = WT_STEP_TRANSMISSION | crossings[count].surface;
+      v[3 * to] = crossings[next].point.x;
+      v[3 * to + 1] = crossings[next].point.y;
+      v[3 * to + 2] = crossings[next].point.z;
+      s[to] = WT_STEP_TRANSMISSION | crossings[next].surface;
+      ++next;
     } else {
       --from;
       --to;
@@ -79,12 +79,15 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
   global double* v = vertices + 3 * (size_t)args.max_depth * i;
   global uint* s = sequences + (size_t)args.max_depth * i;
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
-  wt_crossing crossings[WT_MAX_DEPTH];  // in order along the path
+  wt_crossing crossings[WT_MAX_DEPTH];  // the last one of the path first
   uint count = 0;
-  for (uint leg = 0; leg <= depth; ++leg) {
-    wt_leg l = wt_leg_of(&tables, solved + i, leg, v, s, transmitters, receivers);
+  for (uint after = 0; after <= depth; ++after) {
+    const uint leg = depth - after;
+    wt_leg l;
+    wt_leg_of(&tables, solved + i, leg, v, s, transmitters, receivers, &l);
     const uint first = count;
-    wt_walk walk = wt_walk_from_start();
+    wt_walk walk;
+    wt_walk_from_start(&l, &walk);
     uint tries = 0, turned = 0;
     for (;;) {
       const uint surface =
@@ -97,7 +100,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
         tries += aside;
         turned |= !aside;
         count = first;
-        walk = wt_walk_from_start();
+        wt_walk_from_start(&l, &walk);
         continue;
       }
       uint known = first;
@@ -115,7 +118,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
         continue;
       }
       uint k = count++;
-      for (; k > first && passes_before(surfaces, boxes, &l, &c, crossings + k - 1); --k)
+      for (; k > first && !passes_before(surfaces, boxes, &l, &c, crossings + k - 1); --k)
         crossings[k] = crossings[k - 1];
       crossings[k] = c;
     }

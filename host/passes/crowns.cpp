@@ -35,6 +35,7 @@ Crowns::Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t f
   for (const Cell& cell : cells) centres.insert(centres.end(), {cell.centre_m.x, cell.centre_m.y, cell.centre_m.z});
   centres_ = context.buffer(centres, {"cells of vegetation", advice::tiles});
   solved_.max_depth = std::max(max_depth, 1u);
+  solved_.deepest = 1;
 }
 
 SolvedList& Crowns::operator()(const RadioEnds& ends) {

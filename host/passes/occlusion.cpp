@@ -1,6 +1,7 @@
 // Host side of kernels/occlusion.cl.
-// One leg per work-item.
+// First legs, then all others.
 #include "passes/occlusion.hpp"
+#include <algorithm>
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
@@ -10,18 +11,24 @@ Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
 
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                            Blockers* blockers, const StepTables& steps) {
-  kernel_(work_.range(size_t{solved.count} * (solved.max_depth + 1)), "occlusion", scene.leg_nodes(),
-          scene.leg_leaves(), scene.moving, ends.transmitters, ends.receivers, scene.exact_surfaces,
-          scene.exact_triangles, solved.headers, solved.vertices, solved.sequences, steps.wedges, steps.surface_of_tile,
-          blockers ? &blockers->places : nullptr, counters.buffer(),
-          wt_legs_arguments{.triangle_slots = scene.triangle_slots,
-                            .extent_m = scene.extent_m,
-                            .solved_count = solved.count,
-                            .solved_counter = solved.counter,
-                            .max_depth = solved.max_depth,
-                            .most = 0,
-                            .blocker_mask = Blockers::mask,
-                            .tile_count = steps.tile_count()});
+  const auto test = [&](uint32_t first_leg, size_t legs) {
+    const gpu::Range paths_by_legs({solved.count, legs, 1}, {work_.group, 1, 1}, 2);
+    kernel_(paths_by_legs, "occlusion", scene.leg_nodes(), scene.leg_leaves(), scene.moving, ends.transmitters,
+            ends.receivers, scene.exact_surfaces, scene.exact_triangles, solved.headers, solved.vertices,
+            solved.sequences, steps.wedges, steps.surface_of_tile, blockers ? &blockers->places : nullptr,
+            counters.buffer(),
+            wt_legs_arguments{.triangle_slots = scene.triangle_slots,
+                              .extent_m = scene.extent_m,
+                              .solved_count = solved.count,
+                              .solved_counter = solved.counter,
+                              .max_depth = solved.max_depth,
+                              .most = 0,
+                              .blocker_mask = Blockers::mask,
+                              .tile_count = steps.tile_count(),
+                              .first_leg = first_leg});
+  };
+  test(0, 1);
+  test(1, std::min(solved.max_depth, solved.deepest));
 }
 
 }  // namespace wavetracer

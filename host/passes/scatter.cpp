@@ -45,6 +45,7 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
   surface_of_tile_ = context.buffer(surface_of_tile, {"surfaces of tiles", advice::tiles});
   centres_ = context.buffer(centres, {"tiles", advice::tiles});
   solved_.max_depth = std::max(max_depth, 1u);
+  solved_.deepest = 1;
   solved_.reserve(context, 1 << 12);
 }
 

@@ -12,6 +12,7 @@ struct SolvedList {
   gpu::Buffer<double> vertices;
   gpu::Buffer<uint32_t> sequences;
   uint32_t count = 0, max_depth = 0;
+  uint32_t deepest = UINT32_MAX;  // no path has more interactions than this, which may be less than there is room for
   // The word of wt_counters that has the length, where `count` may be a bound of it (counters.hpp); WT_NONE: it is
   // exact.
   uint32_t counter = WT_NONE;

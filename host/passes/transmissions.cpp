@@ -22,7 +22,8 @@ void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, 
                             .max_depth = solved.max_depth,
                             .most = most_,
                             .blocker_mask = 0,
-                            .tile_count = steps.tile_count()});
+                            .tile_count = steps.tile_count(),
+                            .first_leg = 0});
 }
 
 }  // namespace wavetracer

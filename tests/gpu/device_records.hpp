@@ -74,7 +74,7 @@ inline const std::vector<Record> records{
      {FIELD(wt_legs_arguments, triangle_slots), FIELD(wt_legs_arguments, extent_m),
       FIELD(wt_legs_arguments, solved_count), FIELD(wt_legs_arguments, solved_counter),
       FIELD(wt_legs_arguments, max_depth), FIELD(wt_legs_arguments, most), FIELD(wt_legs_arguments, blocker_mask),
-      FIELD(wt_legs_arguments, tile_count)}},
+      FIELD(wt_legs_arguments, tile_count), FIELD(wt_legs_arguments, first_leg)}},
     {"wt_lit_arguments",
      sizeof(wt_lit_arguments),
      {FIELD(wt_lit_arguments, node_count), FIELD(wt_lit_arguments, transmitter_count), FIELD(wt_lit_arguments, groups),

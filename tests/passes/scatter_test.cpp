@@ -224,6 +224,33 @@ TEST_CASE("occlusion: a tile's own surface hides nothing, one in between does") 
   CHECK(walled.visible == 0);
 }
 
+TEST_CASE("occlusion: of many links over the same tiles, each has what it has alone") {
+  // Boxes on the ground hide some first legs and some last ones; links share transmitters, receivers and tiles.
+  std::vector<Quad> quads{street[0]};
+  for (const double x : {-9.0, 0.0, 8.0})
+    for (const Quad& q : reference::box_walls({x, -4, 0.01}, {x + 2, 3, 5})) quads.push_back(q);
+  World world(scene_of(quads, {0}));
+  for (int i = 0; i < 3; ++i) world.transmitters.push_back(at({-12.0 + 8 * i, 1.3 - i, 2}));
+  for (int i = 0; i < 21; ++i) world.receivers.push_back(at({-14.3 + 1.4 * i, i % 2 ? 5.1 : -6.2, 1.5 + 0.1 * i}));
+  world.link_all();
+  const TileTable tiles(world.scene, world.models, world.instances, 2);
+  const std::vector<Sequence> seen{{0, {0}}, {1, {0}}, {2, {0}}};
+  const Run together = scattered(world, tiles, seen, 2);
+  size_t alone = 0;
+  World one = world;
+  for (const EndState& tx : world.transmitters)
+    for (const EndState& rx : world.receivers) {
+      one.transmitters = {tx};
+      one.receivers = {rx};
+      one.links = {{0, 0}};
+      alone += scattered(one, tiles, {{0, {0}}}, 2).visible;
+    }
+  CHECK(together.listed == 3 * 21 * tiles.size());
+  CHECK(together.visible == alone);
+  CHECK(alone > together.listed / 10);
+  CHECK(alone < together.listed * 9 / 10);
+}
+
 TEST_CASE("nothing rough, nothing seen: no rows") {
   World world(scene_of(street, {}));
   world.transmitters = {at({-8, 1, 2})};

@@ -105,6 +105,7 @@ typedef struct {
   wt_uint most;          // transmissions of a path
   wt_uint blocker_mask;  // of the table of what hid paths before
   wt_uint tile_count;    // of surfaces; further tiles are cells of vegetation
+  wt_uint first_leg;     // occlusion begins with this leg of each path
 } wt_legs_arguments;
 
 typedef struct {
