@@ -168,6 +168,7 @@ std::string device_options(const cl::Device& device, const DeviceInfo& info) {
     options = "-cl-std=CL1.2 -DWT_BACKEND_LEGACY=1";
   }
   options += info.cpu ? " -DWT_CPU=1" : " -DWT_GPU=1";
+  if (!info.fp64) options += " -DWT_NO_FP64=1";
   if (info.correctly_rounded_divide) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   // Compilers of PoCL and NVIDIA count their warnings on stderr, where they are nothing to a user: "133 warnings
   // generated."
