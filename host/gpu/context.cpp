@@ -1,5 +1,6 @@
 // Context: a device opened with one in-order profiling queue.
-// Requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept.
+// Requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept, unless told
+// that the kernels to come need neither.
 #include <fmt/format.h>
 #include <map>
 #include <mutex>
@@ -37,14 +38,13 @@ class OpenContexts {
 
 }  // namespace
 
-Context::Context(std::string_view device_text) : state_(std::make_unique<State>()) {
+Context::Context(std::string_view device_text, const Needs& needs) : state_(std::make_unique<State>()) {
   State& s = *state_;
   const std::vector<DeviceInfo> devices = list_devices();
   s.info = devices[choose_device(devices, device_text)];
-  if (!s.info.fp64 || !s.info.int64_atomics) {
-    throw DeviceError(fmt::format(
-        "{} ({}) lacks {}; choose another device (`wavetracer devices` lists them)", s.info.name, s.info.platform,
-        s.info.fp64 ? "64-bit atomics (cl_khr_int64_base_atomics)" : "double precision (cl_khr_fp64)"));
+  if (const std::string_view lacking = unmet(s.info, needs); !lacking.empty()) {
+    throw DeviceError(fmt::format("{} ({}) lacks {}; choose another device (`wavetracer devices` lists them)",
+                                  s.info.name, s.info.platform, lacking));
   }
   try {
     s.device = all_devices().at(s.info.index);

@@ -152,6 +152,12 @@ size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view te
   return static_cast<size_t>(best - devices.data());
 }
 
+std::string_view unmet(const DeviceInfo& device, const Needs& needs) {
+  if (needs.fp64 && !device.fp64) return "double precision (cl_khr_fp64)";
+  if (needs.int64_atomics && !device.int64_atomics) return "64-bit atomics (cl_khr_int64_base_atomics)";
+  return "";
+}
+
 std::string device_options(const cl::Device& device, const DeviceInfo& info) {
   std::string options;
   if (has_c11_atomics_in_cl3(device)) {
@@ -162,6 +168,7 @@ std::string device_options(const cl::Device& device, const DeviceInfo& info) {
     options = "-cl-std=CL1.2 -DWT_BACKEND_LEGACY=1";
   }
   options += info.cpu ? " -DWT_CPU=1" : " -DWT_GPU=1";
+  if (!info.fp64) options += " -DWT_NO_FP64=1";
   if (info.correctly_rounded_divide) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   // Compilers of PoCL and NVIDIA count their warnings on stderr, where they are nothing to a user: "133 warnings
   // generated."

@@ -42,6 +42,16 @@ std::vector<DeviceInfo> list_devices();
 // platform or name (case-insensitive part). Throws DeviceError with the list of what there is and what to install.
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text);
 
+// What a context refuses to do without. The program needs both; some kernels, such as the sorts, need neither, and
+// their tests ask for neither.
+struct Needs {
+  bool fp64 = true;           // double precision, by which paths are solved
+  bool int64_atomics = true;  // by which sequences and caches are kept
+};
+
+// The first need that the device does not meet, in words with the name of the extension; empty where it meets all.
+std::string_view unmet(const DeviceInfo& device, const Needs& needs);
+
 // Work-items and the fixed work-group size, a number each or one a dimension; global is padded up to a multiple of
 // local (PoCL has no non-uniform work-groups), so kernels check their range.
 struct Range {
@@ -186,7 +196,8 @@ class Kernel {
 // One device with its context, one in-order profiling queue, its program cache and its profile. Not thread-safe.
 class Context {
  public:
-  explicit Context(std::string_view device_text = "");
+  // Throws DeviceError where choose_device() does, or where the device lacks one of the needs.
+  explicit Context(std::string_view device_text = "", const Needs& needs = Needs());
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;

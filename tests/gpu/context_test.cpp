@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <numeric>
+#include "expected_device.hpp"
 #include "gpu/gpu.hpp"
 #include "gpu/temporary.hpp"
 #include "wavetracer/error.hpp"
@@ -35,6 +36,10 @@ struct float4 {
 };
 
 }  // namespace
+
+TEST_CASE("the device is of the platform that tests are meant for") {
+  CHECK_NOTHROW(require_expected_platform(gpu::Context().info()));
+}
 
 TEST_CASE_FIXTURE(Fixture, "a buffer gives back what was written, in part or whole") {
   std::vector<uint32_t> data(100);
