@@ -226,7 +226,9 @@ class Context {
   }
   void copy(const Memory& from, Memory& to, size_t bytes, const char* stage = "transfer");
 
-  // Kernel `kernel` of kernels/`program`.cl built with these definitions; compiled once a process, cached on disk.
+  // Kernel `kernel` of kernels/`program`.cl built with these definitions; compiled once a process, cached on disk. CPUs
+  // take seconds to compile, so there it is built, and what is wrong with it is thrown (DeviceError), when it is first
+  // launched; elsewhere here.
   Kernel kernel(const std::string& program, const std::string& kernel, const Definitions& definitions = {});
 
   // What was measured on this device, kept on disk beside its programs: the text last kept for this subject, if any.

@@ -21,6 +21,7 @@ const std::string& Kernel::name() const {
 
 void Kernel::check_count(size_t count) const {
   if (!state_) throw std::logic_error("launching a kernel that was never made");
+  state_->make();
   if (count != state_->argument_count) {
     throw std::logic_error(
         fmt::format("kernel {} takes {} arguments, {} were given", state_->name, state_->argument_count, count));

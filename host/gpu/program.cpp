@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
+#include "gpu/one_kernel.hpp"
 #include "gpu/source.hpp"
 #include "gpu/state.hpp"
 #include "wavetracer/error.hpp"
@@ -104,11 +105,17 @@ cl::Program Context::State::build_from_source(const std::string& name, const std
   return built;
 }
 
-const cl::Program& Context::State::program(const std::string& name, const std::string& options) {
-  const std::string id = name + " " + options;
+const cl::Program& Context::State::program(const std::string& name, const std::string& kernel,
+                                           const std::string& options) {
+  const std::string only = info.cpu ? kernel : "", id = only + " " + name + " " + options;
   if (const auto known = programs.find(id); known != programs.end()) return known->second;
   const auto start = std::chrono::steady_clock::now();
-  const ProgramKey key{program_source(name), options, info.platform, info.platform_version, info.name, info.driver};
+  const ProgramKey key{with_one_kernel(program_source(name), kernel),
+                       options,
+                       info.platform,
+                       info.platform_version,
+                       info.name,
+                       info.driver};
   std::optional<cl::Program> built;
   if (const auto compiled = cache.load(key)) built = build_from_binary(context, device, options, *compiled);
   if (!built) {
@@ -133,20 +140,25 @@ Kernel Context::kernel(const std::string& program, const std::string& kernel, co
   State& s = *state_;
   const std::string options = s.device_options + definition_options(program, definitions);
   std::shared_ptr<Kernel::State>& known = s.kernels[kernel + " " + program + " " + options];
-  if (!known) {
-    try {
-      const cl::Program& built = s.program(program, options);
-      cl::Kernel handle(built, kernel.c_str());
-      const cl_uint count = handle.getInfo<CL_KERNEL_NUM_ARGS>();
-      known = std::make_shared<Kernel::State>(
-          Kernel::State{&s, handle, kernel, program + "/" + kernel, count, arguments_of(handle, count)});
-    } catch (const cl::Error& error) {
-      s.fail(error.err(), fmt::format("making kernel \"{}\" of program \"{}\" ({})", kernel, program, error.what()));
-    }
-  }
+  if (!known)
+    known =
+        std::make_shared<Kernel::State>(Kernel::State{&s, program, options, kernel, program + "/" + kernel, {}, 0, {}});
+  if (!s.info.cpu) known->make();
   Kernel out;
   out.state_ = known;
   return out;
+}
+
+void Kernel::State::make() {
+  if (kernel()) return;
+  try {
+    cl::Kernel made(context->program(program, name, options), name.c_str());
+    argument_count = made.getInfo<CL_KERNEL_NUM_ARGS>();
+    arguments = arguments_of(made, static_cast<cl_uint>(argument_count));
+    kernel = made;
+  } catch (const cl::Error& error) {
+    context->fail(error.err(), fmt::format("making kernel \"{}\" of program \"{}\" ({})", name, program, error.what()));
+  }
 }
 
 }  // namespace wavetracer::gpu

@@ -1,5 +1,7 @@
 // Expansion of a program's source: every line `#include "name"` is replaced by the file it names, as C does it.
-// Assumes include guards, since includes may be conditional; `#include <...>` is left to the compiler it is meant for.
+// Assumes include guards. A file stands there again where it was included under a condition before; else its guard
+// would leave it empty, and so do we, as compilers read all text. `#include <...>` is left to the compiler it is meant
+// for.
 #include "gpu/source.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <iterator>
 #include <optional>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <vector>
 #include "gpu/gpu.hpp"
@@ -70,23 +73,42 @@ class Source {
   std::filesystem::path folder_;
 };
 
-// The file named by a line `#include "name"`, blanks allowed where C allows them.
-std::optional<std::string> included_name(std::string_view line) {
-  const auto skip_blanks = [&line] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
-  const auto take = [&line](std::string_view word) {
-    if (!line.starts_with(word)) return false;
-    line.remove_prefix(word.size());
-    return true;
-  };
-  skip_blanks();
-  if (!take("#")) return std::nullopt;
-  skip_blanks();
-  if (!take("include")) return std::nullopt;
-  skip_blanks();
-  if (!take("\"")) return std::nullopt;
-  const size_t end = line.find('"');
+void skip_blanks(std::string_view& line) { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); }
+
+// What follows the # of a directive, without blanks, which are allowed where C allows them; empty for other lines.
+std::string_view directive_of(std::string_view line) {
+  skip_blanks(line);
+  if (!line.starts_with('#')) return {};
+  line.remove_prefix(1);
+  skip_blanks(line);
+  return line;
+}
+
+// The file named by a directive `include "name"`.
+std::optional<std::string> included_name(std::string_view directive) {
+  if (!directive.starts_with("include")) return std::nullopt;
+  directive.remove_prefix(7);
+  skip_blanks(directive);
+  if (!directive.starts_with('"')) return std::nullopt;
+  directive.remove_prefix(1);
+  const size_t end = directive.find('"');
   if (end == std::string_view::npos) return std::nullopt;
-  return std::string(line.substr(0, end));
+  return std::string(directive.substr(0, end));
+}
+
+// Does all of a file stand under an include guard, as its first two directives say?
+bool is_guarded(std::string_view text) {
+  std::string name;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view directive = directive_of(text.substr(begin, end - begin));
+    begin = end + 1;
+    if (directive.empty()) continue;
+    if (!name.empty()) return directive.starts_with("define" + name);
+    if (!directive.starts_with("ifndef ")) return false;
+    name = directive.substr(6);
+  }
+  return false;
 }
 
 class Expansion {
@@ -95,22 +117,32 @@ class Expansion {
 
   void append(const File& file) {
     open_.push_back(file.path);
+    const size_t conditions = conditions_;
+    bool guard = is_guarded(file.text);
     out_ += fmt::format("#line 1 \"{}\"\n", file.path);
     const std::string_view text = file.text;
     size_t number = 1;
     for (size_t begin = 0; begin < text.size(); ++number) {
       const size_t end = std::min(text.find('\n', begin), text.size());
-      append_line(file, number, text.substr(begin, end - begin));
+      const std::string_view line = text.substr(begin, end - begin), directive = directive_of(line);
       begin = end + 1;
+      if (directive.starts_with("if")) {
+        conditions_ += !guard;
+        guard = false;
+      } else if (directive.starts_with("endif") && conditions_ > conditions) {
+        --conditions_;
+      }
+      append_line(file, number, line, directive);
     }
+    conditions_ = conditions;
     open_.pop_back();
   }
 
   std::string take() { return std::move(out_); }
 
  private:
-  void append_line(const File& file, size_t number, std::string_view line) {
-    const std::optional<std::string> name = included_name(line);
+  void append_line(const File& file, size_t number, std::string_view line, std::string_view directive) {
+    const std::optional<std::string> name = included_name(directive);
     if (!name) {
       out_.append(line).push_back('\n');
       return;
@@ -122,12 +154,17 @@ class Expansion {
                       number, *name, source_.place()));
     }
     // A file within itself would be empty by its guard; leaving it out is what ends a circle.
-    if (std::find(open_.begin(), open_.end(), included->path) == open_.end()) append(*included);
+    if (std::find(open_.begin(), open_.end(), included->path) == open_.end() && !there_.contains(included->path)) {
+      if (conditions_ == 0) there_.insert(included->path);
+      append(*included);
+    }
     out_ += fmt::format("#line {} \"{}\"\n", number + 1, file.path);
   }
 
   const Source& source_;
   std::vector<std::string> open_;  // the files being expanded, outermost first
+  std::set<std::string> there_;    // the files that stand under no condition
+  size_t conditions_ = 0;          // that the line stands under, without guards
   std::string out_;
 };
 

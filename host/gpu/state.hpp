@@ -64,13 +64,13 @@ struct Context::State {
   cl_event* event_of(cl::Event& event) { return profile.on ? &event() : nullptr; }
   StagedWrites staged;
   std::shared_ptr<Allocations> allocations = std::make_shared<Allocations>();
-  std::map<std::string, cl::Program> programs;                    // by name and options
+  std::map<std::string, cl::Program> programs;                    // by kernel (on CPUs), name and options
   std::map<std::string, std::shared_ptr<Kernel::State>> kernels;  // by name, program and options
   double build_seconds = 0;
   size_t builds_from_source = 0;
 
-  // A program, built at its first use: from the disk cache, else from source.
-  const cl::Program& program(const std::string& name, const std::string& options);
+  // A program, on CPUs with this kernel alone, built at its first use: from the disk cache, else from source.
+  const cl::Program& program(const std::string& name, const std::string& kernel, const std::string& options);
   cl::Program build_from_source(const std::string& name, const std::string& options, const std::string& source);
   // Enqueues a copy between two cl_mem, the ranges of which do not overlap.
   void copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, const char* stage);
@@ -87,10 +87,13 @@ struct Argument {
 
 struct Kernel::State {
   Context::State* context;
-  cl::Kernel kernel;
-  std::string name, profile_name;  // of which the latter is "program/kernel"
+  std::string program, options, name, profile_name;  // of which the last is "program/kernel"
+  cl::Kernel kernel;                                 // this, and what follows: once it is made
   size_t argument_count;
   std::vector<Argument> arguments;  // empty where the runtime tells nothing
+
+  // Builds the program and makes the kernel, where that has not been done.
+  void make();
 
   // "argument 2 (global uint* counts) of kernel trace".
   std::string describe(unsigned index) const;

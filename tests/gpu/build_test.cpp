@@ -122,8 +122,9 @@ TEST_CASE("a program that does not build is an error with its name, options and 
               "#include \"lib/fine.clh\"\n\nkernel void k(global uint* out) {\n  out[0] = undeclared_name;\n}\n");
   kernels.add("lib/fine.clh", "// one\n// two\n// three\n");
   gpu::Context context;
+  auto out = context.buffer<uint32_t>(1, "out");
   const std::string message = message_of<DeviceError>([&] {
-    context.kernel("broken", "k", {{"SOME_DEFINITION", "3"}});
+    context.kernel("broken", "k", {{"SOME_DEFINITION", "3"}})({1, 1}, "test", out);
   });
   CHECK(contains(message, "\"broken\""));
   CHECK(contains(message, "-DSOME_DEFINITION=3"));
@@ -131,8 +132,11 @@ TEST_CASE("a program that does not build is an error with its name, options and 
   CHECK(contains(message, context.info().name));
   CHECK(contains(message, (kernels.kernels() / "broken.cl").string() + ":4"));
   kernels.add("broken.cl", "kernel void k(global uint* out) { out[0] = 1; }\n");
-  CHECK_NOTHROW(context.kernel("broken", "k"));
-  CHECK(contains(message_of<DeviceError>([&] { context.kernel("broken", "absent"); }), "\"absent\""));
+  CHECK_NOTHROW(context.kernel("broken", "k")({1, 1}, "test", out));
+  CHECK(contains(message_of<DeviceError>([&] {
+                   context.kernel("broken", "absent")({1, 1}, "test", out);
+                 }),
+                 "\"absent\""));
 }
 
 TEST_CASE("a second context takes the program from disk, and it computes the same") {

@@ -9,6 +9,7 @@
 #include <vector>
 #include "folders.hpp"
 #include "gpu/gpu.hpp"
+#include "gpu/one_kernel.hpp"
 #include "gpu/temporary.hpp"
 #include "wavetracer/error.hpp"
 
@@ -100,6 +101,62 @@ TEST_CASE("a file included in two branches of a condition is there in both") {
   const std::string source = gpu::program_source("main");
   CHECK(source.find("text") < source.find("#else"));
   CHECK(source.rfind("text") > source.find("#else"));
+}
+
+TEST_CASE("a guarded file is there once, where nothing in between depends on a condition") {
+  const TemporaryKernels kernels;
+  kernels.add("main.cl",
+              "#include \"lib/b.clh\"\n#if A\n#include \"lib/c.clh\"\n#endif\n#include \"lib/a.clh\"\n"
+              "#include \"lib/c.clh\"\n#include \"lib/c.clh\"\n");
+  kernels.add("lib/a.clh", "// words\n#ifndef A_CLH\n#define A_CLH\ntext of a\n#if B\n#endif\n#endif\n");
+  kernels.add("lib/b.clh", "#ifndef B_CLH\n#define B_CLH\n#include \"lib/a.clh\"\ntext of b\n#endif\n");
+  kernels.add("lib/c.clh", "#ifndef C_CLH\n#define C_CLH\ntext of c\n#endif\n");
+  const std::string source = gpu::program_source("main");
+  const auto count = [&](const std::string& words) {
+    int out = 0;
+    for (size_t at = 0; (at = source.find(words, at)) != std::string::npos; ++at) ++out;
+    return out;
+  };
+  CHECK(count("text of a") == 1);
+  CHECK(count("text of b") == 1);
+  CHECK(count("text of c") == 2);  // the first may not be seen
+}
+
+TEST_CASE("a source with one of its kernels keeps its lines, and what is no kernel") {
+  const std::string source =
+      "#define HELP(x) { x\ninline int f(int a) { return a; }  // kernel void no(\n/* kernel void { */\n"
+      "__attribute__((reqd_work_group_size(4, 1, 1))) kernel void first(\n    global int* a) {\n#if A\n  if (a) "
+      "{\n#endif\n"
+      "#if A\n  }\n#endif\n  a[0] = '1' + f(1);\n}\n\nkernel void second(global int* a) { a[1] = 2; }\nkernel "
+      "__attribute__((vec_type_hint(float4))) void third(global int* a) {\n  printf(\"}\");\n}\n";
+  const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
+  const std::string first = gpu::with_one_kernel(source, "first"), third = gpu::with_one_kernel(source, "third");
+  for (const std::string* one : {&first, &third}) {
+    CHECK(lines(*one) == lines(source));
+    CHECK(contains(*one, "#define HELP(x) { x\ninline int f(int a) { return a; }"));
+    CHECK_FALSE(contains(*one, "second"));
+  }
+  CHECK(contains(first, "reqd_work_group_size(4, 1, 1))) kernel void first("));
+  CHECK(contains(first, "a[0] = '1' + f(1);\n}"));
+  CHECK_FALSE(contains(first, "third"));
+  CHECK_FALSE(contains(third, "first"));
+  CHECK_FALSE(contains(third, "reqd_work_group_size"));
+  CHECK(third.ends_with("void third(global int* a) {\n  printf(\"}\");\n}\n"));
+  // Where each branch of a condition opens a brace, nothing is known.
+  const std::string unmatched =
+      "#if A\nkernel void a(int x) {\n#else\nkernel void a(int y) {\n#endif\n}\nkernel void b() {}\n";
+  CHECK(gpu::with_one_kernel(unmatched, "b") == unmatched);
+}
+
+TEST_CASE("every kernel of ours is found by that") {
+  for (const gpu::EmbeddedFile& file : gpu::embedded_files()) {
+    if (!file.path.starts_with("kernels/") || !file.path.ends_with(".cl")) continue;
+    CAPTURE(file.path);
+    const std::string name(file.path.substr(8, file.path.size() - 11)), whole = gpu::program_source(name);
+    const std::string none = gpu::with_one_kernel(whole, "");
+    CHECK(contains(whole, "kernel void "));
+    CHECK_FALSE(contains(none, "kernel void "));
+  }
 }
 
 TEST_CASE("device headers are found beside the kernels folder on disk") {
