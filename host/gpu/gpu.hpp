@@ -251,4 +251,7 @@ class Context {
 // The source of a program after expansion of its #include lines, with #line kept; for tests and for `bench`.
 std::string program_source(const std::string& program);
 
+// A hash of the text of all kernels and of the headers that they share with the host, wherever they are read from.
+std::string hash_of_sources();
+
 }  // namespace wavetracer::gpu
