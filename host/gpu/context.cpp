@@ -41,11 +41,9 @@ Context::Context(std::string_view device_text) : state_(std::make_unique<State>(
   State& s = *state_;
   const std::vector<DeviceInfo> devices = list_devices();
   s.info = devices[choose_device(devices, device_text)];
-  if (!s.info.fp64 || !s.info.int64_atomics) {
-    throw DeviceError(fmt::format(
-        "{} ({}) lacks {}; choose another device (`wavetracer devices` lists them)", s.info.name, s.info.platform,
-        s.info.fp64 ? "64-bit atomics (cl_khr_int64_base_atomics)" : "double precision (cl_khr_fp64)"));
-  }
+  if (const std::string missing = lacks(s.info); !missing.empty())
+    throw DeviceError(fmt::format("{} ({}) lacks {}; choose another device (`wavetracer devices` lists them)",
+                                  s.info.name, s.info.platform, missing));
   try {
     s.device = all_devices().at(s.info.index);
     s.context = OpenContexts::of_process().open(s.device);

@@ -120,6 +120,14 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
+std::string lacks(const DeviceInfo& device) {
+  std::string out;
+  if (!device.fp64) out = "double precision (cl_khr_fp64)";
+  if (!device.int64_atomics)
+    out += std::string(out.empty() ? "" : " and ") + "64-bit atomics (cl_khr_int64_base_atomics)";
+  return out;
+}
+
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text) {
   if (devices.empty()) {
     if (const std::string problem = pocl_cache_problem(); !problem.empty())

@@ -38,6 +38,8 @@ struct DeviceInfo {
 
 // All devices of all platforms, in the ICD's order. An absent ICD gives an empty list.
 std::vector<DeviceInfo> list_devices();
+// What a device lacks that kernels need, in words; empty where it lacks nothing.
+std::string lacks(const DeviceInfo& device);
 // text: empty takes the first GPU, else the first CPU; a number is an index; anything else must match one device's
 // platform or name (case-insensitive part). Throws DeviceError with the list of what there is and what to install.
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text);
