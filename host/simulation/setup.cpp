@@ -141,6 +141,7 @@ Setup::Setup(const Config& asked, const std::string& device_text, bool frames_fo
     : Setup(
           std::make_unique<gpu::Context>(device_text), nullptr, asked, [&] { return load_scene(asked); },
           frames_follow) {
+  end_stage("compile");
   prove_device(context, features_to_check(*this));
   end_stage("device check");
 }

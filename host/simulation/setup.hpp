@@ -36,8 +36,8 @@ struct Setup {
   Setup(const Setup&) = delete;
   Setup& operator=(const Setup&) = delete;
 
-  // What was made since the last stage is this one of `seconds`.
-  void end_stage(const char* name) { seconds[name] = watch.lap(); }
+  // The time since the end of the last stage belongs to this one of `seconds`.
+  void end_stage(const char* name) { seconds[name] += watch.lap(); }
   // Is there anything that rays might meet?
   bool has_surfaces() const { return !scene.surfaces.empty() || !world.instances().empty(); }
 
