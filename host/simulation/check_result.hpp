@@ -7,8 +7,8 @@ namespace wavetracer {
 struct CheckResult {
   std::string name;  // of what was checked
   bool passed = false;
-  std::string found;  // in words: "37 of 1,000 rays hit the wrong triangle"
-  double seconds = 0;
+  std::string found;   // in words: "37 of 1,000 rays hit the wrong triangle"
+  double seconds = 0;  // compiling included
 };
 
 }  // namespace wavetracer

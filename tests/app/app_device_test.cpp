@@ -20,6 +20,19 @@ const std::string street =
 
 }  // namespace
 
+TEST_CASE("devices --check says what each device computes, and refuses no sound one") {
+  if (!device_present()) return;
+  const Outcome checked = run_program({"devices", "--check", "--device", "0"});
+  CAPTURE(checked.out);
+  CHECK(checked.code == 0);
+  CHECK(contains(checked.out, "    traversal  right"));
+  CHECK(contains(checked.out, "    ray cache  right"));
+  CHECK(contains(checked.out, "  All that was checked is right.\n"));
+  CHECK(!contains(checked.out, "WRONG"));
+  CHECK(run_program({"devices", "--check", "--device", "no such device"}).code == 4);
+  CHECK(run_program({"devices", "--device", "0"}).code == 2);  // a list is of all
+}
+
 TEST_CASE("devices marks the device that a run takes") {
   if (!device_present()) return;
   const Outcome devices = run_program({"devices"});
