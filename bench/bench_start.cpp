@@ -90,7 +90,7 @@ Start start_once(const std::vector<std::string>& words, const std::string& summa
     throw RuntimeError(fmt::format("{} ended with {} and said\n{}", words[0], code, messages));
   const auto summary = nlohmann::json::parse(std::ifstream(summary_file));
   result.device = summary.at("device");
-  for (const char* stage : {"device", "load", "build", "compile"}) {
+  for (const char* stage : {"device", "load", "build", "compile", "device check"}) {
     const auto& seconds = summary.at("seconds");
     if (seconds.contains(stage)) result.stages[stage] = seconds.at(stage);
   }

@@ -13,7 +13,7 @@ struct Invocation {
 };
 
 void add_run(CLI::App& program, Invocation& invocation);
-void add_devices(CLI::App& program);
+void add_devices(CLI::App& program, Invocation& invocation);
 void add_validate(CLI::App& program);
 void add_init(CLI::App& program);
 void add_scene(CLI::App& program);

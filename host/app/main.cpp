@@ -45,7 +45,7 @@ int run_program(int argc, char** argv) {
       "file.");
   wavetracer::app::Invocation invocation{command_line(argc, argv)};
   wavetracer::app::add_run(program, invocation);
-  wavetracer::app::add_devices(program);
+  wavetracer::app::add_devices(program, invocation);
   wavetracer::app::add_validate(program);
   wavetracer::app::add_init(program);
   wavetracer::app::add_scene(program);

@@ -12,6 +12,7 @@
 #include "base/times.hpp"
 #include "output/run_advice.hpp"
 #include "wavetracer/interaction_kinds.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -189,9 +190,12 @@ std::string left_out_line(const Totals& totals) {
       grouped(gone.paths), grouped(totals.counts.paths), 100 * gone.power / gone.all);
 }
 
+// Where the device had to prove itself, that has compiled most kernels.
 std::string compile_line(const Run& run) {
-  const auto found = run.summary.setup_seconds.find("compile");
-  return found == run.summary.setup_seconds.end() ? "" : fmt::format("compiled   in {}\n", duration(found->second));
+  const StageSeconds& seconds = run.summary.setup_seconds;
+  if (!seconds.contains("compile")) return "";
+  return fmt::format("compiled   in {}\n",
+                     duration(stage_seconds(seconds, "compile") + stage_seconds(seconds, "device check")));
 }
 
 // What frames without rays may lack.

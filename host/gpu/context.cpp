@@ -42,7 +42,7 @@ Context::Context(std::string_view device_text, const Needs& needs) : state_(std:
   State& s = *state_;
   const std::vector<DeviceInfo> devices = list_devices();
   s.info = devices[choose_device(devices, device_text)];
-  if (const std::string_view lacking = unmet(s.info, needs); !lacking.empty()) {
+  if (const std::string lacking = lacks(s.info, needs); !lacking.empty()) {
     throw DeviceError(fmt::format("{} ({}) lacks {}; choose another device (`wavetracer devices` lists them)",
                                   s.info.name, s.info.platform, lacking));
   }

@@ -152,10 +152,12 @@ size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view te
   return static_cast<size_t>(best - devices.data());
 }
 
-std::string_view unmet(const DeviceInfo& device, const Needs& needs) {
-  if (needs.fp64 && !device.fp64) return "double precision (cl_khr_fp64)";
-  if (needs.int64_atomics && !device.int64_atomics) return "64-bit atomics (cl_khr_int64_base_atomics)";
-  return "";
+std::string lacks(const DeviceInfo& device, const Needs& needs) {
+  std::string out;
+  if (needs.fp64 && !device.fp64) out = "double precision (cl_khr_fp64)";
+  if (needs.int64_atomics && !device.int64_atomics)
+    out += std::string(out.empty() ? "" : " and ") + "64-bit atomics (cl_khr_int64_base_atomics)";
+  return out;
 }
 
 std::string device_options(const cl::Device& device, const DeviceInfo& info) {

@@ -49,8 +49,8 @@ struct Needs {
   bool int64_atomics = true;  // by which sequences and caches are kept
 };
 
-// The first need that the device does not meet, in words with the name of the extension; empty where it meets all.
-std::string_view unmet(const DeviceInfo& device, const Needs& needs);
+// The needs that the device does not meet, in words with the names of the extensions; empty where it meets all.
+std::string lacks(const DeviceInfo& device, const Needs& needs = {});
 
 // Work-items and the fixed work-group size, a number each or one a dimension; global is padded up to a multiple of
 // local (PoCL has no non-uniform work-groups), so kernels check their range.
@@ -263,5 +263,8 @@ class Context {
 
 // The source of a program after expansion of its #include lines, with #line kept; for tests and for `bench`.
 std::string program_source(const std::string& program);
+
+// A hash of the text of all kernels and of the headers that they share with the host, wherever they are read from.
+std::string hash_of_sources();
 
 }  // namespace wavetracer::gpu

@@ -15,6 +15,7 @@
 #include <set>
 #include <sstream>
 #include <vector>
+#include "base/hash.hpp"
 #include "gpu/gpu.hpp"
 #include "wavetracer/error.hpp"
 
@@ -64,12 +65,39 @@ class Source {
     return std::nullopt;
   }
 
+  // Of every file, its name and its text.
+  std::string hash() const {
+    ContentHash out;
+    const auto add = [&out](std::string_view text) { out.add(std::as_bytes(std::span(text))); };
+    if (folder_.empty())
+      for (const EmbeddedFile& file : embedded_files())
+        for (const std::string_view text : {file.path, file.text}) add(text);
+    else
+      for (const std::filesystem::path& path : files_on_disk()) {
+        std::ifstream in(path, std::ios::binary);
+        add(path.filename().string());
+        add(std::string(std::istreambuf_iterator<char>(in), {}));
+      }
+    return fmt::format("{:016x}", out.value());
+  }
+
   std::string place() const {
     return folder_.empty() ? std::string("the kernels built into wavetracer")
                            : fmt::format("{} (WAVETRACER_KERNEL_DIR) or ../include beside it", folder_.string());
   }
 
  private:
+  std::vector<std::filesystem::path> files_on_disk() const {
+    std::vector<std::filesystem::path> out;
+    for (const std::filesystem::path& folder : {folder_, folder_ / ".." / "include" / "wavetracer" / "device"}) {
+      std::error_code error;  // a folder that is not there has no files
+      for (std::filesystem::recursive_directory_iterator at(folder, error), end; at != end; at.increment(error))
+        if (at->is_regular_file(error)) out.push_back(at->path());
+    }
+    std::ranges::sort(out);
+    return out;
+  }
+
   std::filesystem::path folder_;
 };
 
@@ -182,6 +210,8 @@ std::string program_source(const std::string& program) {
   expansion.append(*file);
   return expansion.take();
 }
+
+std::string hash_of_sources() { return Source().hash(); }
 
 std::string with_places(const std::string& log, const std::string& source) {
   static const std::regex directive("#line ([0-9]+) \"(.*)\""), counted("(<kernel>|input\\.cl):([0-9]+):");

@@ -7,6 +7,7 @@
 #include "scene/load.hpp"
 #include "scene/materials.hpp"
 #include "scene/surface_sheets.hpp"
+#include "simulation/device_proof.hpp"
 #include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/tracing_depth.hpp"
@@ -26,9 +27,9 @@ OrderSummary summary_of(const OrderChoice& choice) {
           choice.reason};
 }
 
-Scene make_scene(Setup& s, const Config& asked) {
+Scene make_scene(Setup& s, const std::function<Scene()>& load) {
   s.end_stage("device");
-  Scene out = load_scene(asked);
+  Scene out = load();
   s.end_stage("load");
   return out;
 }
@@ -137,9 +138,24 @@ Config with_trace(Config config, const TraceConfig& trace) {
 }  // namespace
 
 Setup::Setup(const Config& asked, const std::string& device_text, bool frames_follow)
-    : context(device_text),
+    : Setup(
+          std::make_unique<gpu::Context>(device_text), nullptr, asked, [&] { return load_scene(asked); },
+          frames_follow) {
+  end_stage("compile");
+  prove_device(context, features_to_check(*this));
+  end_stage("device check");
+}
+
+Setup::Setup(gpu::Context& lent, const Config& asked, const Scene& given, bool frames_follow)
+    : Setup(
+          nullptr, &lent, asked, [&] { return given; }, frames_follow) {}
+
+Setup::Setup(std::unique_ptr<gpu::Context> own, gpu::Context* lent, const Config& asked,
+             const std::function<Scene()>& load, bool frames_follow)
+    : own_context(std::move(own)),
+      context(own_context ? *own_context : *lent),
       device(summary_of(context.info())),
-      scene(make_scene(*this, asked)),
+      scene(make_scene(*this, load)),
       world(asked, scene),
       around(scene),
       place_warnings(wavetracer::place_warnings(asked, around, world)),

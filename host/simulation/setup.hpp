@@ -1,6 +1,8 @@
 // What a simulation is made of: made once, in this order, and complete once it is constructed.
 // Members refer to those before them.
 #pragma once
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "base/stopwatch.hpp"
@@ -24,20 +26,25 @@
 namespace wavetracer {
 
 struct Setup {
-  // As Simulation::Simulation. frames_follow: frames of poses of the caller's own follow each other, also where the
-  // world has one frame; then they reuse sequences if trace.reuse says so.
+  // As Simulation::Simulation; the device has proved itself then (device_proof.hpp). frames_follow: frames of poses of
+  // the caller's own follow each other, also where the world has one frame; then they reuse sequences if trace.reuse
+  // says so.
   Setup(const Config& asked, const std::string& device_text, bool frames_follow = false);
+  // A scene of the caller's own on a device that need not have proved itself: it is what the proof is made with. The
+  // context outlives this.
+  Setup(gpu::Context& context, const Config& asked, const Scene& scene, bool frames_follow);
   Setup(const Setup&) = delete;
   Setup& operator=(const Setup&) = delete;
 
-  // What was made since the last stage is this one of `seconds`.
-  void end_stage(const char* name) { seconds[name] = watch.lap(); }
+  // The time since the end of the last stage belongs to this one of `seconds`.
+  void end_stage(const char* name) { seconds[name] += watch.lap(); }
   // Is there anything that rays might meet?
   bool has_surfaces() const { return !scene.surfaces.empty() || !world.instances().empty(); }
 
   Stopwatch watch;
   StageSeconds seconds;
-  gpu::Context context;
+  std::unique_ptr<gpu::Context> own_context;  // null where the caller lends one
+  gpu::Context& context;
   DeviceSummary device;
   Scene scene;
   World world;
@@ -63,6 +70,10 @@ struct Setup {
   ExactPaths exact_paths;
   FinishedPaths finish;
   ElementOutputs elements;
+
+ private:
+  Setup(std::unique_ptr<gpu::Context> own, gpu::Context* lent, const Config& asked, const std::function<Scene()>& load,
+        bool frames_follow);
 };
 
 }  // namespace wavetracer

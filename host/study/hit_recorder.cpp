@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include "scene/load.hpp"
+#include "simulation/device_proof.hpp"
 #include "simulation/listeners.hpp"
 
 namespace wavetracer::study {
@@ -40,6 +41,7 @@ TracedWorld::TracedWorld(const Config& config, const std::string& device_text)
       world(config, scene),
       on_device(make_device_scene(context, scene, false, world.reach_m())),
       device(summary(context.info())) {
+  prove_device(context, {.instances = !world.instances().empty()});
   if (world.instances().empty()) return;
   placement.emplace(context, world.models(), world.instances(), on_device);
   placement->place(on_device, world.state(0).instances);

@@ -6,36 +6,12 @@
 #include "radio/fields.hpp"
 #include "simulation/frame.hpp"
 #include "simulation/run.hpp"
-#include "wavetracer/interaction_kinds.hpp"
+#include "simulation/visible_paths.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
 
 namespace {
-
-// All that was visible in the last frame, equal paths included.
-PathGeometry visible_of(const Setup& s) {
-  Setup& setup = const_cast<Setup&>(s);
-  const SolvedList& list = setup.exact_paths.visible.list();
-  const uint32_t count = setup.discovery.sequences().counters().last().visible;
-  const auto headers = list.headers.read(0, count);
-  const auto steps = list.sequences.read(0, size_t{count} * list.max_depth);
-  const auto vertices = list.vertices.read(0, 3 * steps.size());
-  PathGeometry out;
-  for (size_t i = 0; i < headers.size(); ++i) {
-    out.tx.push_back(headers[i].transmitter);
-    out.rx.push_back(headers[i].receiver);
-    out.quarters.push_back(static_cast<uint8_t>(headers[i].quarters));
-    for (size_t k = i * list.max_depth; k < i * list.max_depth + headers[i].depth; ++k) {
-      const auto kind = std::ranges::find(interaction_kinds, steps[k] >> WT_STEP_SHIFT, &InteractionKind::step);
-      out.surface.push_back(steps[k] & ~WT_STEP_KIND);
-      out.interaction.push_back(kind->code);
-      out.vertex.emplace_back(vertices[3 * k], vertices[3 * k + 1], vertices[3 * k + 2]);
-    }
-    out.first.push_back(out.surface.size());
-  }
-  return out;
-}
 
 using Number = std::tuple<double, double, double, double, double, double, double>;
 
@@ -78,7 +54,7 @@ std::map<uint8_t, size_t> check_same(const Config& config, uint32_t frames) {
                                         .pose = [&] { return s.world.state(frame); },
                                         .transmitter_name = [](uint32_t) { return ""; },
                                         .receiver_name = [](uint32_t) { return ""; }});
-    const Paths expected = host.compute(frame, visible_of(s), found.world);
+    const Paths expected = host.compute(frame, read_visible(s), found.world);
     CHECK(found.paths.size() > 50);
     CHECK(found.paths.size() <= expected.size());
     std::multimap<std::tuple<uint32_t, uint32_t, double>, size_t> by_delay;

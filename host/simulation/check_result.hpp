@@ -1,0 +1,14 @@
+// What a check of a device has found.
+#pragma once
+#include <string>
+
+namespace wavetracer {
+
+struct CheckResult {
+  std::string name;  // of what was checked
+  bool passed = false;
+  std::string found;   // in words: "37 of 1,000 rays hit the wrong triangle"
+  double seconds = 0;  // compiling included
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,17 @@
+// Words for people, in the order of a path.
+#include "simulation/checked_features.hpp"
+
+namespace wavetracer {
+
+std::string CheckedFeatures::words() const {
+  std::string out = "reflection";
+  if (diffractions > 0) out += diffractions == 1 ? ", diffraction" : ", diffraction at two edges";
+  if (transmission) out += ", transmission";
+  if (scattering) out += ", scattering";
+  if (instances) out += ", vehicles";
+  if (reuse) out += ", frames that follow each other";
+  if (cache.kind != "none") out += ", a ray cache (" + cache.kind.text() + ")";
+  return out;
+}
+
+}  // namespace wavetracer

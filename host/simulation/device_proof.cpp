@@ -1,0 +1,66 @@
+// Context::recall knows device, driver and platform; all else that the result depends on is in its subject.
+#include "simulation/device_proof.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "simulation/device_check.hpp"
+#include "simulation/setup.hpp"
+#include "wavetracer/version.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr const char* passed = "passed";
+
+std::string subject_of(const CheckedFeatures& features) {
+  const CacheConfig& cache = features.cache;
+  std::string out = fmt::format("device check of wavetracer {}, kernels {}: {}", WAVETRACER_VERSION,
+                                gpu::hash_of_sources(), features.words());
+  if (cache.kind != "none")
+    out += fmt::format(" {} {} {} {} {} {} {} {}", cache.hash_method, cache.division, cache.locking.text(),
+                       cache.readers_number, cache.scope.text(), cache.hit_point.text(), cache.innerframe,
+                       cache.statistics);
+  return out;
+}
+
+bool all_passed(std::span<const CheckResult> results) { return std::ranges::all_of(results, &CheckResult::passed); }
+
+}  // namespace
+
+CheckedFeatures features_to_check(const Setup& setup) {
+  CheckedFeatures out{.instances = !setup.world.instances().empty(),
+                      .transmission = setup.trace.transmission,
+                      .scattering = setup.trace.scattering,
+                      .diffractions = setup.trace.diffraction ? setup.trace.max_diffractions : 0,
+                      .reuse = setup.reuse};
+  if (setup.cache && !setup.cache->as_printed()) out.cache = setup.config.cache;
+  return out;
+}
+
+void keep_proof(gpu::Context& context, const CheckedFeatures& features, std::span<const CheckResult> results) {
+  context.keep(subject_of(features), all_passed(results) ? passed : "failed");
+}
+
+void prove_device(gpu::Context& context, const CheckedFeatures& features) {
+  if (context.recall(subject_of(features)) == passed) return;
+  const std::vector<CheckResult> results = check_device(context, features);
+  keep_proof(context, features, results);
+  if (all_passed(results)) return;
+  std::string failed, right;
+  for (const CheckResult& result : results) {
+    if (result.passed)
+      right += (right.empty() ? "" : ", ") + result.name;
+    else
+      failed += fmt::format("\n  {}: {}", result.name, result.found);
+  }
+  const gpu::DeviceInfo& info = context.info();
+  throw DeviceError(fmt::format(
+      "{} ({}, driver {}) computes wrong results, so it is not used. These checks failed:{}\nThese passed: {}. Choose "
+      "another device or another driver (`wavetracer devices --check` checks all of them), and please report this "
+      "message",
+      info.name, info.platform, info.driver, failed, right.empty() ? "none" : right));
+}
+
+}  // namespace wavetracer

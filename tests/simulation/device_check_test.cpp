@@ -1,0 +1,53 @@
+// The checks of a device pass where its kernels are right, in every known frame; what is kept of them is used, and is
+// that of the same driver and kernels.
+#include "simulation/device_check.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "simulation/check_frame.hpp"
+#include "simulation/check_world.hpp"
+#include "simulation/known_frames.hpp"
+
+using namespace wavetracer;
+
+namespace {
+
+CheckedFeatures features_of_frame(uint32_t frame) {
+  CheckedFeatures out;
+  out.diffractions = frame % 3;
+  out.instances = frame / 3 & 1;
+  out.transmission = frame / 6 & 1;
+  out.scattering = frame / 12 & 1;
+  REQUIRE(out.frame() == frame);
+  return out;
+}
+
+void check_all_pass(gpu::Context& context, const CheckedFeatures& features) {
+  for (const CheckResult& result : check_device(context, features)) {
+    INFO(features.words() << ": " << result.name << ": " << result.found);
+    CHECK(result.passed);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("every known frame is what the device computes") {
+  gpu::Context context;
+  for (uint32_t frame = 0; frame < known_frames.size(); ++frame) {
+    CAPTURE(frame);
+    const CheckedFeatures features = features_of_frame(frame);
+    check_all_pass(context, features);
+    const Config config = check_config(features);
+    Setup setup(context, config, check_scene(config), false);
+    FrameLoop frames(setup);
+    const auto no_name = [](uint32_t) { return std::string(); };
+    const KnownFrame found = known_of(frames
+                                          .run({.pose = [&] { return check_state(setup.world); },
+                                                .transmitter_name = no_name,
+                                                .receiver_name = no_name})
+                                          .paths);
+    if (found == known_frames[frame]) continue;
+    FAIL_CHECK(fmt::format("    {{{}, 0x{:016x}, 0x{:016x}}},", found.paths, found.sequences, found.points));
+  }
+}

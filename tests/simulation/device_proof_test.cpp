@@ -1,0 +1,153 @@
+// A device whose kernels are broken is refused, and the check that fails is the one of the broken kernel; one that has
+// passed is not checked again until driver, kernels or features are others.
+#include "simulation/device_proof.hpp"
+
+#include <algorithm>
+
+#include "simulation/device_check.hpp"
+#include "simulation/kernels_copy.hpp"
+#include "wavetracer/error.hpp"
+#include "wavetracer/simulation.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// Of the checks that fail, the first, and all of them one after the other.
+struct FailedChecks {
+  std::string first, all;
+};
+
+FailedChecks failed_checks(const CheckedFeatures& features = {}) {
+  const CopyInUse in_use;
+  gpu::Context context;
+  FailedChecks out;
+  for (const CheckResult& result : check_device(context, features)) {
+    if (result.passed) continue;
+    if (out.first.empty()) out.first = result.name;
+    out.all += result.name + ": " + result.found + "\n";
+  }
+  return out;
+}
+
+// Whether proving the device has made it compute anything.
+bool proof_computes(const CheckedFeatures& features = {}) {
+  gpu::Context context;
+  prove_device(context, features);
+  return context.build_seconds() > 0;
+}
+
+CheckedFeatures with_cache() {
+  CheckedFeatures out;
+  out.cache.kind = "concurrent";
+  return out;
+}
+
+// The files in which results of checks are kept.
+std::vector<std::filesystem::path> kept_proofs(const CopyInUse& in_use) {
+  std::vector<std::filesystem::path> out;
+  for (const auto& entry : std::filesystem::directory_iterator(in_use.programs()))
+    if (read_file(entry.path()).ends_with("passed")) out.push_back(entry.path());
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("kernels that are not broken pass") {
+  CHECK(failed_checks().all == "");
+  CHECK(failed_checks(with_cache()).all == "");
+}
+
+TEST_CASE("a traversal that passes over triangles behind others fails the check of traversal") {
+  gpu::Context context;
+  const bool cpu = context.info().cpu;
+  const BrokenLine broken = cpu ? BrokenLine("kernels/lib/packet16.clh", "(t < p->t)", "(t > p->t)")
+                                : BrokenLine("kernels/lib/hit.clh", "(t < best.t ||", "(t > best.t ||");
+  CHECK(failed_checks().first == "traversal");
+}
+
+TEST_CASE("a sort with a wrong comparison fails the check of sorts") {
+  const BrokenLine vectors("kernels/bitonic_sort.cl", "stride < n; stride *= 2", "stride < n / 4; stride *= 2");
+  const BrokenLine groups("kernels/bitonic_sort.cl", "stride = 16; stride < n;", "stride = 16; stride < n / 4;");
+  const FailedChecks failed = failed_checks();
+  CAPTURE(failed.all);
+  CHECK(failed.first == "sorts");
+}
+
+TEST_CASE("a field function that differs from the host's fails the check of fields, and no other") {
+  const BrokenLine broken("include/wavetracer/device/slab.h", "const double kd = 2.0 * WT_PI",
+                          "const double kd = 2.001 * WT_PI");
+  const FailedChecks failed = failed_checks();
+  CAPTURE(failed.all);
+  CHECK(failed.first == "fields");
+  CHECK(!contains(failed.all, "paths:"));
+}
+
+TEST_CASE("two sequences where one should be, as without atomics, fail the check of sequences") {
+  const BrokenLine broken("kernels/lib/trie.clh", "uint slot = wt_trie_hash(key) & mask;",
+                          "uint slot = (wt_trie_hash(key) + (uint)(get_global_id(0) & 1)) & mask;");
+  const FailedChecks failed = failed_checks();
+  CAPTURE(failed.all);
+  CHECK(failed.first == "sequences");
+}
+
+TEST_CASE("a ray cache that finds no key fails its check, and no other") {
+  const BrokenLine broken("kernels/lib/cache_entry.clh",
+                          "return e->cells == q.cells && e->left == q.left && as_uint(e->origin[0])",
+                          "return e->cells != q.cells && e->left == q.left && as_uint(e->origin[0])");
+  const FailedChecks failed = failed_checks(with_cache());
+  CAPTURE(failed.all);
+  CHECK(failed.first == "ray cache");
+}
+
+TEST_CASE("a simulation on a broken device is refused, every time") {
+  const BrokenLine broken("include/wavetracer/device/slab.h", "const double kd = 2.0 * WT_PI",
+                          "const double kd = 2.001 * WT_PI");
+  const CopyInUse in_use;
+  Config config;
+  config.scene.generate = "--blocks 2x2";
+  config.transmitters = {{.name = "tx", .position_m = {0, 0, 5}}};
+  config.receivers = {{.name = "rx", .position_m = {20, 1, 2}}};
+  for (int start = 0; start < 2; ++start) {
+    const std::string message = message_of<DeviceError>([&] { Simulation simulation(config); });
+    CAPTURE(message);
+    CHECK(contains(message, "computes wrong results"));
+    CHECK(contains(message, "\n  fields: of "));
+    CHECK(contains(message, "These passed: sorts, sums, traversal, sequences, paths."));
+    CHECK(contains(message, "wavetracer devices --check"));
+  }
+}
+
+TEST_CASE("what has passed is not checked again, until kernels or features are others") {
+  const CopyInUse in_use;
+  CHECK(proof_computes());
+  CHECK(!proof_computes());
+  CHECK(proof_computes({.transmission = true}));
+  CHECK(!proof_computes({.transmission = true}));
+  const BrokenLine changed("kernels/crowns.cl", "// ", "//  ");
+  CHECK(proof_computes());
+  CHECK(!proof_computes());
+}
+
+TEST_CASE("what another driver has passed counts for nothing") {
+  const CopyInUse in_use;
+  gpu::Context context;
+  CHECK(proof_computes());
+  const auto kept = kept_proofs(in_use);
+  REQUIRE(kept.size() == 1);
+  std::string text = read_file(kept[0]);
+  const std::string& driver = context.info().driver;
+  const size_t at = text.rfind(driver);
+  REQUIRE(at != std::string::npos);
+  write_file(kept[0], text.replace(at, driver.size(), std::string(driver.size(), '9')));
+  CHECK(proof_computes());
+  CHECK(!proof_computes());
+}
+
+TEST_CASE("where nothing can be kept, every start checks") {
+  const CopyInUse in_use;
+  const Environment no_cache("WAVETRACER_NO_CACHE", "1");
+  CHECK(proof_computes());
+  CHECK(proof_computes());
+}
