@@ -107,10 +107,11 @@ cl::Program Context::State::build_from_source(const std::string& name, const std
 
 const cl::Program& Context::State::program(const std::string& name, const std::string& kernel,
                                            const std::string& options) {
-  const std::string only = info.cpu ? kernel : "", id = only + " " + name + " " + options;
+  const std::string id = fmt::format("{} {} {}", info.cpu ? kernel : "", name, options);
   if (const auto known = programs.find(id); known != programs.end()) return known->second;
   const auto start = std::chrono::steady_clock::now();
-  const ProgramKey key{with_one_kernel(program_source(name), kernel),
+  const std::string whole = program_source(name);
+  const ProgramKey key{info.cpu ? with_one_kernel(whole, kernel) : whole,
                        options,
                        info.platform,
                        info.platform_version,
