@@ -5,6 +5,7 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 namespace wavetracer::maps {
@@ -26,6 +27,13 @@ void set_up() {
 std::string last_error() {
   const std::string text = CPLGetLastErrorMsg();
   return text.empty() ? "GDAL does not say why" : text;
+}
+
+// GDAL's reader of GML writes the fields that it has found to this file beside its input; empty where there is one.
+std::filesystem::path new_schema(const char* file) {
+  const std::filesystem::path schema = std::filesystem::path(file).replace_extension(".gfs");
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::symlink_status(schema, ignored)) ? std::filesystem::path() : schema;
 }
 
 struct FreeSystem {
@@ -57,10 +65,17 @@ Transformation between(OGRSpatialReferenceH system, bool to_earth) {
 
 }  // namespace
 
+void CloseDataset::operator()(GDALDatasetH dataset) const {
+  GDALClose(dataset);
+  std::error_code ignored;
+  if (!new_schema.empty()) std::filesystem::remove(new_schema, ignored);
+}
+
 Dataset open(const char* file, unsigned kind) {
   set_up();
   CPLErrorReset();
-  Dataset out(GDALOpenEx(file, GDAL_OF_READONLY | kind | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
+  const CloseDataset close{new_schema(file)};
+  Dataset out(GDALOpenEx(file, GDAL_OF_READONLY | kind | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr), close);
   if (!out) throw std::runtime_error(last_error());
   return out;
 }

@@ -4,6 +4,7 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -13,8 +14,10 @@
 
 namespace wavetracer::maps {
 
+// Closes a dataset, and removes what GDAL has written beside its file: the folder is the user's.
 struct CloseDataset {
-  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
+  std::filesystem::path new_schema;  // what there was not before
+  void operator()(GDALDatasetH dataset) const;
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 

@@ -84,6 +84,21 @@ TEST_CASE("one town in the formats of many programs is one scene") {
   CHECK(import_file(json, fields()).summary.left_out.at("feature without a polygon") == 1);
 }
 
+TEST_CASE("a map that is read has no new files beside it, and keeps the old ones") {
+  if (!has_gdal()) return;
+  const TemporaryFolder folder;
+  const fs::path json = folder.write("town.geojson", town()), gml = folder.path() / "town.gml";
+  REQUIRE(run(fmt::format("{} -f GML '{}' '{}'", WAVETRACER_OGR2OGR, gml.string(), json.string())));
+  fs::remove(folder.path() / "town.xsd");  // then GDAL looks for fields itself
+  const fs::path schema = folder.path() / "town.gfs";
+  REQUIRE_FALSE(fs::exists(schema));
+  CHECK(import_file(gml, fields()).summary.buildings == 4);
+  CHECK_FALSE(fs::exists(schema));
+  folder.write("town.gfs", "<GMLFeatureClassList></GMLFeatureClassList>\n");
+  import_file(json, fields());
+  CHECK(read_file(schema.string()) == "<GMLFeatureClassList></GMLFeatureClassList>\n");
+}
+
 TEST_CASE("fields, layers and coordinate systems: what is missing is said with what there is") {
   if (!has_gdal()) return;
   const TemporaryFolder folder;
