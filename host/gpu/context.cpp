@@ -133,6 +133,7 @@ void Context::State::fail(cl_int code, const std::string& action) const {
     OpenContexts::of_process().forget(device);
     message += ". An earlier command broke the queue: a kernel out of its buffers' bounds?";
   }
+  if (code == CL_MEM_OBJECT_ALLOCATION_FAILURE) throw BufferError(message);
   throw DeviceError(message);
 }
 

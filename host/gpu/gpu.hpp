@@ -80,7 +80,7 @@ struct BufferName {
   const char* advice;
 };
 
-// A buffer is larger than the device allows one to be.
+// A buffer is larger than the device allows one to be, or than it has memory left.
 class BufferError : public DeviceError {
  public:
   using DeviceError::DeviceError;
@@ -204,8 +204,7 @@ class Context {
 
   const DeviceInfo& info() const;
 
-  // Throws BufferError that names the buffer, its size, the device's limit and what to lower; DeviceError where the
-  // device has no memory left.
+  // Throws BufferError that names the buffer, its size, the device's limit and what to lower.
   template <class T>
   Buffer<T> buffer(size_t count, const BufferName& name) {
     return Buffer<T>(allocate(count * sizeof(T), name));

@@ -41,9 +41,9 @@ Crowns::Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t f
 SolvedList& Crowns::operator()(const RadioEnds& ends) {
   if (!links_ || ends.link_words != link_words_) {
     const std::vector<uint32_t> pairs = link_pairs(ends);
-    link_words_ = ends.link_words;
+    if (!pairs.empty()) links_ = context_.buffer(pairs, "links of crowns");
     links_count_ = static_cast<uint32_t>(pairs.size() / 2);
-    if (links_count_ > 0) links_ = context_.buffer(pairs, "links of crowns");
+    link_words_ = ends.link_words;
   }
   solved_.count = reserve_tile_rows(context_, solved_, uint64_t{links_count_} * cells_);
   if (solved_.count > 0)

@@ -33,7 +33,6 @@ Distinct::Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of,
 }
 
 void Distinct::reserve(size_t places) {
-  keys_ = context_.buffer<uint32_t>(places, {"keys of paths", advice::links});
   order_ = context_.buffer<uint32_t>(places, {"order of paths", advice::links});
   lengths_ = context_.buffer<double>(places, {"lengths of paths", advice::links});
   stays_ = context_.buffer<uint8_t>(places, {"distinct paths", advice::links});
@@ -42,6 +41,7 @@ void Distinct::reserve(size_t places) {
   rows_.counts = context_.buffer<uint32_t>(2 * places, {"counts of rows and vertices", advice::links});
   rows_.delays = context_.buffer<double>(places, {"delays of paths", advice::links});
   rows_.quarters = context_.buffer<uint8_t>(places, {"quarters of rows", advice::links});
+  keys_ = context_.buffer<uint32_t>(places, {"keys of paths", advice::links});  // last: it says how much room there is
 }
 
 uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible,

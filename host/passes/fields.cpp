@@ -16,8 +16,8 @@ template <class T>
 void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, gpu::HostMemory& host, size_t count, const char* name) {
   if (count <= buffer.size()) return;
   const size_t larger = count + count / 4;
-  buffer = context.buffer<T>(larger, {name, advice::links});
   host = context.host_memory(larger * sizeof(T), name);
+  buffer = context.buffer<T>(larger, {name, advice::links});  // last, as it says how much room there is
 }
 
 }  // namespace

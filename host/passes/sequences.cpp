@@ -28,12 +28,12 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
 }
 
 void Sequences::resize(uint64_t slots) {
-  table_ = context_.buffer<uint64_t>(slots, "sequences");
   quarters_ = context_.buffer<uint32_t>(slots, "quarters of sequences");
   if (keep_ages_) {
     ages_ = context_.buffer<uint32_t>(slots, "ages of sequences");
     context_.fill(ages_, 0, "sequences");
   }
+  table_ = context_.buffer<uint64_t>(slots, "sequences");  // last, as it says how many slots there are
   clear();
 }
 

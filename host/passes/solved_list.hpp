@@ -17,11 +17,12 @@ struct SolvedList {
   // exact.
   uint32_t counter = WT_NONE;
 
-  // Room for so many rows of max_depth; what was there is lost.
+  // Room for so many rows of max_depth; what was there is lost. The headers, whose size says how much room there is,
+  // come last: where there is no memory for a buffer, the list goes on with the room that it had.
   void reserve(gpu::Context& context, size_t rows) {
-    headers = context.buffer<wt_solved>(rows, {"solved paths", advice::links});
     vertices = context.buffer<double>(3 * rows * max_depth, {"path vertices", advice::links});
     sequences = context.buffer<uint32_t>(rows * max_depth, {"path surfaces", advice::links});
+    headers = context.buffer<wt_solved>(rows, {"solved paths", advice::links});
   }
   // Copies the rows of a list of the same depth to the beginning of this one, which has room for them.
   void copy_from(gpu::Context& context, const SolvedList& list) {

@@ -32,8 +32,8 @@ std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
   if (samples.empty()) return {};
   if (samples_.size() < samples.size()) {
     const size_t room = samples.size() + samples.size() / 4;
-    samples_ = context_.buffer<uint32_t>(room, "samples");
     rows_ = context_.buffer<wt_waypoint>(room * stride_, "waypoints of samples");
+    samples_ = context_.buffer<uint32_t>(room, "samples");  // last, as it says how much room there is
   }
   std::vector<uint32_t> slots = samples;
   for (uint32_t& slot : slots) slot -= first_sample_;

@@ -28,7 +28,11 @@ LateCounts late_counts(const Paths& known, const Paths& all) {
 // launches is launched before, by few rays of one transmitter, and forgotten.
 FrameLoop::FrameLoop(Setup& setup) : s_(setup), clock_(setup.config.trace.discover_every_s) {
   if (s_.context.info().cpu) {
-    solve({.pose = [this] { return s_.world.state(0); }, .compiling = true});
+    try {
+      solve({.pose = [this] { return s_.world.state(0); }, .compiling = true});
+    } catch (const gpu::BufferError&) {
+      // Frames make their lists shorter, or say it.
+    }
     forget();
   }
   s_.end_stage("compile");

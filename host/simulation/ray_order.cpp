@@ -38,9 +38,9 @@ RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const Lau
       gather_(context) {}
 
 void RayOrder::reserve(uint64_t rays) {
-  keys_ = context_.buffer<uint32_t>(rays + 16, "order keys");
   order_ = context_.buffer<uint32_t>(rays + 16, "order");
   sort_.reserve(static_cast<uint32_t>(rays));
+  keys_ = context_.buffer<uint32_t>(rays + 16, "order keys");  // last, as it says how much room there is
 }
 
 void RayOrder::check_room(uint64_t rays) const {

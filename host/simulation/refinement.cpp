@@ -118,9 +118,9 @@ bool Refinement::descend() {
   if (share_once_ <= 1 - config_.recall) return ends(LaunchEnd::recall);
   if (level.level == finest_level) return ends(LaunchEnd::finest);
   if (marks_.size() < level.count) {
-    marks_ = context_.buffer<float>(level.count, "marks");
     list_ = context_.buffer<uint32_t>(level.count, "marked samples");
     blocks_ = context_.buffer<uint32_t>(compact_.blocks(level.count) + 1, "marks of blocks");
+    marks_ = context_.buffer<float>(level.count, "marks");  // last, as it says how much room there is
   }
   refine_.mark(level, hits_, rare_, marks_);
   compact_.count_blocks(marks_, 0, level.count, blocks_);

@@ -3,7 +3,7 @@
 // that waits has a file FOLDER/waits.PID, and all go on once FOLDER/open is there. GATE_AT=TEXT: who gives a file a
 // name that contains TEXT waits before it has that name, but where the name contains GATE_NOT. GATE_SYNC=1: who waits
 // for a file system (syncfs) waits. GATE_LAUNCHES=1: launches of kernels beyond the number that FOLDER/launches holds
-// wait.
+// wait. GATE_LARGEST=BYTES: the device has no memory for larger buffers.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -66,6 +66,15 @@ int syncfs(int descriptor) noexcept {
   if (setting("GATE") && setting("GATE_SYNC")) wait_while([] { return true; });
   static const auto call = original<int (*)(int)>("syncfs");
   return call(descriptor);
+}
+
+cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void* host, cl_int* error) {
+  if (const char* const largest = setting("GATE_LARGEST"); largest && bytes > std::strtoull(largest, nullptr, 10)) {
+    if (error) *error = CL_MEM_OBJECT_ALLOCATION_FAILURE;
+    return nullptr;
+  }
+  static const auto create = original<decltype(&clCreateBuffer)>("clCreateBuffer");
+  return create(context, flags, bytes, host, error);
 }
 
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset,

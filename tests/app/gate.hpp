@@ -16,6 +16,8 @@ class Gate {
   std::vector<std::string> at_sync() const;
   // Before each launch of a kernel beyond those that let_launch() allows.
   std::vector<std::string> at_launches() const;
+  // No wait, but no memory for buffers of more bytes.
+  std::vector<std::string> at_buffers(size_t bytes) const;
 
   // Returns once so many processes wait; fails the test where one minute is not enough.
   std::vector<pid_t> wait_for(size_t processes) const;

@@ -43,6 +43,10 @@ std::vector<std::string> Gate::at_sync() const { return with({"GATE_SYNC=1"}); }
 
 std::vector<std::string> Gate::at_launches() const { return with({"GATE_LAUNCHES=1"}); }
 
+std::vector<std::string> Gate::at_buffers(size_t bytes) const {
+  return with({"GATE_LARGEST=" + std::to_string(bytes)});
+}
+
 std::vector<pid_t> Gate::waiting() const {
   std::vector<pid_t> out;
   for (const auto& entry : fs::directory_iterator(folder_.path()))
