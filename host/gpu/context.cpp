@@ -57,6 +57,10 @@ Context::Context(std::string_view device_text, const Needs& needs) : state_(std:
 }
 
 Context::~Context() {
+  if (state_->locked) {
+    static_cast<void>(state_.release());
+    return;
+  }
   try {
     if (state_->queue()) state_->queue.finish();
   } catch (const cl::Error&) {

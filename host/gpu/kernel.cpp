@@ -70,8 +70,10 @@ void Kernel::enqueue(Range range, const char* stage) {
     padded[d] = (range.global[d] + range.local[d] - 1) / range.local[d] * range.local[d];
   }
   cl::Event event;
+  s.context->locked = true;  // where this throws: PoCL compiles for the size of groups
   const cl_int code = clEnqueueNDRangeKernel(s.context->queue(), s.kernel(), range.dimensions, nullptr, padded.data(),
                                              range.local.data(), 0, nullptr, s.context->event_of(event));
+  s.context->locked = false;
   if (code != CL_SUCCESS) {
     s.context->fail(
         code, fmt::format("launching kernel {} over {} items in groups of {} (the device allows {})", s.name,

@@ -25,12 +25,27 @@ std::string definition_options(const std::string& program, const Definitions& de
   return options;
 }
 
+// Calls the compiler of a program. One that finds no memory throws through PoCL, which keeps its locks then: whoever
+// released a program would wait for ever, so this one stays, and *locked says that all others must.
+template <class Call>
+auto compiling(cl::Program& program, bool& locked, const Call& call) {
+  try {
+    return call();
+  } catch (const cl::Error&) {
+    throw;
+  } catch (...) {
+    locked = true;
+    static_cast<void>(new cl::Program(std::move(program)));
+    throw;
+  }
+}
+
 std::optional<cl::Program> build_from_binary(const cl::Context& context, const cl::Device& device,
-                                             const std::string& options, const std::string& compiled) {
+                                             const std::string& options, const std::string& compiled, bool& locked) {
   try {
     const std::vector<cl::Device> devices{device};
     cl::Program program(context, devices, {std::vector<unsigned char>(compiled.begin(), compiled.end())});
-    program.build(devices, options.c_str());
+    compiling(program, locked, [&] { return program.build(devices, options.c_str()); });
     return program;
   } catch (const cl::Error&) {
     return std::nullopt;  // the driver knows better than any key of ours
@@ -95,7 +110,7 @@ cl::Program Context::State::build_from_source(const std::string& name, const std
                                               const std::string& source) {
   cl::Program built(context, source);
   try {
-    built.build({device}, options.c_str());
+    compiling(built, locked, [&] { return built.build({device}, options.c_str()); });
   } catch (const cl::Error& error) {
     throw DeviceError(fmt::format("{}: kernel program \"{}\" does not build ({}) with options {}\n{}", info.name, name,
                                   error_name(error.err()), options,
@@ -118,10 +133,11 @@ const cl::Program& Context::State::program(const std::string& name, const std::s
                        info.name,
                        info.driver};
   std::optional<cl::Program> built;
-  if (const auto compiled = cache.load(key)) built = build_from_binary(context, device, options, *compiled);
+  if (const auto compiled = cache.load(key)) built = build_from_binary(context, device, options, *compiled, locked);
   if (!built) {
     built = build_from_source(name, options, key.source);
-    if (const std::string note = cache.store(key, first_binary(*built)); !note.empty()) cache_note = note;
+    const std::string compiled = compiling(*built, locked, [&] { return first_binary(*built); });
+    if (const std::string note = cache.store(key, compiled); !note.empty()) cache_note = note;
   }
   build_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return programs.emplace(id, *built).first->second;

@@ -66,6 +66,7 @@ struct Context::State {
   std::shared_ptr<Allocations> allocations = std::make_shared<Allocations>();
   std::map<std::string, cl::Program> programs;                    // by kernel (on CPUs), name and options
   std::map<std::string, std::shared_ptr<Kernel::State>> kernels;  // by name, program and options
+  bool locked = false;  // by a compiler that has thrown: nothing may be released, as that would wait for ever
   double build_seconds = 0;
   size_t builds_from_source = 0;
 

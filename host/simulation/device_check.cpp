@@ -2,6 +2,7 @@
 #include "simulation/device_check.hpp"
 
 #include <exception>
+#include <new>
 #include <optional>
 
 #include "simulation/check_frame.hpp"
@@ -20,6 +21,8 @@ class DeviceCheck {
     try {
       check_kernels();
       check_a_frame();
+    } catch (const std::bad_alloc&) {
+      throw;  // that says nothing of the device
     } catch (const std::exception& error) {
       results_.push_back({stage_, false, error.what(), watch_.lap()});
     }
