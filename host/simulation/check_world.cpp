@@ -95,7 +95,7 @@ Config check_config(const CheckedFeatures& features) {
   trace.reuse = features.reuse;
   config.cache = features.cache;
   config.cache.key = "exact";
-  config.cache.buffer_size = std::min<uint64_t>(config.cache.buffer_size, 1u << 19);
+  config.cache.buffer_size = 1u << 19;  // in a small one rays may take all places from each other
   return config;
 }
 
