@@ -28,9 +28,9 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
   const uint count = wt_length(counters, args.solved_counter, args.solved_count);
   if (i >= count || leg > solved[i].depth) return;
   if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) return;
-  // Most paths are obstructed, and a leg that was found so spares the others. One that comes too soon to see it does no
-  // harm.
-  if (wt_load_relaxed_u32(&solved[i].blocked)) return;
+  // Most paths are obstructed, and a leg that was found so spares the later ones. One that comes too soon to see it
+  // does no harm. First legs are tested all the same, as others wait for the answer.
+  if (leg > 0 && wt_load_relaxed_u32(&solved[i].blocked)) return;
   const size_t row = (size_t)i * args.max_depth;
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
   wt_leg l;

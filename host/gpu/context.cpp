@@ -25,7 +25,7 @@ class OpenContexts {
     const auto found = contexts_.find(device());
     return found != contexts_.end() ? found->second : contexts_[device()] = cl::Context(device);
   }
-  // A kernel that faulted has spoilt it: who opens the device again gets another one.
+  // A kernel that faulted, or a compiler that threw, has spoilt it: who opens the device again gets another one.
   void forget(const cl::Device& device) {
     const std::lock_guard lock(mutex_);
     contexts_.erase(device());
@@ -58,6 +58,7 @@ Context::Context(std::string_view device_text, const Needs& needs) : state_(std:
 
 Context::~Context() {
   if (state_->locked) {
+    OpenContexts::of_process().forget(state_->device);
     static_cast<void>(state_.release());
     return;
   }

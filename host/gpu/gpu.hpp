@@ -42,8 +42,8 @@ std::vector<DeviceInfo> list_devices();
 // platform or name (case-insensitive part). Throws DeviceError with the list of what there is and what to install.
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text);
 
-// What a context refuses to do without. The program needs both; some kernels, such as the sorts, need neither, and
-// their tests ask for neither.
+// A context refuses a device that lacks these. The program needs both; some kernels, such as the sorts, need neither,
+// and their tests ask for neither.
 struct Needs {
   bool fp64 = true;           // double precision, by which paths are solved
   bool int64_atomics = true;  // by which sequences and caches are kept

@@ -70,7 +70,7 @@ void Kernel::enqueue(Range range, const char* stage) {
     padded[d] = (range.global[d] + range.local[d] - 1) / range.local[d] * range.local[d];
   }
   cl::Event event;
-  s.context->locked = true;  // where this throws: PoCL compiles for the size of groups
+  s.context->locked = true;  // it stays so where this throws: PoCL compiles for the size of groups
   const cl_int code = clEnqueueNDRangeKernel(s.context->queue(), s.kernel(), range.dimensions, nullptr, padded.data(),
                                              range.local.data(), 0, nullptr, s.context->event_of(event));
   s.context->locked = false;

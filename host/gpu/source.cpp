@@ -65,7 +65,7 @@ class Source {
     return std::nullopt;
   }
 
-  // Of every file, its name and its text.
+  // The hash is that of the names and texts of all files.
   std::string hash() const {
     ContentHash out;
     const auto add = [&out](std::string_view text) { out.add(std::as_bytes(std::span(text))); };
@@ -103,7 +103,8 @@ class Source {
 
 void skip_blanks(std::string_view& line) { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); }
 
-// What follows the # of a directive, without blanks, which are allowed where C allows them; empty for other lines.
+// This is the text of a directive after its # and blanks, which are allowed where C allows them; empty for other
+// lines.
 std::string_view directive_of(std::string_view line) {
   skip_blanks(line);
   if (!line.starts_with('#')) return {};

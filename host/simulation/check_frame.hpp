@@ -12,11 +12,11 @@ namespace wavetracer {
 // The paths of a frame as known_frames.hpp has them.
 KnownFrame known_of(const Paths& paths);
 
-// What the setup's last frame left on the device: every sequence stands in the set once, below another one.
+// The set of sequences that the setup's last frame left on the device holds each once, below another one.
 CheckResult check_sequences(Setup& setup, const FrameResult& frame);
-// Against the known frame of these features.
+// The paths are those of the known frame of these features.
 CheckResult check_paths(const FrameResult& frame, const CheckedFeatures& features);
-// Of the last frame of the setup, against the host's own, to the last bit.
+// The fields of the setup's last frame are the host's own, to the last bit.
 CheckResult check_fields(Setup& setup, const FrameResult& frame);
 // again: the same frame after `first`, which its cache must answer in part, and no ray otherwise.
 CheckResult check_cached(const FrameResult& first, const FrameResult& again);

@@ -22,7 +22,7 @@ std::vector<uint32_t> check_keys(uint32_t count, uint32_t below) {
   return out;
 }
 
-// How many places of the permutation that sorts these keys are wrong.
+// Counts the wrong places of the permutation that sorts these keys.
 size_t wrong_places(gpu::Context& context, Sort& sort, const std::vector<uint32_t>& keys) {
   const auto count = static_cast<uint32_t>(keys.size());
   auto device_keys = context.buffer(keys, "keys of a check");

@@ -1,4 +1,4 @@
-// What a check of a device has found.
+// The result of one check of a device.
 #pragma once
 #include <string>
 

@@ -46,7 +46,7 @@ struct CheckTriangle {
   uint32_t primitive, surface;
 };
 
-// Of the whole world, numbered as on the device.
+// The triangles of the whole world are numbered as on the device.
 std::vector<CheckTriangle> make_check_triangles(const Setup& s, const WorldState& state) {
   std::vector<CheckTriangle> out;
   const auto add = [&](const Scene& scene, uint32_t first_surface, const Placement& at) {

@@ -1,4 +1,4 @@
-// What of a run a device has to compute rightly: the features that choose its kernels.
+// The features of a run that choose its kernels: a device is checked for them.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -23,11 +23,14 @@ CheckedFeatures features_of_frame(uint32_t frame) {
   return out;
 }
 
-void check_all_pass(gpu::Context& context, const CheckedFeatures& features) {
+bool check_all_pass(gpu::Context& context, const CheckedFeatures& features) {
+  bool all = true;
   for (const CheckResult& result : check_device(context, features)) {
     INFO(features.words() << ": " << result.name << ": " << result.found);
     CHECK(result.passed);
+    all &= result.passed;
   }
+  return all;
 }
 
 }  // namespace
@@ -37,7 +40,7 @@ TEST_CASE("every known frame is what the device computes") {
   for (uint32_t frame = 0; frame < known_frames.size(); ++frame) {
     CAPTURE(frame);
     const CheckedFeatures features = features_of_frame(frame);
-    check_all_pass(context, features);
+    if (check_all_pass(context, features)) continue;  // the paths are among what was checked
     const Config config = check_config(features);
     Setup setup(context, config, check_scene(config), false);
     FrameLoop frames(setup);

@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Of the checks that fail, the first, and all of them one after the other.
+// The checks that fail: the first one, and all of them one after the other.
 struct FailedChecks {
   std::string first, all;
 };
@@ -31,7 +31,15 @@ FailedChecks failed_checks(const CheckedFeatures& features = {}) {
   return out;
 }
 
-// Whether proving the device has made it compute anything.
+// Returns all of them, the first of which must be this one.
+std::string fails_first(const std::string& check, const CheckedFeatures& features = {}) {
+  const FailedChecks failed = failed_checks(features);
+  CAPTURE(failed.all);
+  CHECK(failed.first == check);
+  return failed.all;
+}
+
+// Tells whether proving the device has made it compute anything.
 bool proof_computes(const CheckedFeatures& features = {}) {
   gpu::Context context;
   prove_device(context, features);
@@ -64,41 +72,32 @@ TEST_CASE("a traversal that passes over triangles behind others fails the check 
   const bool cpu = context.info().cpu;
   const BrokenLine broken = cpu ? BrokenLine("kernels/lib/packet16.clh", "(t < p->t)", "(t > p->t)")
                                 : BrokenLine("kernels/lib/hit.clh", "(t < best.t ||", "(t > best.t ||");
-  CHECK(failed_checks().first == "traversal");
+  fails_first("traversal");
 }
 
 TEST_CASE("a sort with a wrong comparison fails the check of sorts") {
   const BrokenLine vectors("kernels/bitonic_sort.cl", "stride < n; stride *= 2", "stride < n / 4; stride *= 2");
   const BrokenLine groups("kernels/bitonic_sort.cl", "stride = 16; stride < n;", "stride = 16; stride < n / 4;");
-  const FailedChecks failed = failed_checks();
-  CAPTURE(failed.all);
-  CHECK(failed.first == "sorts");
+  fails_first("sorts");
 }
 
 TEST_CASE("a field function that differs from the host's fails the check of fields, and no other") {
   const BrokenLine broken("include/wavetracer/device/slab.h", "const double kd = 2.0 * WT_PI",
                           "const double kd = 2.001 * WT_PI");
-  const FailedChecks failed = failed_checks();
-  CAPTURE(failed.all);
-  CHECK(failed.first == "fields");
-  CHECK(!contains(failed.all, "paths:"));
+  CHECK(!contains(fails_first("fields"), "paths:"));
 }
 
 TEST_CASE("two sequences where one should be, as without atomics, fail the check of sequences") {
   const BrokenLine broken("kernels/lib/trie.clh", "uint slot = wt_trie_hash(key) & mask;",
                           "uint slot = (wt_trie_hash(key) + (uint)(get_global_id(0) & 1)) & mask;");
-  const FailedChecks failed = failed_checks();
-  CAPTURE(failed.all);
-  CHECK(failed.first == "sequences");
+  fails_first("sequences");
 }
 
 TEST_CASE("a ray cache that finds no key fails its check, and no other") {
   const BrokenLine broken("kernels/lib/cache_entry.clh",
                           "return e->cells == q.cells && e->left == q.left && as_uint(e->origin[0])",
                           "return e->cells != q.cells && e->left == q.left && as_uint(e->origin[0])");
-  const FailedChecks failed = failed_checks(with_cache());
-  CAPTURE(failed.all);
-  CHECK(failed.first == "ray cache");
+  fails_first("ray cache", with_cache());
 }
 
 TEST_CASE("a simulation on a broken device is refused, every time") {
