@@ -20,8 +20,9 @@ Diffraction diffract(const WedgeFrame& wedge, const std::array<WedgeFace, 2>& fa
     const std::optional<bool>& side = image == 0 ? lit.direct : lit.reflected[image > 0];
     if (side) known.lit[i] = *side;
   }
+  const double plane_waves[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const device::wt_wave_map wave =
-      device::wt_diffract(frame, records, k_in, k_out, &turn, distance_m, wavelength_m, transmits, &known);
+      device::wt_diffract(frame, records, k_in, k_out, &turn, plane_waves, distance_m, wavelength_m, transmits, &known);
   return {{wave.from.first, wave.from.second}, {wave.to.first, wave.to.second}, matrix_of(wave.matrix)};
 }
 

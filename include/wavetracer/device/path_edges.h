@@ -4,8 +4,8 @@
 // (sqrt(s' / (s (s + s'))) / s'), and symmetric for two. Assumes up to two diffractions that are not at one wedge.
 #ifndef WAVETRACER_DEVICE_PATH_EDGES_H
 #define WAVETRACER_DEVICE_PATH_EDGES_H
+#include "wavetracer/device/edge_pair.h"
 #include "wavetracer/device/path_world.h"
-#include "wavetracer/device/utd.h"
 
 #ifndef __OPENCL_VERSION__
 namespace wavetracer::device {
@@ -96,14 +96,23 @@ inline wt_double3 wt_into_face(const wt_wedge_frame* frame, int face) {
   return frame->face * turn.x + frame->normal * turn.y;
 }
 
-// The leg between two edges of one plane runs along it, whatever rounding says: with the reflected wave it is one wave,
-// and is counted as such at both of its ends, which is once too often. Along a sheet of two free edges one wave runs on
-// each side; their signs differ at either end, so both arrive as the same. Returns the factor that makes up for it.
-// A leg that leaves one of the edges, or comes to it, from where the plane is not, as across a courtyard, runs in the
-// open.
-inline double wt_snap_to_shared_plane(const wt_field_world* world, wt_edge* edges) {
+// The surface of a face of the edge's wedge.
+inline wt_wedge_face wt_face_of(const wt_field_world* world, const wt_edge* edge, int face) {
+  const wt_uint surface = world->wedges[edge->number].surfaces[face];
+  const WT_GLOBAL wt_material* material = world->materials + world->materials_of[surface];
+  wt_wedge_face out;
+  out.permittivity = WT_DOUBLE2(material->permittivity[0], material->permittivity[1]);
+  out.thickness_m = material->thickness_m;
+  return out;
+}
+
+// The leg between two edges of one plane runs along it, whatever rounding says. Along a sheet of two free edges one
+// wave runs on each side; their signs differ at either end, so both arrive as the same. A leg that leaves one of the
+// edges, or comes to it, from where the plane is not, as across a courtyard, runs in the open.
+inline wt_shared_plane wt_snap_to_shared_plane(const wt_field_world* world, wt_edge* edges) {
   const wt_double3 away = edges[0].k_out, come = edges[1].k_in;
-  int sides = 0;
+  wt_shared_plane plane;
+  plane.sides = 0;
   for (int i = 0; i < 4; ++i) {
     const int v = i / 2, w = i % 2;
     if (world->wedges[edges[0].number].planes[v] != world->wedges[edges[1].number].planes[w]) continue;
@@ -111,12 +120,15 @@ inline double wt_snap_to_shared_plane(const wt_field_world* world, wt_edge* edge
     if (wt_dot3(wt_into_face(&edges[1].frame, w), come) >= 0.0) continue;
     const wt_double3 n = wt_face_normal(&edges[0].frame, v), m = wt_face_normal(&edges[1].frame, w);
     const double rise_m = fmax(fabs(wt_dot3(n, away)), fabs(wt_dot3(m, come))) * edges[0].after_m;
-    if (wt_dot3(n, m) < 0.0 || rise_m > WT_ALONG_PLANE_M || ++sides > 1) continue;
+    if (wt_dot3(n, m) < 0.0 || rise_m > WT_ALONG_PLANE_M || ++plane.sides > 1) continue;
     edges[0].k_out = wt_normalized(away - n * (wt_dot3(away, n) - WT_INSIDE_RAD));
     edges[1].k_in = wt_normalized(come - m * (wt_dot3(come, m) + WT_INSIDE_RAD));
+    plane.normal = n;
+    plane.faces[0] = wt_face_of(world, edges, v);
+    plane.faces[1] = wt_face_of(world, edges + 1, w);
   }
-  if (sides == 0) return 1.0;
-  return sides > 1 && wt_is_half_plane(&edges[0]) && wt_is_half_plane(&edges[1]) ? 4.0 : 2.0;
+  if (!wt_is_half_plane(edges) || !wt_is_half_plane(edges + 1)) plane.sides = plane.sides > 0;
+  return plane;
 }
 
 // A wave that passes the edge of a corner as a ray: reflected `count` times at the wedge's surfaces, in turn, from
@@ -186,23 +198,61 @@ inline wt_known_waves wt_waves_at(const wt_field_world* world, const wt_ordered_
   return known;
 }
 
-// ordered: null where it is not known which rays pass the edge.
+// What is known of the waves at an edge, and the turn of the path there.
+inline wt_known_waves wt_known_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                                  const wt_path* path, const wt_edge* edge, wt_turn* turn) {
+  *turn = wt_turn_at(&edge->frame, edge->k_in, edge->k_out);
+  wt_known_waves known = wt_waves_at(world, ordered, row, path, edge, turn);
+  known.most_images = (int)(world->reflections + 1u) - (int)path->depth;
+  return known;
+}
+
+inline int wt_edge_transmits(const wt_field_world* world, const wt_edge* edge) {
+  return world->transmissions >= (wt_is_half_plane(edge) ? 1u : 2u);
+}
+
+// One edge on the path.
 inline void wt_diffract_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
                            const wt_path* path, const wt_edge* edge, wt_transfer* transfer) {
-  const wt_turn turn = wt_turn_at(&edge->frame, edge->k_in, edge->k_out);
-  wt_known_waves known = ordered ? wt_waves_at(world, ordered, row, path, edge, &turn) : wt_nothing_known();
-  known.most_images = (int)(world->reflections + 1u) - (int)path->depth;
-  wt_wedge_face faces[2];
-  for (int face = 0; face < 2; ++face) {
-    const wt_uint surface = world->wedges[edge->number].surfaces[face];
-    const WT_GLOBAL wt_material* material = world->materials + world->materials_of[surface];
-    faces[face].permittivity = WT_DOUBLE2(material->permittivity[0], material->permittivity[1]);
-    faces[face].thickness_m = material->thickness_m;
-  }
+  wt_turn turn;
+  const wt_known_waves known = wt_known_at(world, ordered, row, path, edge, &turn);
+  const wt_wedge_face faces[2] = {wt_face_of(world, edge, 0), wt_face_of(world, edge, 1)};
+  const double legs_m[2] = {edge->before_m, edge->after_m};
   const double distance_m = edge->before_m * edge->after_m / (edge->before_m + edge->after_m) * wt_sine2(edge);
-  const wt_wave_map wave =
-      wt_diffract(edge->frame, faces, edge->k_in, edge->k_out, &turn, distance_m, world->wavelength_m,
-                  world->transmissions >= (wt_is_half_plane(edge) ? 1u : 2u), &known);
+  const wt_wave_map wave = wt_diffract(edge->frame, faces, edge->k_in, edge->k_out, &turn, legs_m, distance_m,
+                                       world->wavelength_m, wt_edge_transmits(world, edge), &known);
+  wt_map(transfer, wave.from, wave.to, wave.matrix);
+}
+
+// Two edges that follow each other. between: what the leg from the one to the other does to a wave.
+inline void wt_diffract_at_two(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                               const wt_path* path, const wt_edge* edges, const wt_shared_plane* plane,
+                               const wt_transfer* between, wt_transfer* transfer) {
+  wt_bend bends[2];
+  wt_known_waves known[2];
+  for (int i = 0; i < 2; ++i) {
+    const wt_edge* edge = edges + i;
+    wt_turn turn;
+    known[i] = wt_known_at(world, ordered, row, path, edge, &turn);
+    const wt_wedge_face faces[2] = {wt_face_of(world, edge, 0), wt_face_of(world, edge, 1)};
+    const double legs_m[2] = {edge->before_m, edge->after_m};
+    bends[i] = wt_bend_at(&edge->frame, faces, edge->k_in, edge->k_out, legs_m, &turn, world->wavelength_m,
+                          wt_edge_transmits(world, edge));
+  }
+  const wt_double3 along[2] = {edges[0].frame.along, edges[1].frame.along};
+  const double sine2[2] = {wt_sine2(edges), wt_sine2(edges + 1)};
+  wt_pair_form form =
+      wt_pair_form_of(along, edges[0].k_out, edges[0].before_m, edges[0].after_m, edges[1].after_m, sine2);
+  if (plane->sides) {
+    const double up = -wt_dot3(plane->normal, edges[0].k_in), down = wt_dot3(plane->normal, edges[1].k_out);
+    if (up > 0.0 && down > 0.0)
+      form.lit = (up * edges[0].before_m + down * edges[1].after_m) /
+                 (edges[0].before_m + edges[0].after_m + edges[1].after_m);
+  }
+  wt_wave_map wave = wt_diffract_at_pair(bends, known, &form, between, plane);
+  for (int i = 0; i < 2; ++i)
+    if (!wt_turns(&edges[i].frame, edges[i].k_in, edges[i].k_out))
+      wave.matrix = wt_diagonal(wt_real(0.0), wt_real(0.0));
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }
 

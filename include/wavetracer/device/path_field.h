@@ -153,6 +153,19 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
   return k;
 }
 
+#if WT_DIFFRACTS
+// Past two edges, from the leg between them on, which ends at vertex k.
+inline void wt_pass_two(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
+                        wt_uint k, wt_edge* edges, wt_wave* wave) {
+  const wt_shared_plane plane = wt_snap_to_shared_plane(world, edges);
+  wt_transfer before = wave->transfer;
+  wave->transfer = wt_transfer_from(wt_leaving(edges[0].frame.along, edges[0].k_out));
+  wt_pass(world, path, k, wave);
+  wt_diffract_at_two(world, ordered, row, path, edges, &plane, &wave->transfer, &before);
+  wave->transfer = before;
+}
+#endif
+
 // Row `row` of the ordered rows. Rows that are computed side by side meet their surfaces together and then their edges,
 // wherever on their ways these are.
 inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row) {
@@ -178,12 +191,14 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   const wt_uint edge_count = wt_edges_of(world, &path, edges);
   out.near_edge = wt_is_near_edge(world, edges, edge_count);
   if (edge_count > 0) wave.spread = wt_edge_spreading(edges, edge_count);
-  if (edge_count > 1) wave.spread *= wt_snap_to_shared_plane(world, edges);
   wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
-  for (wt_uint i = 0; i < edge_count; ++i) {
+  if (edge_count > 0) {
     wt_pass(world, &path, k, &wave);
-    wt_diffract_at(world, edge_count == 1 ? ordered : 0, row, &path, edges + i, &wave.transfer);
-    k = wt_pass_surfaces(world, &path, length_m, k + 1, &wave);
+    if (edge_count == 1)
+      wt_diffract_at(world, ordered, row, &path, edges, &wave.transfer);
+    else
+      wt_pass_two(world, ordered, row, &path, ++k, edges, &wave);
+    wt_pass_surfaces(world, &path, length_m, k + 1, &wave);
   }
 #else
   wt_pass_surfaces(world, &path, length_m, 0, &wave);

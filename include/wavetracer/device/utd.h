@@ -3,7 +3,7 @@
 // either side of the boundary. Local axes: x along face 0, y its normal, z along the edge.
 #ifndef WAVETRACER_DEVICE_UTD_H
 #define WAVETRACER_DEVICE_UTD_H
-#include "wavetracer/device/transfer.h"
+#include "wavetracer/device/corner.h"
 #include "wavetracer/device/transition.h"
 
 #ifndef __OPENCL_VERSION__
@@ -20,39 +20,11 @@ typedef struct {
   double exterior;  // radians
 } wt_wedge_frame;
 
-// permittivity.x is infinite: a perfect conductor.
-typedef struct {
-  wt_double2 permittivity;
-  double thickness_m;
-} wt_wedge_face;
-
 // The field at the edge in components along from, times the matrix, leaves it in components along to.
 typedef struct {
   wt_basis from, to;
   wt_matrix matrix;
 } wt_wave_map;
-
-typedef struct {
-  double exterior;
-  wt_double3 normals[2];
-  wt_wedge_face faces[2];
-  double wavelength_m;
-} wt_corner;
-
-// A plane wave that comes to the corner, from the side of the edge on which its source lies.
-typedef struct {
-  wt_double3 k;
-  wt_basis coming;
-} wt_corner_wave;
-
-// Edge-fixed bases of a wave that leaves the edge and of one that comes to it; (beta, phi, k) is right-handed.
-inline wt_basis wt_leaving(wt_double3 along, wt_double3 k) {
-  wt_basis out;
-  out.second = wt_normalized(wt_cross3(along, k));
-  out.first = wt_cross3(out.second, k);
-  return out;
-}
-inline wt_basis wt_coming(wt_double3 along, wt_double3 k) { return wt_leaving(-along, k); }
 
 // Of a direction that points away from the edge, 0 to exterior.
 inline double wt_azimuth_of(const wt_wedge_frame* wedge, wt_double3 away) {
@@ -60,60 +32,6 @@ inline double wt_azimuth_of(const wt_wedge_frame* wedge, wt_double3 away) {
   if (azimuth < 0.0) azimuth += 2.0 * WT_PI;
   if (azimuth <= wedge->exterior) return azimuth;
   return azimuth - wedge->exterior < 2.0 * WT_PI - azimuth ? wedge->exterior : 0.0;
-}
-
-// The matrix of the wave the other way, between the edge-fixed bases that belong to that way: beta changes its sign.
-inline wt_matrix wt_other_way(wt_matrix m) {
-  const wt_double2 other = m.m[1];
-  m.m[1] = -m.m[2];
-  m.m[2] = -other;
-  return m;
-}
-
-inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double wavelength_m) {
-  if (fabs(face->permittivity.x) == WT_INFINITY || fabs(face->permittivity.y) == WT_INFINITY) {
-    wt_slab out;
-    out.reflection_te = wt_real(-1.0);
-    out.reflection_tm = wt_real(1.0);
-    out.transmission_te = out.transmission_tm = wt_real(0.0);
-    return out;
-  }
-  return wt_slab_coefficients(face->permittivity, cos_theta, face->thickness_m, wavelength_m);
-}
-
-// cosine: of the angle between the wave and the edge; sine: of the same, not negative.
-inline wt_corner_wave wt_wave_from(double azimuth, double cosine, double sine) {
-  const wt_double2 turn = wt_cos_sin(azimuth);
-  wt_corner_wave wave;
-  wave.k = WT_DOUBLE3(-sine * turn.x, -sine * turn.y, cosine);
-  wave.coming = wt_coming(WT_DOUBLE3(0.0, 0.0, 1.0), wave.k);
-  return wave;
-}
-
-// The wave as a matrix from (beta', phi') to (beta, phi): reflected `count` times, or straight through as many faces;
-// at face `first`, then at the other one, and so on.
-inline wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, int first, int count, int straight) {
-  // Leaving, both vectors of the basis are turned round.
-  if (count == 0) return wt_diagonal(wt_real(-1.0), wt_real(-1.0));
-  wt_double3 k = wave->k;
-  wt_transfer transfer = wt_transfer_from(wave->coming);
-  for (int i = 0; i < count; ++i) {
-    const int face = first != (i % 2 == 1);
-    const wt_double3 normal = corner->normals[face];
-    const wt_double3 out = straight ? k : wt_mirrored(k, normal);
-    const wt_slab slab = wt_face_slab(&corner->faces[face], fmin(fabs(wt_dot3(k, normal)), 1.0), corner->wavelength_m);
-    if (straight)
-      wt_meet(&transfer, k, out, normal, slab.transmission_te, slab.transmission_tm);
-    else
-      wt_meet(&transfer, k, out, normal, slab.reflection_te, slab.reflection_tm);
-    k = out;
-  }
-  return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), k));
-}
-
-// Reflected |image| times: at face 0, 1, 0, ... if image < 0, at 1, 0, 1, ... if > 0.
-inline wt_matrix wt_image_wave(const wt_corner* corner, const wt_corner_wave* wave, int image) {
-  return wt_met(corner, wave, image > 0, image < 0 ? -image : image, 0);
 }
 
 // A shadow boundary. Reflection unfolds: a geometrical wave is a straight line past the edge, from an azimuth to one
@@ -137,12 +55,20 @@ inline wt_boundary wt_nearest_boundary(double in, double out, double exterior, i
   return boundary;
 }
 
-// cot(epsilon / 2n) F(k L a) / sqrt(2 k L), a = 2 sin^2(epsilon / 2): F(x) = sqrt(x) g(sqrt x) takes the pole away.
-inline wt_double2 wt_boundary_term(double epsilon, double n, double root_2kl) {
-  const double size = fabs(epsilon), sine = fabs(wt_cos_sin(size / 2.0).y);
+// The factors of a term, cot(epsilon / 2n) F(k L a) / sqrt(2 k L) with a = 2 sin^2(epsilon / 2): F(x) = sqrt(x) g(sqrt
+// x) takes the pole away.
+typedef struct {
+  double sine;   // |sin(epsilon / 2)|: times sqrt(2 k L), it is the argument of g
+  double ratio;  // cot(epsilon / 2n) |sin(epsilon / 2)|
+} wt_term_factors;
+
+inline wt_term_factors wt_factors_of(double epsilon, double n) {
+  const double size = fabs(epsilon);
   const wt_double2 part = wt_cos_sin(size / (2.0 * n));
-  const double ratio = size == 0.0 ? n : sine * part.x / part.y;
-  return wt_transition_over_root(root_2kl * sine) * copysign(ratio, epsilon);
+  wt_term_factors out;
+  out.sine = fabs(wt_cos_sin(size / 2.0).y);
+  out.ratio = copysign(size == 0.0 ? n : out.sine * part.x / part.y, epsilon);
+  return out;
 }
 
 // The turn of a ray at the edge: the azimuths of its source and its receiver, and the boundaries that are nearest.
@@ -185,76 +111,179 @@ inline double wt_decided(wt_boundary boundary, const wt_known_waves* known, int 
   return copysign(boundary.epsilon, known->lit[i] ? 1.0 : -1.0);
 }
 
-// The jump of the geometrical field at a boundary, from shadow to light. Outside of a convex wedge nothing is reflected
-// twice: one reflection, at the face on this side, is all. On the boundary both choices of angles agree; between
-// boundaries their mean makes the coefficient reciprocal.
-// In a corner an image of several reflections has two boundaries, one for either order of the faces, and away from them
-// their terms nearly cancel (just so at a right angle, and where nothing is bent): there its weight is that of the
-// other. there: the wave; back: that of the link the other way. near: 1 on the boundary, 0 far away.
-inline wt_matrix wt_jump(const wt_corner* corner, const wt_corner_wave* there, const wt_corner_wave* back,
-                         wt_boundary boundary, int odd, int transmits, double near) {
-  const int convex = corner->exterior >= WT_PI, turn = boundary.turn;
-  const int image = !convex ? boundary.image : odd ? turn : 0, images = image < 0 ? -image : image;
-  const double share = images > 1 ? 0.5 * near : 0.5;
+// A ray that turns at a corner: the waves from its source and, the link the other way, from its receiver, and the bases
+// of what comes and leaves.
+typedef struct {
+  wt_corner corner;
+  wt_turn turn;
+  wt_corner_wave there, back;
+  wt_basis from, to;
+  double n;
+  double legs_m[2];  // from its source, to its receiver: the radii of the waves
+  int transmits;
+} wt_bend;
+
+// Rays within 1e-9 of the edge, half of the digits of a double, have no azimuths: 0.
+inline int wt_turns(const wt_wedge_frame* wedge, wt_double3 k_in, wt_double3 k_out) {
+  return fmin(wt_length3(wt_cross3(k_in, wedge->along)), wt_length3(wt_cross3(k_out, wedge->along))) >= 1e-9;
+}
+
+inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* faces, wt_double3 k_in, wt_double3 k_out,
+                          const double* legs_m, const wt_turn* turn, double wavelength_m, int transmits) {
+  wt_bend bend;
+  const double cosine = fmin(fmax((wt_dot3(k_in, wedge->along) + wt_dot3(k_out, wedge->along)) / 2.0, -1.0), 1.0);
+  const double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+  const wt_double2 exterior_turn = wt_cos_sin(wedge->exterior);
+  bend.corner.exterior = wedge->exterior;
+  bend.corner.normals[0] = WT_DOUBLE3(0.0, 1.0, 0.0);
+  bend.corner.normals[1] = WT_DOUBLE3(exterior_turn.y, -exterior_turn.x, 0.0);
+  bend.corner.faces[0] = faces[0];
+  bend.corner.faces[1] = faces[1];
+  bend.corner.wavelength_m = wavelength_m;
+  bend.turn = *turn;
+  bend.there = wt_wave_from(turn->in, cosine, sine);
+  bend.back = wt_wave_from(turn->away, -cosine, sine);
+  bend.from = wt_coming(wedge->along, k_in);
+  bend.to = wt_leaving(wedge->along, k_out);
+  bend.n = wedge->exterior / WT_PI;
+  bend.legs_m[0] = legs_m[0];
+  bend.legs_m[1] = legs_m[1];
+  bend.transmits = transmits;
+  return bend;
+}
+
+// How much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
+inline double wt_bent(double exterior) { return exterior < 1.5 * WT_PI ? 1.0 - wt_cos_sin(exterior - WT_PI).x : 1.0; }
+
+inline wt_spread_angle wt_no_spread(void) {
+  wt_spread_angle none;
+  none.shift = wt_real(0.0);
+  none.even = 0.0;
+  return none;
+}
+
+// The mean distance from the edge, in metres, of the waves on the side of a boundary at which g has the argument s and
+// the value g; unit_m: that of the argument, negative on the lit side.
+inline wt_spread_angle wt_spread_of(double s, wt_double2 g, double unit_m) {
+  wt_spread_angle out;
+  out.shift = wt_over(wt_real(1.0) - g * s, g) * unit_m;
+  out.even = s * s / (1.0 + s * s);
+  return out;
+}
+
+// What face 0 or 1 of a convex wedge reflects. It reflects what comes from the end that is nearer to it by azimuth: R.
+// Luebbers' choice (IEEE Trans. AP 32(1), 1984) with face 0 on the source's side, which is the same the other way. As
+// the faces become one plane, both reflect like the mean of both ends', or it would diffract.
+// spread: of the waves that count on this side of the boundary, their mean distance from the edge, in metres.
+inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_spread_angle spread) {
+  const wt_corner* corner = &bend->corner;
+  const double in = bend->turn.in, away = bend->turn.away, nearer = 0.5 + 0.5 * wt_bent(corner->exterior);
+  const double share = (face == 0 ? in <= away : in >= away) ? nearer : 1.0 - nearer;
   wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
-  sum = wt_matrix_sum(sum, share, wt_image_wave(corner, there, image));
-  sum = wt_matrix_sum(sum, share, wt_other_way(wt_image_wave(corner, back, odd ? image : -image)));
-  if (images > 1) {
-    const int other = image < 0 ? images - 2 : 2 - images;
-    sum = wt_matrix_sum(sum, 0.5 - share, wt_image_wave(corner, there, other));
-    sum = wt_matrix_sum(sum, 0.5 - share, wt_other_way(wt_image_wave(corner, back, odd ? other : -other)));
-  }
-  if (!odd && transmits && convex) {
-    const int count = corner->exterior > 2.0 * WT_PI - WT_GRAZING_RAD ? 1 : 2;
-    sum = wt_matrix_sum(sum, -0.5, wt_met(corner, there, turn < 0, count, 1));
-    sum = wt_matrix_sum(sum, -0.5, wt_other_way(wt_met(corner, back, turn > 0, count, 1)));
+  for (int end = 0; end < 2; ++end) {
+    const double part = end == 0 ? share : 1.0 - share, azimuth = end == 0 ? in : away;
+    if (part == 0.0) continue;
+    wt_spread_angle angle = spread;
+    angle.shift = spread.shift * (wt_cos_sin(face == 0 ? azimuth : corner->exterior - azimuth).x / bend->legs_m[end]);
+    const wt_matrix wave = wt_reflected_wave(corner, end == 0 ? &bend->there : &bend->back, face, angle);
+    sum = wt_matrix_sum(sum, part, end == 0 ? wave : wt_other_way(wave));
   }
   return sum;
+}
+
+// Outside of a convex wedge nothing is reflected twice: one reflection, at the face on this side, is all. Of the two
+// terms of the incident wave one has its boundary behind the other face; it is of the wave that both faces reflect (P.
+// Holm, IEEE Trans. AP 48(8), 2000), so that nothing is left where an end lies on a face that reflects -1. along: a
+// face is grazed, and its reflections are counted elsewhere.
+inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int odd, int along, wt_spread_angle spread) {
+  const wt_corner* corner = &bend->corner;
+  const int turn = boundary.turn, forward = bend->turn.in <= bend->turn.away;
+  if (odd) return wt_convex_reflection(bend, turn > 0, spread);
+  wt_matrix jump = wt_diagonal(wt_real(-1.0), wt_real(-1.0));
+  if (bend->transmits) {
+    const int count = corner->exterior > 2.0 * WT_PI - WT_GRAZING_RAD ? 1 : 2;
+    jump = wt_matrix_sum(jump, -0.5, wt_met(corner, &bend->there, turn < 0, count, 1));
+    jump = wt_matrix_sum(jump, -0.5, wt_other_way(wt_met(corner, &bend->back, turn > 0, count, 1)));
+  }
+  if (along || (turn > 0) == forward) return jump;
+  const double bent = wt_bent(corner->exterior);
+  const wt_spread_angle none = wt_no_spread();
+  const wt_matrix first = wt_convex_reflection(bend, !forward, none);
+  const wt_matrix both = wt_matrix_product(wt_convex_reflection(bend, forward, none), first);
+  return wt_matrix_sum(wt_scaled(jump, wt_real(1.0 - bent)), -bent, both);
+}
+
+// In a corner an image of several reflections has two boundaries, one for either order of the faces, and away from them
+// their terms nearly cancel (just so at a right angle, and where nothing is bent): there its weight is that of the
+// other. near: 1 on the boundary, 0 far away. Between boundaries the mean of the waves from both ends makes the
+// coefficient reciprocal.
+inline wt_matrix wt_corner_jump(const wt_bend* bend, wt_boundary boundary, int odd, double near) {
+  const wt_corner* corner = &bend->corner;
+  const int image = boundary.image, images = image < 0 ? -image : image;
+  const double share = images > 1 ? 0.5 * near : 0.5;
+  wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
+  sum = wt_matrix_sum(sum, share, wt_image_wave(corner, &bend->there, image));
+  sum = wt_matrix_sum(sum, share, wt_other_way(wt_image_wave(corner, &bend->back, odd ? image : -image)));
+  if (images > 1) {
+    const int other = image < 0 ? images - 2 : 2 - images;
+    sum = wt_matrix_sum(sum, 0.5 - share, wt_image_wave(corner, &bend->there, other));
+    sum = wt_matrix_sum(sum, 0.5 - share, wt_other_way(wt_image_wave(corner, &bend->back, odd ? other : -other)));
+  }
+  return sum;
+}
+
+// The jump of the geometrical field at boundary `term`, from shadow to light, between the bases of the bend.
+// root_2kl: see wt_term_factors; along, spread: see wt_convex_jump.
+inline wt_matrix wt_jump(const wt_bend* bend, int term, double root_2kl, int along, wt_spread_angle spread) {
+  const wt_boundary boundary = bend->turn.boundaries[term];
+  const int odd = term / 2;
+  if (bend->corner.exterior >= WT_PI) return wt_convex_jump(bend, boundary, odd, along, spread);
+  const double away_from = root_2kl * wt_cos_sin(0.5 * boundary.epsilon).y;
+  return wt_corner_jump(bend, boundary, odd, 1.0 / (1.0 + away_from * away_from));
+}
+
+// Does a wave run along a face, so that it and its reflection are one?
+inline int wt_grazes(double azimuth, double exterior) {
+  return azimuth < WT_GRAZING_RAD || exterior - azimuth < WT_GRAZING_RAD;
+}
+
+// What the sum of an edge's terms is multiplied by: sqrt(L / pi) / 2n exp(3 j pi / 4).
+inline wt_double2 wt_edge_amplitude(double distance_m, double n) {
+  const double size = sqrt(distance_m / WT_PI) / (2.0 * n);
+  return WT_DOUBLE2(-size, size) * 0.70710678118654752440;
 }
 
 // The matrix is in sqrt(m), see Diffraction in host/radio/utd.hpp. turn: of these directions. distance_m: s s' sin^2
 // beta0 / (s + s').
 inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces, wt_double3 k_in, wt_double3 k_out,
-                               const wt_turn* turn, double distance_m, double wavelength_m, int transmits,
-                               const wt_known_waves* known) {
+                               const wt_turn* turn, const double* legs_m, double distance_m, double wavelength_m,
+                               int transmits, const wt_known_waves* known) {
   wt_wave_map out;
   out.matrix = wt_diagonal(wt_real(0.0), wt_real(0.0));
-  // Within 1e-9 of the edge, half of the digits of a double, azimuths mean nothing.
-  if (fmin(wt_length3(wt_cross3(k_in, wedge.along)), wt_length3(wt_cross3(k_out, wedge.along))) < 1e-9) {
+  if (!wt_turns(&wedge, k_in, k_out)) {
     out.from.first = out.to.first = wedge.face;
     out.from.second = out.to.second = wedge.normal;
     return out;
   }
-  const double cosine = fmin(fmax((wt_dot3(k_in, wedge.along) + wt_dot3(k_out, wedge.along)) / 2.0, -1.0), 1.0);
-  const wt_double2 exterior_turn = wt_cos_sin(wedge.exterior);
-  wt_corner corner;
-  corner.exterior = wedge.exterior;
-  corner.normals[0] = WT_DOUBLE3(0.0, 1.0, 0.0);
-  corner.normals[1] = WT_DOUBLE3(exterior_turn.y, -exterior_turn.x, 0.0);
-  corner.faces[0] = faces[0];
-  corner.faces[1] = faces[1];
-  corner.wavelength_m = wavelength_m;
-  const double n = wedge.exterior / WT_PI;
-  const double in = turn->in, away = turn->away;
-  const double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
-  const wt_corner_wave there = wt_wave_from(in, cosine, sine), back = wt_wave_from(away, -cosine, sine);
-
+  const wt_bend bend = wt_bend_at(&wedge, faces, k_in, k_out, legs_m, turn, wavelength_m, transmits);
   const double root_2kl = sqrt(4.0 * WT_PI * distance_m / wavelength_m);
   for (int term = 0; term < WT_BOUNDARIES; ++term) {
     const wt_boundary boundary = turn->boundaries[term];
     const int images = boundary.image < 0 ? -boundary.image : boundary.image;
     if (wedge.exterior < WT_PI && images > 1 && images > known->most_images) continue;  // no such wave ends here
-    const wt_double2 factor = wt_boundary_term(wt_decided(boundary, known, term), n, root_2kl);
-    const double away_from = root_2kl * wt_cos_sin(0.5 * boundary.epsilon).y;
-    const wt_matrix jump =
-        wt_jump(&corner, &there, &back, boundary, term / 2, transmits, 1.0 / (1.0 + away_from * away_from));
+    const wt_term_factors factors = wt_factors_of(wt_decided(boundary, known, term), bend.n);
+    const double s = root_2kl * factors.sine;
+    const wt_double2 g = wt_transition_over_root(s), factor = g * factors.ratio;
+    wt_spread_angle spread = wt_no_spread();
+    if (term >= 2 && wedge.exterior >= WT_PI)
+      spread = wt_spread_of(s, g, copysign(root_2kl * wavelength_m / (2.0 * WT_PI), -factors.ratio));
+    const wt_matrix jump = wt_jump(&bend, term, root_2kl, 0, spread);
     for (int i = 0; i < 4; ++i) out.matrix.m[i] = out.matrix.m[i] + wt_times(factor, jump.m[i]);
   }
-  const int grazing = fmin(in, away) < WT_GRAZING_RAD || wedge.exterior - fmax(in, away) < WT_GRAZING_RAD;
-  const double size = sqrt(distance_m / WT_PI) / (2.0 * n) * (grazing ? 0.5 : 1.0);
-  out.matrix = wt_scaled(out.matrix, WT_DOUBLE2(-size, size) * 0.70710678118654752440);  // -size exp(-j pi / 4)
-  out.from = wt_coming(wedge.along, k_in);
-  out.to = wt_leaving(wedge.along, k_out);
+  const int grazes = wt_grazes(turn->in, wedge.exterior) || wt_grazes(turn->away, wedge.exterior);
+  out.matrix = wt_scaled(out.matrix, wt_edge_amplitude(distance_m, bend.n) * (grazes ? 0.5 : 1.0));
+  out.from = bend.from;
+  out.to = bend.to;
   return out;
 }
 

@@ -1,0 +1,146 @@
+// The two faces of an edge as mirrors: the waves that they reflect, or let through, before they meet the edge.
+// Local axes: x along face 0, y its normal, z along the edge.
+#ifndef WAVETRACER_DEVICE_CORNER_H
+#define WAVETRACER_DEVICE_CORNER_H
+#include "wavetracer/device/transfer.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+// permittivity.x is infinite: a perfect conductor.
+typedef struct {
+  wt_double2 permittivity;
+  double thickness_m;
+} wt_wedge_face;
+
+typedef struct {
+  double exterior;
+  wt_double3 normals[2];
+  wt_wedge_face faces[2];
+  double wavelength_m;
+} wt_corner;
+
+// A plane wave that comes to the corner, from the side of the edge on which its source lies.
+typedef struct {
+  wt_double3 k;
+  wt_basis coming;
+} wt_corner_wave;
+
+// Edge-fixed bases of a wave that leaves the edge and of one that comes to it; (beta, phi, k) is right-handed.
+inline wt_basis wt_leaving(wt_double3 along, wt_double3 k) {
+  wt_basis out;
+  out.second = wt_normalized(wt_cross3(along, k));
+  out.first = wt_cross3(out.second, k);
+  return out;
+}
+inline wt_basis wt_coming(wt_double3 along, wt_double3 k) { return wt_leaving(-along, k); }
+
+// The matrix of the wave the other way, between the edge-fixed bases that belong to that way: beta changes its sign.
+inline wt_matrix wt_other_way(wt_matrix m) {
+  const wt_double2 other = m.m[1];
+  m.m[1] = -m.m[2];
+  m.m[2] = -other;
+  return m;
+}
+
+inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double wavelength_m) {
+  if (fabs(face->permittivity.x) == WT_INFINITY || fabs(face->permittivity.y) == WT_INFINITY) {
+    wt_slab out;
+    out.reflection_te = wt_real(-1.0);
+    out.reflection_tm = wt_real(1.0);
+    out.transmission_te = out.transmission_tm = wt_real(0.0);
+    return out;
+  }
+  return wt_slab_coefficients(face->permittivity, cos_theta, face->thickness_m, wavelength_m);
+}
+
+// cosine: of the angle between the wave and the edge; sine: of the same, not negative.
+inline wt_corner_wave wt_wave_from(double azimuth, double cosine, double sine) {
+  const wt_double2 turn = wt_cos_sin(azimuth);
+  wt_corner_wave wave;
+  wave.k = WT_DOUBLE3(-sine * turn.x, -sine * turn.y, cosine);
+  wave.coming = wt_coming(WT_DOUBLE3(0.0, 0.0, 1.0), wave.k);
+  return wave;
+}
+
+// The coefficient of a plane near grazing, (cosine - z) / (cosine + z), at a complex cosine of incidence; z is what it
+// is at the real cosine `size`, where the coefficient is known.
+inline wt_double2 wt_at_complex_cosine(wt_double2 coefficient, wt_double2 cosine, double size) {
+  const wt_double2 up = wt_times(cosine, wt_real(1.0) + coefficient);
+  const wt_double2 down = (wt_real(1.0) - coefficient) * size;
+  return wt_over(up - down, up + down);
+}
+
+// Reflection at a complex cosine. Waves that graze a face at some mean angle come with a Gaussian in which it is
+// complex.
+inline wt_slab wt_face_slab_at(const wt_wedge_face* face, wt_double2 cosine, double wavelength_m) {
+  const double whole = wt_size(cosine), size = fmin(fmax(whole, 1e-12), 1.0);
+  const wt_double2 turned = whole > 0.0 ? cosine * (size / whole) : wt_real(size);
+  wt_slab slab = wt_face_slab(face, size, wavelength_m);
+  slab.reflection_te = wt_at_complex_cosine(slab.reflection_te, turned, size);
+  slab.reflection_tm = wt_at_complex_cosine(slab.reflection_tm, turned, size);
+  return slab;
+}
+
+// How far the waves that count on one side of a boundary of reflection are from the ray at the edge, on the mean, where
+// they meet the face: the cosine of incidence is larger there by `shift`, a complex number, or smaller on the lit side,
+// by -shift. even: how much of the coefficient's even part in the shift counts: 0 on the boundary, where the waves of
+// both sides leave just the ray, 1 far from it.
+typedef struct {
+  wt_double2 shift;
+  double even;
+} wt_spread_angle;
+
+inline wt_double2 wt_spread_coefficient(wt_double2 ray, wt_double2 here, wt_double2 there, double even) {
+  return ray + (here - there) * 0.5 + ((here + there) * 0.5 - ray) * even;
+}
+
+// The wave reflected at one face, from (beta', phi') to (beta, phi).
+inline wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave* wave, int face,
+                                   wt_spread_angle angle) {
+  const wt_double3 normal = corner->normals[face], out = wt_mirrored(wave->k, normal);
+  const double cosine = fmin(fabs(wt_dot3(wave->k, normal)), 1.0);
+  const wt_wedge_face* material = corner->faces + face;
+  wt_slab slab = wt_face_slab(material, cosine, corner->wavelength_m);
+  if (angle.shift.x != 0.0 || angle.shift.y != 0.0) {
+    const wt_slab here = wt_face_slab_at(material, wt_real(cosine) + angle.shift, corner->wavelength_m);
+    const wt_slab there = wt_face_slab_at(material, wt_real(cosine) - angle.shift, corner->wavelength_m);
+    slab.reflection_te = wt_spread_coefficient(slab.reflection_te, here.reflection_te, there.reflection_te, angle.even);
+    slab.reflection_tm = wt_spread_coefficient(slab.reflection_tm, here.reflection_tm, there.reflection_tm, angle.even);
+  }
+  wt_transfer transfer = wt_transfer_from(wave->coming);
+  wt_meet(&transfer, wave->k, out, normal, slab.reflection_te, slab.reflection_tm);
+  return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), out));
+}
+
+// The wave as a matrix from (beta', phi') to (beta, phi): reflected `count` times, or straight through as many faces;
+// at face `first`, then at the other one, and so on.
+inline wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, int first, int count, int straight) {
+  // Leaving, both vectors of the basis are turned round.
+  if (count == 0) return wt_diagonal(wt_real(-1.0), wt_real(-1.0));
+  wt_double3 k = wave->k;
+  wt_transfer transfer = wt_transfer_from(wave->coming);
+  for (int i = 0; i < count; ++i) {
+    const int face = first != (i % 2 == 1);
+    const wt_double3 normal = corner->normals[face];
+    const wt_double3 out = straight ? k : wt_mirrored(k, normal);
+    const wt_slab slab = wt_face_slab(&corner->faces[face], fmin(fabs(wt_dot3(k, normal)), 1.0), corner->wavelength_m);
+    if (straight)
+      wt_meet(&transfer, k, out, normal, slab.transmission_te, slab.transmission_tm);
+    else
+      wt_meet(&transfer, k, out, normal, slab.reflection_te, slab.reflection_tm);
+    k = out;
+  }
+  return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), k));
+}
+
+// Reflected |image| times: at face 0, 1, 0, ... if image < 0, at 1, 0, 1, ... if > 0.
+inline wt_matrix wt_image_wave(const wt_corner* corner, const wt_corner_wave* wave, int image) {
+  return wt_met(corner, wave, image > 0, image < 0 ? -image : image, 0);
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif

@@ -1,0 +1,180 @@
+// Two edges, straight from one to the other: each term of the one with each of the other, times the transition function
+// of two edges. So slopes, grazing rays and boundaries that overlap need no cases of their own. Screens are exact in
+// the paraxial sense (Vogler's double integral), and total fields are continuous: at a boundary of one edge the jump is
+// the wave that the other edge diffracts alone. Heights over a plane that both edges bound mirror each other: what the
+// plane reflects between the edges has the other sign of r, and the plane's reflection coefficient at the mean angle of
+// the waves that graze it. A soft plane leaves the difference g2(r) - g2(-r), the slope wave, a hard one the sum; the
+// coefficient of a conductor turns from -1 to 1 as the edges come far apart, as its surface wave does. A thin wall
+// tends to a screen, r to 1.
+#ifndef WAVETRACER_DEVICE_EDGE_PAIR_H
+#define WAVETRACER_DEVICE_EDGE_PAIR_H
+#include "wavetracer/device/double_transition.h"
+#include "wavetracer/device/utd.h"
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+// What the quadratic form of a ray's length makes of two edges, once the points along the edges are at their place.
+typedef struct {
+  double between_m;
+  double spreads_m[2];    // L of each edge
+  double distances_m[2];  // of wt_edge_amplitude: L sin^2 beta0
+  double coupling;        // r of two terms but for the signs of their sides
+  double lit;             // see wt_grazed_plane; 0 where there is no such ray
+} wt_pair_form;
+
+// before_m, between_m, after_m: the legs; along: unit vectors of the edges; k: the direction from one to the other;
+// sine2: sin^2 beta0. Displacements across the edges form a quadratic form, and those along the edges the same; edges
+// at an angle couple the two, and eliminating those along the edges scales the one across.
+inline wt_pair_form wt_pair_form_of(const wt_double3* along, wt_double3 k, double before_m, double between_m,
+                                    double after_m, const double* sine2) {
+  const double a = 1.0 / before_m + 1.0 / between_m, b = 1.0 / between_m + 1.0 / after_m;
+  const double cosine = wt_dot3(wt_normalized(wt_cross3(along[0], k)), wt_normalized(wt_cross3(along[1], k)));
+  const double whole = a * b * between_m * between_m, scale = (whole - 1.0) / (whole - cosine * cosine);
+  wt_pair_form out;
+  out.between_m = between_m;
+  out.spreads_m[0] = 1.0 / (a * scale);
+  out.spreads_m[1] = 1.0 / (b * scale);
+  out.distances_m[0] = out.spreads_m[0] * sine2[0];
+  out.distances_m[1] = out.spreads_m[1] * sine2[1];
+  out.coupling = -cosine / sqrt(whole);
+  out.lit = 0.0;
+  return out;
+}
+
+// A plane along which the leg between the edges runs.
+typedef struct {
+  int sides;  // 0: there is none; 2: of a sheet that ends at both edges
+  wt_double3 normal;
+  wt_wedge_face faces[2];  // the plane at either edge
+} wt_shared_plane;
+
+// The terms of one edge of a pair.
+typedef struct {
+  double argument[WT_BOUNDARIES];  // of g
+  double ratio[WT_BOUNDARIES];     // see wt_term_factors
+  int side[WT_BOUNDARIES];  // 1: the wave of the boundary is lit more, where the leg between the edges turns to a
+                            // larger azimuth; -1: less; where it is there already, its shadow counts instead
+  wt_matrix jump[WT_BOUNDARIES];
+} wt_pair_terms;
+
+inline wt_pair_terms wt_pair_terms_of(const wt_bend* bend, const wt_known_waves* known, double distance_m, int second,
+                                      int along) {
+  const double root_2kl = sqrt(4.0 * WT_PI * distance_m / bend->corner.wavelength_m);
+  wt_pair_terms out;
+  for (int term = 0; term < WT_BOUNDARIES; ++term) {
+    const wt_boundary boundary = bend->turn.boundaries[term];
+    const wt_term_factors factors = wt_factors_of(wt_decided(boundary, known, term), bend->n);
+    const int grows = second || term / 2 == 1 ? boundary.turn : -boundary.turn;
+    out.argument[term] = root_2kl * factors.sine;
+    out.ratio[term] = factors.ratio;
+    out.side[term] = factors.ratio < 0.0 ? -grows : grows;
+    out.jump[term] = wt_jump(bend, term, root_2kl, along, wt_no_spread());
+  }
+  return out;
+}
+
+// TE and TM of the plane for waves whose mean cosine of incidence is complex; the mean of what it is at either edge.
+// Where both ends see the plane, `lit` is the cosine of the ray that it reflects, and what the edges hide of that ray's
+// surroundings counts, on its other side.
+inline void wt_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, double lit, double wavelength_m,
+                            wt_double2* te, wt_double2* tm) {
+  *te = *tm = wt_real(0.0);
+  for (int i = 0; i < 2; ++i) {
+    wt_slab slab = wt_face_slab_at(plane->faces + i, lit > 0.0 ? wt_real(lit) - mean : mean, wavelength_m);
+    if (lit > 0.0) {
+      const wt_slab ray = wt_face_slab(plane->faces + i, lit, wavelength_m);
+      slab.reflection_te = ray.reflection_te * 2.0 - slab.reflection_te;
+      slab.reflection_tm = ray.reflection_tm * 2.0 - slab.reflection_tm;
+    }
+    *te = *te + slab.reflection_te * 0.5;
+    *tm = *tm + slab.reflection_tm * 0.5;
+  }
+}
+
+// Two terms, i of the first edge and j of the second, with what the shared plane reflects: TE and TM.
+inline void wt_terms_over_plane(const wt_pair_terms* first, const wt_pair_terms* second, int i, int j,
+                                const wt_pair_form* form, const wt_shared_plane* plane, double wavelength_m,
+                                wt_double2* te, wt_double2* tm) {
+  const double x = first->argument[i], y = second->argument[j];
+  const double r = form->coupling * (first->side[i] * second->side[j]), ratio = first->ratio[i] * second->ratio[j];
+  const wt_double2 direct = wt_double_transition(x, y, r), image = wt_double_transition(x, y, -r);
+  const wt_double_means mean = wt_means_of(x, y, -r, image);
+  // Where the wave is there already, its shadow below the edge counts, not what passes above it.
+  const double u = copysign(sqrt(form->spreads_m[0] * wavelength_m / WT_PI), -first->ratio[i]);
+  const double v = copysign(sqrt(form->spreads_m[1] * wavelength_m / WT_PI), -second->ratio[j]);
+  const wt_double2 angle = (mean.u * u + mean.v * v) / form->between_m;
+  wt_double2 reflected_te, reflected_tm;
+  const int both = first->ratio[i] > 0.0 && second->ratio[j] > 0.0;
+  wt_grazed_plane(plane, angle, both ? form->lit : 0.0, wavelength_m, &reflected_te, &reflected_tm);
+  *te = (direct + wt_times(image, reflected_te)) * ratio;
+  *tm = (direct + wt_times(image, reflected_tm)) * ratio;
+}
+
+// Over a plane that both edges bound. Waves along it come with their reflections, so the terms of reflection at either
+// edge are those of incidence over again and do not count. between: from bends[0].to on.
+inline wt_matrix wt_pair_over_plane(const wt_bend* bends, const wt_pair_terms* first, const wt_pair_terms* second,
+                                    const wt_pair_form* form, const wt_transfer* between,
+                                    const wt_shared_plane* plane) {
+  const wt_double3 k = wt_cross3(between->rows.first, between->rows.second);
+  const wt_basis polarizations = wt_polarizations(k, plane->normal);
+  const wt_matrix identity = wt_diagonal(wt_real(1.0), wt_real(1.0));
+  const wt_matrix come = wt_seen_in(between, polarizations), go = wt_turned(identity, polarizations, bends[1].from);
+  wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      wt_double2 te, tm;
+      wt_terms_over_plane(first, second, i, j, form, plane, bends->corner.wavelength_m, &te, &tm);
+      const wt_matrix arrived = wt_matrix_product(wt_diagonal(te, tm), wt_matrix_product(come, first->jump[i]));
+      sum = wt_matrix_sum(sum, 1.0, wt_matrix_product(second->jump[j], wt_matrix_product(go, arrived)));
+    }
+  return sum;
+}
+
+// In the open.
+inline wt_matrix wt_pair_in_open(const wt_bend* bends, const wt_pair_terms* first, const wt_pair_terms* second,
+                                 const wt_pair_form* form, const wt_transfer* between) {
+  const wt_matrix across = wt_seen_in(between, bends[1].from);
+  wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
+  for (int j = 0; j < WT_BOUNDARIES; ++j) {
+    wt_matrix arrived = wt_diagonal(wt_real(0.0), wt_real(0.0));
+    for (int i = 0; i < WT_BOUNDARIES; ++i) {
+      const double r = form->coupling * (first->side[i] * second->side[j]);
+      const wt_double2 both =
+          wt_double_transition(first->argument[i], second->argument[j], r) * (first->ratio[i] * second->ratio[j]);
+      arrived = wt_matrix_sum(arrived, 1.0, wt_scaled(first->jump[i], both));
+    }
+    sum = wt_matrix_sum(sum, 1.0, wt_matrix_product(second->jump[j], wt_matrix_product(across, arrived)));
+  }
+  return sum;
+}
+
+// From bends[0].from to bends[1].to. known: of each edge; between: what happens to the wave from bends[0].to on, until
+// it comes to the second edge. A wave along a face to the first edge, or from the second, counts half as at one edge.
+inline wt_wave_map wt_diffract_at_pair(const wt_bend* bends, const wt_known_waves* known, const wt_pair_form* form,
+                                       const wt_transfer* between, const wt_shared_plane* plane) {
+  const wt_pair_terms first = wt_pair_terms_of(bends, known, form->distances_m[0], 0, plane->sides);
+  const wt_pair_terms second = wt_pair_terms_of(bends + 1, known + 1, form->distances_m[1], 1, plane->sides);
+  const double exterior[2] = {bends[0].corner.exterior, bends[1].corner.exterior};
+  double share = plane->sides > 1 ? 2.0 : 1.0;
+  if (wt_grazes(bends[0].turn.in, exterior[0]) || (!plane->sides && wt_grazes(bends[0].turn.away, exterior[0])))
+    share *= 0.5;
+  if (wt_grazes(bends[1].turn.away, exterior[1]) || (!plane->sides && wt_grazes(bends[1].turn.in, exterior[1])))
+    share *= 0.5;
+  const wt_double2 amplitude = wt_times(wt_edge_amplitude(form->distances_m[0], bends[0].n),
+                                        wt_edge_amplitude(form->distances_m[1], bends[1].n)) *
+                               share;
+  wt_wave_map out;
+  out.from = bends[0].from;
+  out.to = bends[1].to;
+  out.matrix = wt_scaled(plane->sides ? wt_pair_over_plane(bends, &first, &second, form, between, plane)
+                                      : wt_pair_in_open(bends, &first, &second, form, between),
+                         amplitude);
+  return out;
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif
