@@ -21,7 +21,7 @@ typedef struct {
   double spreads_m[2];    // L of each edge
   double distances_m[2];  // of wt_edge_amplitude: L sin^2 beta0
   double coupling;        // r of two terms but for the signs of their sides
-  double lit;             // see wt_grazed_plane; 0 where there is no such ray
+  double lit;             // see wt_add_grazed_plane; 0: there is no such ray; negative below the plane
 } wt_pair_form;
 
 // before_m, between_m, after_m: the legs; along: unit vectors of the edges; k: the direction from one to the other;
@@ -57,12 +57,14 @@ typedef struct {
   int side[WT_BOUNDARIES];  // 1: the wave of the boundary is lit more, where the leg between the edges turns to a
                             // larger azimuth; -1: less; where it is there already, its shadow counts instead
   wt_matrix jump[WT_BOUNDARIES];
+  double bent;  // wt_bent: 0 where the edge is none, and terms must cancel
 } wt_pair_terms;
 
 inline wt_pair_terms wt_pair_terms_of(const wt_bend* bend, const wt_known_waves* known, double distance_m, int second,
                                       int along) {
   const double root_2kl = sqrt(4.0 * WT_PI * distance_m / bend->corner.wavelength_m);
   wt_pair_terms out;
+  out.bent = wt_bent(bend->corner.exterior);
   for (int term = 0; term < WT_BOUNDARIES; ++term) {
     const wt_boundary boundary = bend->turn.boundaries[term];
     const wt_term_factors factors = wt_factors_of(wt_decided(boundary, known, term), bend->n);
@@ -75,12 +77,11 @@ inline wt_pair_terms wt_pair_terms_of(const wt_bend* bend, const wt_known_waves*
   return out;
 }
 
-// TE and TM of the plane for waves whose mean cosine of incidence is complex; the mean of what it is at either edge.
-// Where both ends see the plane, `lit` is the cosine of the ray that it reflects, and what the edges hide of that ray's
-// surroundings counts, on its other side.
-inline void wt_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, double lit, double wavelength_m,
-                            wt_double2* te, wt_double2* tm) {
-  *te = *tm = wt_real(0.0);
+// Adds TE and TM of the plane for waves whose mean cosine of incidence is complex; the mean of what it is at either
+// edge. Where both ends see the plane, `lit` is the cosine of the ray that it reflects, and what the edges hide of that
+// ray's surroundings counts, on its other side.
+inline void wt_add_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, double lit, double wavelength_m,
+                                wt_double2* te, wt_double2* tm) {
   for (int i = 0; i < 2; ++i) {
     wt_slab slab = wt_face_slab_at(plane->faces + i, lit > 0.0 ? wt_real(lit) - mean : mean, wavelength_m);
     if (lit > 0.0) {
@@ -93,7 +94,8 @@ inline void wt_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, doubl
   }
 }
 
-// Two terms, i of the first edge and j of the second, with what the shared plane reflects: TE and TM.
+// Two terms, i of the first edge and j of the second, with what the shared plane reflects: TE and TM. Of a sheet, both
+// sides: to the lower one the same ends are on the other side of the boundaries.
 inline void wt_terms_over_plane(const wt_pair_terms* first, const wt_pair_terms* second, int i, int j,
                                 const wt_pair_form* form, const wt_shared_plane* plane, double wavelength_m,
                                 wt_double2* te, wt_double2* tm) {
@@ -101,15 +103,18 @@ inline void wt_terms_over_plane(const wt_pair_terms* first, const wt_pair_terms*
   const double r = form->coupling * (first->side[i] * second->side[j]), ratio = first->ratio[i] * second->ratio[j];
   const wt_double2 direct = wt_double_transition(x, y, r), image = wt_double_transition(x, y, -r);
   const wt_double_means mean = wt_means_of(x, y, -r, image);
-  // Where the wave is there already, its shadow below the edge counts, not what passes above it.
-  const double u = copysign(sqrt(form->spreads_m[0] * wavelength_m / WT_PI), -first->ratio[i]);
-  const double v = copysign(sqrt(form->spreads_m[1] * wavelength_m / WT_PI), -second->ratio[j]);
-  const wt_double2 angle = (mean.u * u + mean.v * v) / form->between_m;
-  wt_double2 reflected_te, reflected_tm;
-  const int both = first->ratio[i] > 0.0 && second->ratio[j] > 0.0;
-  wt_grazed_plane(plane, angle, both ? form->lit : 0.0, wavelength_m, &reflected_te, &reflected_tm);
-  *te = (direct + wt_times(image, reflected_te)) * ratio;
-  *tm = (direct + wt_times(image, reflected_tm)) * ratio;
+  wt_double2 reflected_te = wt_real(0.0), reflected_tm = wt_real(0.0);
+  for (int side = 0; side < plane->sides; ++side) {
+    const double sign = side == 0 ? 1.0 : -1.0, before = sign * first->ratio[i], after = sign * second->ratio[j];
+    // Where the wave is there already, its shadow below the edge counts, not what passes above it.
+    const double u = copysign(first->bent * sqrt(form->spreads_m[0] * wavelength_m / WT_PI), -before);
+    const double v = copysign(second->bent * sqrt(form->spreads_m[1] * wavelength_m / WT_PI), -after);
+    const double lit = before > 0.0 && after > 0.0 ? sign * form->lit * first->bent * second->bent : 0.0;
+    wt_add_grazed_plane(plane, (mean.u * u + mean.v * v) / form->between_m, lit, wavelength_m, &reflected_te,
+                        &reflected_tm);
+  }
+  *te = (direct * (double)plane->sides + wt_times(image, reflected_te)) * ratio;
+  *tm = (direct * (double)plane->sides + wt_times(image, reflected_tm)) * ratio;
 }
 
 // Over a plane that both edges bound. Waves along it come with their reflections, so the terms of reflection at either
@@ -157,7 +162,7 @@ inline wt_wave_map wt_diffract_at_pair(const wt_bend* bends, const wt_known_wave
   const wt_pair_terms first = wt_pair_terms_of(bends, known, form->distances_m[0], 0, plane->sides);
   const wt_pair_terms second = wt_pair_terms_of(bends + 1, known + 1, form->distances_m[1], 1, plane->sides);
   const double exterior[2] = {bends[0].corner.exterior, bends[1].corner.exterior};
-  double share = plane->sides > 1 ? 2.0 : 1.0;
+  double share = 1.0;
   if (wt_grazes(bends[0].turn.in, exterior[0]) || (!plane->sides && wt_grazes(bends[0].turn.away, exterior[0])))
     share *= 0.5;
   if (wt_grazes(bends[1].turn.away, exterior[1]) || (!plane->sides && wt_grazes(bends[1].turn.in, exterior[1])))

@@ -245,9 +245,9 @@ inline void wt_diffract_at_two(const wt_field_world* world, const wt_ordered_row
       wt_pair_form_of(along, edges[0].k_out, edges[0].before_m, edges[0].after_m, edges[1].after_m, sine2);
   if (plane->sides) {
     const double up = -wt_dot3(plane->normal, edges[0].k_in), down = wt_dot3(plane->normal, edges[1].k_out);
-    if (up > 0.0 && down > 0.0)
-      form.lit = (up * edges[0].before_m + down * edges[1].after_m) /
-                 (edges[0].before_m + edges[0].after_m + edges[1].after_m);
+    const double length_m = edges[0].before_m + edges[0].after_m + edges[1].after_m;
+    if (up * down > 0.0 && fmin(fabs(up), fabs(down)) > WT_GRAZING_RAD)
+      form.lit = (up * edges[0].before_m + down * edges[1].after_m) / length_m;
   }
   wt_wave_map wave = wt_diffract_at_pair(bends, known, &form, between, plane);
   for (int i = 0; i < 2; ++i)
