@@ -1,5 +1,8 @@
 """The field that wavetracer computes for the cases of cases.py: every profile is drawn out to 800 m along the axis.
 
+The axis is upright and the profile lies in the plane z = 0, its z along our y: seen from an end, theta is then along the axis
+and phi across it in all directions, so the fields of all paths have their signs in common.
+
 Paths are added in phase. A point source spreads otherwise than a line source, which the references have: along the plane of
 a profile, the field of a path of length s over that of free space is sqrt(direct / s) times that of a line source, exactly,
 so every path is multiplied by the inverse.
@@ -15,7 +18,7 @@ import wavetracer as wt
 import solids
 
 SPEED_OF_LIGHT = 299792458.0
-HALF_M = 400.0  # along the axis, on both sides of the plane y = 0
+HALF_M = 400.0  # along the axis, on both sides of the plane z = 0
 DEEP_M = 800.0
 BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
 
@@ -28,11 +31,11 @@ def profile(row):
 def write_scene(path, shape, places, tops):
     lines, count = [], 0
     if shape == "screens":
-        bodies = [([(x, y, z) for y, z in ((-HALF_M, top - DEEP_M), (HALF_M, top - DEEP_M), (HALF_M, top), (-HALF_M, top))],
+        bodies = [([(x, y, z) for y, z in ((top - DEEP_M, -HALF_M), (top, -HALF_M), (top, HALF_M), (top - DEEP_M, HALF_M))],
                    ((0, 1, 2, 3),)) for x, top in zip(places, tops)]
     else:
         walls = places if shape == "block" else (places[0], places[0] + DEEP_M)
-        bodies = [([*itertools.product(walls, (-HALF_M, HALF_M), (-DEEP_M, 0.0))], BOX)]
+        bodies = [([*itertools.product(walls, (-DEEP_M, 0.0), (-HALF_M, HALF_M))], BOX)]
     for i, (corners, faces) in enumerate(bodies):
         lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in corners] + [f"o body{i}", "usemtl body"]
         lines += ["f " + " ".join(str(count + j + 1) for j in face) for face in faces]
@@ -42,7 +45,7 @@ def write_scene(path, shape, places, tops):
 
 def configuration(f_hz, shape, material, edges, tx, rx, trace):
     epsilon = 1 - 1j * 1e7 / (2 * np.pi * f_hz * solids.EPSILON_0) if material == "metal" else solids.epsilon(material, f_hz)
-    ends = [[{"name": f"{side}{i}", "position_m": [x, 0.0, z], "polarization": "VH"} for i, (x, z) in enumerate(places)]
+    ends = [[{"name": f"{side}{i}", "position_m": [x, z, 0.0], "polarization": "VH"} for i, (x, z) in enumerate(places)]
             for side, places in (("tx", tx), ("rx", rx))]
     return {"scene": {"file": "scene.obj"}, "radio": {"frequency_hz": f_hz}, "transmitter": ends[0], "receiver": ends[1],
             "material": [{"name": "body", "permittivity": epsilon.real,
@@ -54,19 +57,20 @@ def configuration(f_hz, shape, material, edges, tx, rx, trace):
 
 
 def sums(paths, tx, rx, f_hz):
-    """The fields of V and of H over free space by pair of ends: {(tx, rx): complex array (2,)}."""
+    """The fields over free space by pair of ends, {(tx, rx): complex array (2,)}: wave V is that of phi, which the two ends
+    of a straight path see with opposite signs, and H that of theta."""
     out = {}
     offset, position = paths.vertex_offset, paths.vertex_position_m
     for i in range(len(paths.tx)):
         at = position[offset[i]:offset[i + 1]]
-        if len(at) and (np.abs(at[:, 1]).max() > 1 or at[:, 2].min() < -0.5 * DEEP_M or at[:, 0].max() > 0.5 * DEEP_M):
+        if len(at) and (np.abs(at[:, 2]).max() > 1 or at[:, 1].min() < -0.5 * DEEP_M or at[:, 0].max() > 0.5 * DEEP_M):
             continue  # over what the profile does not have
         pair = int(paths.tx[i]), int(paths.rx[i])
         direct = np.hypot(*np.subtract(rx[pair[1]], tx[pair[0]]))
         length = paths.delay_s[i] * SPEED_OF_LIGHT
         phase = np.exp(-2j * np.pi * f_hz * (length - direct) / SPEED_OF_LIGHT)
         scale = phase * np.sqrt(length / direct) * 4 * np.pi * direct * f_hz / SPEED_OF_LIGHT
-        out[pair] = out.get(pair, 0) + scale * np.diagonal(paths.a[i])
+        out[pair] = out.get(pair, 0) + scale * np.array([-paths.a[i, 1, 1], paths.a[i, 0, 0]])
     return out
 
 
