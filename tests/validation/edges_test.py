@@ -78,9 +78,12 @@ def check_roof():
 
 def cylinder(k, epsilon, wave, radius, source, end):
     """The field over free space beside a cylinder around the origin: the series of its waves."""
-    inside, factor = k * np.sqrt(epsilon), epsilon if wave == "V" else 1
     m = np.arange(-60, 61)
-    slope, value = inside * jvp(m, inside * radius), factor * k * jv(m, inside * radius)
+    if epsilon is None:  # a perfect conductor
+        slope, value = (0, 1) if wave == "V" else (1, 0)
+    else:
+        inside, factor = k * np.sqrt(epsilon), epsilon if wave == "V" else 1
+        slope, value = inside * jvp(m, inside * radius), factor * k * jv(m, inside * radius)
     scattered = -((slope * jv(m, k * radius) - value * jvp(m, k * radius)) /
                   (slope * hankel2(m, k * radius) - value * h2vp(m, k * radius)))
     turn = np.exp(1j * m * (np.arctan2(end[1], end[0]) - np.arctan2(source[1], source[0])))
@@ -96,9 +99,10 @@ def check_boundary():
     circle.at, circle.weight, circle.bend = radius * circle.normal, np.full(300, 2 * np.pi * radius / 300), 1 / radius
     circle.side_of, circle.window = np.zeros(300, int), np.ones(300)
     source, ends = (6.0, 0.0), ((-6.0, 0.5), (0.0, 4.0), (3.0, 3.0))
-    for epsilon in (5.24 - 0.8j, 6.3 + 0j):
+    for epsilon in (5.24 - 0.8j, 6.3 + 0j, None):
         for wave in "VH":
-            ours = boundary.fields(circle, k, epsilon, wave, [source] * 3, ends)
+            ours = boundary.fields(circle, k, epsilon, wave, [source] * 3, ends) if epsilon else (
+                boundary.conductor_fields(circle, k, wave, [source] * 3, ends))
             known = [cylinder(k, epsilon, wave, radius, source, end) for end in ends]
             assert np.abs(ours - known).max() < 1e-3, (epsilon, wave, ours, known)
     # A wall without end is a mirror with the coefficient of Fresnel, and its window leaves that alone.

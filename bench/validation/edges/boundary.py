@@ -124,34 +124,54 @@ def operators(b, k, batch=200):
 
 
 def fields(b, k, epsilon, wave, sources, ends):
-    """The field over free space at ends[i] of sources[i], and that of every end for sources that repeat."""
-    n = len(b.weight)
+    """The field over free space at ends[i] of sources[i], of a body with this permittivity."""
+    n, w = len(b.weight), b.window
     f = epsilon if wave == "V" else 1.0
     s1, k1, d1, t1 = operators(b, k)
     s2, k2, d2, t2 = operators(b, k * np.sqrt(epsilon + 0j))
-    system = np.empty((2 * n, 2 * n), complex)
-    w = b.window
+    system = np.block([[-(k1 - k2) * w, (s1 - f * s2) * w * k], [-(t1 - t2) * w / k, (d1 - f * d2) * w]])
+    del s1, s2, k1, k2, d1, d2, t1, t2
     i = np.arange(n)
-    system[:n, :n], system[:n, n:] = -(k1 - k2) * w, (s1 - f * s2) * w * k
-    system[n:, :n], system[n:, n:] = -(t1 - t2) * w / k, (d1 - f * d2) * w
     system[i, i] += 1
     system[n + i, n + i] += (1 + f) / 2
-    del s1, s2, k1, k2, d1, d2, t1, t2
     places, which = np.unique(np.asarray(sources, float), axis=0, return_inverse=True)
     right = np.stack([np.concatenate(incident(b, k, place)) for place in places], axis=1)
     found = lu_solve(lu_factor(system, overwrite_a=True, check_finite=False), right, check_finite=False)
-    out = []
-    for end, at, place in zip(np.asarray(ends, float), which.ravel(), np.asarray(sources, float)):
-        d = end - b.at
-        r = np.sqrt((d * d).sum(-1))
-        zero, one = hankels(k * r)
-        u, q = found[:n, at] * w * b.weight, found[n:, at] * w * b.weight * k
-        scattered = (-0.25j * k * one * (d * b.normal).sum(-1) / r * u + 0.25j * zero * q).sum()
-        out.append(1 + scattered / (-0.25j * hankels(k * np.linalg.norm(end - place))[0]))
-    return np.array(out)
+    return np.array([seen(b, k, found[:n, i], found[n:, i], places[i], end) for i, end in zip(which.ravel(), ends)])
+
+
+def conductor_fields(b, k, wave, sources, ends):
+    """The same of a perfect conductor: two equations are added, so that no resonance disturbs, and for V the second one is
+    smoothed by the operator S of an evanescent wave, whose product with T is K^2 - 1/4 (O. Bruno)."""
+    n, w = len(b.weight), b.window
+    i = np.arange(n)
+    s1, k1, d1, t1 = operators(b, k)
+    places, which = np.unique(np.asarray(sources, float), axis=0, return_inverse=True)
+    waves, slopes = (np.stack(part, axis=1) for part in zip(*(incident(b, k, place) for place in places)))
+    if wave == "H":
+        system, right = (d1 / k + 1j * s1) * w * k, slopes + 1j * waves
+        system[i, i] += 0.5
+    else:
+        s2, k2, _, t2 = operators(b, -1j * k)
+        system, right = -k1 * w - 1j * (s2 @ ((t1 - t2) * w) + k2 @ (k2 * w)), waves + 1j * k * (s2 @ slopes)
+        system[i, i] += 0.5 + 0.25j * w
+    found = lu_solve(lu_factor(system), right)
+    u, q = (found, 0 * found) if wave == "V" else (0 * found, found)
+    return np.array([seen(b, k, u[:, i], q[:, i], places[i], end) for i, end in zip(which.ravel(), ends)])
+
+
+def seen(b, k, u, q, place, end):
+    """The field at `end` over that of the source alone, from the boundary's field u and slope k q."""
+    d = np.asarray(end, float) - b.at
+    r = np.sqrt((d * d).sum(-1))
+    zero, one = hankels(k * r)
+    double = -0.25j * k * one * (d * b.normal).sum(-1) / r * u
+    scattered = ((double + 0.25j * k * zero * q) * b.window * b.weight).sum()
+    return 1 + scattered / (-0.25j * hankels(k * np.linalg.norm(end - place))[0])
 
 
 def incident(b, k, place):
+    """The source's field on the boundary, and its slope along the normal over k."""
     d = b.at - place
     r = np.sqrt((d * d).sum(-1))
     zero, one = hankels(k * r)

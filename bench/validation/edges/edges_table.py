@@ -2,11 +2,11 @@
 """What wavetracer's fields behind edges are wrong by: solves every case, and prints a table of errors in dB.
 
 Usage: edges_table.py [--edges N] [--sets NAME...] [--rays N] [--csv FILE]; --edges is the largest number of diffractions in
-one path. Two minutes on two cores. References: cases.py, and for lossy bodies the CSV files beside this one, which
+one path. Two minutes on two cores. References: cases.py, and for solid bodies the CSV files beside this one, which
 `solids.py bench/validation/edges` makes anew in some minutes.
 
 Errors are those of the level, ours less the reference. Of screens, whose reference knows no polarisation, it is the mean of
-the levels of V and H. Where a way bends by more than STEEP_DEG, the references other than those of lossy bodies no longer
+the levels of V and H. Where a way bends by more than STEEP_DEG, the references other than those of solid bodies no longer
 hold to a fraction of a dB, so those cases have rows of their own.
 """
 import argparse
@@ -24,6 +24,7 @@ import tracer  # noqa: E402
 import truth  # noqa: E402
 
 STEEP_DEG = 10.0
+EXACT = ("metal_exact", "concrete_block", "corners")  # the sets of solids.py
 DEEP_DB = -60.0
 MISSING_DB = -400.0  # a level that says: no path
 
@@ -56,7 +57,7 @@ def table(rows):
              "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"]
     groups = {}
     for name, wave, bend, reference, ours in rows:
-        steep = bend > STEEP_DEG and name not in ("concrete_block", "corners")
+        steep = bend > STEEP_DEG and name not in EXACT
         groups.setdefault((name + (", steep" if steep else ""), wave), []).append((reference, ours - reference))
     for (name, wave), values in groups.items():
         reference, error = np.array(values).T
@@ -71,7 +72,7 @@ def main():
     parser.add_argument("--sets", nargs="*", metavar="NAME")
     parser.add_argument("--csv", type=pathlib.Path, help="every case, with its reference and ours in dB")
     options = parser.parse_args()
-    rows = cases.known() + [row for name in ("concrete_block", "corners") for row in truth.read(HERE / f"{name}.csv")]
+    rows = cases.known() + [row for name in EXACT for row in truth.read(HERE / f"{name}.csv")]
     rows = [row for row in rows if not options.sets or row["set"] in options.sets]
     fields = tracer.solve(rows, options.edges, rays=options.rays, diffraction_rays=options.rays)
     print(table(levels(rows, fields)))

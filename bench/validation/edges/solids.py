@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Cases of lossy bodies, by the method of moments: writes concrete_block.csv and corners.csv into a folder, in some minutes.
+"""Cases of solid bodies, by integral equations: writes metal_exact.csv, concrete_block.csv and corners.csv into a folder,
+in some minutes.
 
-Usage: solids.py FOLDER [concrete_block] [corners]
+Usage: solids.py FOLDER [metal_exact] [concrete_block] [corners]
 
-Walls go down, and a corner's faces go away, for ever: nothing but the roof and its edges, or the one corner, is there. Bodies
-are so lossy that what passes through them is 50 dB or more below what passes over them.
+Walls go down, and a corner's faces go away, for ever: nothing but the roof and its edges, or the one corner, is there. Lossy
+bodies are so lossy that what passes through them is 50 dB or more below what passes over them.
 """
 import sys
 
@@ -12,7 +13,7 @@ import numpy as np
 
 import cases
 import truth
-from boundary import Boundary, fields
+from boundary import Boundary, conductor_fields, fields
 
 EPSILON_0 = 8.8541878128e-12
 # The permittivity and the conductivity of ITU-R P.2040-3, table 3: a f^b and c f^d, f in GHz.
@@ -31,6 +32,10 @@ BLOCKS = [  # material, f_hz, width, the gaps from the walls to the ends, height
     ("8:0.5", 1e9, 0.3, 10, 10, ((-2, -2), (-1, -1), (-0.3, -0.3), (0.05, 0.05), (0.3, 0.3), (0.3, -1))),
     ("8:0.5", 1e9, 1.0, 5, 10, ((-2, -1), (-0.5, -0.5), (0.05, 0.05), (0.4, 0.4))),
 ]
+METAL = ((0.9e9, 0.1), (0.9e9, 1.0), (0.9e9, 10.0), (2e9, 0.05), (2e9, 0.3), (2e9, 4.5), (5.9e9, 0.01), (5.9e9, 0.1),
+         (5.9e9, 0.3), (5.9e9, 1.8))  # f_hz, width
+METAL_GAPS = ((5.0, 5.0), (5.0, 12.0))
+METAL_HEIGHTS = ((0, 0), (-0.05, -0.05), (-0.5, -0.5), (-2, -2), (0, -2), (0.05, 0.05), (0.3, 0.3), (0.3, -0.5), (0.6, -2))
 CORNERS = (("concrete", 1e9), ("wet_ground", 1e9))
 SOURCES = [(s, a) for s in (5.0, 8.06, 12.0) for a in (1.0, 3.0, 7.125, 15.0, 30.0, 45.0)] + [(8.0, 60.0), (8.0, 80.0)]
 SHADOWS = (-20.0, 2.0, 8.0, 20.0, 38.0, 48.0, 55.0, 60.0)  # degrees beyond the boundary of the shadow
@@ -51,14 +56,33 @@ def spacing(material, f_hz):
     return cases.SPEED_OF_LIGHT / f_hz / abs(np.sqrt(epsilon(material, f_hz))) / 7
 
 
+def roof_profile(f_hz, width, first, last, heights, step):
+    """The ends and the boundary of a block whose walls go down for ever."""
+    ends = [((0.0, low), (first + width + last, high)) for low, high in heights]
+    zone = np.sqrt(cases.SPEED_OF_LIGHT / f_hz * first * last / (first + last))
+    leg = -min(0, min(min(pair) for pair in heights)) + 5.4 * zone
+    profile = [(first + width, -leg), (first + width, 0), (first, 0), (first, -leg)]
+    return ends, Boundary(profile, step, 2.7 * zone)
+
+
+def metal():
+    rows = []
+    for f_hz, width in METAL:
+        for first, last in METAL_GAPS:
+            step = min(cases.SPEED_OF_LIGHT / f_hz / 10, width / 1.5)
+            ends, boundary = roof_profile(f_hz, width, first, last, METAL_HEIGHTS, step)
+            for wave in "VH":
+                got = conductor_fields(boundary, cases.wave_number(f_hz), wave, *zip(*ends))
+                rows += [cases.case("metal_exact", f_hz, wave, "block", (first, first + width), (0.0, 0.0), pair, field)
+                         for pair, field in zip(ends, got)]
+        print(f"metal, {width:g} m wide: {len(boundary.weight)} points", flush=True)
+    return rows
+
+
 def blocks():
     rows = []
     for material, f_hz, width, first, last, heights in BLOCKS:
-        ends = [((0.0, low), (first + width + last, high)) for low, high in heights]
-        zone = np.sqrt(cases.SPEED_OF_LIGHT / f_hz * first * last / (first + last))
-        leg = -min(0, min(min(pair) for pair in heights)) + 5.4 * zone
-        profile = [(first + width, -leg), (first + width, 0), (first, 0), (first, -leg)]
-        boundary = Boundary(profile, spacing(material, f_hz), 2.7 * zone)
+        ends, boundary = roof_profile(f_hz, width, first, last, heights, spacing(material, f_hz))
         for wave in "VH":
             got = fields(boundary, cases.wave_number(f_hz), epsilon(material, f_hz), wave, *zip(*ends))
             rows += [cases.case("concrete_block", f_hz, wave, "block", (first, first + width), (0.0, 0.0), pair, field, material)
@@ -88,6 +112,6 @@ def corners():
 
 
 if __name__ == "__main__":
-    for name, make in (("concrete_block", blocks), ("corners", corners)):
+    for name, make in (("metal_exact", metal), ("concrete_block", blocks), ("corners", corners)):
         if name in sys.argv[2:] or len(sys.argv) == 2:
             truth.write(sys.argv[1], make())
