@@ -72,6 +72,7 @@ Paths select_rows(const Paths& paths, std::span<const uint8_t> written) {
     out.*column = selected(paths.*column, written);
   out.a = selected(paths.a, written);
   out.quarters = selected(paths.quarters, written);
+  out.groups = selected(paths.groups, written);
   for (size_t row = 0; row < paths.size(); ++row)
     if (written[row]) append_vertices(paths, row, out);
   return out;

@@ -46,7 +46,7 @@ std::vector<Link> strongest_links(const SavedRun& run, const Filter& filter, siz
 
 LinkFigures no_figures(uint32_t frame, const Link& link) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  return {frame, link.tx, link.rx, 0, -infinity, -infinity, nan, nan, nan, false};
+  return {frame, link.tx, link.rx, 0, -infinity, -infinity, -infinity, nan, nan, nan, false};
 }
 
 void add_paths(const SavedFrame& frame, const Link& link, std::vector<PathPoint>& out) {
