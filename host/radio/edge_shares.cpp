@@ -27,7 +27,8 @@ double square(const glm::dvec3& v) { return glm::dot(v, v); }
 EdgeShares edge_shares(const wt_wedge& wedge, const glm::dvec3& k_in, const glm::dvec3& k_out, double before_m,
                        double after_m, double wavelength_m) {
   const glm::dvec3 along = vector_of(wedge.along), face = vector_of(wedge.face), normal = vector_of(wedge.normal);
-  const glm::dvec3 across_in = k_in - glm::dot(k_in, along) * along, across_out = k_out - glm::dot(k_out, along) * along;
+  const glm::dvec3 across_in = k_in - glm::dot(k_in, along) * along,
+                   across_out = k_out - glm::dot(k_out, along) * along;
   const double sine2 = square(across_in);
   if (!(sine2 > 1e-18) || !(square(across_out) > 1e-18) || !(before_m > 0) || !(after_m > 0)) return {1, 0, 0, 0};
   const glm::dvec3 in = across_in / std::sqrt(sine2), out = glm::normalize(across_out);

@@ -8,9 +8,9 @@
 namespace wavetracer {
 
 GroupFields::GroupFields(const Paths& paths, size_t first, size_t end, size_t values) : paths_(paths), values_(values) {
-  if (paths.groups.empty()) return;
+  if (paths.group.empty()) return;
   for (size_t row = first; row < end; ++row)
-    for (const uint32_t group : paths.groups[row].number) {
+    for (const uint32_t group : paths.group[row]) {
       if (group == no_group) continue;
       if (group >= members_.size()) members_.resize(size_t{group} + 1);
       ++members_[group];
@@ -18,17 +18,16 @@ GroupFields::GroupFields(const Paths& paths, size_t first, size_t end, size_t va
 }
 
 bool GroupFields::is_alone(size_t row) const {
-  if (paths_.groups.empty()) return true;
-  const PathGroups& groups = paths_.groups[row];
-  return groups.number[1] == no_group && (groups.number[0] == no_group || members_[groups.number[0]] == 1);
+  if (paths_.group.empty()) return true;
+  const GroupNumbers& group = paths_.group[row];
+  return group[1] == no_group && (group[0] == no_group || members_[group[0]] == 1);
 }
 
 void GroupFields::add(size_t row, std::span<const std::complex<double>> fields) {
   sums_.resize(members_.size() * values_);
-  const PathGroups& groups = paths_.groups[row];
-  for (size_t i = 0; i < most_groups && groups.number[i] != no_group; ++i)
-    for (size_t k = 0; k < values_; ++k)
-      sums_[groups.number[i] * values_ + k] += double{groups.weight[i]} * fields[k];
+  const GroupNumbers& group = paths_.group[row];
+  for (size_t i = 0; i < most_groups && group[i] != no_group; ++i)
+    for (size_t k = 0; k < values_; ++k) sums_[group[i] * values_ + k] += paths_.group_weight[row][i] * fields[k];
 }
 
 void GroupFields::add_powers(std::span<double> powers) const {

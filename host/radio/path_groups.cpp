@@ -1,4 +1,5 @@
-// Groups of a link are told by a hash of their steps in 64 bits: of 10,000 groups two have one hash once in 10^11 links.
+// Groups of a link are told by a hash of their steps in 64 bits: of 10,000 groups two have one hash once in 10^11
+// links.
 #include "radio/path_groups.hpp"
 
 #include <tbb/parallel_for.h>
@@ -10,7 +11,6 @@
 #include <unordered_set>
 
 #include "radio/constants.hpp"
-#include "radio/path_power.hpp"
 #include "radio/world_records.hpp"
 
 namespace wavetracer {
@@ -123,8 +123,8 @@ std::vector<PathGrouping::Key> PathGrouping::keys_of(const Paths& paths, size_t 
     }
     const uint32_t number = local + (moves ? first_wedge_[instance] : 0);
     const wt_wedge wedge = placed(number, state);
-    const EdgeShares shares = edge_shares(wedge, glm::normalize(leg), glm::normalize(after), since_m,
-                                          legs.length_m - since_m, wavelength_m_);
+    const EdgeShares shares =
+        edge_shares(wedge, glm::normalize(leg), glm::normalize(after), since_m, legs.length_m - since_m, wavelength_m_);
     const Choice choices[in_places] = {{step_of(kind, number), shares[0]},
                                        {0, shares[1]},
                                        {step_of(reflection, wedge.planes[0]), shares[2]},
@@ -154,13 +154,12 @@ void PathGrouping::group_link(Paths& paths, size_t first, size_t end, const Worl
   numbers.reserve(2 * (end - first));
   std::unordered_set<uint64_t> taken;  // by geometrical waves
   for (size_t row = first; row < end; ++row) {
-    PathGroups& groups = paths.groups[row];
     std::vector<Key> keys = keys_of(paths, row, state);
     if (!is_diffracted(paths, row) && !taken.insert(keys[0].hash).second) keys[0].hash = mixed(keys[0].hash, row);
     for (size_t i = 0; i < keys.size(); ++i) {
       const auto at = numbers.try_emplace(keys[i].hash, static_cast<uint32_t>(numbers.size())).first;
-      groups.number[i] = at->second;
-      groups.weight[i] = static_cast<float>(keys[i].weight);
+      paths.group[row][i] = at->second;
+      paths.group_weight[row][i] = keys[i].weight;
     }
   }
 }
@@ -174,13 +173,16 @@ void PathGrouping::operator()(Paths& paths, const WorldState& state) const {
     if (begins(row)) first.push_back(row);
   const size_t links = first.size();
   first.push_back(paths.size());
-  paths.groups.resize(paths.size());
+  paths.group.assign(paths.size(), only_group(no_group));
+  paths.group_weight.assign(paths.size(), GroupWeights{});
   tbb::parallel_for(size_t{0}, links, [&](size_t link) {
     bool edges = false;
     for (size_t row = first[link]; row < first[link + 1] && !edges; ++row) edges = is_diffracted(paths, row);
     if (edges) return group_link(paths, first[link], first[link + 1], state);
-    for (size_t row = first[link]; row < first[link + 1]; ++row)
-      paths.groups[row] = group_alone(static_cast<uint32_t>(row - first[link]));
+    for (size_t row = first[link]; row < first[link + 1]; ++row) {
+      paths.group[row] = only_group(static_cast<uint32_t>(row - first[link]));
+      paths.group_weight[row] = whole_weight;
+    }
   });
 }
 

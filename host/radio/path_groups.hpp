@@ -1,4 +1,4 @@
-// Which paths of a frame are one wave, and how much of each (PathGroups in wavetracer/paths.hpp).
+// Which paths of a frame are one wave, and how much of each (wavetracer/paths.hpp).
 // Groups stand for geometrical waves: a path belongs to that of its own steps, and with shares (radio/edge_shares.hpp)
 // to those of the same steps with nothing in the place of an edge, or a reflection at one of its faces. A wave need not
 // reach the receiver to be the group of those that are diffracted at its boundaries: so nothing jumps where it begins
@@ -21,15 +21,15 @@ class PathGrouping {
   PathGrouping(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances,
                double frequency_hz);
 
-  // Sets paths.groups, of the paths of one frame in their order. state: of that frame. Runs on all cores.
+  // Sets the groups and weights the paths of one frame in their order. state: of that frame. Runs on all cores.
   void operator()(Paths& paths, const WorldState& state) const;
 
  private:
   struct Key;
   glm::dvec3 origin_m_;
   double wavelength_m_;
-  std::vector<wt_wedge> wedges_;     // as radio/world_records.hpp has them
-  std::vector<uint32_t> planes_of_;  // of each surface of the world: the lowest surface in its plane
+  std::vector<wt_wedge> wedges_;                       // as radio/world_records.hpp has them
+  std::vector<uint32_t> planes_of_;                    // of each surface of the world: the lowest surface in its plane
   std::vector<uint32_t> first_surface_, first_wedge_;  // of instances
 
   wt_wedge placed(uint32_t wedge, const WorldState& state) const;

@@ -22,12 +22,4 @@ inline std::complex<double> carrier_phase(double frequency_hz, double delay_s) {
   return std::polar(1.0, -2 * std::numbers::pi * (turns - std::floor(turns)));
 }
 
-// The groups of a path that is one wave with no other.
-inline PathGroups group_alone(uint32_t number) {
-  PathGroups groups;
-  groups.number[0] = number;
-  groups.weight[0] = 1;
-  return groups;
-}
-
 }  // namespace wavetracer

@@ -65,3 +65,84 @@ TEST_CASE("around the corner of a tower: the gain is continuous where the reflec
   CHECK(steps.grouped_db < 0.05);
   CHECK(steps.powers_db > 3);
 }
+
+TEST_CASE("the other way round the gain is the same") {
+  const SceneFile file(tower());
+  const Points source{{9.2, -7.7, 30.3}}, around = arc({0, 0, 30.1}, 15, 250, 110, 301);
+  const std::vector<LinkFigures> there = figures(run(at(file.path(), source, around, 2)));
+  const std::vector<LinkFigures> back = figures(run(at(file.path(), around, source, 2)));
+  REQUIRE(there.size() == back.size());
+  size_t joined = 0;
+  for (size_t i = 0; i < there.size(); ++i) {
+    CHECK(there[i].path_gain_db == doctest::Approx(back[i].path_gain_db).epsilon(1e-9));
+    joined += std::abs(there[i].path_gain_db - there[i].sum_of_powers_db) > 0.1;
+  }
+  CHECK(joined > 20);
+}
+
+TEST_CASE("through a pane of glass: the wave that passes it beside its edge is one with what the edge diffracts") {
+  const SceneFile file({Part{{{{0, 0, 0}, {20, 0, 0}, {0, 0, 60}}}, "glass"}});
+  Config config = at(file.path(), {{-3.1, -8.3, 30.3}}, arc({0, 0, 30.1}, 15, 110, 30, 8001), 1);
+  config.trace.transmission = true;
+  const Steps steps = largest_steps(run(config));
+  MESSAGE("largest step ", steps.grouped_db, " dB, of the sum of powers ", steps.powers_db, " dB");
+  CHECK(steps.grouped_db < 0.05);
+  CHECK(steps.powers_db > 1);
+}
+
+TEST_CASE("past two edges: what the second one diffracts is one with the wave that the first one does") {
+  // Two screens; the source is deep in the shadow of the first, whose wave the second one cuts off.
+  const std::vector<Quad> screens{{{0, 0, 0}, {20, 0, 0}, {0, 0, 60}}, {{-2, 9, 0}, {-20, 0, 0}, {0, 0, 60}}};
+  const SceneFile file(screens);
+  Config config = at(file.path(), {{9.3, -6.1, 30.3}}, arc({-2, 9, 30.1}, 12, 88, 112, 3001), 2);
+  config.trace.max_diffractions = 2;
+  const Steps steps = largest_steps(run(config));
+  MESSAGE("largest step ", steps.grouped_db, " dB, of the sum of powers ", steps.powers_db, " dB");
+  CHECK(steps.grouped_db < 0.05);
+  CHECK(steps.powers_db > 3);
+}
+
+TEST_CASE("two waves without edges are never one, whatever is diffracted beside them; squares of weights add up to 1") {
+  const SceneFile file({Part{two_boxes()}});
+  Config config = at(file.path(), {{-11.3, -5.7, 1.6}}, arc({0.9, 1, 2}, 12, 0, 350, 24), 3);
+  config.trace.max_diffractions = 2;
+  const Paths paths = run(config).paths;
+  REQUIRE(paths.group.size() == paths.size());
+  std::map<std::pair<uint32_t, uint32_t>, size_t> waves;
+  size_t joined = 0;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    double squares = 0;
+    for (const double weight : paths.group_weight[i]) squares += weight * weight;
+    CHECK(squares == doctest::Approx(1).epsilon(1e-12));
+    bool bends = false;
+    for (uint64_t k = paths.vertex_offset[i]; k < paths.vertex_offset[i + 1]; ++k)
+      bends |= paths.vertex_interaction[k] == diffraction;
+    joined += paths.group[i][1] != no_group;
+    if (bends) continue;
+    CHECK(paths.group[i][1] == no_group);
+    CHECK(++waves[{paths.rx[i], paths.group[i][0]}] == 1);
+  }
+  CHECK(joined > 10);
+}
+
+TEST_CASE("a tower that drives: edges and faces of an instance, turned, in a frame of its own") {
+  const SceneFile still(tower()), far(std::vector<Quad>{{{500, 500, 0}, {20, 0, 0}, {0, 20, 0}}});
+  const glm::dvec3 source{9.2, -7.7, 30.3};
+  const Points around = arc({0, 0, 30.1}, 15, 250, 110, 301);
+  const std::vector<LinkFigures> expected = figures(run(at(still.path(), {source}, around, 1)));
+  const double turn = std::acos(-1.0) / 5;
+  const glm::dmat3 rotation(std::cos(turn), std::sin(turn), 0, -std::sin(turn), std::cos(turn), 0, 0, 0, 1);
+  const auto moved = [&](const glm::dvec3& p) { return rotation * p + glm::dvec3(3, -4, 0); };
+  Points there;
+  for (const glm::dvec3& p : around) there.push_back(moved(p));
+  Config config = at(far.path(), {moved(source)}, there, 1);
+  config.vehicle_types = {{"tower", still.path().string()}};
+  config.parked = {{.name = "it", .file = "", .places = {{3, -4, 0, 36}}, .type = "tower"}};
+  const std::vector<LinkFigures> links = figures(run(config));
+  REQUIRE(links.size() == expected.size());
+  for (size_t i = 0; i < links.size(); ++i) {
+    CAPTURE(i);
+    CHECK(links[i].paths == expected[i].paths);
+    CHECK(links[i].path_gain_db == doctest::Approx(expected[i].path_gain_db).epsilon(1e-5));
+  }
+}
