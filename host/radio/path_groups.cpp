@@ -42,13 +42,14 @@ bool is_diffracted(const Paths& paths, size_t row) {
 // A path, leg by leg.
 class Legs {
  public:
-  Legs(const Paths& paths, size_t row, const WorldState& state, const glm::dvec3& origin_m)
+  // measured: is the length asked for?
+  Legs(const Paths& paths, size_t row, const WorldState& state, const glm::dvec3& origin_m, bool measured)
       : paths_(paths),
         first_(paths.vertex_offset[row]),
         count_(paths.vertex_offset[row + 1] - first_),
         from_(state.transmitters[paths.tx[row]].position_m + origin_m),
         to_(state.receivers[paths.rx[row]].position_m + origin_m) {
-    for (size_t k = 0; k <= count_; ++k) length_m += glm::length(leg(k));
+    for (size_t k = 0; measured && k <= count_; ++k) length_m += glm::length(leg(k));
   }
   // To vertex k, or to the receiver.
   glm::dvec3 leg(size_t k) const { return point(k + 1) - point(k); }
@@ -79,11 +80,6 @@ std::vector<uint32_t> planes_of_surfaces(const Scene& scene, std::span<const Sce
 
 }  // namespace
 
-struct PathGrouping::Key {
-  uint64_t hash;
-  double weight;
-};
-
 PathGrouping::PathGrouping(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances,
                            double frequency_hz)
     : origin_m_(scene.origin_m),
@@ -102,19 +98,19 @@ wt_wedge PathGrouping::placed(uint32_t wedge, const WorldState& state) const {
   return out;
 }
 
-// The waves that the path belongs to, with the largest weights and their squares adding up to 1.
-std::vector<PathGrouping::Key> PathGrouping::keys_of(const Paths& paths, size_t row, const WorldState& state) const {
+// The waves that the path belongs to, with the largest weights and their squares adding up to 1. next: room.
+void PathGrouping::keys_of(const Paths& paths, size_t row, const WorldState& state, Keys& keys, Keys& next) const {
   constexpr size_t kept = 4 * most_groups;  // on the way
-  const Legs legs(paths, row, state, origin_m_);
-  std::vector<Key> keys{{nothing_yet, 1}}, next;
+  const bool bends = is_diffracted(paths, row);
+  const Legs legs(paths, row, state, origin_m_, bends);
+  keys.assign(1, {nothing_yet, 1});
   double since_m = 0;
   for (uint64_t k = paths.vertex_offset[row], at = 0; k < paths.vertex_offset[row + 1]; ++k, ++at) {
     const auto kind = static_cast<Interaction>(paths.vertex_interaction[k]);
     const uint32_t instance = paths.vertex_instance[k], local = paths.vertex_surface[k];
     const bool moves = instance != no_instance;
-    const glm::dvec3 leg = legs.leg(at), after = legs.leg(at + 1);
-    since_m += glm::length(leg);
-    if (kind == scattering) return {{mixed(row, step_of(kind, local)), 1}};
+    if (bends) since_m += glm::length(legs.leg(at));
+    if (kind == scattering) return keys.assign(1, {mixed(row, step_of(kind, local)), 1});
     if (kind == transmission) continue;
     if (kind == reflection) {
       const uint32_t plane = planes_of_[local + (moves ? first_surface_[instance] : 0)];
@@ -123,8 +119,8 @@ std::vector<PathGrouping::Key> PathGrouping::keys_of(const Paths& paths, size_t 
     }
     const uint32_t number = local + (moves ? first_wedge_[instance] : 0);
     const wt_wedge wedge = placed(number, state);
-    const EdgeShares shares =
-        edge_shares(wedge, glm::normalize(leg), glm::normalize(after), since_m, legs.length_m - since_m, wavelength_m_);
+    const EdgeShares shares = edge_shares(wedge, glm::normalize(legs.leg(at)), glm::normalize(legs.leg(at + 1)),
+                                          since_m, legs.length_m - since_m, wavelength_m_);
     const Choice choices[in_places] = {{step_of(kind, number), shares[0]},
                                        {0, shares[1]},
                                        {step_of(reflection, wedge.planes[0]), shares[2]},
@@ -140,12 +136,22 @@ std::vector<PathGrouping::Key> PathGrouping::keys_of(const Paths& paths, size_t 
     }
     keys.swap(next);
   }
+  if (keys.size() > 1) keep_largest(keys);
+}
+
+// One of each hash: what leads to one wave in two ways is joined.
+void PathGrouping::keep_largest(Keys& keys) {
+  for (size_t i = 0; i < keys.size(); ++i)
+    for (size_t j = keys.size() - 1; j > i; --j)
+      if (keys[j].hash == keys[i].hash) {
+        keys[i].weight = std::sqrt(keys[i].weight * keys[i].weight + keys[j].weight * keys[j].weight);
+        keys.erase(keys.begin() + static_cast<ptrdiff_t>(j));
+      }
   std::ranges::stable_sort(keys, std::ranges::greater(), &Key::weight);
   if (keys.size() > most_groups) keys.resize(most_groups);
   double sum = 0;
   for (const Key& key : keys) sum += key.weight * key.weight;
   for (Key& key : keys) key.weight /= std::sqrt(sum);
-  return keys;
 }
 
 // Rows first to end - 1 are of one link.
@@ -153,8 +159,9 @@ void PathGrouping::group_link(Paths& paths, size_t first, size_t end, const Worl
   std::unordered_map<uint64_t, uint32_t> numbers;
   numbers.reserve(2 * (end - first));
   std::unordered_set<uint64_t> taken;  // by geometrical waves
+  Keys keys, next;
   for (size_t row = first; row < end; ++row) {
-    std::vector<Key> keys = keys_of(paths, row, state);
+    keys_of(paths, row, state, keys, next);
     if (!is_diffracted(paths, row) && !taken.insert(keys[0].hash).second) keys[0].hash = mixed(keys[0].hash, row);
     for (size_t i = 0; i < keys.size(); ++i) {
       const auto at = numbers.try_emplace(keys[i].hash, static_cast<uint32_t>(numbers.size())).first;

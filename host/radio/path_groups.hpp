@@ -25,7 +25,11 @@ class PathGrouping {
   void operator()(Paths& paths, const WorldState& state) const;
 
  private:
-  struct Key;
+  struct Key {  // of a wave, and the part of a path that is one with it
+    uint64_t hash;
+    double weight;
+  };
+  using Keys = std::vector<Key>;
   glm::dvec3 origin_m_;
   double wavelength_m_;
   std::vector<wt_wedge> wedges_;                       // as radio/world_records.hpp has them
@@ -33,7 +37,8 @@ class PathGrouping {
   std::vector<uint32_t> first_surface_, first_wedge_;  // of instances
 
   wt_wedge placed(uint32_t wedge, const WorldState& state) const;
-  std::vector<Key> keys_of(const Paths& paths, size_t row, const WorldState& state) const;
+  void keys_of(const Paths& paths, size_t row, const WorldState& state, Keys& keys, Keys& next) const;
+  static void keep_largest(Keys& keys);
   void group_link(Paths& paths, size_t first, size_t end, const WorldState& state) const;
 };
 

@@ -210,14 +210,14 @@ void SavedRun::State::read_coefficients(size_t row, Paths& paths) const {
 void SavedRun::State::read_groups(size_t row, Paths& paths) const {
   if (!file.has("/paths/group")) return;
   const uint64_t first = first_path[row], count = first_path[row + 1] - first;
-  const auto numbers = file.rows<uint32_t>("/paths/group", first, count, {most_groups});
+  const auto groups = file.rows<uint32_t>("/paths/group", first, count, {most_groups});
   const auto weights = file.rows<double>("/paths/group_weight", first, count, {most_groups});
   paths.group.resize(count);
   paths.group_weight.resize(count);
-  for (size_t i = 0; i < numbers.size(); ++i) {
-    if (numbers[i] != no_group && numbers[i] >= count * most_groups)
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i] != no_group && groups[i] >= count * most_groups)
       throw RuntimeError("/paths/group has a number that is larger than there are groups");
-    paths.group[i / most_groups][i % most_groups] = numbers[i];
+    paths.group[i / most_groups][i % most_groups] = groups[i];
     paths.group_weight[i / most_groups][i % most_groups] = weights[i];
   }
 }
