@@ -51,6 +51,7 @@ LinkColumns link_columns(const FrameResult& frame, double frequency_hz) {
     out.paths.push_back(link.paths);
     out.los.push_back(link.los);
     out.path_gain_db.push_back(link.path_gain_db);
+    out.sum_of_powers_db.push_back(link.sum_of_powers_db);
     out.narrowband_gain_db.push_back(link.narrowband_gain_db);
     out.mean_delay_s.push_back(link.mean_delay_s);
     out.rms_delay_spread_s.push_back(link.rms_delay_spread_s);

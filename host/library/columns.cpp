@@ -35,6 +35,15 @@ struct Layout<glm::dvec3> {
   static constexpr int type = WAVETRACER_FLOAT64, width = 3;
 };
 
+template <>
+struct Layout<GroupNumbers> {
+  static constexpr int type = WAVETRACER_UINT32, width = most_groups;
+};
+template <>
+struct Layout<GroupWeights> {
+  static constexpr int type = WAVETRACER_FLOAT64, width = most_groups;
+};
+
 wavetracer_column checked(wavetracer_column column) {
   static const double nothing = 0;
   if (!column.data) column.data = &nothing;
@@ -105,6 +114,8 @@ constexpr Row rows[] = {
     {"aoa_phi_rad", of_paths<&Paths::aoa_phi_rad>},
     {"doppler_hz", of_paths<&Paths::doppler_hz>},
     {"quarters", of_paths<&Paths::quarters>},
+    {"group", of_paths<&Paths::group>},
+    {"group_weight", of_paths<&Paths::group_weight>},
     {"vertex_offset", of_paths<&Paths::vertex_offset>},
     {"vertex_position_m", of_paths<&Paths::vertex_position_m>},
     {"vertex_interaction", of_paths<&Paths::vertex_interaction>},
@@ -114,6 +125,7 @@ constexpr Row rows[] = {
     {"link_paths", of_links<&LinkColumns::paths>},
     {"link_los", of_links<&LinkColumns::los>},
     {"link_path_gain_db", of_links<&LinkColumns::path_gain_db>},
+    {"link_sum_of_powers_db", of_links<&LinkColumns::sum_of_powers_db>},
     {"link_narrowband_gain_db", of_links<&LinkColumns::narrowband_gain_db>},
     {"link_mean_delay_s", of_links<&LinkColumns::mean_delay_s>},
     {"link_rms_delay_spread_s", of_links<&LinkColumns::rms_delay_spread_s>},

@@ -44,8 +44,8 @@ namespace wavetracer::c_api {
 struct LinkColumns {
   std::vector<uint32_t> paths;
   std::vector<uint8_t> los;
-  std::vector<double> path_gain_db, narrowband_gain_db, mean_delay_s, rms_delay_spread_s, doppler_spread_hz,
-      missed_power_share;
+  std::vector<double> path_gain_db, sum_of_powers_db, narrowband_gain_db, mean_delay_s, rms_delay_spread_s,
+      doppler_spread_hz, missed_power_share;
 };
 
 // Fields at every carrier, one row per path; empty where there is only one.

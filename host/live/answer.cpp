@@ -113,6 +113,8 @@ void write_links(Line& line, const LiveFrame& frame, const std::vector<LinkFigur
     line.raw(link.los ? "true" : "false");
     line.key("path_gain_db");
     line.number(link.path_gain_db);
+    line.key("sum_of_powers_db");
+    line.number(link.sum_of_powers_db);
     line.key("narrowband_gain_db");
     line.number(link.narrowband_gain_db);
     line.key("mean_delay_s");

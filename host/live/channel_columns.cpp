@@ -68,12 +68,13 @@ void write_links(Cbor& out, const std::vector<LinkFigures>& figures) {
     out.column(key, values);
   };
   out.text("links");
-  out.head(Major::map, 10);
+  out.head(Major::map, 11);
   column("tx", [](const LinkFigures& link) { return link.tx; });
   column("rx", [](const LinkFigures& link) { return link.rx; });
   column("paths", [](const LinkFigures& link) { return link.paths; });
   column("los", [](const LinkFigures& link) { return static_cast<uint8_t>(link.los); });
   column("path_gain_db", [](const LinkFigures& link) { return link.path_gain_db; });
+  column("sum_of_powers_db", [](const LinkFigures& link) { return link.sum_of_powers_db; });
   column("narrowband_gain_db", [](const LinkFigures& link) { return link.narrowband_gain_db; });
   column("mean_delay_s", [](const LinkFigures& link) { return link.mean_delay_s; });
   column("rms_delay_spread_s", [](const LinkFigures& link) { return link.rms_delay_spread_s; });

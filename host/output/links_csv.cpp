@@ -18,7 +18,8 @@ namespace wavetracer {
 namespace {
 
 constexpr std::string_view header =
-    "time_s,tx,rx,paths,path_gain_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
+    "time_s,tx,rx,paths,path_gain_db,sum_of_powers_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,doppler_"
+    "spread_hz,los,"
     "missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share,tx_beam,rx_beam,"
     "beam_gain_db\n";
 
@@ -67,11 +68,11 @@ void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
     row += link.paths;
     const std::string best = best_beams(frame.beams, {link.tx, link.rx}, beam);
     const LinkBudget budget = link_budget(radio_, link.path_gain_db);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{},{}\n", frame.world.time_s,
-                   tx_.at(link.tx), rx_.at(link.rx), link.paths, link.path_gain_db, link.narrowband_gain_db,
-                   link.mean_delay_s, link.rms_delay_spread_s, link.doppler_spread_hz, link.los,
-                   link.missed_power_share, budget.received_dbm, budget.snr_db, gone.paths,
-                   gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0, best);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{},{}\n",
+                   frame.world.time_s, tx_.at(link.tx), rx_.at(link.rx), link.paths, link.path_gain_db,
+                   link.sum_of_powers_db, link.narrowband_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
+                   link.doppler_spread_hz, link.los, link.missed_power_share, budget.received_dbm, budget.snr_db,
+                   gone.paths, gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0, best);
   }
   file_.write(bytes(text));
 }

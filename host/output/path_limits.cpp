@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
 #include "radio/path_power.hpp"
 
 namespace wavetracer {
@@ -44,6 +45,17 @@ void append_vertices(const Paths& from, size_t row, Paths& to) {
   to.vertex_offset.push_back(to.vertex_position_m.size());
 }
 
+// Numbers the groups of each link by the rows that are left.
+void number_groups(Paths& paths) {
+  std::unordered_map<uint32_t, uint32_t> numbers;
+  for (size_t row = 0; row < paths.group.size(); ++row) {
+    const auto link = [&](size_t i) { return std::tuple(paths.frame[i], paths.tx[i], paths.rx[i]); };
+    if (row > 0 && link(row) != link(row - 1)) numbers.clear();
+    for (uint32_t& group : paths.group[row])
+      if (group != no_group) group = numbers.try_emplace(group, static_cast<uint32_t>(numbers.size())).first->second;
+  }
+}
+
 }  // namespace
 
 bool limits_paths(const OutputConfig& output) {
@@ -72,6 +84,9 @@ Paths select_rows(const Paths& paths, std::span<const uint8_t> written) {
     out.*column = selected(paths.*column, written);
   out.a = selected(paths.a, written);
   out.quarters = selected(paths.quarters, written);
+  out.group = selected(paths.group, written);
+  out.group_weight = selected(paths.group_weight, written);
+  number_groups(out);
   for (size_t row = 0; row < paths.size(); ++row)
     if (written[row]) append_vertices(paths, row, out);
   return out;

@@ -24,6 +24,7 @@ bool is_rectangular(const Paths& paths) {
   for (const auto* column : {&paths.gain_db, &paths.aod_theta_rad, &paths.aod_phi_rad, &paths.aoa_theta_rad,
                              &paths.aoa_phi_rad, &paths.doppler_hz})
     whole &= column->size() == rows;
+  whole &= paths.group.size() == paths.group_weight.size() && (paths.group.empty() || paths.group.size() == rows);
   return whole && paths.vertex_interaction.size() == vertices && paths.vertex_surface.size() == vertices &&
          paths.vertex_instance.size() == vertices;
 }
@@ -65,6 +66,30 @@ void append_coefficients(const Paths& paths, FrameTables& tables, const std::str
   tables.append<double>(name, meaning, values, {paths.rx_ports, paths.tx_ports});
 }
 
+// Without groups each path is one, numbered in its link.
+void append_groups(const Paths& paths, FrameTables& tables) {
+  std::vector<GroupNumbers> own;
+  std::vector<GroupWeights> whole;
+  for (size_t row = 0; paths.group.empty() && row < paths.size(); ++row) {
+    const bool begins = row == 0 || paths.tx[row] != paths.tx[row - 1] || paths.rx[row] != paths.rx[row - 1];
+    own.push_back(only_group(begins ? 0 : own.back()[0] + 1));
+    whole.push_back(whole_weight);
+  }
+  const auto flat = [rows = paths.size()](const auto& column) {
+    return std::span(rows > 0 ? column[0].data() : nullptr, most_groups * rows);
+  };
+  tables.append<uint32_t>("group",
+                          {"1",
+                           "numbers of the groups of the path in its link and frame, that with the largest weight "
+                           "first; 4294967295 for none"},
+                          flat(paths.group.empty() ? own : paths.group), {most_groups});
+  tables.append<double>("group_weight",
+                        {"1",
+                         "the part of the field that is one with each group; the power of a link is the sum over "
+                         "groups and pairs of ports of |sum over paths of weight a exp(-j 2 pi f delay_s)|^2"},
+                        flat(paths.group.empty() ? whole : paths.group_weight), {most_groups});
+}
+
 void append_paths(const Paths& paths, FrameTables& tables) {
   tables.group("/paths", "one row per path, sorted by frame, tx, rx, delay");
   const auto column = [&](const char* name, const char* units, const char* description, const auto& values) {
@@ -88,6 +113,7 @@ void append_paths(const Paths& paths, FrameTables& tables) {
   column("aoa_phi_rad", "rad",
          "direction from which the path arrives, seen from the receiver, angle from +x towards +y", paths.aoa_phi_rad);
   column("doppler_hz", "Hz", "shift of the received frequency, positive when the path gets shorter", paths.doppler_hz);
+  append_groups(paths, tables);
   column("vertex_offset", "1",
          "the vertices of path i are rows vertex_offset[i] to vertex_offset[i + 1] - 1 of /vertices",
          paths.vertex_offset);

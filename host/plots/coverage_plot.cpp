@@ -7,6 +7,7 @@
 #include <limits>
 #include "base/times.hpp"
 #include "plots/gnuplot.hpp"
+#include "radio/grouped_power.hpp"
 #include "radio/link_budget.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
@@ -104,19 +105,17 @@ std::vector<CoverageCell> coverage_cells(const SavedRun& run, const SavedFrame& 
     cells.push_back({place->ix, place->iy, frame.receiver_position_m[rx], 0, {}, 0});
   }
   if (cells.empty()) return cells;
-  std::vector<double> best(cells.size(), 0), power(cells.size(), 0);
-  std::vector<uint32_t> of(cells.size(), 0);  // the transmitter that `power` is of; paths are sorted by it
+  std::vector<double> best(cells.size(), 0);
   const Paths& paths = frame.paths;
-  for (size_t i = 0; i < paths.size(); ++i) {
-    const uint32_t k = cell_of[paths.rx[i]];
-    if (k == no_cell || (tx && *tx != paths.tx[i])) continue;
-    if (of[k] != paths.tx[i]) power[k] = 0;
-    of[k] = paths.tx[i];
-    for (const auto& a : paths.a[i]) power[k] += std::norm(a);
-    ++cells[k].paths;
-    if (power[k] <= best[k]) continue;
-    best[k] = power[k];
-    cells[k].tx = paths.tx[i];
+  for (size_t first = 0, end = 0; first < paths.size(); first = end) {
+    while (end < paths.size() && paths.tx[end] == paths.tx[first] && paths.rx[end] == paths.rx[first]) ++end;
+    const uint32_t k = cell_of[paths.rx[first]];
+    if (k == no_cell || (tx && *tx != paths.tx[first])) continue;
+    const double power = grouped_power(paths, first, end, run.frequency_hz());
+    cells[k].paths += static_cast<uint32_t>(end - first);
+    if (power <= best[k]) continue;
+    best[k] = power;
+    cells[k].tx = paths.tx[first];
   }
   for (size_t k = 0; k < cells.size(); ++k) cells[k].path_gain_db = best[k] > 0 ? 10 * std::log10(best[k]) : NAN;
   std::stable_sort(cells.begin(), cells.end(), [](const CoverageCell& a, const CoverageCell& b) {

@@ -14,7 +14,7 @@ namespace wavetracer::plots {
 struct CoverageCell {
   uint32_t ix = 0, iy = 0;
   glm::dvec3 position_m{0};    // file coordinates
-  double path_gain_db = 0;     // of the best transmitter, powers of its paths added; NaN where no path leads
+  double path_gain_db = 0;     // of the best transmitter, powers of its groups of paths added; NaN where no path leads
   std::optional<uint32_t> tx;  // that transmitter
   uint32_t paths = 0;          // of all transmitters that count
 };

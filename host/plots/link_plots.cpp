@@ -101,7 +101,7 @@ struct TimeAxis {
 Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioConfig& radio) {
   std::string table =
       "link,tx,rx,frame,time_s,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
-      "narrowband_gain_db,received_dbm,snr_db\n";
+      "narrowband_gain_db,received_dbm,snr_db,sum_of_powers_db\n";
   const TimeAxis axis(series.moments.front());
   const std::string time = axis.column(5);
   std::string plot = "plot ";
@@ -109,11 +109,11 @@ Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioCon
     const Link& link = series.links[k];
     for (const auto& [time_s, f] : series.moments[k]) {
       const LinkBudget budget = link_budget(radio, f.paths > 0 ? f.path_gain_db : NAN);
-      table += fmt::format("{},{},{},{},{},{},{},{},{},{},{:d},{},{},{}\n", k + 1,
+      table += fmt::format("{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{}\n", k + 1,
                            csv_text(run.transmitters()[link.tx].name), csv_text(run.receivers()[link.rx].name), f.frame,
                            time_s, f.paths, f.paths > 0 ? f.path_gain_db : NAN, f.mean_delay_s, f.rms_delay_spread_s,
                            f.doppler_spread_hz, f.los, f.paths > 0 ? f.narrowband_gain_db : NAN, budget.received_dbm,
-                           budget.snr_db);
+                           budget.snr_db, f.paths > 0 ? f.sum_of_powers_db : NAN);
     }
     const std::string_view colour = colours[k % colours.size()];
     plot += fmt::format(

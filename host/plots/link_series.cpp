@@ -8,7 +8,7 @@
 #include <map>
 #include "base/spelling.hpp"
 #include "output/path_kinds.hpp"
-#include "radio/path_power.hpp"
+#include "radio/grouped_power.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
@@ -26,8 +26,11 @@ std::vector<Link> strongest_links(const SavedRun& run, const Filter& filter, siz
   std::map<Link, double> power;
   for (size_t row = 0; row < run.frame_count(); ++row) {
     const Paths paths = run.frame(row).paths;
-    for (size_t i = 0; i < paths.size(); ++i)
-      if (filter(paths.tx[i], paths.rx[i])) power[{paths.tx[i], paths.rx[i]}] += power_of(paths, i);
+    for (size_t first = 0, end = 0; first < paths.size(); first = end) {
+      const Link link{paths.tx[first], paths.rx[first]};
+      while (end < paths.size() && Link{paths.tx[end], paths.rx[end]} == link) ++end;
+      if (filter(link.tx, link.rx)) power[link] += grouped_power(paths, first, end, run.frequency_hz());
+    }
   }
   std::vector<std::pair<Link, double>> sorted(power.begin(), power.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -46,7 +49,7 @@ std::vector<Link> strongest_links(const SavedRun& run, const Filter& filter, siz
 
 LinkFigures no_figures(uint32_t frame, const Link& link) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  return {frame, link.tx, link.rx, 0, -infinity, -infinity, nan, nan, nan, false};
+  return {frame, link.tx, link.rx, 0, -infinity, -infinity, -infinity, nan, nan, nan, false};
 }
 
 void add_paths(const SavedFrame& frame, const Link& link, std::vector<PathPoint>& out) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "radio/element_link.hpp"
+#include "radio/grouped_power.hpp"
 #include "radio/path_power.hpp"
 #include "radio/unit_phases.hpp"
 #include "radio/wide_loops.hpp"
@@ -16,6 +17,8 @@ namespace wavetracer {
 namespace {
 
 using Complex = std::complex<double>;
+
+constexpr size_t ports = 4;  // pairs, of Paths::a
 
 // The first element alone.
 Codebook first_element(uint32_t elements) {
@@ -120,11 +123,21 @@ BeamRows Beams::gains(const ElementModel& model, const FrameResult& frame) const
     const ElementLink elements(model, frame, link);
     LinkBeams made(sent, heard);
     std::vector<double> power(first[i + 1] - first[i]);
+    GroupFields groups(frame.paths, elements.first_row(), elements.end_row(), ports * power.size());
+    std::vector<Complex> fields(ports * power.size());
     for (size_t row = elements.first_row(); row < elements.end_row(); ++row) {
       made.hear(elements.path(row), model.carriers_hz()[0], frame.paths.delay_s[row]);
-      for (size_t k = 0; k < power.size(); ++k)
-        power[k] += power_of(frame.paths, row) * (made.re[k] * made.re[k] + made.im[k] * made.im[k]);
+      if (groups.is_alone(row)) {
+        for (size_t k = 0; k < power.size(); ++k)
+          power[k] += power_of(frame.paths, row) * (made.re[k] * made.re[k] + made.im[k] * made.im[k]);
+        continue;
+      }
+      const Complex carrier = carrier_phase(model.carriers_hz()[0], frame.paths.delay_s[row]);
+      for (size_t v = 0; v < fields.size(); ++v)
+        fields[v] = carrier * frame.paths.a[row][v % ports] * Complex(made.re[v / ports], made.im[v / ports]);
+      groups.add(row, fields);
     }
+    groups.add_powers(power);
     for (size_t k = 0; k < power.size(); ++k) {
       const size_t at = first[i] + k;
       out.tx[at] = link.tx;

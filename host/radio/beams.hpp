@@ -13,9 +13,8 @@ class Beams {
   // Reads each codebook once. Throws ConfigError or InputError.
   explicit Beams(const Config& config);
 
-  // Rows of links of which an end has a codebook, see BeamRows. gain_db: the power of all paths through both beams,
-  // added up without their phases, as path_gain_db in links.csv: 10 log10 of the sum over paths and pairs of ports of
-  // |w_rx a w_tx|^2; -inf where nothing arrives.
+  // Rows of links of which an end has a codebook, see BeamRows. gain_db: the power of all paths through both beams, as
+  // path_gain_db in links.csv with w_rx a w_tx in the place of a (radio/grouped_power.hpp); -inf where nothing arrives.
   BeamRows gains(const ElementModel& model, const FrameResult& frame) const;
 
  private:

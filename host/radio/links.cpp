@@ -6,8 +6,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
+#include "radio/grouped_power.hpp"
 #include "radio/path_power.hpp"
 #include "wavetracer/missed.hpp"
 
@@ -30,12 +30,11 @@ Moments moments(const Paths& paths, RowRange rows, const std::vector<double>& va
   return {mean, std::sqrt(square)};
 }
 
-// |h|^2 at the carrier, summed over pairs of ports. Whole turns of the phase are left out before the sine is taken.
+// |h|^2 at the carrier, summed over pairs of ports.
 double narrowband_power(const Paths& paths, RowRange rows, double frequency_hz) {
   std::remove_cvref_t<decltype(paths.a[0])> sum{};
   for (size_t row = rows.begin; row < rows.end; ++row) {
-    const double turns = frequency_hz * paths.delay_s[row];
-    const std::complex<double> carrier = std::polar(1.0, -2 * std::numbers::pi * (turns - std::floor(turns)));
+    const std::complex<double> carrier = carrier_phase(frequency_hz, paths.delay_s[row]);
     for (size_t k = 0; k < sum.size(); ++k) sum[k] += paths.a[row][k] * carrier;
   }
   double power = 0;
@@ -51,7 +50,8 @@ LinkFigures figures(const Paths& paths, RowRange rows, double frequency_hz) {
     power += power_of(paths, row);
     link.los |= paths.depth[row] == 0;
   }
-  link.path_gain_db = 10 * std::log10(power);
+  link.path_gain_db = 10 * std::log10(grouped_power(paths, rows.begin, rows.end, frequency_hz));
+  link.sum_of_powers_db = 10 * std::log10(power);
   link.narrowband_gain_db = 10 * std::log10(narrowband_power(paths, rows, frequency_hz));
   if (power > 0) {
     const Moments delay = moments(paths, rows, paths.delay_s, power);

@@ -15,7 +15,8 @@ namespace wavetracer {
 struct LinkFigures {
   uint32_t frame = 0, tx = 0, rx = 0;
   uint32_t paths = 0;
-  double path_gain_db = 0;        // |a|^2 of all paths added up, without their phases
+  double path_gain_db = 0;        // powers of groups of paths added up, fields within each (radio/grouped_power.hpp)
+  double sum_of_powers_db = 0;    // |a|^2 of all paths added up, without their phases
   double narrowband_gain_db = 0;  // |h|^2 at the carrier, h = sum a exp(-j 2 pi f tau): with them
   double mean_delay_s = 0;
   double rms_delay_spread_s = 0;

@@ -1,7 +1,9 @@
-// The power of a path.
+// The power of a path, and what it needs to be added to others as a field.
 #pragma once
+#include <cmath>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 
 #include "wavetracer/paths.hpp"
 
@@ -12,6 +14,12 @@ inline double power_of(const Paths& paths, size_t row) {
   double power = 0;
   for (const auto& a : paths.a[row]) power += std::norm(a);
   return power;
+}
+
+// exp(-j 2 pi f tau). Whole turns of the phase are left out before the sine is taken.
+inline std::complex<double> carrier_phase(double frequency_hz, double delay_s) {
+  const double turns = frequency_hz * delay_s;
+  return std::polar(1.0, -2 * std::numbers::pi * (turns - std::floor(turns)));
 }
 
 }  // namespace wavetracer

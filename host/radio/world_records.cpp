@@ -64,15 +64,17 @@ std::vector<wt_wedge> wedge_records(const Scene& scene, std::span<const Scene> m
   return records;
 }
 
+void place_wedge(wt_wedge& wedge, const WorldState& state) {
+  if (wedge.instance == WT_NONE) return;
+  const Placement& body = state.instances[wedge.instance];
+  store(wedge.start, body.rotation * vector_of(wedge.start) + body.position_m);
+  store(wedge.along, body.rotation * vector_of(wedge.along));
+  store(wedge.face, body.rotation * vector_of(wedge.face));
+  store(wedge.normal, body.rotation * vector_of(wedge.normal));
+}
+
 void place_wedges(std::vector<wt_wedge>& wedges, const WorldState& state) {
-  for (wt_wedge& wedge : wedges) {
-    if (wedge.instance == WT_NONE) continue;
-    const Placement& body = state.instances[wedge.instance];
-    store(wedge.start, body.rotation * vector_of(wedge.start) + body.position_m);
-    store(wedge.along, body.rotation * vector_of(wedge.along));
-    store(wedge.face, body.rotation * vector_of(wedge.face));
-    store(wedge.normal, body.rotation * vector_of(wedge.normal));
-  }
+  for (wt_wedge& wedge : wedges) place_wedge(wedge, state);
 }
 
 std::vector<wt_exact_instance> instance_records(std::span<const Instance> instances, const WorldState& state) {

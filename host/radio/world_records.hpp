@@ -17,7 +17,8 @@ std::vector<wt_exact_surface> surface_records(const Scene& scene, std::span<cons
 // In the coordinates of their scene or model, complete but for their place.
 std::vector<wt_wedge> wedge_records(const Scene& scene, std::span<const Scene> models,
                                     std::span<const Instance> instances);
-// The same wedges where the frame has them.
+// The same wedges where the frame has them, and one of them.
+void place_wedge(wt_wedge& wedge, const WorldState& state);
 void place_wedges(std::vector<wt_wedge>& wedges, const WorldState& state);
 
 // Without the numbers of surfaces in models.

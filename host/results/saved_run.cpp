@@ -164,6 +164,7 @@ struct SavedRun::State {
   SavedFrame read_frame(size_t row) const;
   void read_columns(size_t row, Paths& paths) const;
   void read_coefficients(size_t row, Paths& paths) const;
+  void read_groups(size_t row, Paths& paths) const;
   void read_vertices(size_t row, Paths& paths) const;
   void read_poses(size_t row, SavedFrame& frame) const;
   void read_motion(size_t row, SavedFrame& frame) const;
@@ -203,6 +204,22 @@ void SavedRun::State::read_coefficients(size_t row, Paths& paths) const {
   paths.a.resize(count);
   for (size_t i = 0; i < count; ++i)
     for (size_t k = 0; k < ports; ++k) paths.a[i][k] = {re[i * ports + k], im[i * ports + k]};
+}
+
+// Files of before there were groups have none.
+void SavedRun::State::read_groups(size_t row, Paths& paths) const {
+  if (!file.has("/paths/group")) return;
+  const uint64_t first = first_path[row], count = first_path[row + 1] - first;
+  const auto groups = file.rows<uint32_t>("/paths/group", first, count, {most_groups});
+  const auto weights = file.rows<double>("/paths/group_weight", first, count, {most_groups});
+  paths.group.resize(count);
+  paths.group_weight.resize(count);
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i] != no_group && groups[i] >= count * most_groups)
+      throw RuntimeError("/paths/group has a number that is larger than there are groups");
+    paths.group[i / most_groups][i % most_groups] = groups[i];
+    paths.group_weight[i / most_groups][i % most_groups] = weights[i];
+  }
 }
 
 void SavedRun::State::read_vertices(size_t row, Paths& paths) const {
@@ -265,6 +282,7 @@ SavedFrame SavedRun::State::read_frame(size_t row) const {
   out.time_s = times_s.at(row);
   read_columns(row, out.paths);
   read_coefficients(row, out.paths);
+  read_groups(row, out.paths);
   read_vertices(row, out.paths);
   read_poses(row, out);
   read_motion(row, out);

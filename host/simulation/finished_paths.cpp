@@ -20,6 +20,7 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
       sort_(context),
       scan_(context),
       carriers_hz_(carriers_hz(config.radio)) {
+  if (config.trace.diffraction) grouping_.emplace(scene, world.models(), world.instances(), config.radio.frequency_hz);
   if (!scene.volumes.empty()) vegetation_.emplace(context, volume_table(scene));
   for (const double carrier_hz : carriers_hz_) {
     Config at_carrier = config;

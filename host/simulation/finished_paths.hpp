@@ -9,6 +9,7 @@
 #include "passes/sort.hpp"
 #include "passes/vegetation.hpp"
 #include "radio/fields.hpp"
+#include "radio/path_groups.hpp"
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/frame_account.hpp"
 #include "simulation/world.hpp"
@@ -29,6 +30,10 @@ class FinishedPaths {
              Counters& counters);
   // Other materials for the frames that follow, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
+  // Sets their groups; frame by frame, as world has the ends and vehicles. Nothing without trace.diffraction.
+  void group(Paths& paths, const WorldState& world) const {
+    if (grouping_) (*grouping_)(paths, world);
+  }
   // The paths, once the device has finished, with the counters as it left them. left_out: gets paths that
   // radio/fields.hpp does not count. carriers: gets the fields that were started besides; may be nullptr.
   Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
@@ -47,6 +52,7 @@ class FinishedPaths {
   std::optional<Vegetation> vegetation_;  // where the scene has any
   std::vector<Fields> fields_;            // of each carrier, which share nothing but the rows
   std::vector<double> carriers_hz_;
+  std::optional<PathGrouping> grouping_;
 };
 
 // Paths that were found elsewhere as visible ones, instead of those that the list has.

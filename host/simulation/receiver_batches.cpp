@@ -16,7 +16,7 @@ void append(std::vector<T>& to, const std::vector<T>& from, size_t first, size_t
 }
 
 void append_rows(Paths& to, const Paths& from, size_t first, size_t end) {
-  static_assert(sizeof(Paths) == 8 + 18 * sizeof(std::vector<int>), "append the column that is new here, too");
+  static_assert(sizeof(Paths) == 8 + 20 * sizeof(std::vector<int>), "append the column that is new here, too");
   for (auto column : {&Paths::frame, &Paths::tx, &Paths::rx, &Paths::depth})
     append(to.*column, from.*column, first, end);
   for (auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::aod_theta_rad, &Paths::aod_phi_rad,
@@ -24,6 +24,8 @@ void append_rows(Paths& to, const Paths& from, size_t first, size_t end) {
     append(to.*column, from.*column, first, end);
   append(to.a, from.a, first, end);
   append(to.quarters, from.quarters, first, end);
+  append(to.group, from.group, first, end);
+  append(to.group_weight, from.group_weight, first, end);
   const uint64_t vertices = from.vertex_offset[first], start = to.vertex_offset.back();
   for (size_t row = first; row < end; ++row) to.vertex_offset.push_back(start + from.vertex_offset[row + 1] - vertices);
   const uint64_t last = from.vertex_offset[end];

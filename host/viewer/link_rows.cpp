@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 #include <type_traits>
+#include "radio/grouped_power.hpp"
 
 namespace wavetracer {
 namespace {
@@ -39,6 +40,18 @@ void add_narrowband_gains(const Paths& paths, const std::vector<size_t>& row_of,
     for (const std::complex<double>& part : h[k]) power += std::norm(part);
     if (power > 0) rows[k].narrowband_gain_db = 10 * std::log10(power);
   }
+}
+
+// As radio/grouped_power.hpp has them. Paths of a link may stand apart in a file, which has no groups of them then.
+void add_path_gains(const Paths& paths, const std::vector<size_t>& row_of, double frequency_hz,
+                    std::vector<LinkRow>& rows) {
+  std::vector<double> power(rows.size(), 0);
+  for (size_t first = 0, end = 0; first < paths.size(); first = end) {
+    while (end < paths.size() && row_of[end] == row_of[first]) ++end;
+    power[row_of[first]] += grouped_power(paths, first, end, frequency_hz);
+  }
+  for (size_t k = 0; k < rows.size(); ++k)
+    if (power[k] > 0) rows[k].path_gain_db = 10 * std::log10(power[k]);
 }
 
 // The row of a link, which is there.
@@ -81,15 +94,13 @@ std::vector<LinkRow> link_rows(const SavedFrame& frame, const LinkTable& table, 
     power[k] += path_power[i];
     mean_s[k] += path_power[i] * paths.delay_s[i];
   }
+  add_path_gains(paths, row_of, frequency_hz, rows);
   add_narrowband_gains(paths, row_of, frequency_hz, rows);
   for (size_t k = 0; k < rows.size(); ++k) mean_s[k] /= power[k];
   for (size_t i = 0; i < paths.size(); ++i)
     square_s2[row_of[i]] += path_power[i] * std::pow(paths.delay_s[i] - mean_s[row_of[i]], 2);
   for (size_t k = 0; k < rows.size(); ++k)
-    if (power[k] > 0) {
-      rows[k].path_gain_db = 10 * std::log10(power[k]);
-      rows[k].rms_delay_spread_s = std::sqrt(square_s2[k] / power[k]);
-    }
+    if (power[k] > 0) rows[k].rms_delay_spread_s = std::sqrt(square_s2[k] / power[k]);
   take_table(frame, table, first_link, rows);
   return rows;
 }

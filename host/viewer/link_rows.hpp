@@ -13,7 +13,7 @@ struct LinkRow {
   Link link;
   uint32_t paths = 0;
   bool los = false;
-  double path_gain_db = -std::numeric_limits<double>::infinity();        // of the sum of powers
+  double path_gain_db = -std::numeric_limits<double>::infinity();        // fields of a group added, then powers
   double narrowband_gain_db = -std::numeric_limits<double>::infinity();  // coherent, at the carrier
   double rms_delay_spread_s = std::numeric_limits<double>::quiet_NaN();  // where no power arrives
   double missed_power_share = std::numeric_limits<double>::quiet_NaN();  // where that is not known

@@ -13,6 +13,19 @@ enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, d
 
 constexpr uint32_t no_instance = 0xFFFFFFFFu;
 
+// What is one wave: fields of a group are added with their phases, powers of groups as they are. A diffracted wave near
+// a shadow boundary is one with the wave that ends there, and a smaller part of it the farther it is from the boundary.
+// The power of a link is the sum over its groups g and pairs of ports of |sum over paths i of w_ig a_i
+// exp(-j 2 pi f tau_i)|^2, with the weights w; squares of the weights of a path add up to 1.
+constexpr size_t most_groups = 4;  // of a path
+constexpr uint32_t no_group = 0xFFFFFFFFu;
+// Numbers in the link, 0, 1, 2 ... in the order of its rows; the one with the largest weight comes first, and the last
+// ones may be no_group with weight 0.
+using GroupNumbers = std::array<uint32_t, most_groups>;
+using GroupWeights = std::array<double, most_groups>;
+constexpr GroupNumbers only_group(uint32_t number) { return {number, no_group, no_group, no_group}; }
+constexpr GroupWeights whole_weight{1, 0, 0, 0};
+
 // Row i of every array in Paths is one path; rows are sorted by frame, tx, rx, delay, then by sequence.
 // a[i] is row major (rx port, tx port); single-port antennas use element 0 only.
 // a is the passband coefficient between the antenna ports without the carrier phase of the delay:
@@ -26,6 +39,9 @@ struct Paths {
   // Which quarters of the launch found the path, one bit each (missed.hpp); empty if that is not known. A path that
   // needs no ray has all four.
   std::vector<uint8_t> quarters;
+  // The groups of each path and its weight in them, see above; empty: every path is a group of its own.
+  std::vector<GroupNumbers> group;
+  std::vector<GroupWeights> group_weight;
   std::vector<uint64_t> vertex_offset{0};  // size() + 1 entries
   // One entry per interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates

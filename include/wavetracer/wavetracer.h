@@ -143,6 +143,12 @@ typedef struct wavetracer_column {
      doppler_hz                                              float64
      quarters                                                uint8      a bit for each quarter of the launch that found
                                                              the path; no rows where that is not known
+     group                                                   uint32 x 4: numbers in the link of the groups of the path,
+                                                             0xFFFFFFFF: none. The power of a link is the sum over
+                                                             groups and pairs of ports of |sum of group_weight a
+                                                             exp(-j 2 pi f delay_s)|^2. No rows without diffraction:
+                                                             then every path is a group of its own
+     group_weight                                            float64 x 4
    Rows vertex_offset[i] to vertex_offset[i + 1] of these are the interactions of path i, from the transmitter on:
      vertex_offset                                           uint64     one row more than there are paths
      vertex_position_m                                       float64 x 3, file coordinates
@@ -153,8 +159,9 @@ typedef struct wavetracer_column {
      link                                                    uint32 x 2: tx, rx
      link_paths                                              uint32     how many
      link_los                                                uint8      1 where one of them has no interaction
-     link_path_gain_db, link_narrowband_gain_db,             float64    as links.csv has them (docs/formats.md): the sum
-     link_mean_delay_s, link_rms_delay_spread_s,                        of powers, the coherent sum at the carrier, ...
+     link_path_gain_db, link_sum_of_powers_db,               float64    as links.csv has them (docs/formats.md): powers
+     link_narrowband_gain_db,                                           of groups added, powers of paths added, the
+     link_mean_delay_s, link_rms_delay_spread_s,                        coherent sum at the carrier, ...
      link_doppler_spread_hz
      link_missed_power_share                                 float64    of links.csv: power that was missed, estimated,
                                                              against that which arrives; NaN where that is not known
@@ -168,7 +175,7 @@ typedef struct wavetracer_column {
      response_offset                                         uint64     one row more than there are links
    With array.codebook one row per link and pair of beams, of links of which an end has a codebook, else none:
      beam_tx, beam_rx, beam_tx_beam, beam_rx_beam            uint32     ends, and their beams
-     beam_gain_db                                            float64    of the sum of powers through both beams
+     beam_gain_db                                            float64    of the power through both beams, in groups
    One row an end; NaN while it is absent:
      transmitter_position_m, receiver_position_m             float64 x 3, file coordinates
    Returns 1; 0 with an error of code USAGE where there is no such column. */

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from .paths import Paths
 
 Array = NDArray[Any]
+_NO_GROUP = 0xFFFFFFFF
 
 
 def joined_bits(values: Array, offset: Array) -> Array:
@@ -48,6 +49,19 @@ def rows_of(column: Callable[[str], Array], rows: Array) -> Callable[[str], Arra
     return pick
 
 
+def _grouped(paths: Paths, row: Array, fields: Array, count: int) -> Array:
+    """The power of each of `count` links: fields of groups are added, then powers. row: the link of each path; fields:
+    at the carrier, shape (paths, rx ports, tx ports)."""
+    group, weight = paths.group, paths.group_weight
+    if len(group) == 0:
+        return np.bincount(row, (np.abs(fields) ** 2).sum(axis=(1, 2)), count)
+    path, slot = np.nonzero(group != _NO_GROUP)
+    key, place = np.unique(row[path].astype(np.int64) << 32 | group[path, slot], return_inverse=True)
+    sums = np.zeros((len(key), *fields.shape[1:]), complex)
+    np.add.at(sums, place, fields[path] * weight[path, slot][:, None, None])
+    return np.bincount(key >> 32, (np.abs(sums) ** 2).sum(axis=(1, 2)), count)
+
+
 def of_links(paths: Paths, tx: Array, rx: Array) -> dict[str, Array]:
     """The figures of the links (tx[i], rx[i]), sorted and each once, from these paths alone, each of which is of one of
     them. What rays have missed is not known of a part."""
@@ -63,12 +77,14 @@ def of_links(paths: Paths, tx: Array, rx: Array) -> dict[str, Array]:
 
     carrier = np.exp(-2j * np.pi * (paths.frequency_hz * paths.delay_s % 1))[:, None, None]
     h = np.zeros((count, *paths.a.shape[1:]), complex)
-    np.add.at(h, row, paths.a * carrier)
+    fields = paths.a * carrier
+    np.add.at(h, row, fields)
     with np.errstate(divide="ignore", invalid="ignore"):
         delay, spread = moments(paths.delay_s)
         return {"paths": np.bincount(row, minlength=count).astype(np.uint32),
                 "los": np.bincount(row, paths.depth == 0, count) > 0,
-                "path_gain_db": 10 * np.log10(total),
+                "path_gain_db": 10 * np.log10(_grouped(paths, row, fields, count)),
+                "sum_of_powers_db": 10 * np.log10(total),
                 "narrowband_gain_db": 10 * np.log10((np.abs(h) ** 2).sum(axis=(1, 2))),
                 "mean_delay_s": delay, "rms_delay_spread_s": spread,
                 "doppler_spread_hz": moments(paths.doppler_hz)[1],

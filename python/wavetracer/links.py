@@ -54,14 +54,14 @@ class Links:
     """What the paths of each link amount to: one row per pair of a transmitter and a receiver that was asked for.
 
     links["path_gain_db"] is a column, shape (links,). Columns: `tx`, `rx` (places in `transmitters` and `receivers`),
-    `paths` (how many), `los` (True where one of them has no interaction), `path_gain_db` (the sum of powers),
-    `narrowband_gain_db` (the sum of fields at the carrier), `mean_delay_s`, `rms_delay_spread_s`, `doppler_spread_hz`,
+    `paths` (how many), `los` (True where one of them has no interaction), `path_gain_db` (fields of
+    one wave added, then powers), `sum_of_powers_db` (of all paths), `narrowband_gain_db` (the sum of fields at the carrier), `mean_delay_s`, `rms_delay_spread_s`, `doppler_spread_hz`,
     `missed_power_share`. Gains are -inf, and delays and spreads NaN, where no path arrives. docs/formats.md has the
     formulas.
     """
 
-    columns = ("tx", "rx", "paths", "los", "path_gain_db", "narrowband_gain_db", "mean_delay_s", "rms_delay_spread_s",
-               "doppler_spread_hz", "missed_power_share")
+    columns = ("tx", "rx", "paths", "los", "path_gain_db", "sum_of_powers_db", "narrowband_gain_db", "mean_delay_s",
+               "rms_delay_spread_s", "doppler_spread_hz", "missed_power_share")
 
     def __init__(self, values: dict[str, Array], ends: Ends):
         self._values, self.transmitters, self.receivers = values, ends.transmitters, ends.receivers

@@ -61,6 +61,8 @@ class SavedFrame:
             offset = group["vertex_offset"]
             begin, end = int(offset[self._first]), int(offset[self._last])
             return np.asarray(self._run._group("vertices")[name.removeprefix("vertex_")][begin:end])
+        if name in ("group", "group_weight") and name not in group:  # of a version that had none
+            return np.zeros((0, 4), np.uint32 if name == "group" else np.float64)
         if name not in group:
             raise ConfigError(f'there is no column "{name}" in /paths of {self._run.folder}/paths.h5')
         return np.asarray(group[name][rows])
@@ -223,4 +225,6 @@ class Run:
 
     def _links_of(self, frame: int) -> Links:
         rows = self.links["frame"] == frame
-        return Links({name: self.links[name][rows] for name in Links.columns}, self._ends)
+        unknown = np.full(int(rows.sum()), np.nan)  # of a version that did not have the column
+        return Links({name: self.links[name][rows] if name in self.links else unknown for name in Links.columns},
+                     self._ends)

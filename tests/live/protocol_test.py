@@ -91,7 +91,7 @@ def columns_are_the_lines():
             expect(ends == [(link["tx"], link["rx"]) for link in lines], ends)
             same(links["paths"], [link["paths"] for link in lines], "paths")
             same(links["los"], [int(link["los"]) for link in lines], "los")
-            for key in ("path_gain_db", "narrowband_gain_db", "mean_delay_s", "rms_delay_spread_s",
+            for key in ("path_gain_db", "sum_of_powers_db", "narrowband_gain_db", "mean_delay_s", "rms_delay_spread_s",
                         "doppler_spread_hz", "missed_power_share"):
                 same(links[key], [link[key] for link in lines], key)
             expect(("paths" in first) == (detail != "links"), detail)

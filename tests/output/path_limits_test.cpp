@@ -88,6 +88,18 @@ TEST_CASE("selected rows keep their vertices, and what is left out is counted wi
   CHECK(gone.all == doctest::Approx(1e-6 + 1e-9 + 2e-7).epsilon(1e-12));
 }
 
+TEST_CASE("groups of selected rows are numbered by these rows, link by link") {
+  Paths all = made_paths();
+  all.group = {only_group(0), only_group(1), {2, 0, no_group, no_group}, only_group(3), only_group(0), only_group(1)};
+  all.group_weight.assign(6, whole_weight);
+  all.group_weight[2] = {0.8, 0.6, 0, 0};
+  const std::vector<uint8_t> written{0, 1, 1, 1, 0, 1};
+  const Paths some = select_rows(all, written);
+  CHECK(some.group ==
+        std::vector<GroupNumbers>{only_group(0), {1, 2, no_group, no_group}, only_group(3), only_group(0)});
+  CHECK(some.group_weight[1] == GroupWeights{0.8, 0.6, 0, 0});
+}
+
 TEST_CASE("a run with limits: fewer rows in paths.h5, the same figures in links.csv, and counts of what is missing") {
   const TemporaryFolder all, some;
   SampleRun sample;

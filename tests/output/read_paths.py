@@ -11,7 +11,7 @@ except ImportError as missing:
 
 DATASETS = {
     "paths": "frame tx rx depth delay_s gain_db a_re a_im aod_theta_rad aod_phi_rad aoa_theta_rad aoa_phi_rad "
-             "doppler_hz vertex_offset",
+             "doppler_hz group group_weight vertex_offset",
     "vertices": "position_m interaction surface instance",
     "frames": "frame time_s path_offset transmitter_position_m transmitter_velocity_m_s receiver_position_m "
               "receiver_velocity_m_s",
@@ -37,6 +37,10 @@ with h5py.File(sys.argv[1] + "/paths.h5", "r") as file:
     a = paths["a_re"][...] + 1j * paths["a_im"][...]
     assert a.shape == (5, 2, 1)
     assert np.array_equal(a[:, 0, 0], 1e-4 * row + 1j) and np.array_equal(a[:, 1, 0], 2e-4 * row - 1j)
+    assert paths["group"].shape == paths["group_weight"].shape == (5, 4) and paths["group"].dtype == np.uint32
+    alone = paths["tx"][...].astype(int) * 2 + paths["rx"][...]  # the sample's paths are groups of their own
+    assert all(paths["group"][i, 0] == (alone[:i] == alone[i])[paths["frame"][:i] == paths["frame"][i]].sum() for i in row)
+    assert np.array_equal(paths["group_weight"][...], [[1, 0, 0, 0]] * 5) and (paths["group"][:, 1:] == 0xFFFFFFFF).all()
     offset = paths["vertex_offset"][...]
     assert offset.dtype == np.uint64 and np.array_equal(np.diff(offset), row)
     assert vertices["interaction"].dtype == np.uint8

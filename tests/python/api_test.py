@@ -131,7 +131,7 @@ def check_paths(frame):
     raises(2, 'no column "gain" of links', lambda: paths.links["gain"])
     # The figures of chosen paths, from the columns, are those of the library where all paths are chosen.
     figures, again = frame.links, paths.select(kind=("line_of_sight", "reflected")).links
-    for name in ("tx", "rx", "paths", "los", "path_gain_db", "narrowband_gain_db", "mean_delay_s", "rms_delay_spread_s",
+    for name in ("tx", "rx", "paths", "los", "path_gain_db", "sum_of_powers_db", "narrowband_gain_db", "mean_delay_s", "rms_delay_spread_s",
                  "doppler_spread_hz"):
         np.testing.assert_allclose(again[name].astype(float), figures[name].astype(float), rtol=1e-9, atol=1e-9)
     assert len(paths.select(rx=1).links) == (figures["rx"] == 1).sum()

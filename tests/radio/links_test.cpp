@@ -182,6 +182,25 @@ TEST_CASE("two rays: path gain adds powers, narrowband gain adds fields, as in c
   }
 }
 
+TEST_CASE("fields of a group are added, and powers of groups; a path may be in several by parts") {
+  Paths paths;
+  add(paths, 0, 0, 0, 1e-6, 3e-5, 0);
+  add(paths, 0, 0, 1, 1e-6 + 0.5 / carrier_hz, 1e-5, 0);  // half a turn later
+  add(paths, 0, 0, 1, 1e-6, 2e-5, 0);
+  paths.a[0][3] = {0, 1e-5};
+  const auto gain_db = [&] { return link_figures(paths, 0, all_links(1, 1), carrier_hz)[0].path_gain_db; };
+  CHECK(gain_db() == test::near(10 * std::log10(15e-10), 1e-13));
+  paths.group = {only_group(0), only_group(0), only_group(1)};
+  paths.group_weight.assign(3, whole_weight);
+  CHECK(gain_db() == test::near(10 * std::log10(4e-10 + 1e-10 + 4e-10), 1e-9));
+  paths.group[1] = {1, 0, no_group, no_group};
+  paths.group_weight[1] = {0.8, 0.6, 0, 0};
+  const double first = std::pow(3 - 0.6, 2) + 1, second = std::pow(2 - 0.8, 2);
+  CHECK(gain_db() == test::near(10 * std::log10((first + second) * 1e-10), 1e-9));
+  CHECK(link_figures(paths, 0, all_links(1, 1), carrier_hz)[0].sum_of_powers_db ==
+        test::near(10 * std::log10(15e-10), 1e-13));
+}
+
 TEST_CASE("narrowband gains of pairs of ports are summed; of one path both gains are the same") {
   Paths paths;
   add(paths, 0, 0, 1, 1.234e-6, 3e-5, 0);

@@ -98,6 +98,29 @@ TEST_CASE("every frame is read back as it was written") {
   }
 }
 
+TEST_CASE("groups of paths are read back; in a file of before there were any every path is its own") {
+  const test::TemporaryFolder folder;
+  const SampleRun sample;
+  std::vector<FrameResult> frames = sample.frames();
+  Paths& paths = frames[0].paths;
+  REQUIRE(paths.size() > 1);
+  for (uint32_t i = 0; i < paths.size(); ++i) {
+    paths.group.push_back({i, 0, no_group, no_group});
+    paths.group_weight.push_back({0.8, 0.6, 0, 0});
+  }
+  const fs::path file = write_outputs(folder.path() / "run", sample.run(), frames)[0];
+  CHECK(SavedRun(file).frame(0).paths.group == paths.group);
+  CHECK(SavedRun(file).frame(0).paths.group_weight == paths.group_weight);
+  CHECK(SavedRun(file).frame(1).paths.group[0] == only_group(0));
+  CHECK(SavedRun(file).frame(1).paths.group_weight[0] == whole_weight);
+  overwrite(file, "/paths/group", 0, uint32_t{1000});
+  CHECK(refusal(file).find("/paths/group") != std::string::npos);
+  remove_member(file, "/paths/group_weight");
+  CHECK(refusal(file).find("group_weight") != std::string::npos);
+  remove_member(file, "/paths/group");
+  CHECK(SavedRun(file).frame(0).paths.group.empty());
+}
+
 TEST_CASE("a pose's rotation keeps its rows and columns") {
   const Written written;
   const std::vector<FrameResult> frames = written.sample.frames();

@@ -1,0 +1,35 @@
+// The power of a link: fields of one group are added with their phases, then powers of groups (wavetracer/paths.hpp).
+#pragma once
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wavetracer/paths.hpp"
+
+namespace wavetracer {
+
+// Sums of the fields of each group of a link, of `values` numbers each, such as one of each pair of ports.
+class GroupFields {
+ public:
+  // Rows first to end - 1 are those of one link and frame.
+  GroupFields(const Paths& paths, size_t first, size_t end, size_t values);
+
+  // Is the path a whole group? Its power is its own, and it need not be added.
+  bool is_alone(size_t row) const;
+  // fields: of the path, with the phase of its delay.
+  void add(size_t row, std::span<const std::complex<double>> fields);
+  // Adds powers of what add() got: each of powers is a sum over values / powers.size() values in a row.
+  void add_powers(std::span<double> powers) const;
+
+ private:
+  const Paths& paths_;
+  size_t values_;
+  std::vector<uint32_t> members_;           // of each group
+  std::vector<std::complex<double>> sums_;  // (group, value)
+};
+
+// By transmitted power, summed over pairs of ports; without groups each path is one. Rows as above.
+double grouped_power(const Paths& paths, size_t first, size_t end, double frequency_hz);
+
+}  // namespace wavetracer
