@@ -1,6 +1,6 @@
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
 // Spreading: 1 / L of a path of length L without edges, else that of path_edges.h. Assumes geometry of the exact solve:
-// specular reflections, straight transmissions, one diffuse scattering or up to two diffractions.
+// specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions.
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
@@ -174,11 +174,11 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   wave.solved = ordered->rows[row] >> 1;
   wave.speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
 #if WT_DIFFRACTS
-  wt_edge edges[2];
+  wt_edge edges[WT_MOST_EDGES];
   const wt_uint edge_count = wt_edges_of(world, &path, edges);
   out.near_edge = wt_is_near_edge(world, edges, edge_count);
   if (edge_count > 0) wave.spread = wt_edge_spreading(edges, edge_count);
-  if (edge_count > 1) wave.spread *= wt_snap_to_shared_plane(world, edges);
+  for (wt_uint i = 0; i + 1 < edge_count; ++i) wave.spread *= wt_snap_to_shared_plane(world, edges + i);
   wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
   for (wt_uint i = 0; i < edge_count; ++i) {
     wt_pass(world, &path, k, &wave);
