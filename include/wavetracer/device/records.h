@@ -185,6 +185,7 @@ typedef struct {
   wt_uint wedge_prefixes, wedge_prefixes_rest[WT_REST_OF_LINE];  // likewise
   wt_uint wedge_candidates, wedge_candidates_rest[WT_REST_OF_LINE];  // likewise
   wt_uint wedge_solved, wedge_solved_rest[WT_REST_OF_LINE];          // likewise
+  wt_uint chains, chains_rest[WT_REST_OF_LINE];                      // likewise
   wt_uint rows, rows_rest[WT_REST_OF_LINE];                          // of paths
   wt_uint row_vertices, row_vertices_rest[WT_REST_OF_LINE];          // their interactions
   wt_uint near_rows, near_rows_rest[WT_REST_OF_LINE];                // left out: an antenna touches what reflects there
