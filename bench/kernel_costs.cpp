@@ -141,6 +141,8 @@ constexpr KernelCost costs[] = {
     {"wedge_solve/wedge_solve", "diffraction", "candidates", joined, wedge_solve_bytes, wedge_solve_operations, true},
     {"wedge_sight/wedge_sight", "two diffractions", "prefixes", items_of<"wedge_sight/wedge_sight">,
      always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, tree_operations},
+    {"wedge_chains/roof_chains", "", "pairs of ends", items_of<"wedge_chains/roof_chains">, always<sizeof(wt_solved)>,
+     always<static_cast<size_t>(wedge_operations)>},
     {"wedge_pairs/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, tree_operations},
 
     {"place/place", "drive", "surfaces", items_of<"place/place">, always<2 * sizeof(wt_exact_surface)>, always<66>,

@@ -66,7 +66,8 @@ inline void enter(global wt_solved* path, global double* v, global uint* s, cons
   }
 }
 
-// One path per work-item. most: transmissions of a path; a row has room for max_depth interactions of all kinds.
+// One path per work-item. most: transmissions of a path; deepest: interactions of all kinds, where some are those. A
+// row has room for that many.
 kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                           const global double4* transmitters, const global double4* receivers,
                           const global wt_exact_surface* surfaces, const global double* corners,
@@ -75,7 +76,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
                           const global wt_counters* counters, wt_legs_arguments args) {
   const uint i = get_global_id(0);
   if (i >= wt_length(counters, args.solved_counter, args.solved_count)) return;
-  const uint depth = solved[i].depth, allowed = min(args.most, args.max_depth - depth);
+  const uint depth = solved[i].depth, allowed = depth < args.deepest ? min(args.most, args.deepest - depth) : 0;
   global double* v = vertices + 3 * (size_t)args.max_depth * i;
   global uint* s = sequences + (size_t)args.max_depth * i;
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};

@@ -1,6 +1,7 @@
 // wedge_pairs: candidates of paths over two wedges, straight from one to the other: every prefix of a transmitter with
 // every one of the other end that sees another wedge, both convex, if pieces that they see may see each other. What was
 // found out of two static wedges is kept as long as the scene is.
+#include "lib/crossing.clh"
 #include "lib/join.clh"
 #include "lib/memory_order.clh"
 #include "lib/sight.clh"
@@ -48,8 +49,44 @@ inline uint look(const wt_sight* sight, const global wt_wedge* low, const global
   return known;
 }
 
-// `lanes` work-items for each prefix of a block of them; keys are sorted, so what sees one wedge stands together and is
-// passed over together.
+// Prefixes of one wedge that are taken together: what is found out of it and another wedge serves them all.
+#define TOGETHER 16u
+
+typedef struct {
+  uint count, most;                          // most: reflections that the other side may have
+  uint numbers[TOGETHER], pieces[TOGETHER];  // pieces: that the other wedge leaves them
+} prefix_group;
+
+// Is this prefix the first of a group, of those of its wedge in the block? Then its group goes to *group.
+inline int begins_group(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
+                        wt_wedge_join_arguments args, uint i, prefix_group* group) {
+  const uint wedge = wt_wedge_of(keys[i]);
+  const uint begin = max(args.first, wt_lower_bound_before(keys, i, wt_wedge_key(wedge, 0)));
+  if ((i - begin) % TOGETHER != 0) return 0;
+  group->count = group->most = 0;
+  for (uint k = i; k < min(i + TOGETHER, args.end) && wt_wedge_of(keys[k]) == wedge; ++k) {
+    const global wt_wedge_prefix* a = prefixes + order[k];
+    if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) continue;
+    group->numbers[group->count++] = order[k];
+    group->most = max(group->most, args.max_depth - 2 - a->depth);
+  }
+  return group->count > 0;
+}
+
+// Which pieces of the edge v each of the group may cross on its way to the edge w. 0 where none does.
+inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_wedge* v, const global wt_wedge* w,
+                         prefix_group* group) {
+  const wt_edge_view to = wt_edge_seen_from(v, w);
+  uint any = 0;
+  for (uint k = 0; k < group->count; ++k) {
+    group->pieces[k] = prefixes[group->numbers[k]].pieces & wt_crossed_pieces(v, prefixes + group->numbers[k], &to);
+    any |= group->pieces[k];
+  }
+  return any;
+}
+
+// `lanes` work-items for each group of prefixes of a block of them; keys are sorted, so what sees one wedge stands
+// together and is passed over together.
 kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
                         const global double* sides, global uint* kept, const global uint* keys,
@@ -59,37 +96,46 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
                         wt_wedge_join_arguments args, wt_sight_arguments sight_args) {
   const uint i = args.first + get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
   if (i >= args.end || keys[i] == WT_NONE) return;
-  const global wt_wedge_prefix* a = prefixes + order[i];
-  if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) return;
+  const uint wedge_a = wt_wedge_of(keys[i]);
+  prefix_group group;
+  if (is_corner(wedges + wedge_a) || !begins_group(keys, order, prefixes, args, i, &group)) return;
   const wt_sight sight = {nodes,       triangles, sight_args.triangle_slots,  sight_args.extent_m,   surfaces,
                           first_sides, sides,     sight_args.static_surfaces, sight_args.only_opaque};
-  if (is_corner(wedges + wt_wedge_of(keys[i]))) return;
-  const uint wedge_a = wt_wedge_of(keys[i]), most = args.max_depth - 2 - a->depth;
   uint wedge_b = WT_NONE, known = 0, was_known = 0;
   global uint* keep = 0;
+  wt_edge_view back;
   wt_found_candidates batch;
   batch.count = 0;
   wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
   for (uint j = lane; j < args.count && keys[j] != WT_NONE;) {
     if (wt_wedge_of(keys[j]) != wedge_b) {
       wedge_b = wt_wedge_of(keys[j]);
+      const global wt_wedge* w = wedges + wedge_b;
       const size_t low = min(wedge_a, wedge_b), high = max(wedge_a, wedge_b);
-      keep = high < sight_args.kept_wedges && low != high ? kept + high * (high - 1) / 2 + low : 0;
-      known = was_known = low == high ? ALL_PAIRS : keep ? wt_load_relaxed_u32(keep) : 0;
-      if (!known && (is_corner(wedges + wedge_b) || !in_sight(wedges + low, wedges + high))) known = ALL_PAIRS;
+      keep = 0;
+      known = was_known = ALL_PAIRS;
+      if (low != high && !is_corner(w) && leave_pieces(prefixes, wedges + wedge_a, w, &group)) {
+        keep = high < sight_args.kept_wedges ? kept + high * (high - 1) / 2 + low : 0;
+        known = was_known = keep ? wt_load_relaxed_u32(keep) : 0;
+        if (!known && !in_sight(wedges + low, wedges + high)) known = ALL_PAIRS;
+        back = wt_edge_seen_from(w, wedges + wedge_a);
+      }
     }
-    const int none = known == ALL_PAIRS;
-    if (!none && keys[j] <= wt_wedge_key(wedge_b, most)) {
+    if (known != ALL_PAIRS && keys[j] <= wt_wedge_key(wedge_b, group.most)) {
       const global wt_wedge_prefix* b = prefixes + order[j];
       j += args.lanes;
-      const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_origin, links, args.groups);
-      if (receiver == WT_NONE) continue;
+      const uint pieces_b = b->pieces & wt_crossed_pieces(wedges + wedge_b, b, &back);
       const int a_is_low = wedge_a < wedge_b;
-      const uint wanted = pairs_of(a_is_low ? a->pieces : b->pieces, a_is_low ? b->pieces : a->pieces);
-      known = look(&sight, wedges + (a_is_low ? wedge_a : wedge_b), wedges + (a_is_low ? wedge_b : wedge_a), wanted,
-                   known, &hiders);
-      if (known >> 16 & wanted)
-        wt_emit_candidate(a, b, wedge_a, wedge_b, receiver, &batch, out, args.capacity, counters);
+      for (uint k = 0; pieces_b && k < group.count; ++k) {
+        const global wt_wedge_prefix* a = prefixes + group.numbers[k];
+        const uint pieces_a = group.pieces[k];
+        const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_origin, links, args.groups);
+        if (!pieces_a || receiver == WT_NONE) continue;
+        const uint wanted = pairs_of(a_is_low ? pieces_a : pieces_b, a_is_low ? pieces_b : pieces_a);
+        known = look(&sight, wedges + min(wedge_a, wedge_b), wedges + max(wedge_a, wedge_b), wanted, known, &hiders);
+        if (known >> 16 & wanted)
+          wt_emit_candidate(a, b, wedge_a, wedge_b, receiver, &batch, out, args.capacity, counters);
+      }
     } else {
       const uint next = wt_lower_bound(keys, args.count, wt_wedge_key(wedge_b + 1, 0));
       j = next + (lane + args.lanes - next % args.lanes) % args.lanes;

@@ -6,28 +6,11 @@
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// A surface closer to the point of diffraction than this does not reflect on the way to it: its reflection and the
-// diffraction would be one point.
-#define WT_AT_EDGE_M 1e-6
-
 inline double3 images_of(const global wt_exact_surface* surfaces, const uint* chain, uint depth, double3 end,
                          double3* images) {
   images[0] = end;
   for (uint k = 0; k < depth; ++k) images[k + 1] = wt_reflected(surfaces + chain[k], images[k]);
   return images[depth];
-}
-
-// Inside of the edge, ends included?
-inline int on_edge(const global wt_wedge* w, double x) {
-  const double tolerance = 1e-9 * (1.0 + w->length);
-  return x >= -tolerance && x <= w->length + tolerance;
-}
-
-// Is the neighbour of a point p of the edge off the line of the edge and in the wedge's free sector?
-inline int in_free_space(const global wt_wedge* w, double3 p, double3 neighbour, double beneath) {
-  const double3 q = wt_in_wedge(w, neighbour), d = neighbour - p;
-  return wt_dot(d, d) > WT_AT_EDGE_M * WT_AT_EDGE_M && wt_from_edge(q) > wt_rounding(neighbour) &&
-         wt_in_sector(w, q, beneath);
 }
 
 inline int own_instance(uint instance, double4 end) { return instance != WT_NONE && instance == wt_end_instance(end); }
@@ -39,7 +22,7 @@ inline int solve_side(const global wt_exact_surface* surfaces, const global doub
   if (own_instance(depth > 0 ? surfaces[chain[0]].instance : w->instance, end)) return 0;
   if (depth > 0 && fabs(wt_above(surfaces + chain[depth - 1], p)) <= WT_AT_EDGE_M) return 0;
   if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, p, points)) return 0;
-  return in_free_space(w, p, depth > 0 ? points[depth - 1] : images[0], wt_beneath(depth));
+  return wt_in_free_space(w, p, depth > 0 ? points[depth - 1] : images[0], wt_beneath(depth));
 }
 
 // Begins to read the chains of the candidates that follow candidate i.
@@ -75,13 +58,14 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   } else {
     x = y = wt_shortest_over(v, a, b);
   }
-  if (!on_edge(v, x) || !on_edge(w, y)) return;
+  if (!wt_within_edge(v, x) || !wt_within_edge(w, y)) return;
   const double3 p = wt_on_edge(v, x), q = wt_on_edge(w, y);
   if (two && wt_dot(q - p, q - p) <= WT_AT_EDGE_M * WT_AT_EDGE_M) return;  // edges that meet, at their corner
   const double wavelength = (double)args.wavelength_m;
   if (wt_is_faint(v, wt_in_wedge(v, a), wt_in_wedge(v, two ? q : b), wavelength)) return;
   if (two && wt_is_faint(w, wt_in_wedge(w, p), wt_in_wedge(w, b), wavelength)) return;
-  if (two && !wt_share_plane(v, w, q - p) && (!in_free_space(v, p, q, 0.0) || !in_free_space(w, q, p, 0.0))) return;
+  if (two && !wt_share_plane(v, w, q - p) && (!wt_in_free_space(v, p, q, 0.0) || !wt_in_free_space(w, q, p, 0.0)))
+    return;
   if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, p, points)) return;
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;
 

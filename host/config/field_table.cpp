@@ -72,10 +72,16 @@ Table trace_table() {
           {.name = "max_diffractions",
            .slot = t(&TraceConfig::max_diffractions),
            .unit = "diffractions per path",
-           .range = {1, 2},
-           .doc = "2 adds paths over two edges, with a straight line from one edge to the other: the field behind a "
-                  "whole building. Pairs of edges that buildings hide from each other are passed over; the others are "
-                  "candidates, which cost time: in a city of 36 blocks some ten times as much as one diffraction."},
+           .range = {1, 8},
+           .doc =
+               "2 adds paths over two edges, with a straight line from one edge to the other: the field behind a "
+               "whole building. Pairs of edges that buildings hide from each other are passed over; the others are "
+               "candidates, which cost time: in a city of 36 blocks some ten times as much as one diffraction. 3 to 8 "
+               "add "
+               "one path of each link over as many edges as that: those that a string between its ends touches when "
+               "it is pulled tight over the roofs. It takes little time, and reaches receivers far behind the "
+               "houses. Such a path has no other interactions, and may have more edges than max_depth (which must be "
+               "at least 2)."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
            .doc = "Edges that belong to one face only also diffract, as half planes: screens, signs and the borders of "

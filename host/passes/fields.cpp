@@ -3,6 +3,7 @@
 #include "passes/fields.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "passes/advice.hpp"
@@ -22,10 +23,10 @@ void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, gpu::HostMemory& h
 
 }  // namespace
 
-Fields::Fields(gpu::Context& context, const FieldTables& tables, bool diffracts, const glm::dvec3& origin_m)
+Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m)
     : context_(context),
       kernel_(context.kernel("fields", "fields",
-                             {{"WT_DIFFRACTS", diffracts ? "1" : "0"},
+                             {{"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
                               {"WT_SCATTERS", tables.scatters ? "1" : "0"},
                               {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
                               {"WT_LOSSES", tables.loses() ? "1" : "0"}})),

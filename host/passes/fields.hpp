@@ -18,8 +18,8 @@ struct RowCounts {
 
 class Fields {
  public:
-  // diffracts: whether paths may have edges, which takes a larger kernel. origin_m: of recentred coordinates.
-  Fields(gpu::Context& context, const FieldTables& tables, bool diffracts, const glm::dvec3& origin_m);
+  // edges: the most of a path; each kind, one, two and more, takes a larger kernel. origin_m: of recentred coordinates.
+  Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m);
 
   // Computes the rows. Their counts are scanned. wedges: placed in the frame, or nullptr where nothing diffracts.
   // lengths_inside: of the visible paths, nullptr where there is no vegetation. most: how many rows and vertices there

@@ -23,6 +23,7 @@ void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, Solv
                               .solved_counter = solved.counter,
                               .max_depth = solved.max_depth,
                               .most = 0,
+                              .deepest = 0,
                               .blocker_mask = Blockers::mask,
                               .tile_count = steps.tile_count(),
                               .first_leg = first_leg});

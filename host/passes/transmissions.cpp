@@ -1,12 +1,14 @@
 // Host side of kernels/transmissions.cl.
 // One path per work-item.
 #include "passes/transmissions.hpp"
+#include <algorithm>
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
 
-Transmissions::Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most)
+Transmissions::Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most, uint32_t deepest)
     : most_(most),
+      deepest_(deepest),
       work_(tuning_of(context.info()).exact),
       kernel_(context.kernel("transmissions", "transmissions", scene.definitions)) {}
 
@@ -21,6 +23,7 @@ void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, 
                             .solved_counter = solved.counter,
                             .max_depth = solved.max_depth,
                             .most = most_,
+                            .deepest = std::min(deepest_, solved.max_depth),
                             .blocker_mask = 0,
                             .tile_count = steps.tile_count(),
                             .first_leg = 0});

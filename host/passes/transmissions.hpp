@@ -12,14 +12,14 @@ namespace wavetracer {
 
 class Transmissions {
  public:
-  // most: transmissions of a path, no more than interactions of all kinds, of which a row of the list has room for the
-  // most (or for one, where there is none).
-  Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most);
+  // most: transmissions of a path. deepest: interactions of all kinds of a path with transmissions, or as many as a row
+  // of the list has room for, if these are fewer.
+  Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most, uint32_t deepest = UINT32_MAX);
   void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                   const StepTables& steps = {});
 
  private:
-  uint32_t most_;
+  uint32_t most_, deepest_;
   Work work_;
   gpu::Kernel kernel_;
 };

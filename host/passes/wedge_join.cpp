@@ -17,22 +17,23 @@ namespace {
 constexpr uint32_t least_candidates = 1 << 14;
 
 // All of them may be solved: with what a solved path takes. At least what the list begins with.
-uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t max_depth) {
-  const uint64_t path_bytes = sizeof(wt_solved) + (3 * sizeof(double) + sizeof(uint32_t)) * max_depth;
-  const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * std::max(max_depth, 1u)),
+uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t row_depth) {
+  const uint64_t path_bytes = sizeof(wt_solved) + (3 * sizeof(double) + sizeof(uint32_t)) * row_depth;
+  const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * std::max(row_depth, 1u)),
                                  device.global_memory / (4 * (sizeof(wt_wedge_candidate) + path_bytes)));
   return static_cast<uint32_t>(std::clamp<uint64_t>(most, least_candidates, 1u << 30));
 }
 
 }  // namespace
 
-WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth)
+WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
+                     uint32_t row_depth)
     : context_(context),
       kernel_(context.kernel("wedge_join", "wedge_join")),
       max_depth_(max_depth),
       lanes_(tuning_of(context.info()).join_lanes),
       group_(tuning_of(context.info()).join_group),
-      most_(most_candidates(context.info(), max_depth)),
+      most_(most_candidates(context.info(), row_depth)),
       receiver_of_origin_(context.buffer(receiver_of_origin, "receivers of origins")),
       list_(context.buffer<wt_wedge_candidate>(least_candidates, {"wedge candidates", advice::links})) {}
 

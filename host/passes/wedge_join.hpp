@@ -15,8 +15,10 @@ namespace wavetracer {
 
 class WedgeJoin {
  public:
-  // receiver_of_origin: of each end that launches, the receiver that it is, or WT_NONE.
-  WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth);
+  // receiver_of_origin: of each end that launches, the receiver that it is, or WT_NONE. row_depth: interactions that a
+  // solved path has room for.
+  WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
+            uint32_t row_depth);
   // prefixes: sorted by their keys; first to end - 1 of them as those of transmitters. pairs: for paths over two wedges
   // too, or nullptr. Returns the number of candidates, in list(); where it is more than most(), they are not there.
   uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, uint32_t first, uint32_t end,

@@ -13,6 +13,7 @@
 #include "passes/growing_list.hpp"
 #include "passes/sequences.hpp"
 #include "passes/sort.hpp"
+#include "passes/wedge_chains.hpp"
 #include "passes/wedge_join.hpp"
 #include "passes/wedge_pairs.hpp"
 #include "passes/wedge_prefixes.hpp"
@@ -23,14 +24,15 @@
 namespace wavetracer {
 
 struct DiffractedPaths {
-  // receiver_of_origin: see WedgeJoin; wavelength_m: see WedgeSolve. two: for paths over two wedges.
+  // receiver_of_origin: see WedgeJoin; wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth:
+  // interactions that a solved path has room for, max_depth or more.
   DiffractedPaths(gpu::Context& context, Wedges world, const std::vector<uint32_t>& receiver_of_origin,
-                  uint32_t max_depth, double wavelength_m, std::optional<WedgePairs> two)
+                  uint32_t max_depth, uint32_t row_depth, double wavelength_m, std::optional<WedgePairs> two)
       : wedges(std::move(world)),
         prefixes(context),
-        join(context, receiver_of_origin, max_depth),
+        join(context, receiver_of_origin, max_depth, row_depth),
         pairs(std::move(two)),
-        solve(context, max_depth, wavelength_m),
+        solve(context, row_depth, wavelength_m),
         sort_(context) {
     // So that tests need no scene of millions of candidates.
     if (const std::string most = environment("WAVETRACER_MOST_CANDIDATES"); !most.empty())
@@ -49,6 +51,7 @@ struct DiffractedPaths {
   WedgeJoin join;
   std::optional<WedgePairs> pairs;
   WedgeSolve solve;
+  std::optional<WedgeChains> chains;  // for paths over more than two wedges
 
  private:
   Sort sort_;

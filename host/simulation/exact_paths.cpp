@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "radio/world_records.hpp"
 #include "simulation/tracing_depth.hpp"
 
 namespace wavetracer {
@@ -31,23 +32,30 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
                        bool frames_follow)
     : max_depth(trace.max_depth),
       candidates(context, tracing_depth(trace).reflections),
-      solve(context, trace.max_depth, frames_follow && !trace.transmission),
-      visible(context, trace.max_depth) {
+      solve(context, tracing_depth(trace).row, frames_follow && !trace.transmission),
+      visible(context, tracing_depth(trace).row) {
+  const TracingDepth depth = tracing_depth(trace);
   if (frames_follow && !trace.transmission) blockers.emplace(context);
   if (trace.diffraction) {
     std::optional<WedgePairs> two;
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
     diffraction.emplace(context, Wedges(context, scene, world.models(), world.instances(), trace.free_edges),
-                        origins.receiver_of_origin, trace.max_depth, longest_wavelength_m, std::move(two));
+                        origins.receiver_of_origin, trace.max_depth, depth.row, longest_wavelength_m, std::move(two));
+    if (depth.edges > 2) {
+      const auto instances = static_cast<uint32_t>(world.instances().size());
+      const WedgeGrid grid(wedge_records(scene, world.models(), world.instances()),
+                           static_cast<uint32_t>(scene.wedges.size()), instances, trace.free_edges);
+      diffraction->chains.emplace(context, grid, depth.edges, depth.row);
+    }
   }
   if (trace.scattering) {
     const TileTable tiles(scene, world.models(), world.instances(), trace.tile_m, fitting_tiles(context.info()));
-    if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), trace.max_depth);
+    if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), depth.row);
     const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
-    if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), trace.max_depth);
+    if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), depth.row);
   }
   if (trace.transmission)
-    transmissions.emplace(context, device_scene, std::min(trace.max_transmissions, trace.max_depth));
+    transmissions.emplace(context, device_scene, std::min(trace.max_transmissions, trace.max_depth), trace.max_depth);
   else
     occlusion.emplace(context, device_scene);
 }

@@ -2,6 +2,7 @@
 #include "simulation/finished_paths.hpp"
 
 #include "radio/carriers.hpp"
+#include "simulation/tracing_depth.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
@@ -26,7 +27,7 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
     Config at_carrier = config;
     at_carrier.radio.frequency_hz = carrier_hz;
     fields_.emplace_back(context, make_field_tables(scene, at_carrier, world.models(), world.instances()),
-                         config.trace.diffraction, scene.origin_m);
+                         tracing_depth(config.trace).edges, scene.origin_m);
   }
 }
 

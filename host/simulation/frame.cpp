@@ -254,6 +254,7 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
     edges.sort(prefixes);                                                       // sort
     out =
         join_prefixes(edges, scene, ends, set, prefixes, see, [&] { watch.tell("paths", kinds_done, exact.kinds()); });
+    if (edges.chains) see((*edges.chains)(scene, edges.wedges.list(), ends, counters));  // wedge_chains
     tell();
   }
   const auto see_scattered = [&](SolvedList& rows) {

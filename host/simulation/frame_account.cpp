@@ -27,8 +27,9 @@ void FrameAccount::discovered(const DiscoveryCounts& found) {
 void FrameAccount::counted(const wt_counters& counters, uint32_t transmitter_count, const Uncounted& besides) {
   FrameCounts& counts = result.counts;
   counts.sequences = uint64_t{counters.nodes} + counters.exchanged - transmitter_count;
-  counts.candidates = uint64_t{counters.candidates} + counters.wedge_candidates + besides.candidates;
-  counts.solved = uint64_t{counters.solved} + counters.hidden + counters.wedge_solved + besides.solved;
+  counts.candidates = uint64_t{counters.candidates} + counters.wedge_candidates + counters.chains + besides.candidates;
+  counts.solved =
+      uint64_t{counters.solved} + counters.hidden + counters.wedge_solved + counters.chains + besides.solved;
 }
 
 void FrameAccount::left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name) {

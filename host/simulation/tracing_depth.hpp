@@ -12,6 +12,8 @@ struct TracingDepth {
   uint32_t sequences = 0;      // surfaces in the longest sequence
   uint32_t interactions = 0;   // of a ray
   uint32_t transmissions = 0;  // of a ray
+  uint32_t edges = 0;          // of a path
+  uint32_t row = 0;            // interactions of a path that a list of paths has room for
 };
 
 // trace: without what the scene does not need, see with_features.
@@ -25,6 +27,9 @@ inline TracingDepth tracing_depth(const TraceConfig& trace) {
   out.interactions = out.sequences > 0 && trace.transmission ? trace.max_depth : out.sequences;
   if (trace.transmission && out.interactions > 0)
     out.transmissions = std::min(trace.max_transmissions, out.interactions - 1);
+  if (trace.diffraction) out.edges = std::min(trace.max_diffractions, trace.max_depth < 2 ? trace.max_depth : 8u);
+  // Paths over more than two edges have no other interactions, and may be deeper than all others.
+  out.row = std::max(trace.max_depth, out.edges);
   return out;
 }
 

@@ -174,7 +174,7 @@ struct TraceConfig {
   uint32_t forget_frames = 50;                // a sequence that no ray has met for this many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
-  uint32_t max_diffractions = 1;                  // per path, 1 or 2
+  uint32_t max_diffractions = 1;                  // per path, 1 to 8
   bool free_edges = true;                         // edges of one face diffract as half planes
   std::optional<uint64_t> diffraction_rays = {};  // per receiver; not given: a tenth of rays, at least 100,000
   uint32_t max_transmissions = 2;                 // per path

@@ -39,10 +39,10 @@ inline constexpr auto frame_stages = std::to_array<FrameStage>({
     {"solve", FramePart::paths},         {"visible", FramePart::paths},      {"occlusion", FramePart::paths},
     {"transmissions", FramePart::paths}, {"wedges", FramePart::paths},       {"wedge_prefixes", FramePart::paths},
     {"wedge_sight", FramePart::paths},   {"wedge_join", FramePart::paths},   {"wedge_pairs", FramePart::paths},
-    {"wedge_solve", FramePart::paths},   {"scatter", FramePart::paths},      {"crowns", FramePart::paths},
-    {"paths", FramePart::paths},         {"distinct", FramePart::paths},     {"vegetation", FramePart::fields},
-    {"fields", FramePart::fields},       {"columns", FramePart::fields},     {"elements", FramePart::fields},
-    {"transfer", FramePart::transfer},
+    {"wedge_solve", FramePart::paths},   {"wedge_chains", FramePart::paths}, {"scatter", FramePart::paths},
+    {"crowns", FramePart::paths},        {"paths", FramePart::paths},        {"distinct", FramePart::paths},
+    {"vegetation", FramePart::fields},   {"fields", FramePart::fields},      {"columns", FramePart::fields},
+    {"elements", FramePart::fields},     {"transfer", FramePart::transfer},
 });
 
 constexpr const FrameStage* find_frame_stage(std::string_view name) {

@@ -3,7 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <vector>
-#include "wavetracer/device/arguments.h"
+#include "gpu/argument_records.hpp"
 #include "wavetracer/device/cache.h"
 #include "wavetracer/device/field_records.h"
 #include "wavetracer/device/moving.h"
@@ -14,106 +14,10 @@ namespace wavetracer::test {
 
 using namespace device;
 
-struct Field {
-  const char* name;
-  size_t offset;
-};
-struct Record {
-  const char* name;
-  size_t bytes;
-  std::vector<Field> fields;
-};
-
 #define FIELD(record, field) \
   { #field, offsetof(record, field) }
 
-inline const std::vector<Record> records{
-    {"wt_map_arguments",
-     sizeof(wt_map_arguments),
-     {FIELD(wt_map_arguments, parameter), FIELD(wt_map_arguments, level), FIELD(wt_map_arguments, faces)}},
-    {"wt_launcher_arguments",
-     sizeof(wt_launcher_arguments),
-     {FIELD(wt_launcher_arguments, origin), FIELD(wt_launcher_arguments, root), FIELD(wt_launcher_arguments, source),
-      FIELD(wt_launcher_arguments, heights), FIELD(wt_launcher_arguments, window)}},
-    {"wt_launch_arguments",
-     sizeof(wt_launch_arguments),
-     {FIELD(wt_launch_arguments, first_index), FIELD(wt_launch_arguments, stride), FIELD(wt_launch_arguments, number),
-      FIELD(wt_launch_arguments, capacity), FIELD(wt_launch_arguments, first_slot), FIELD(wt_launch_arguments, count)}},
-    {"wt_samples_arguments",
-     sizeof(wt_samples_arguments),
-     {FIELD(wt_samples_arguments, capacity), FIELD(wt_samples_arguments, first), FIELD(wt_samples_arguments, count),
-      FIELD(wt_samples_arguments, sample_capacity), FIELD(wt_samples_arguments, cosine),
-      FIELD(wt_samples_arguments, sine), FIELD(wt_samples_arguments, turn)}},
-    {"wt_bounces_arguments",
-     sizeof(wt_bounces_arguments),
-     {FIELD(wt_bounces_arguments, triangle_slots), FIELD(wt_bounces_arguments, extent_m),
-      FIELD(wt_bounces_arguments, capacity), FIELD(wt_bounces_arguments, ray_count),
-      FIELD(wt_bounces_arguments, interactions), FIELD(wt_bounces_arguments, trie_mask),
-      FIELD(wt_bounces_arguments, now)}},
-    {"wt_interact_arguments",
-     sizeof(wt_interact_arguments),
-     {FIELD(wt_interact_arguments, capacity), FIELD(wt_interact_arguments, ray_count),
-      FIELD(wt_interact_arguments, trie_mask), FIELD(wt_interact_arguments, last), FIELD(wt_interact_arguments, now)}},
-    {"wt_receive_arguments",
-     sizeof(wt_receive_arguments),
-     {FIELD(wt_receive_arguments, capacity), FIELD(wt_receive_arguments, ray_count),
-      FIELD(wt_receive_arguments, receiver_capacity), FIELD(wt_receive_arguments, radius_m),
-      FIELD(wt_receive_arguments, depth), FIELD(wt_receive_arguments, out_capacity)}},
-    {"wt_candidates_arguments",
-     sizeof(wt_candidates_arguments),
-     {FIELD(wt_candidates_arguments, node_count), FIELD(wt_candidates_arguments, receiver_capacity),
-      FIELD(wt_candidates_arguments, transmitter_count), FIELD(wt_candidates_arguments, max_reflections),
-      FIELD(wt_candidates_arguments, capacity)}},
-    {"wt_solve_arguments",
-     sizeof(wt_solve_arguments),
-     {FIELD(wt_solve_arguments, candidate_count), FIELD(wt_solve_arguments, max_depth),
-      FIELD(wt_solve_arguments, capacity), FIELD(wt_solve_arguments, triangle_slots),
-      FIELD(wt_solve_arguments, blocker_mask), FIELD(wt_solve_arguments, wavelength_m)}},
-    {"wt_legs_arguments",
-     sizeof(wt_legs_arguments),
-     {FIELD(wt_legs_arguments, triangle_slots), FIELD(wt_legs_arguments, extent_m),
-      FIELD(wt_legs_arguments, solved_count), FIELD(wt_legs_arguments, solved_counter),
-      FIELD(wt_legs_arguments, max_depth), FIELD(wt_legs_arguments, most), FIELD(wt_legs_arguments, blocker_mask),
-      FIELD(wt_legs_arguments, tile_count), FIELD(wt_legs_arguments, first_leg)}},
-    {"wt_lit_arguments",
-     sizeof(wt_lit_arguments),
-     {FIELD(wt_lit_arguments, node_count), FIELD(wt_lit_arguments, transmitter_count), FIELD(wt_lit_arguments, groups),
-      FIELD(wt_lit_arguments, capacity)}},
-    {"wt_scatter_arguments",
-     sizeof(wt_scatter_arguments),
-     {FIELD(wt_scatter_arguments, entry_count), FIELD(wt_scatter_arguments, row_count),
-      FIELD(wt_scatter_arguments, rows_per_item), FIELD(wt_scatter_arguments, max_depth)}},
-    {"wt_crowns_arguments",
-     sizeof(wt_crowns_arguments),
-     {FIELD(wt_crowns_arguments, row_count), FIELD(wt_crowns_arguments, rows_per_item),
-      FIELD(wt_crowns_arguments, cells), FIELD(wt_crowns_arguments, first_tile),
-      FIELD(wt_crowns_arguments, max_depth)}},
-    {"wt_wedge_prefixes_arguments",
-     sizeof(wt_wedge_prefixes_arguments),
-     {FIELD(wt_wedge_prefixes_arguments, trie_mask), FIELD(wt_wedge_prefixes_arguments, node_count),
-      FIELD(wt_wedge_prefixes_arguments, capacity)}},
-    {"wt_sight_arguments",
-     sizeof(wt_sight_arguments),
-     {FIELD(wt_sight_arguments, count), FIELD(wt_sight_arguments, triangle_slots), FIELD(wt_sight_arguments, extent_m),
-      FIELD(wt_sight_arguments, static_surfaces), FIELD(wt_sight_arguments, only_opaque),
-      FIELD(wt_sight_arguments, kept_wedges)}},
-    {"wt_wedge_join_arguments",
-     sizeof(wt_wedge_join_arguments),
-     {FIELD(wt_wedge_join_arguments, count), FIELD(wt_wedge_join_arguments, first), FIELD(wt_wedge_join_arguments, end),
-      FIELD(wt_wedge_join_arguments, lanes), FIELD(wt_wedge_join_arguments, transmitter_count),
-      FIELD(wt_wedge_join_arguments, groups), FIELD(wt_wedge_join_arguments, max_depth),
-      FIELD(wt_wedge_join_arguments, capacity)}},
-    {"wt_cache_lookup_arguments",
-     sizeof(wt_cache_lookup_arguments),
-     {FIELD(wt_cache_lookup_arguments, capacity), FIELD(wt_cache_lookup_arguments, count),
-      FIELD(wt_cache_lookup_arguments, now), FIELD(wt_cache_lookup_arguments, touch),
-      FIELD(wt_cache_lookup_arguments, static_surfaces), FIELD(wt_cache_lookup_arguments, radius_m),
-      FIELD(wt_cache_lookup_arguments, widths)}},
-    {"wt_cache_store_arguments",
-     sizeof(wt_cache_store_arguments),
-     {FIELD(wt_cache_store_arguments, capacity), FIELD(wt_cache_store_arguments, missed_capacity),
-      FIELD(wt_cache_store_arguments, missed_count), FIELD(wt_cache_store_arguments, now),
-      FIELD(wt_cache_store_arguments, static_surfaces), FIELD(wt_cache_store_arguments, widths)}},
+inline const std::vector<Record> other_records{
     {"wt_planes_xy", sizeof(wt_planes_xy), {FIELD(wt_planes_xy, x), FIELD(wt_planes_xy, y)}},
     {"wt_bvh2_node",
      sizeof(wt_bvh2_node),
@@ -203,6 +107,8 @@ inline const std::vector<Record> records{
       FIELD(wt_counters, wedge_candidates_rest),
       FIELD(wt_counters, wedge_solved),
       FIELD(wt_counters, wedge_solved_rest),
+      FIELD(wt_counters, chains),
+      FIELD(wt_counters, chains_rest),
       FIELD(wt_counters, rows),
       FIELD(wt_counters, rows_rest),
       FIELD(wt_counters, row_vertices),
@@ -293,5 +199,11 @@ inline const std::vector<Record> records{
 };
 
 #undef FIELD
+
+inline const std::vector<Record> records = [] {
+  std::vector<Record> all = argument_records;
+  all.insert(all.end(), other_records.begin(), other_records.end());
+  return all;
+}();
 
 }  // namespace wavetracer::test

@@ -62,7 +62,7 @@ Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_depth, bool
   if (two) two->sight(scene, wedges.list(), list);
   Sort sort(context());
   sort(list.keys, list.order, list.count, wedges.key_bits());
-  WedgeJoin pass(context(), world.receiver_of_origin, max_depth);
+  WedgeJoin pass(context(), world.receiver_of_origin, max_depth, max_depth);
   const uint32_t count = pass(scene, list, 0, list.count, wedges.list(), ends, set.counters(), two ? &*two : nullptr);
   Run out;
   const std::vector<uint64_t> table = set.table().read();

@@ -101,11 +101,12 @@ typedef struct {
   float extent_m;
   wt_uint solved_count;
   wt_uint solved_counter;  // its word of wt_counters, or WT_NONE
-  wt_uint max_depth;
-  wt_uint most;          // transmissions of a path
-  wt_uint blocker_mask;  // of the table of what hid paths before
-  wt_uint tile_count;    // of surfaces; further tiles are cells of vegetation
-  wt_uint first_leg;     // occlusion begins with this leg of each path
+  wt_uint max_depth;       // of a row
+  wt_uint most;            // transmissions of a path
+  wt_uint deepest;         // interactions of a path with transmissions
+  wt_uint blocker_mask;    // of the table of what hid paths before
+  wt_uint tile_count;      // of surfaces; further tiles are cells of vegetation
+  wt_uint first_leg;       // occlusion begins with this leg of each path
 } wt_legs_arguments;
 
 typedef struct {
@@ -158,6 +159,27 @@ typedef struct {
   wt_uint only_opaque;  // not 0: waves pass the other surfaces
   wt_uint kept_wedges;  // what is found of pairs of the first so many wedges is kept
 } wt_sight_arguments;
+
+// A grid over the edges of the static scene, in plan, and the number of instances, which have edges besides
+// (lib/curtain.clh).
+typedef struct {
+  double origin[2];
+  double cell_m;
+  wt_uint columns;
+  wt_uint rows;
+  wt_uint instance_count;
+  wt_uint padding;
+} wt_edge_map_arguments;
+
+typedef struct {
+  wt_edge_map_arguments map;
+  wt_uint transmitter_count;
+  wt_uint receiver_capacity;
+  wt_uint most_edges;
+  wt_uint max_depth;
+  wt_uint capacity;
+  wt_uint padding;
+} wt_wedge_chains_arguments;
 
 // Of row_keys, mark_rows and order_rows. twins: not 0 where rows of the other way are counted, each after its own.
 typedef struct {

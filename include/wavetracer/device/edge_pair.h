@@ -94,27 +94,35 @@ inline void wt_add_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, d
   }
 }
 
-// Two terms, i of the first edge and j of the second, with what the shared plane reflects: TE and TM. Of a sheet, both
-// sides: to the lower one the same ends are on the other side of the boundaries.
-inline void wt_terms_over_plane(const wt_pair_terms* first, const wt_pair_terms* second, int i, int j,
-                                const wt_pair_form* form, const wt_shared_plane* plane, double wavelength_m,
-                                wt_double2* te, wt_double2* tm) {
-  const double x = first->argument[i], y = second->argument[j];
-  const double r = form->coupling * (first->side[i] * second->side[j]), ratio = first->ratio[i] * second->ratio[j];
-  const wt_double2 direct = wt_double_transition(x, y, r), image = wt_double_transition(x, y, -r);
-  const wt_double_means mean = wt_means_of(x, y, -r, image);
-  wt_double2 reflected_te = wt_real(0.0), reflected_tm = wt_real(0.0);
+// What the plane reflects between term i of the first edge and term j of the second, TE and TM, as a multiple of the
+// image of one side; the direct wave counts plane->sides times. image: g2 of the reflected wave, with -r.
+inline void wt_reflection_over_plane(const wt_pair_terms* first, const wt_pair_terms* second, int i, int j,
+                                     const wt_pair_form* form, const wt_shared_plane* plane, double wavelength_m,
+                                     double r, wt_double2 image, wt_double2* te, wt_double2* tm) {
+  const wt_double_means mean = wt_means_of(first->argument[i], second->argument[j], -r, image);
+  *te = *tm = wt_real(0.0);
   for (int side = 0; side < plane->sides; ++side) {
+    // To the lower side of a sheet the same ends are on the other side of the boundaries.
     const double sign = side == 0 ? 1.0 : -1.0, before = sign * first->ratio[i], after = sign * second->ratio[j];
     // Where the wave is there already, its shadow below the edge counts, not what passes above it.
     const double u = copysign(first->bent * sqrt(form->spreads_m[0] * wavelength_m / WT_PI), -before);
     const double v = copysign(second->bent * sqrt(form->spreads_m[1] * wavelength_m / WT_PI), -after);
     const double lit = before > 0.0 && after > 0.0 ? sign * form->lit * first->bent * second->bent : 0.0;
-    wt_add_grazed_plane(plane, (mean.u * u + mean.v * v) / form->between_m, lit, wavelength_m, &reflected_te,
-                        &reflected_tm);
+    wt_add_grazed_plane(plane, (mean.u * u + mean.v * v) / form->between_m, lit, wavelength_m, te, tm);
   }
-  *te = (direct * (double)plane->sides + wt_times(image, reflected_te)) * ratio;
-  *tm = (direct * (double)plane->sides + wt_times(image, reflected_tm)) * ratio;
+}
+
+// Two terms, i of the first edge and j of the second, with what the shared plane reflects: TE and TM.
+inline void wt_terms_over_plane(const wt_pair_terms* first, const wt_pair_terms* second, int i, int j,
+                                const wt_pair_form* form, const wt_shared_plane* plane, double wavelength_m,
+                                wt_double2* te, wt_double2* tm) {
+  const double x = first->argument[i], y = second->argument[j];
+  const double r = form->coupling * (first->side[i] * second->side[j]), ratio = first->ratio[i] * second->ratio[j];
+  const wt_double2 direct = wt_double_transition(x, y, r) * (double)plane->sides;
+  const wt_double2 image = wt_double_transition(x, y, -r);
+  wt_reflection_over_plane(first, second, i, j, form, plane, wavelength_m, r, image, te, tm);
+  *te = (direct + wt_times(image, *te)) * ratio;
+  *tm = (direct + wt_times(image, *tm)) * ratio;
 }
 
 // Over a plane that both edges bound. Waves along it come with their reflections, so the terms of reflection at either

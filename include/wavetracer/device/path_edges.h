@@ -1,7 +1,8 @@
 // The edges of a diffracted path: where they are, how the wave spreads from them, and what each does to it.
 // Spreading: edges are lines of sources, so by stationary phase over the points on them: 1 / (product of the legs
 // between ends and edges) / sqrt(det H), H the second derivatives of the length. It is that of K-P for one edge
-// (sqrt(s' / (s (s + s'))) / s'), and symmetric for two. Assumes up to two diffractions that are not at one wedge.
+// (sqrt(s' / (s (s + s'))) / s'), and symmetric for more. Assumes up to WT_MOST_EDGES diffractions, of which none that
+// follow each other are at one wedge.
 #ifndef WAVETRACER_DEVICE_PATH_EDGES_H
 #define WAVETRACER_DEVICE_PATH_EDGES_H
 #include "wavetracer/device/edge_pair.h"
@@ -40,14 +41,14 @@ inline wt_double3 wt_face_normal(const wt_wedge_frame* frame, int face) {
   return frame->face * turn.y - frame->normal * turn.x;
 }
 
-// The edges of the path, two at most. Returns their number.
+// The edges of the path, WT_MOST_EDGES at most. Returns their number.
 inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_edge* edges) {
   wt_uint count = 0;
   wt_walk_leg leg = wt_first_leg(path);
   double since_m = leg.length_m;
   for (wt_uint k = 0; k < path->depth; ++k) {
     const wt_walk_leg next = wt_next_leg(world, path, k, &leg);
-    if (wt_kind(path, k) == WT_STEP_DIFFRACTION && count < 2) {
+    if (wt_kind(path, k) == WT_STEP_DIFFRACTION && count < WT_MOST_EDGES) {
       if (count > 0) edges[count - 1].after_m = since_m;
       const WT_GLOBAL wt_wedge* wedge = world->wedges + wt_number(path, k);
       wt_edge* edge = edges + count++;
@@ -79,14 +80,23 @@ inline int wt_is_near_edge(const wt_field_world* world, const wt_edge* edges, wt
   return least_m < world->wavelength_m;
 }
 
+// H has three diagonals, so its determinant is the product of the pivots of its rows.
 inline double wt_edge_spreading(const wt_edge* edges, wt_uint count) {
-  const wt_edge *a = edges, *b = edges + count - 1;
-  const double xx = wt_sine2(a) * (1.0 / a->before_m + 1.0 / a->after_m);
-  if (count == 1) return 1.0 / (a->before_m * a->after_m * sqrt(xx));
-  const double yy = wt_sine2(b) * (1.0 / b->before_m + 1.0 / b->after_m);
-  const wt_double3 v = a->frame.along, w = b->frame.along, k = a->k_out;
-  const double xy = (wt_dot3(v, k) * wt_dot3(w, k) - wt_dot3(v, w)) / a->after_m;
-  return 1.0 / (a->before_m * a->after_m * b->after_m * sqrt(xx * yy - xy * xy));
+  double legs = edges->before_m, determinant = 1.0, before = 1.0;
+  for (wt_uint i = 0; i < count; ++i) {
+    const wt_edge* b = edges + i;
+    const double yy = wt_sine2(b) * (1.0 / b->before_m + 1.0 / b->after_m);
+    double both = yy * determinant;
+    if (i > 0) {
+      const wt_double3 v = b[-1].frame.along, w = b->frame.along, k = b[-1].k_out;
+      const double xy = (wt_dot3(v, k) * wt_dot3(w, k) - wt_dot3(v, w)) / b->before_m;
+      both -= xy * xy * before;
+    }
+    before = determinant;
+    determinant = both;
+    legs *= b->after_m;
+  }
+  return 1.0 / (legs * sqrt(determinant));
 }
 
 // Points from the edge into face 0 or 1.

@@ -1,16 +1,16 @@
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
 // Spreading: 1 / L of a path of length L without edges, else that of path_edges.h. Assumes geometry of the exact solve:
-// specular reflections, straight transmissions, one diffuse scattering or up to two diffractions.
+// specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions.
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
 #include "wavetracer/device/losses.h"
-#include "wavetracer/device/path_edges.h"
+#include "wavetracer/device/path_chain.h"
 #include "wavetracer/device/scattering.h"
 
 // What a scene has not need not be compiled for a device.
-#ifndef WT_DIFFRACTS
-#define WT_DIFFRACTS 1
+#ifndef WT_DIFFRACTS  // the most diffractions of a path
+#define WT_DIFFRACTS 8
 #endif
 #ifndef WT_SCATTERS
 #define WT_SCATTERS 1
@@ -153,7 +153,7 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
   return k;
 }
 
-#if WT_DIFFRACTS
+#if WT_DIFFRACTS > 1
 // Past two edges, from the leg between them on, which ends at vertex k.
 inline void wt_pass_two(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
                         wt_uint k, wt_edge* edges, wt_wave* wave) {
@@ -162,6 +162,25 @@ inline void wt_pass_two(const wt_field_world* world, const wt_ordered_rows* orde
   wave->transfer = wt_transfer_from(wt_leaving(edges[0].frame.along, edges[0].k_out));
   wt_pass(world, path, k, wave);
   wt_diffract_at_two(world, ordered, row, path, edges, &plane, &wave->transfer, &before);
+  wave->transfer = before;
+}
+#endif
+
+#if WT_DIFFRACTS > 2
+// Past three edges or more, at vertices k, k + 1, ..., from the leg after the first one on.
+inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
+                          wt_uint k, wt_edge* edges, wt_uint count, wt_wave* wave) {
+  wt_transfer before = wave->transfer;
+  wt_chain chain;
+  for (wt_uint i = 0; i < count; ++i) {
+    wt_shared_plane plane;
+    plane.sides = 0;
+    if (i + 1 < count) plane = wt_snap_to_shared_plane(world, edges + i);
+    if (i > 0) wt_pass(world, path, k + i, wave);
+    wt_add_to_chain(world, ordered, row, path, edges, count, i, &plane, &wave->transfer, &chain);
+    wave->transfer = wt_transfer_from(wt_leaving(edges[i].frame.along, edges[i].k_out));
+  }
+  wt_map(&before, chain.from, chain.to, chain.sum);
   wave->transfer = before;
 }
 #endif
@@ -187,18 +206,21 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   wave.solved = ordered->rows[row] >> 1;
   wave.speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
 #if WT_DIFFRACTS
-  wt_edge edges[2];
+  wt_edge edges[WT_MOST_EDGES];
   const wt_uint edge_count = wt_edges_of(world, &path, edges);
   out.near_edge = wt_is_near_edge(world, edges, edge_count);
   if (edge_count > 0) wave.spread = wt_edge_spreading(edges, edge_count);
   wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
   if (edge_count > 0) {
     wt_pass(world, &path, k, &wave);
-    if (edge_count == 1)
-      wt_diffract_at(world, ordered, row, &path, edges, &wave.transfer);
-    else
-      wt_pass_two(world, ordered, row, &path, ++k, edges, &wave);
-    wt_pass_surfaces(world, &path, length_m, k + 1, &wave);
+    if (edge_count == 1) wt_diffract_at(world, ordered, row, &path, edges, &wave.transfer);
+#if WT_DIFFRACTS > 1
+    if (edge_count == 2) wt_pass_two(world, ordered, row, &path, k + 1, edges, &wave);
+#endif
+#if WT_DIFFRACTS > 2
+    if (edge_count > 2) wt_pass_chain(world, ordered, row, &path, k, edges, edge_count, &wave);
+#endif
+    wt_pass_surfaces(world, &path, length_m, k + edge_count, &wave);
   }
 #else
   wt_pass_surfaces(world, &path, length_m, 0, &wave);

@@ -17,6 +17,9 @@
 // than this: each edge, and the surfaces between them, may be off it by WT_ON_SURFACE_M.
 #define WT_ALONG_PLANE_M (3.0 * WT_ON_SURFACE_M)
 
+// The most diffractions of one path; private arrays of its solve and of its field have this size.
+#define WT_MOST_EDGES 8u
+
 // Structure of arrays: a ray queue of capacity n is WT_RAY_PLANES * n words; plane p of ray i is word p * n + i.
 #define WT_RAY_ORIGIN 0     // three planes, float
 #define WT_RAY_DIRECTION 3  // three planes, float, unit length
@@ -182,6 +185,7 @@ typedef struct {
   wt_uint wedge_prefixes, wedge_prefixes_rest[WT_REST_OF_LINE];  // likewise
   wt_uint wedge_candidates, wedge_candidates_rest[WT_REST_OF_LINE];  // likewise
   wt_uint wedge_solved, wedge_solved_rest[WT_REST_OF_LINE];          // likewise
+  wt_uint chains, chains_rest[WT_REST_OF_LINE];                      // likewise
   wt_uint rows, rows_rest[WT_REST_OF_LINE];                          // of paths
   wt_uint row_vertices, row_vertices_rest[WT_REST_OF_LINE];          // their interactions
   wt_uint near_rows, near_rows_rest[WT_REST_OF_LINE];                // left out: an antenna touches what reflects there

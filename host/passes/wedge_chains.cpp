@@ -1,0 +1,45 @@
+// Host side of kernels/wedge_chains.cl.
+// One pair of a transmitter and a receiver per work-item, whether it is a link or not.
+#include "passes/wedge_chains.hpp"
+
+#include "passes/growing_list.hpp"
+#include "wavetracer/device/arguments.h"
+
+namespace wavetracer {
+
+WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t most_edges, uint32_t max_depth)
+    : context_(context),
+      work_(tuning_of(context.info()).exact),
+      roofs_(context.kernel("wedge_chains", "roof_chains")),
+      most_edges_(most_edges),
+      map_(grid.map),
+      first_(context.buffer(grid.first, {"cells of edges", advice::scene})),
+      listed_(context.buffer(grid.listed, {"edges of cells", advice::scene})),
+      radii_(context.buffer(grid.radii_m, "reach of vehicles' edges")) {
+  solved_.max_depth = max_depth;
+  solved_.deepest = most_edges;
+  solved_.counter = counter_word(&wt_counters::chains);
+  solved_.reserve(context, 1 << 10);
+}
+
+SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
+                                    Counters& counters) {
+  const auto run = [&] {
+    roofs_(work_.range(size_t{ends.transmitter_count} * ends.receiver_capacity), "wedge_chains", wedges.wedges, first_,
+           listed_, radii_, scene.exact_instances, ends.transmitters, ends.receivers, ends.links, solved_.headers,
+           solved_.vertices, solved_.sequences, counters.buffer(),
+           wt_wedge_chains_arguments{.map = map_,
+                                     .transmitter_count = ends.transmitter_count,
+                                     .receiver_capacity = ends.receiver_capacity,
+                                     .most_edges = most_edges_,
+                                     .max_depth = solved_.max_depth,
+                                     .capacity = static_cast<uint32_t>(solved_.headers.size()),
+                                     .padding = 0});
+  };
+  solved_.count = fill_list(
+      counters, &wt_counters::chains, "wedge_chains", [&] { return solved_.headers.size(); }, run,
+      [&](size_t rows) { solved_.reserve(context_, rows); });
+  return solved_;
+}
+
+}  // namespace wavetracer

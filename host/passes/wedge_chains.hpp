@@ -1,0 +1,34 @@
+// wedge_chains: paths over several edges, at most one a link over the roofs: the chain of edges that a string between
+// its ends touches. The list grows until it holds them.
+#pragma once
+#include <vector>
+
+#include "passes/counters.hpp"
+#include "passes/device_scene.hpp"
+#include "passes/radio_ends.hpp"
+#include "passes/solved_list.hpp"
+#include "passes/tuning.hpp"
+#include "passes/wedge_grid.hpp"
+#include "passes/wedge_lists.hpp"
+
+namespace wavetracer {
+
+class WedgeChains {
+ public:
+  // grid: over the edges of the same world as the lists of wedges. most_edges: of a path, at most WT_MOST_EDGES.
+  // max_depth: interactions that a row has room for, at least most_edges.
+  WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t most_edges, uint32_t max_depth);
+  SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends, Counters& counters);
+
+ private:
+  gpu::Context& context_;
+  Work work_;
+  gpu::Kernel roofs_;
+  uint32_t most_edges_;
+  wt_edge_map_arguments map_;
+  gpu::Buffer<uint32_t> first_, listed_;
+  gpu::Buffer<double> radii_;
+  SolvedList solved_;
+};
+
+}  // namespace wavetracer

@@ -1,0 +1,27 @@
+// Which edges may cross a line in plan: those of the static scene by the cells of a grid, those of vehicles by
+// instance. For kernels/lib/curtain.clh. Only edges that diffract outwards count, and none that is upright.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "wavetracer/device/arguments.h"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/world_state.hpp"
+
+namespace wavetracer {
+
+struct WedgeGrid {
+  // Of all wedges of a world, as wedge_records has them, of which the first `static_count` stand still: where none
+  // moves, the grid has about as many cells as it lists edges, and no more than 2^20. free_edges: do half planes count?
+  WedgeGrid(const std::vector<wt_wedge>& wedges, uint32_t static_count, uint32_t instance_count, bool free_edges);
+
+  wt_edge_map_arguments map{};
+  std::vector<uint32_t> first;   // of each cell, row by row, then of each instance, into `listed`; then their end
+  std::vector<uint32_t> listed;  // numbers of wedges
+  std::vector<double> radii_m;   // of each instance: how far from its position its edges reach
+};
+
+// Does a line of length along x and y touch the square cell of this centre and half side, or come as near as `margin`?
+bool touches_cell(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& centre, double half, double margin);
+
+}  // namespace wavetracer

@@ -1,0 +1,258 @@
+// wedge_chains: screens in a row against closed forms, and crowds of edges against a profile of all of them, its hull
+// by sorting, and bisection place by place, whose lengths are minimal.
+#include "passes/wedge_chains.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "passes/solved_rows.hpp"
+#include "passes/wedge_cases.hpp"
+#include "radio/world_records.hpp"
+#include "reference/wedge_points.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+using Points = std::vector<glm::dvec3>;
+
+struct Chain {
+  std::vector<uint32_t> wedges;
+  Points points;
+};
+
+// Quads whose first side alone diffracts.
+Scene tops_of(const std::vector<Quad>& quads) {
+  Scene scene = reference::scene_of_quads(quads);
+  for (uint32_t i = 0; i < quads.size(); ++i) scene.wedges.push_back(reference::free_wedges(quads[i], i)[0]);
+  return scene;
+}
+
+// By transmitter and receiver, of all pairs.
+std::map<std::pair<uint32_t, uint32_t>, Chain> chains(const Scene& scene, const Points& tx, const Points& rx,
+                                                      uint32_t most, bool free_edges = true) {
+  const DeviceScene uploaded = make_device_scene(context(), scene, false, 1000);
+  std::vector<EndState> from, to;
+  std::vector<Link> links;
+  for (const glm::dvec3& p : tx) from.push_back({.position_m = p});
+  for (const glm::dvec3& p : rx) to.push_back({.position_m = p});
+  for (uint32_t t = 0; t < tx.size(); ++t)
+    for (uint32_t r = 0; r < rx.size(); ++r) links.push_back({t, r});
+  const RadioEnds ends = make_radio_ends(context(), from, to, links);
+  const Wedges wedges(context(), scene, {}, {}, free_edges);
+  const WedgeGrid grid(wedge_records(scene, {}, {}), static_cast<uint32_t>(scene.wedges.size()), 0, free_edges);
+  WedgeChains pass(context(), grid, most, most);
+  Counters counters(context());
+  const SolvedList& list = pass(uploaded, wedges.list(), ends, counters);
+  std::map<std::pair<uint32_t, uint32_t>, Chain> out;
+  const std::vector<PathRow> rows = download_rows(list);
+  const auto headers = rows.empty() ? std::vector<wt_solved>{} : list.headers.read(0, list.count);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    Chain chain{{}, rows[i].points};
+    for (const uint32_t step : rows[i].steps) {
+      CHECK((step & WT_STEP_KIND) == WT_STEP_DIFFRACTION);
+      chain.wedges.push_back(step & ~WT_STEP_KIND);
+    }
+    CHECK(out.emplace(std::pair{headers[i].transmitter, headers[i].receiver}, chain).second);
+  }
+  return out;
+}
+
+Chain chain_of(const Scene& scene, const glm::dvec3& a, const glm::dvec3& b, uint32_t most) {
+  const auto found = chains(scene, {a}, {b}, most);
+  return found.empty() ? Chain{} : found.begin()->second;
+}
+
+// A row of screens square to x, their tops on a parabola: the string touches all.
+std::vector<Quad> row_of_screens(uint32_t count) {
+  std::vector<Quad> quads;
+  for (uint32_t i = 0; i < count; ++i) {
+    const double x = 10.0 * (i + 1), from_middle = x - 5.0 * (count + 1);
+    quads.push_back({{x, -30, 20 - 0.004 * from_middle * from_middle}, {0, 60, 0}, {0, 0, -30}});
+  }
+  return quads;
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+struct Crossing {
+  double along, height;
+  uint32_t wedge;
+};
+
+// Where edges cross the upright surface over a bent line, and the upper hull of these points and both ends.
+std::vector<uint32_t> hull_over(const Scene& scene, const Points& line) {
+  std::vector<Crossing> profile;
+  double before = 0;
+  for (size_t k = 0; k + 1 < line.size(); ++k) {
+    const glm::dvec2 p(line[k]), way = glm::dvec2(line[k + 1]) - p;
+    for (uint32_t w = 0; w < scene.wedges.size(); ++w) {
+      const glm::dvec3 from = scene.wedges[w].start, along = scene.wedges[w].length_m * scene.wedges[w].along;
+      const double det = cross(way, glm::dvec2(along));
+      const double s = cross(glm::dvec2(from) - p, glm::dvec2(along)) / det, u = cross(glm::dvec2(from) - p, way) / det;
+      if (s > -1e-9 && s < 1 + 1e-9 && u >= 0 && u <= 1)
+        profile.push_back({before + s * glm::length(way), from.z + u * along.z, w});
+    }
+    before += glm::length(way);
+  }
+  profile.push_back({0, line.front().z, WT_NONE});
+  profile.push_back({before, line.back().z, WT_NONE});
+  std::ranges::sort(profile, [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
+  std::vector<Crossing> hull;
+  for (const Crossing& c : profile) {
+    while (hull.size() > 1 &&
+           cross({hull.back().along - hull.end()[-2].along, hull.back().height - hull.end()[-2].height},
+                 {c.along - hull.back().along, c.height - hull.back().height}) >= 0)
+      hull.pop_back();
+    hull.push_back(c);
+  }
+  std::vector<uint32_t> out;
+  for (size_t i = 1; i + 1 < hull.size(); ++i)
+    if (out.empty() || out.back() != hull[i].wedge) out.push_back(hull[i].wedge);
+  return out;
+}
+
+// Each point by bisection between its neighbours, until none moves. Edges are made so long that none is left.
+Points shortest(const Scene& scene, const std::vector<uint32_t>& wedges, const glm::dvec3& a, const glm::dvec3& b) {
+  std::vector<Wedge> lines;
+  Points points{a};
+  for (const uint32_t w : wedges) {
+    Wedge line = scene.wedges[w];
+    line.start -= 2000.0 * line.along;
+    line.length_m += 4000;
+    points.push_back(scene.wedges[w].start + 0.5 * scene.wedges[w].length_m * line.along);
+    lines.push_back(line);
+  }
+  points.push_back(b);
+  for (int sweep = 0; sweep < 400; ++sweep)
+    for (size_t i = 0; i < lines.size(); ++i)
+      if (const auto p = reference::diffraction_point(lines[i], points[i], points[i + 2])) points[i + 1] = *p;
+  return points;
+}
+
+bool on_edge(const Wedge& w, const glm::dvec3& p) {
+  const double at = glm::dot(p - w.start, w.along);
+  return at > 0 && at < w.length_m;
+}
+
+// What the string settles on; no wedges where it does not within eight pulls, or leaves an edge.
+Chain expected(const Scene& scene, const glm::dvec3& a, const glm::dvec3& b, uint32_t most) {
+  Points line{a, b};
+  std::vector<uint32_t> wedges;
+  for (int pull = 0; pull < 8; ++pull) {
+    const std::vector<uint32_t> hull = hull_over(scene, line);
+    if (hull.empty() || hull.size() > most) return {};
+    if (hull == wedges) {
+      for (size_t i = 0; i < hull.size(); ++i)
+        if (!on_edge(scene.wedges[hull[i]], line[i + 1])) return {};
+      return {wedges, Points(line.begin() + 1, line.end() - 1)};
+    }
+    wedges = hull;
+    line = shortest(scene, wedges, a, b);
+  }
+  return {};
+}
+
+double apart(const Points& a, const Points& b) {
+  double most = 0;
+  for (size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("three to eight screens in a row: the string touches each, in the plane of both ends") {
+  for (uint32_t count = 3; count <= WT_MOST_EDGES; ++count) {
+    CAPTURE(count);
+    const Scene scene = tops_of(row_of_screens(count));
+    const glm::dvec3 a{0.3, -7, 1}, b{10.0 * count + 9.5, 5, 2};
+    const Chain found = chain_of(scene, a, b, count);
+    REQUIRE(found.wedges.size() == count);
+    for (uint32_t i = 0; i < count; ++i) {
+      CHECK(found.wedges[i] == i);
+      CHECK(std::abs(found.points[i].x - 10.0 * (i + 1)) < 1e-9);
+    }
+    // Unfolded about its edges, which are parallel, the way is straight: it advances along them as it does across.
+    double length = 0;
+    std::vector<double> before;
+    const auto across = [](const glm::dvec3& p, const glm::dvec3& q) { return std::hypot(q.x - p.x, q.z - p.z); };
+    for (uint32_t i = 0; i <= count; ++i) {
+      length += across(i == 0 ? a : found.points[i - 1], i == count ? b : found.points[i]);
+      before.push_back(length);
+    }
+    for (uint32_t i = 0; i < count; ++i)
+      CHECK(std::abs(found.points[i].y - (a.y + (b.y - a.y) * before[i] / length)) < 1e-10);
+    CHECK(chain_of(scene, a, b, count - 1).wedges.empty());
+  }
+}
+
+TEST_CASE("what the string passes over, or half planes where they do not count, is in no chain") {
+  std::vector<Quad> quads = row_of_screens(5);
+  quads[1].corner.z -= 3;
+  const Scene scene = tops_of(quads);
+  CHECK(chain_of(scene, {0, 1, 1}, {60, 2, 1}, 8).wedges == std::vector<uint32_t>{0, 2, 3, 4});
+  CHECK(chain_of(scene, {0, 1, 60}, {60, 2, 50}, 8).wedges.empty());
+  CHECK(chains(scene, {{0, 1, 1}}, {{60, 2, 1}}, 8, false).empty());
+}
+
+TEST_CASE("a crowd of edges: the hull over the way, and its points as bisection has them") {
+  Random random(17);
+  std::vector<Quad> quads;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 at = random.in_cube(200);
+    const double turn = random.in_cube(3).x, length = 60 + random.in_cube(40).y;
+    quads.push_back({{at.x, at.y, 12 + 0.05 * at.z},
+                     {length * std::cos(turn), length * std::sin(turn), 0.02 * random.in_cube(100).x},
+                     {0, 0, -40}});
+  }
+  const Scene scene = tops_of(quads);
+  Points tx, rx;
+  for (int i = 0; i < 12; ++i) tx.push_back(random.in_cube(200)), rx.push_back(random.in_cube(200));
+  for (Points* const ends : {&tx, &rx})
+    for (glm::dvec3& p : *ends) p.z = 2 + 0.01 * p.z;
+  const auto found = chains(scene, tx, rx, WT_MOST_EDGES), back = chains(scene, rx, tx, WT_MOST_EDGES);
+  size_t with_three = 0;
+  for (uint32_t t = 0; t < tx.size(); ++t)
+    for (uint32_t r = 0; r < rx.size(); ++r) {
+      CAPTURE(t);
+      CAPTURE(r);
+      const Chain wanted = expected(scene, tx[t], rx[r], WT_MOST_EDGES);
+      const auto it = found.find({t, r});
+      REQUIRE((it == found.end()) == wanted.wedges.empty());
+      if (it == found.end()) continue;
+      CHECK(it->second.wedges == wanted.wedges);
+      CHECK(apart(it->second.points, wanted.points) < 1e-6);
+      with_three += wanted.wedges.size() > 2;
+      // The same way back, bit for bit.
+      Chain turned = back.at({r, t});
+      std::ranges::reverse(turned.wedges);
+      std::ranges::reverse(turned.points);
+      CHECK(turned.wedges == it->second.wedges);
+      CHECK(turned.points == it->second.points);
+    }
+  CHECK(with_three > 20);
+}
+
+TEST_CASE("a chain whose way leaves an edge is none") {
+  const glm::dvec3 a{0, 9, 15}, b{40, 9, -20};
+  for (const double half : {30.0, 0.5}) {  // the edge is askew, so the way crosses it beside the plane of the ends
+    std::vector<Quad> quads = row_of_screens(3);
+    quads[1].corner = {20 - half, 9 - half, 20};
+    quads[1].u = {2 * half, 2 * half, 0};
+    quads[2].corner.z = 10;
+    const Chain found = chain_of(tops_of(quads), a, b, 8);
+    CHECK(found.wedges == (half > 1 ? std::vector<uint32_t>{0, 1, 2} : std::vector<uint32_t>{}));
+  }
+}
+
+TEST_CASE("cells that an edge touches") {
+  CHECK(touches_cell({-5, 0.2}, {5, 0.2}, {0, 0}, 1, 0));
+  CHECK_FALSE(touches_cell({-5, 1.2}, {5, 1.2}, {0, 0}, 1, 0.1));
+  CHECK(touches_cell({-5, 1.05}, {5, 1.05}, {0, 0}, 1, 0.1));
+  CHECK_FALSE(touches_cell({0, 2.5}, {2.5, 0}, {0, 0}, 1, 0));
+  CHECK(touches_cell({0, 1.9}, {1.9, 0}, {0, 0}, 1, 0));
+  CHECK_FALSE(touches_cell({3, 0}, {5, 0}, {0, 0}, 1, 0));
+}
