@@ -1,5 +1,5 @@
-// wedge_chains: paths over several edges, a few of each link: the chains of edges that strings between its ends touch when
-// they are pulled tight over the roofs. The list grows until it holds them; one path may be in it several times.
+// wedge_chains: paths over several edges, a few of each link: the chains of edges that strings between its ends touch
+// when they are pulled tight over the roofs. The list grows until it holds them; one path may be in it several times.
 #pragma once
 #include <vector>
 
