@@ -15,7 +15,7 @@ std::vector<CheckedFeatures> features_of_runs() {
   cache.kind = "concurrent";
   return {{},
           {.instances = true, .reuse = true},
-          {.diffractions = 2},
+          {.diffractions = 3},
           {.instances = true, .transmission = true, .scattering = true, .diffractions = 1, .reuse = true},
           {.instances = true, .cache = cache}};
 }

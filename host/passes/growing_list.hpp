@@ -24,17 +24,21 @@ uint32_t grow_until_filled(const Run& run, const Length& length, const Capacity&
   }
 }
 
-// The list, of at most `most` elements, that a pass makes of `items`: of all of them, or of one part after the other.
-// list(first, end): makes the list of these items, and returns its length. take(length): what follows of the list.
-// again(): before another list. too_long(length): the list of one item alone is longer than `most`; must throw.
+// The list, of at most `most` elements, that a pass makes of `items`: of `block` of them after the other, and of parts
+// of a block where its list is too long. list(first, end): makes the list of these items, and returns its length.
+// take(length): what follows of the list. again(first): before another list, which begins with this item.
+// too_long(length): the list of one item alone is longer than `most`; must throw.
 template <class List, class Take, class Again, class TooLong>
-void by_parts(uint32_t items, uint32_t most, const List& list, const Take& take, const Again& again,
+void by_parts(uint32_t items, uint32_t block, uint32_t most, const List& list, const Take& take, const Again& again,
               const TooLong& too_long) {
-  std::vector<std::pair<uint32_t, uint32_t>> left{{0, items}};  // the next one last
+  std::vector<std::pair<uint32_t, uint32_t>> left;  // the next one last
+  for (uint64_t at = 0; at == 0 || at < items; at += std::max(block, 1u))
+    left.emplace_back(static_cast<uint32_t>(at), static_cast<uint32_t>(std::min<uint64_t>(items, at + block)));
+  std::ranges::reverse(left);
   for (bool begun = false; !left.empty(); begun = true) {
     const auto [first, end] = left.back();
     left.pop_back();
-    if (begun) again();
+    if (begun) again(first);
     const uint32_t length = list(first, end);
     if (length <= most) {
       take(length);

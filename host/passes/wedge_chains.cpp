@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_chains.cl.
-// One pair of a transmitter and a receiver per work-item, whether it is a link or not.
+// Nine work-items for a pair of a transmitter and a receiver, whether it is a link or not.
 #include "passes/wedge_chains.hpp"
 
 #include "passes/growing_list.hpp"
@@ -15,7 +15,8 @@ WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t 
       map_(grid.map),
       first_(context.buffer(grid.first, {"cells of edges", advice::scene})),
       listed_(context.buffer(grid.listed, {"edges of cells", advice::scene})),
-      radii_(context.buffer(grid.radii_m, "reach of vehicles' edges")) {
+      radii_(context.buffer(grid.radii_m, "reach of vehicles' edges")),
+      uprights_(context.buffer(grid.uprights, {"upright edges of corners", advice::scene})) {
   solved_.max_depth = max_depth;
   solved_.deepest = most_edges;
   solved_.counter = counter_word(&wt_counters::chains);
@@ -24,10 +25,11 @@ WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t 
 
 SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                     Counters& counters) {
+  constexpr size_t strings = 9;  // as the kernel has it
   const auto run = [&] {
-    roofs_(work_.range(size_t{ends.transmitter_count} * ends.receiver_capacity), "wedge_chains", wedges.wedges, first_,
-           listed_, radii_, scene.exact_instances, ends.transmitters, ends.receivers, ends.links, solved_.headers,
-           solved_.vertices, solved_.sequences, counters.buffer(),
+    roofs_(work_.range(strings * ends.transmitter_count * ends.receiver_capacity), "wedge_chains", wedges.wedges,
+           first_, listed_, radii_, uprights_, scene.exact_instances, ends.transmitters, ends.receivers, ends.links,
+           solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
            wt_wedge_chains_arguments{.map = map_,
                                      .transmitter_count = ends.transmitter_count,
                                      .receiver_capacity = ends.receiver_capacity,

@@ -1,5 +1,5 @@
-// wedge_chains: paths over several edges, at most one a link over the roofs: the chain of edges that a string between
-// its ends touches. The list grows until it holds them.
+// wedge_chains: paths over several edges, a few of each link: the chains of edges that strings between its ends touch
+// when they are pulled tight over the roofs. The list grows until it holds them; one path may be in it several times.
 #pragma once
 #include <vector>
 
@@ -28,6 +28,7 @@ class WedgeChains {
   wt_edge_map_arguments map_;
   gpu::Buffer<uint32_t> first_, listed_;
   gpu::Buffer<double> radii_;
+  gpu::Buffer<uint32_t> uprights_;
   SolvedList solved_;
 };
 

@@ -2,7 +2,9 @@
 #include "passes/wedge_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -73,6 +75,40 @@ wt_edge_map_arguments grid_over(const std::vector<wt_wedge>& wedges, const std::
   return out;
 }
 
+bool is_upright(const wt_wedge& w) { return std::abs(w.along[2]) > 0.99; }
+
+glm::dvec3 end_of(const wt_wedge& w, int end) {
+  const glm::dvec3 from{w.start[0], w.start[1], w.start[2]};
+  return end == 0 ? from : from + w.length * glm::dvec3{w.along[0], w.along[1], w.along[2]};
+}
+
+// The cells of 2 mm that a point is in or next to, of one instance.
+using Corner = std::array<int64_t, 4>;
+Corner corner_at(const wt_wedge& w, const glm::dvec3& p, const glm::ivec3& beside) {
+  Corner out{w.instance};
+  for (int axis = 0; axis < 3; ++axis)
+    out[static_cast<size_t>(axis) + 1] = static_cast<int64_t>(std::floor(p[axis] / 2e-3)) + beside[axis];
+  return out;
+}
+
+std::vector<uint32_t> uprights_of(const std::vector<wt_wedge>& wedges, bool free_edges) {
+  std::map<Corner, uint32_t> corners;
+  for (uint32_t k = 0; k < wedges.size(); ++k)
+    if (stands_up(wedges[k], free_edges) && is_upright(wedges[k]))
+      for (const int end : {0, 1}) corners.emplace(corner_at(wedges[k], end_of(wedges[k], end), {0, 0, 0}), k);
+  std::vector<uint32_t> out;
+  for (const wt_wedge& w : wedges)
+    for (const int end : {0, 1}) {
+      uint32_t found = WT_NONE;
+      for (int at = 0; at < 27 && !corners.empty(); ++at) {
+        const auto it = corners.find(corner_at(w, end_of(w, end), {at % 3 - 1, at / 3 % 3 - 1, at / 9 - 1}));
+        if (it != corners.end()) found = std::min(found, it->second);
+      }
+      out.push_back(found);
+    }
+  return out;
+}
+
 }  // namespace
 
 bool touches_cell(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& centre, double half, double margin) {
@@ -106,6 +142,7 @@ WedgeGrid::WedgeGrid(const std::vector<wt_wedge>& wedges, uint32_t static_count,
   });
   std::exclusive_scan(next.begin(), next.end(), first.begin(), 0u);
   next = first;
+  uprights = uprights_of(wedges, free_edges);
   listed.resize(first.back());
   visit([&](uint32_t list, uint32_t k) { listed[next[list]++] = k; });
 }

@@ -19,6 +19,8 @@ struct WedgeGrid {
   std::vector<uint32_t> first;   // of each cell, row by row, then of each instance, into `listed`; then their end
   std::vector<uint32_t> listed;  // numbers of wedges
   std::vector<double> radii_m;   // of each instance: how far from its position its edges reach
+  // Of the start and the end of each wedge: the upright one that begins or ends there, within 2 mm, or WT_NONE.
+  std::vector<uint32_t> uprights;
 };
 
 // Does a line of length along x and y touch the square cell of this centre and half side, or come as near as `margin`?

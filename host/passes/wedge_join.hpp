@@ -25,6 +25,8 @@ class WedgeJoin {
                       const WedgeList& wedges, const RadioEnds& ends, Counters& counters, WedgePairs* pairs);
   // So many candidates are listed at a time: what is solved of them takes a quarter of the device's memory at most.
   uint32_t most() const { return most_; }
+  // Does waiting for the device cost little? On CPUs it does, and there long passes go in blocks.
+  bool waits() const { return context_.info().cpu; }
   void set_most(uint32_t most) { most_ = most; }
   // Throws BufferError: there are so many candidates of one prefix.
   [[noreturn]] void refuse(uint32_t candidates) const;

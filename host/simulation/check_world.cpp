@@ -87,7 +87,7 @@ Config check_config(const CheckedFeatures& features) {
   trace.rays = 40000;
   trace.max_depth = features.diffractions > 0 || features.transmission ? 2 : 5;
   trace.diffraction = features.diffractions > 0;
-  trace.max_diffractions = std::max(features.diffractions, 1u);
+  trace.max_diffractions = features.diffractions > 2 ? 8 : std::max(features.diffractions, 1u);
   trace.diffraction_rays = 20000;
   trace.transmission = features.transmission;
   trace.scattering = features.scattering;

@@ -5,7 +5,8 @@ namespace wavetracer {
 
 std::string CheckedFeatures::words() const {
   std::string out = "reflection";
-  if (diffractions > 0) out += diffractions == 1 ? ", diffraction" : ", diffraction at two edges";
+  constexpr const char* edges[] = {"", ", diffraction", ", diffraction at two edges", ", diffraction at many edges"};
+  out += edges[diffractions];
   if (transmission) out += ", transmission";
   if (scattering) out += ", scattering";
   if (instances) out += ", vehicles";

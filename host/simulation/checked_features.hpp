@@ -11,7 +11,7 @@ namespace wavetracer {
 // paths.
 struct CheckedFeatures {
   bool instances = false, transmission = false, scattering = false;
-  uint32_t diffractions = 0;  // of a path: 0, 1 or 2
+  uint32_t diffractions = 0;  // of a path: 0, 1, 2, or 3 for as many as there may be
   bool reuse = false;
   CacheConfig cache = {};  // of kind "none": no cache
 
@@ -19,7 +19,7 @@ struct CheckedFeatures {
   std::string words() const;
   // Which of the known frames has the paths of these features, see known_frames.hpp.
   uint32_t frame() const {
-    return diffractions + 3 * (uint32_t{instances} + 2 * uint32_t{transmission} + 4 * uint32_t{scattering});
+    return diffractions + 4 * (uint32_t{instances} + 2 * uint32_t{transmission} + 4 * uint32_t{scattering});
   }
 };
 

@@ -33,7 +33,7 @@ CheckedFeatures features_to_check(const Setup& setup) {
   CheckedFeatures out{.instances = !setup.world.instances().empty(),
                       .transmission = setup.trace.transmission,
                       .scattering = setup.trace.scattering,
-                      .diffractions = setup.trace.diffraction ? std::min(setup.trace.max_diffractions, 2u) : 0,
+                      .diffractions = setup.trace.diffraction ? std::min(setup.trace.max_diffractions, 3u) : 0,
                       .reuse = setup.reuse};
   if (setup.cache && !setup.cache->as_printed()) out.cache = setup.config.cache;
   return out;

@@ -23,6 +23,10 @@
 
 namespace wavetracer {
 
+// Pairs of edges that take longer than a frame of a drive are made of so many prefixes at a time, so that a frame can
+// be given up in between, and says how far it has come.
+constexpr uint32_t prefix_block = 4096, most_at_once = 1 << 15;
+
 struct DiffractedPaths {
   // receiver_of_origin: see WedgeJoin; wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth:
   // interactions that a solved path has room for, max_depth or more.
@@ -58,15 +62,16 @@ struct DiffractedPaths {
 };
 
 // From wedge_join to visible, with a part of the prefixes after the other where all have too many candidates for one
-// list. see: what follows wedge_solve; told: before another part. Returns what the counters have not: all parts but the
-// last.
+// list, or take long. see: what follows wedge_solve; told(done): before another part, with how many of the prefixes are
+// done. Returns what the counters have not: all parts but the last.
 template <class See, class Told>
 Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
                         const WedgePrefixList& prefixes, const See& see, const Told& told) {
   Counters& counters = set.counters();
   Uncounted out, part;
+  const bool at_once = counters.foresees() || !edges.pairs || prefixes.count <= most_at_once || !edges.join.waits();
   by_parts(
-      prefixes.count, counters.foresees() ? 0xFFFFFFFFu : edges.join.most(),
+      prefixes.count, at_once ? prefixes.count : prefix_block, counters.foresees() ? 0xFFFFFFFFu : edges.join.most(),
       [&](uint32_t first, uint32_t end) {
         return edges.join(scene, prefixes, first, end, edges.wedges.list(), ends, counters,
                           edges.for_two());  // wedge_join, wedge_pairs
@@ -77,13 +82,13 @@ Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const 
         see(solved);
         part = {joined, solved.count};
       },
-      [&] {
+      [&](uint32_t done) {
         out.candidates += std::exchange(part.candidates, 0);
         out.solved += std::exchange(part.solved, 0);
         counters.restart(&wt_counters::wedge_candidates, 0, "wedge_join");
         counters.restart(&wt_counters::wedge_solved, 0, "wedge_solve");
         counters.in_parts();
-        told();
+        told(done);
       },
       [&](uint32_t candidates) { edges.join.refuse(candidates); });
   return out;

@@ -1,6 +1,8 @@
 // Rays discover, geometry decides: see docs/architecture.md. A line's comment names the passes that it runs.
 #include "simulation/frame.hpp"
 
+#include <algorithm>
+
 #include "radio/path_power.hpp"
 #include "simulation/launch_share.hpp"
 #include "simulation/recall_warning.hpp"
@@ -233,8 +235,9 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
     exact.visible(solved, counters);                  // visible
     account.device_done();
   };
-  const auto tell = [&] { watch.tell("paths", ++kinds_done, exact.kinds()); };
-  watch.tell("paths", 0, exact.kinds());
+  constexpr uint64_t steps = 100;  // of each kind
+  const auto tell = [&] { watch.tell("paths", steps * ++kinds_done, steps * exact.kinds()); };
+  watch.tell("paths", 0, steps * exact.kinds());
 
   uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
   if (searched) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
@@ -252,8 +255,9 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
                                                set.nodes(), nodes, counters);   // wedge_prefixes
     if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);  // wedge_sight
     edges.sort(prefixes);                                                       // sort
-    out =
-        join_prefixes(edges, scene, ends, set, prefixes, see, [&] { watch.tell("paths", kinds_done, exact.kinds()); });
+    out = join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) {
+      watch.tell("paths", steps * kinds_done + steps * done / std::max(prefixes.count, 1u), steps * exact.kinds());
+    });
     if (edges.chains) see((*edges.chains)(scene, edges.wedges.list(), ends, counters));  // wedge_chains
     tell();
   }

@@ -14,31 +14,39 @@ struct KnownFrame {
 };
 
 // clang-format off
-inline constexpr std::array<KnownFrame, 24> known_frames{{
+inline constexpr std::array<KnownFrame, 32> known_frames{{
     {18, 0x04b8e8fb3b35bb2b, 0x25f3beca00a5851d},
     {126, 0x249cfb51575c99c3, 0xff968b3d5804cdb9},
     {352, 0x56ebaa69dadef4db, 0xcfa6804b0c9cd768},
+    {352, 0x56ebaa69dadef4db, 0x89f54bd7d25941af},
     {16, 0xa1502ea7163ee85b, 0x016430d5e0888e8f},
     {148, 0x87d3d2ec7965f1da, 0x8598d75b7fa646e4},
     {540, 0xb5b57413cccd8c6d, 0x59c122d88f3c05ca},
+    {540, 0xb5b57413cccd8c6d, 0x6b85dedfbc186457},
     {16, 0x2639cda0955732a0, 0x181b1bdc5428fab1},
     {130, 0x41a17a2c155c03f0, 0x62fcd3b50e8aee92},
     {356, 0x9aaacb991b7b8319, 0x557846b0fcfe7417},
+    {356, 0x9aaacb991b7b8319, 0x9ddba09b45293465},
     {14, 0x9b58c340b6f2ac94, 0x365a283b118ee6a9},
     {152, 0xe4f8e151e077577c, 0x8a63c63d289242c4},
     {546, 0x7d2d463c305e5777, 0xf9fd0717774dc9c5},
+    {546, 0x7d2d463c305e5777, 0x88b9f588ccd4083f},
     {104, 0x71a12522c7d99272, 0x7397ac502b4da06a},
     {212, 0x5731f71058c8d1a5, 0x9919d302e0a50d25},
     {438, 0x7d8d56ba84dfa585, 0x1e9a9ab6d2e40af8},
+    {438, 0x7d8d56ba84dfa585, 0x0cf233c78c12a360},
     {102, 0x58a7d72bc0b7c06f, 0x5b60a0d89d862c8d},
     {234, 0x9b947766ff04b180, 0x03db5c4e50410a18},
     {626, 0x189a9a101e52f98a, 0x8daa04124afba19f},
+    {626, 0x189a9a101e52f98a, 0x14f1f9e2e757ba11},
     {102, 0xb69db4180e968259, 0x924ecb0676ac2646},
     {216, 0x11af7b576788f050, 0xf6706c58a91948ca},
     {442, 0x11abcc33b53d84b6, 0x149e55c6fe94263f},
+    {442, 0x11abcc33b53d84b6, 0x3e9d20fbb81ac03f},
     {100, 0xe2589e8ac1268b81, 0xaa29eb1b4f16416a},
     {238, 0x9287a2166ed4789e, 0x3ce5eb1b4fde614b},
     {632, 0x04d45835785a38e8, 0xc44b2491c4911efb},
+    {632, 0x04d45835785a38e8, 0xc08cee03fae97396},
 }};
 // clang-format on
 

@@ -15,10 +15,10 @@ namespace {
 
 CheckedFeatures features_of_frame(uint32_t frame) {
   CheckedFeatures out;
-  out.diffractions = frame % 3;
-  out.instances = frame / 3 & 1;
-  out.transmission = frame / 6 & 1;
-  out.scattering = frame / 12 & 1;
+  out.diffractions = frame % 4;
+  out.instances = frame / 4 & 1;
+  out.transmission = frame / 8 & 1;
+  out.scattering = frame / 16 & 1;
   REQUIRE(out.frame() == frame);
   return out;
 }
