@@ -101,7 +101,8 @@ inline int over_roofs(const wt_edge_map* map, const wt_edge_map_arguments* grid,
     if (pull == 0 && aside != 0.0) wt_bend_aside(aside, &curtain);
     *chain = next;
     if (!wt_pull_string(map, grid, &curtain, a.z, b.z, most, &next, along)) return 0;
-    if (!keep_uprights(map->wedges, chain, &curtain, most, &next, along) || next.count == 0) return 0;
+    if (!keep_uprights(map->wedges, chain, &curtain, most, &next, along)) return 0;
+    if (next.count == 0) return 0;
     const int same = is_same_chain(&next, chain);
     if (same) next = *chain;
     int settled = same || wt_shortest_over_chain(map->wedges, &next, a, b);
@@ -116,6 +117,30 @@ inline int over_roofs(const wt_edge_map* map, const wt_edge_map_arguments* grid,
     if (!wt_shortest_over_chain(map->wedges, &next, a, b)) return 0;
   }
   return 0;
+}
+
+// An edge somewhat under the string takes a part of the wave that passes it, and each set of such edges, together with
+// those of the string, is a way of its own. Chain `set` of them goes to *wider: bit i stands for edge i of near. 0
+// where that is too many edges.
+inline int widen(const wt_edge_chain* chain, const wt_curtain* curtain, const wt_near_edges* near, uint set, uint most,
+                 wt_edge_chain* wider) {
+  double along[WT_MOST_EDGES];
+  if (chain->count + popcount(set) > most) return 0;
+  *wider = *chain;
+  for (uint i = 0; i < chain->count; ++i) along[i] = curtain->along[i + 1];
+  for (uint i = 0; i < near->count; ++i) {
+    if (!(set >> i & 1)) continue;
+    uint at = wider->count++;
+    for (; at > 0 && along[at - 1] > near->points[i].along; --at) {
+      along[at] = along[at - 1];
+      wider->wedges[at] = wider->wedges[at - 1];
+      wider->places[at] = wider->places[at - 1];
+    }
+    along[at] = near->points[i].along;
+    wider->wedges[at] = near->points[i].wedge;
+    wider->places[at] = near->points[i].place;
+  }
+  return 1;
 }
 
 // The string is pulled from so many places beside each other: what slips off the corners of a roof in one plane may
@@ -139,10 +164,23 @@ kernel void roof_chains(const global wt_wedge* wedges, const global uint* first,
   const int turned = to.x < from.x || (to.x == from.x && (to.y < from.y || (to.y == from.y && to.z < from.z)));
   const double4 a = turned ? to : from, b = turned ? from : to;
   const wt_edge_map map = {wedges, first, listed, radii, uprights, instances, {wt_end_instance(a), wt_end_instance(b)}};
-  wt_edge_chain chain;
+  wt_edge_chain chain, wider;
   const double aside = (string % 2 == 0 ? 0.1 : -0.1) * ((string + 1) / 2);
-  if (over_roofs(&map, &args.map, a.xyz, b.xyz, aside, args.most_edges, &chain) &&
-      wt_is_free_chain(wedges, &chain, a.xyz, b.xyz))
-    wt_enter_chain(wedges, &chain, turned, transmitter, receiver, args.max_depth, args.capacity, solved, vertices,
-                   sequences, counters);
+  chain.count = 0;
+  if (!over_roofs(&map, &args.map, a.xyz, b.xyz, aside, args.most_edges, &chain) && (chain.count > 0 || string > 0))
+    return;
+  wt_curtain curtain;
+  wt_near_edges near;
+  near.count = 0;
+  near.wavelength_m = args.wavelength_m;
+  if (string == 0 && wt_hang_curtain(wedges, &chain, a.xyz, b.xyz, &curtain)) {
+    for (uint i = 0; i <= chain.count + 1; ++i) near.heights[i] = wt_point_of_chain(wedges, &chain, i, a.xyz, b.xyz).z;
+    wt_find_near_edges(&map, &args.map, &curtain, &near);
+  }
+  for (uint set = 0; set < 1u << near.count; ++set)
+    if (widen(&chain, &curtain, &near, set, args.most_edges, &wider) && wider.count > 0 &&
+        (set == 0 || wt_shortest_over_chain(wedges, &wider, a.xyz, b.xyz)) &&
+        wt_is_free_chain(wedges, &wider, a.xyz, b.xyz))
+      wt_enter_chain(wedges, &wider, turned, transmitter, receiver, args.max_depth, args.capacity, solved, vertices,
+                     sequences, counters);
 }

@@ -7,11 +7,13 @@
 
 namespace wavetracer {
 
-WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t most_edges, uint32_t max_depth)
+WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t most_edges, uint32_t max_depth,
+                         double wavelength_m)
     : context_(context),
       work_(tuning_of(context.info()).exact),
       roofs_(context.kernel("wedge_chains", "roof_chains")),
       most_edges_(most_edges),
+      wavelength_m_(wavelength_m),
       map_(grid.map),
       first_(context.buffer(grid.first, {"cells of edges", advice::scene})),
       listed_(context.buffer(grid.listed, {"edges of cells", advice::scene})),
@@ -31,6 +33,7 @@ SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& w
            first_, listed_, radii_, uprights_, scene.exact_instances, ends.transmitters, ends.receivers, ends.links,
            solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
            wt_wedge_chains_arguments{.map = map_,
+                                     .wavelength_m = wavelength_m_,
                                      .transmitter_count = ends.transmitter_count,
                                      .receiver_capacity = ends.receiver_capacity,
                                      .most_edges = most_edges_,

@@ -16,8 +16,10 @@ namespace wavetracer {
 class WedgeChains {
  public:
   // grid: over the edges of the same world as the lists of wedges. most_edges: of a path, at most WT_MOST_EDGES.
-  // max_depth: interactions that a row has room for, at least most_edges.
-  WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t most_edges, uint32_t max_depth);
+  // max_depth: interactions that a row has room for, at least most_edges. wavelength_m: the longest; edges under a
+  // string are taken as far as its Fresnel zone goes.
+  WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t most_edges, uint32_t max_depth,
+              double wavelength_m);
   SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends, Counters& counters);
 
  private:
@@ -25,6 +27,7 @@ class WedgeChains {
   Work work_;
   gpu::Kernel roofs_;
   uint32_t most_edges_;
+  double wavelength_m_;
   wt_edge_map_arguments map_;
   gpu::Buffer<uint32_t> first_, listed_;
   gpu::Buffer<double> radii_;

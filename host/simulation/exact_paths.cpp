@@ -41,11 +41,11 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
     diffraction.emplace(context, Wedges(context, scene, world.models(), world.instances(), trace.free_edges),
                         origins.receiver_of_origin, trace.max_depth, depth.row, longest_wavelength_m, std::move(two));
-    if (depth.edges > 2) {
+    if (depth.edges > 1) {
       const auto instances = static_cast<uint32_t>(world.instances().size());
       const WedgeGrid grid(wedge_records(scene, world.models(), world.instances()),
                            static_cast<uint32_t>(scene.wedges.size()), instances, trace.free_edges);
-      diffraction->chains.emplace(context, grid, depth.edges, depth.row);
+      diffraction->chains.emplace(context, grid, depth.edges, depth.row, longest_wavelength_m);
     }
   }
   if (trace.scattering) {

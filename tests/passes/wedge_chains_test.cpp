@@ -38,7 +38,7 @@ Chains chains(const Scene& scene, const Points& tx, const Points& rx, uint32_t m
   const RadioEnds ends = make_radio_ends(context(), from, to, links);
   const Wedges wedges(context(), scene, {}, {}, free_edges);
   const WedgeGrid grid(wedge_records(scene, {}, {}), static_cast<uint32_t>(scene.wedges.size()), 0, free_edges);
-  WedgeChains pass(context(), grid, most, most);
+  WedgeChains pass(context(), grid, most, most, 1e-6);
   Counters counters(context());
   const SolvedList& list = pass(uploaded, wedges.list(), ends, counters);
   Chains out;

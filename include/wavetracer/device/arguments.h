@@ -173,6 +173,7 @@ typedef struct {
 
 typedef struct {
   wt_edge_map_arguments map;
+  double wavelength_m;
   wt_uint transmitter_count;
   wt_uint receiver_capacity;
   wt_uint most_edges;
