@@ -74,12 +74,13 @@ inline int begins_group(const global uint* keys, const global uint* order, const
 }
 
 // Which pieces of the edge v each of the group may cross on its way to the edge w. 0 where none does.
-inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_wedge* v, const global wt_wedge* w,
-                         prefix_group* group) {
+inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_surface* boxes,
+                         const global wt_wedge* v, const global wt_wedge* w, prefix_group* group) {
   const wt_edge_view to = wt_edge_seen_from(v, w);
   uint any = 0;
   for (uint k = 0; k < group->count; ++k) {
-    group->pieces[k] = prefixes[group->numbers[k]].pieces & wt_crossed_pieces(v, prefixes + group->numbers[k], &to);
+    group->pieces[k] =
+        prefixes[group->numbers[k]].pieces & wt_crossed_pieces(v, prefixes + group->numbers[k], boxes, &to);
     any |= group->pieces[k];
   }
   return any;
@@ -92,8 +93,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
                         const global double* sides, global uint* kept, const global uint* keys,
                         const global uint* order, const global wt_wedge_prefix* prefixes,
                         const global uint* receiver_of_origin, const global ushort* links,
-                        const global wt_wedge* wedges, global wt_wedge_candidate* out, global wt_counters* counters,
-                        wt_wedge_join_arguments args, wt_sight_arguments sight_args) {
+                        const global wt_wedge* wedges, const global wt_surface* boxes, global wt_wedge_candidate* out,
+                        global wt_counters* counters, wt_wedge_join_arguments args, wt_sight_arguments sight_args) {
   const uint i = args.first + get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
   if (i >= args.end || keys[i] == WT_NONE) return;
   const uint wedge_a = wt_wedge_of(keys[i]);
@@ -114,7 +115,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
       const size_t low = min(wedge_a, wedge_b), high = max(wedge_a, wedge_b);
       keep = 0;
       known = was_known = ALL_PAIRS;
-      if (low != high && !is_corner(w) && leave_pieces(prefixes, wedges + wedge_a, w, &group)) {
+      if (low != high && !is_corner(w) && leave_pieces(prefixes, boxes, wedges + wedge_a, w, &group)) {
         keep = high < sight_args.kept_wedges ? kept + high * (high - 1) / 2 + low : 0;
         known = was_known = keep ? wt_load_relaxed_u32(keep) : 0;
         if (!known && !in_sight(wedges + low, wedges + high)) known = ALL_PAIRS;
@@ -124,7 +125,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
     if (known != ALL_PAIRS && keys[j] <= wt_wedge_key(wedge_b, group.most)) {
       const global wt_wedge_prefix* b = prefixes + order[j];
       j += args.lanes;
-      const uint pieces_b = b->pieces & wt_crossed_pieces(wedges + wedge_b, b, &back);
+      const uint pieces_b = b->pieces & wt_crossed_pieces(wedges + wedge_b, b, boxes, &back);
       const int a_is_low = wedge_a < wedge_b;
       for (uint k = 0; pieces_b && k < group.count; ++k) {
         const global wt_wedge_prefix* a = prefixes + group.numbers[k];

@@ -37,8 +37,8 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                             Counters& counters) {
   kernel_({size_t{join.end - join.first} * join.lanes, group_}, "wedge_pairs", scene.leg_nodes(), scene.leg_leaves(),
           scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, prefixes.order,
-          prefixes.prefixes, receiver_of_origin, ends.links, wedges.wedges, list, counters.buffer(), join,
-          sight.arguments(scene, join.count, kept_wedges_));
+          prefixes.prefixes, receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(),
+          join, sight.arguments(scene, join.count, kept_wedges_));
 }
 
 }  // namespace wavetracer
