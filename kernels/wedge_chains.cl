@@ -143,6 +143,23 @@ inline int widen(const wt_edge_chain* chain, const wt_curtain* curtain, const wt
   return 1;
 }
 
+// Solves the chain from the transmitter on; one or two edges by the closed forms of wedge_solve, so that a path that
+// rays find as well has the same bits. chain: in the order from a on.
+inline int solve_set(const global wt_wedge* wedges, wt_edge_chain* chain, int turned, double3 a, double3 b) {
+  const global wt_wedge* v = wedges + chain->wedges[0];
+  if (chain->count > 2) return wt_shortest_over_chain(wedges, chain, a, b);
+  if (chain->count == 1) {
+    chain->places[0] = turned ? wt_shortest_over(v, b, a) : wt_shortest_over(v, a, b);
+    return 1;
+  }
+  const global wt_wedge* w = wedges + chain->wedges[1];
+  double x, y;
+  if (!(turned ? wt_shortest_over_two(w, v, b, a, &y, &x) : wt_shortest_over_two(v, w, a, b, &x, &y))) return 0;
+  chain->places[0] = x;
+  chain->places[1] = y;
+  return 1;
+}
+
 // The string is pulled from so many places beside each other: what slips off the corners of a roof in one plane may
 // hold in the next. Most end at the same edges, and are one path.
 #define WT_STRINGS 9
@@ -179,8 +196,7 @@ kernel void roof_chains(const global wt_wedge* wedges, const global uint* first,
   }
   for (uint set = 0; set < 1u << near.count; ++set)
     if (widen(&chain, &curtain, &near, set, args.most_edges, &wider) && wider.count > 0 &&
-        (set == 0 || wt_shortest_over_chain(wedges, &wider, a.xyz, b.xyz)) &&
-        wt_is_free_chain(wedges, &wider, a.xyz, b.xyz))
+        solve_set(wedges, &wider, turned, a.xyz, b.xyz) && wt_is_free_chain(wedges, &wider, a.xyz, b.xyz))
       wt_enter_chain(wedges, &wider, turned, transmitter, receiver, args.max_depth, args.capacity, solved, vertices,
                      sequences, counters);
 }

@@ -55,7 +55,7 @@ struct DiffractedPaths {
   WedgeJoin join;
   std::optional<WedgePairs> pairs;
   WedgeSolve solve;
-  std::optional<WedgeChains> chains;  // for paths over more than two wedges
+  std::optional<WedgeChains> chains;  // with two edges and more
 
  private:
   Sort sort_;
