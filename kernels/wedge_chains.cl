@@ -143,6 +143,24 @@ inline int widen(const wt_edge_chain* chain, const wt_curtain* curtain, const wt
   return 1;
 }
 
+// Edges on the string that bound a plane with another edge of it, as bits: the string runs along that plane, and there
+// it is in the shadow of such an edge, which so belongs to every set.
+inline uint edges_of_planes(const global wt_wedge* wedges, const wt_edge_chain* chain, const wt_near_edges* near) {
+  uint out = 0;
+  for (uint i = 0; i < near->count; ++i) {
+    if (near->depths[i] > 0.0) continue;
+    const global wt_wedge* w = wedges + near->points[i].wedge;
+    int shares = 0;
+    for (uint k = 0; k < chain->count; ++k)
+      shares |= wt_share_plane(w, wedges + chain->wedges[k], (double3)(0.0, 0.0, 0.0));
+    for (uint k = 0; k < near->count; ++k)
+      if (k != i && near->depths[k] == 0.0)
+        shares |= wt_share_plane(w, wedges + near->points[k].wedge, (double3)(0.0, 0.0, 0.0));
+    if (shares) out |= 1u << i;
+  }
+  return out;
+}
+
 // Solves the chain from the transmitter on; one or two edges by the closed forms of wedge_solve, so that a path that
 // rays find as well has the same bits. chain: in the order from a on.
 inline int solve_set(const global wt_wedge* wedges, wt_edge_chain* chain, int turned, double3 a, double3 b) {
@@ -190,12 +208,14 @@ kernel void roof_chains(const global wt_wedge* wedges, const global uint* first,
   wt_near_edges near;
   near.count = 0;
   near.wavelength_m = args.wavelength_m;
-  if (string == 0 && wt_hang_curtain(wedges, &chain, a.xyz, b.xyz, &curtain)) {
+  if (wt_hang_curtain(wedges, &chain, a.xyz, b.xyz, &curtain)) {
     for (uint i = 0; i <= chain.count + 1; ++i) near.heights[i] = wt_point_of_chain(wedges, &chain, i, a.xyz, b.xyz).z;
     wt_find_near_edges(&map, &args.map, &curtain, &near);
   }
+  const uint always = edges_of_planes(wedges, &chain, &near);
   for (uint set = 0; set < 1u << near.count; ++set)
-    if (widen(&chain, &curtain, &near, set, args.most_edges, &wider) && wider.count > 0 &&
+    if ((string == 0 ? (set & always) == always : set == always) &&
+        widen(&chain, &curtain, &near, set, args.most_edges, &wider) && wider.count > 0 &&
         solve_set(wedges, &wider, turned, a.xyz, b.xyz) && wt_is_free_chain(wedges, &wider, a.xyz, b.xyz))
       wt_enter_chain(wedges, &wider, turned, transmitter, receiver, args.max_depth, args.capacity, solved, vertices,
                      sequences, counters);

@@ -44,6 +44,8 @@ inline wt_matrix wt_other_way(wt_matrix m) {
   return m;
 }
 
+#define WT_CONDUCTS 1e6  // a permittivity so large, of 1e7 S/m up to 180 GHz, is that of a good conductor
+
 inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double wavelength_m) {
   if (fabs(face->permittivity.x) == WT_INFINITY || fabs(face->permittivity.y) == WT_INFINITY) {
     wt_slab out;
@@ -52,6 +54,10 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
     out.transmission_te = out.transmission_tm = wt_real(0.0);
     return out;
   }
+  // Waves that graze a good conductor as rays do, in zones much wider than its Brewster angle 1 / sqrt(permittivity),
+  // are reflected as by a perfect one.
+  const double size = wt_size(face->permittivity);
+  if (size > WT_CONDUCTS) cos_theta = fmin(sqrt(cos_theta * cos_theta + 1e4 / size), 1.0);
   return wt_slab_coefficients(face->permittivity, cos_theta, face->thickness_m, wavelength_m);
 }
 
