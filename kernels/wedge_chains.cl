@@ -1,7 +1,7 @@
 // wedge_chains: paths over several edges, by the string of each link. Of a link only a few chains of edges are tried,
 // those that a string between its ends touches when it is pulled tight, and these are solved at once, in double: no
 // pairs of edges are listed, and no ray is needed. Produces rows as wedge_solve does; legs are not tested here.
-#include "lib/curtain.clh"
+#include "lib/string_sets.clh"
 
 // So often the string is pulled again, over the way that was found, and after so many pulls a way that still leaves an
 // edge slips off it.
@@ -119,65 +119,6 @@ inline int over_roofs(const wt_edge_map* map, const wt_edge_map_arguments* grid,
   return 0;
 }
 
-// An edge somewhat under the string takes a part of the wave that passes it, and each set of such edges, together with
-// those of the string, is a way of its own. Chain `set` of them goes to *wider: bit i stands for edge i of near. 0
-// where that is too many edges.
-inline int widen(const wt_edge_chain* chain, const wt_curtain* curtain, const wt_near_edges* near, uint set, uint most,
-                 wt_edge_chain* wider) {
-  double along[WT_MOST_EDGES];
-  if (chain->count + popcount(set) > most) return 0;
-  *wider = *chain;
-  for (uint i = 0; i < chain->count; ++i) along[i] = curtain->along[i + 1];
-  for (uint i = 0; i < near->count; ++i) {
-    if (!(set >> i & 1)) continue;
-    uint at = wider->count++;
-    for (; at > 0 && along[at - 1] > near->points[i].along; --at) {
-      along[at] = along[at - 1];
-      wider->wedges[at] = wider->wedges[at - 1];
-      wider->places[at] = wider->places[at - 1];
-    }
-    along[at] = near->points[i].along;
-    wider->wedges[at] = near->points[i].wedge;
-    wider->places[at] = near->points[i].place;
-  }
-  return 1;
-}
-
-// Edges on the string that bound a plane with another edge of it, as bits: the string runs along that plane, and there
-// it is in the shadow of such an edge, which so belongs to every set.
-inline uint edges_of_planes(const global wt_wedge* wedges, const wt_edge_chain* chain, const wt_near_edges* near) {
-  uint out = 0;
-  for (uint i = 0; i < near->count; ++i) {
-    if (near->depths[i] > 0.0) continue;
-    const global wt_wedge* w = wedges + near->points[i].wedge;
-    int shares = 0;
-    for (uint k = 0; k < chain->count; ++k)
-      shares |= wt_share_plane(w, wedges + chain->wedges[k], (double3)(0.0, 0.0, 0.0));
-    for (uint k = 0; k < near->count; ++k)
-      if (k != i && near->depths[k] == 0.0)
-        shares |= wt_share_plane(w, wedges + near->points[k].wedge, (double3)(0.0, 0.0, 0.0));
-    if (shares) out |= 1u << i;
-  }
-  return out;
-}
-
-// Solves the chain from the transmitter on; one or two edges by the closed forms of wedge_solve, so that a path that
-// rays find as well has the same bits. chain: in the order from a on.
-inline int solve_set(const global wt_wedge* wedges, wt_edge_chain* chain, int turned, double3 a, double3 b) {
-  const global wt_wedge* v = wedges + chain->wedges[0];
-  if (chain->count > 2) return wt_shortest_over_chain(wedges, chain, a, b);
-  if (chain->count == 1) {
-    chain->places[0] = turned ? wt_shortest_over(v, b, a) : wt_shortest_over(v, a, b);
-    return 1;
-  }
-  const global wt_wedge* w = wedges + chain->wedges[1];
-  double x, y;
-  if (!(turned ? wt_shortest_over_two(w, v, b, a, &y, &x) : wt_shortest_over_two(v, w, a, b, &x, &y))) return 0;
-  chain->places[0] = x;
-  chain->places[1] = y;
-  return 1;
-}
-
 // The string is pulled from so many places beside each other: what slips off the corners of a roof in one plane may
 // hold in the next. Most end at the same edges, and are one path.
 #define WT_STRINGS 9
@@ -212,11 +153,11 @@ kernel void roof_chains(const global wt_wedge* wedges, const global uint* first,
     for (uint i = 0; i <= chain.count + 1; ++i) near.heights[i] = wt_point_of_chain(wedges, &chain, i, a.xyz, b.xyz).z;
     wt_find_near_edges(&map, &args.map, &curtain, &near);
   }
-  const uint always = edges_of_planes(wedges, &chain, &near);
+  const uint always = wt_edges_of_planes(wedges, &chain, &near);
   for (uint set = 0; set < 1u << near.count; ++set)
     if ((string == 0 ? (set & always) == always : set == always) &&
-        widen(&chain, &curtain, &near, set, args.most_edges, &wider) && wider.count > 0 &&
-        solve_set(wedges, &wider, turned, a.xyz, b.xyz) && wt_is_free_chain(wedges, &wider, a.xyz, b.xyz))
+        wt_widen(&chain, &curtain, &near, set, args.most_edges, &wider) && wider.count > 0 &&
+        wt_solve_set(wedges, &wider, turned, a.xyz, b.xyz) && wt_is_free_chain(wedges, &wider, a.xyz, b.xyz))
       wt_enter_chain(wedges, &wider, turned, transmitter, receiver, args.max_depth, args.capacity, solved, vertices,
                      sequences, counters);
 }

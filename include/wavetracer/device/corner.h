@@ -54,10 +54,10 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
     out.transmission_te = out.transmission_tm = wt_real(0.0);
     return out;
   }
-  // Waves that graze a good conductor as rays do, in zones much wider than its Brewster angle 1 / sqrt(permittivity),
-  // are reflected as by a perfect one.
+  // A wave along a good conductor is one of the zone about it, which is much wider than the Brewster angle,
+  // 1 / sqrt(permittivity): it is reflected as by a perfect conductor.
   const double size = wt_size(face->permittivity);
-  if (size > WT_CONDUCTS) cos_theta = fmin(sqrt(cos_theta * cos_theta + 1e4 / size), 1.0);
+  if (cos_theta < 1e-9 && size > WT_CONDUCTS) cos_theta = 100.0 / sqrt(size);
   return wt_slab_coefficients(face->permittivity, cos_theta, face->thickness_m, wavelength_m);
 }
 
