@@ -49,9 +49,10 @@ struct Diffraction {
 // below pi, where nothing is in the way of a direct ray.
 //
 // The terms of a face are weighted by its reflection matrix, so that the total field is continuous at every shadow
-// boundary. R. Luebbers (IEEE Trans. AP 32(1), 1984) takes that of face 0 at the incident and that of face 1 at the
-// diffracted azimuth; here it is the mean of his coefficient and of his for the link the other way. So it is
-// reciprocal, does not depend on which face is face 0, and vanishes as the faces of a convex wedge become one plane.
+// boundary. A face reflects what comes from the end that is nearer to it by azimuth (R. Luebbers, IEEE Trans. AP 32(1),
+// 1984, with face 0 on the source's side), and the term of the direct wave whose boundary is behind the other face is
+// weighted by both reflections (P. Holm, IEEE Trans. AP 48(8), 2000). So the coefficient is reciprocal, does not depend
+// on which face is face 0, and vanishes at a face that reflects -1 and as the faces of a convex wedge become one plane.
 //
 // A direction, or both, within 1e-9 rad of a face: the reflected ray is one with the direct ray, which the caller
 // counts once, and the coefficient is halved, as Kouyoumjian and Pathak do, whatever the polarisation.

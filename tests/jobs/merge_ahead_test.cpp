@@ -21,7 +21,7 @@ namespace {
 
 // Frames 3 to 6002, so that some columns have full chunks, in five units.
 constexpr uint32_t last_frame = 6002;
-constexpr size_t full_chunks = 6;
+constexpr size_t full_chunks = 7;
 const RunIdentity long_identity = sample_identity(last_frame);
 const Units cut_units(3, last_frame, 1500);
 

@@ -3,9 +3,9 @@
 // the paraxial sense (Vogler's double integral), and total fields are continuous: at a boundary of one edge the jump is
 // the wave that the other edge diffracts alone. Heights over a plane that both edges bound mirror each other: what the
 // plane reflects between the edges has the other sign of r, and the plane's reflection coefficient at the mean angle of
-// the waves that graze it. A soft plane leaves the difference g2(r) - g2(-r), the slope wave, a hard one the sum; the
-// coefficient of a conductor turns from -1 to 1 as the edges come far apart, as its surface wave does. A thin wall
-// tends to a screen, r to 1.
+// the waves that graze it. A soft plane leaves the difference g2(r) - g2(-r), the slope wave, a hard one the sum. A
+// good conductor is a hard plane for vertical waves, since these are much farther from grazing than its Brewster angle.
+// A thin wall tends to a screen, r to 1.
 #ifndef WAVETRACER_DEVICE_EDGE_PAIR_H
 #define WAVETRACER_DEVICE_EDGE_PAIR_H
 #include "wavetracer/device/double_transition.h"
