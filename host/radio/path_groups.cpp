@@ -28,7 +28,7 @@ uint64_t mixed(uint64_t hash, uint64_t value) {  // the finisher of SplitMix64
 uint64_t step_of(Interaction kind, uint32_t number) { return uint64_t{kind} << 32 | number; }
 
 // The parts of a vertex in the keys of its path.
-struct Choice {
+struct StepChoice {
   uint64_t step;  // 0: none
   double share;
 };
@@ -121,12 +121,12 @@ void PathGrouping::keys_of(const Paths& paths, size_t row, const WorldState& sta
     const wt_wedge wedge = placed(number, state);
     const EdgeShares shares = edge_shares(wedge, glm::normalize(legs.leg(at)), glm::normalize(legs.leg(at + 1)),
                                           since_m, legs.length_m - since_m, wavelength_m_);
-    const Choice choices[in_places] = {{step_of(kind, number), shares[0]},
-                                       {0, shares[1]},
-                                       {step_of(reflection, wedge.planes[0]), shares[2]},
-                                       {step_of(reflection, wedge.planes[1]), shares[3]}};
+    const StepChoice choices[in_places] = {{step_of(kind, number), shares[0]},
+                                           {0, shares[1]},
+                                           {step_of(reflection, wedge.planes[0]), shares[2]},
+                                           {step_of(reflection, wedge.planes[1]), shares[3]}};
     next.clear();
-    for (const Choice& choice : choices)
+    for (const StepChoice& choice : choices)
       for (const Key& key : keys)
         if (choice.share > 0)
           next.push_back({choice.step == 0 ? key.hash : mixed(key.hash, choice.step), key.weight * choice.share});

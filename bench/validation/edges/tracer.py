@@ -1,7 +1,8 @@
 """The field that wavetracer computes for the cases of cases.py: every profile is drawn out to 800 m along the axis.
 
-The axis is upright and the profile lies in the plane z = 0, its z along our y: seen from an end, theta is then along the axis
-and phi across it in all directions, so the fields of all paths have their signs in common.
+Screens and blocks lie: their axis is y, and the ways over them are those over roofs. A corner stands: its axis is z, and its
+profile is in the plane z = 0, with its z along our y. Seen from an end, theta is then along the axis and phi across it in all
+directions, so the fields of all paths have their signs in common where ways go steeply up as well.
 
 Paths are added in phase. A point source spreads otherwise than a line source, which the references have: along the plane of
 a profile, the field of a path of length s over that of free space is sqrt(direct / s) times that of a line source, exactly,
@@ -18,7 +19,7 @@ import wavetracer as wt
 import solids
 
 SPEED_OF_LIGHT = 299792458.0
-HALF_M = 400.0  # along the axis, on both sides of the plane z = 0
+HALF_M = 400.0  # along the axis, on both sides of the plane of the profile
 DEEP_M = 800.0
 BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
 
@@ -26,6 +27,11 @@ BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1,
 def profile(row):
     """What cases share that can be solved in one scene."""
     return row["f_hz"], row["shape"], row["material"], tuple(row["places"]), tuple(row["tops"])
+
+
+def placed(shape, x, height, along):
+    """A point of a profile, and how far along the axis it is, in the coordinates of the scene."""
+    return (x, height, along) if shape == "corner" else (x, along, height)
 
 
 def write_scene(path, shape, places, tops):
@@ -37,7 +43,8 @@ def write_scene(path, shape, places, tops):
         walls = places if shape == "block" else (places[0], places[0] + DEEP_M)
         bodies = [([*itertools.product(walls, (-DEEP_M, 0.0), (-HALF_M, HALF_M))], BOX)]
     for i, (corners, faces) in enumerate(bodies):
-        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in corners] + [f"o body{i}", "usemtl body"]
+        lines += ["v " + " ".join(repr(c) for c in placed(shape, *corner)) for corner in corners]
+        lines += [f"o body{i}", "usemtl body"]
         lines += ["f " + " ".join(str(count + j + 1) for j in face) for face in faces]
         count += len(corners)
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -45,7 +52,7 @@ def write_scene(path, shape, places, tops):
 
 def configuration(f_hz, shape, material, edges, tx, rx, trace):
     epsilon = 1 - 1j * 1e7 / (2 * np.pi * f_hz * solids.EPSILON_0) if material == "metal" else solids.epsilon(material, f_hz)
-    ends = [[{"name": f"{side}{i}", "position_m": [x, z, 0.0], "polarization": "VH"} for i, (x, z) in enumerate(places)]
+    ends = [[{"name": f"{side}{i}", "position_m": list(placed(shape, x, z, 0.0)), "polarization": "VH"} for i, (x, z) in enumerate(places)]
             for side, places in (("tx", tx), ("rx", rx))]
     return {"scene": {"file": "scene.obj"}, "radio": {"frequency_hz": f_hz}, "transmitter": ends[0], "receiver": ends[1],
             "material": [{"name": "body", "permittivity": epsilon.real,
@@ -56,21 +63,24 @@ def configuration(f_hz, shape, material, edges, tx, rx, trace):
                       "max_depth": edges if shape == "screens" else edges + 1, **trace}}
 
 
-def sums(paths, tx, rx, f_hz):
-    """The fields over free space by pair of ends, {(tx, rx): complex array (2,)}: wave V is that of phi, which the two ends
-    of a straight path see with opposite signs, and H that of theta."""
+def sums(paths, shape, tx, rx, f_hz):
+    """The fields over free space by pair of ends, {(tx, rx): complex array (2,)}. Where the profile lies, wave V is that of
+    theta; where it stands, that of phi, which the two ends of a straight path see with opposite signs."""
     out = {}
+    height, along = (1, 2) if shape == "corner" else (2, 1)
     offset, position = paths.vertex_offset, paths.vertex_position_m
     for i in range(len(paths.tx)):
         at = position[offset[i]:offset[i + 1]]
-        if len(at) and (np.abs(at[:, 2]).max() > 1 or at[:, 1].min() < -0.5 * DEEP_M or at[:, 0].max() > 0.5 * DEEP_M):
+        if len(at) and (np.abs(at[:, along]).max() > 1 or at[:, height].min() < -0.5 * DEEP_M or
+                        at[:, 0].max() > 0.5 * DEEP_M):
             continue  # over what the profile does not have
         pair = int(paths.tx[i]), int(paths.rx[i])
         direct = np.hypot(*np.subtract(rx[pair[1]], tx[pair[0]]))
         length = paths.delay_s[i] * SPEED_OF_LIGHT
         phase = np.exp(-2j * np.pi * f_hz * (length - direct) / SPEED_OF_LIGHT)
         scale = phase * np.sqrt(length / direct) * 4 * np.pi * direct * f_hz / SPEED_OF_LIGHT
-        out[pair] = out.get(pair, 0) + scale * np.array([-paths.a[i, 1, 1], paths.a[i, 0, 0]])
+        waves = np.array([-paths.a[i, 1, 1], paths.a[i, 0, 0]]) if shape == "corner" else np.diagonal(paths.a[i])
+        out[pair] = out.get(pair, 0) + scale * waves
     return out
 
 
@@ -82,7 +92,7 @@ def solve_profile(group):
         write_scene(pathlib.Path(folder) / "scene.obj", shape, places, tops)
         config = configuration(f_hz, shape, material, min(edges, len(places)), tx, rx, trace)
         with wt.Simulation(config, folder=folder) as simulation:
-            found = sums(simulation.run_frame().paths, tx, rx, f_hz)
+            found = sums(simulation.run_frame().paths, shape, tx, rx, f_hz)
     return {(tx[i], rx[j]): field for (i, j), field in found.items()}
 
 
