@@ -15,22 +15,14 @@ inline int keep_uprights(const global wt_wedge* wedges, const wt_edge_chain* cha
   for (uint i = 0; i < chain->count; ++i) {
     if (!wt_is_upright(wedges + chain->wedges[i])) continue;
     if (next->count == most) return 0;
-    uint at = next->count++;
-    for (; at > 0 && along[at - 1] > curtain->along[i + 1]; --at) {
-      along[at] = along[at - 1];
-      next->wedges[at] = next->wedges[at - 1];
-      next->places[at] = next->places[at - 1];
-    }
-    along[at] = curtain->along[i + 1];
-    next->wedges[at] = chain->wedges[i];
-    next->places[at] = chain->places[i];
+    wt_insert_edge(next, along, chain->wedges[i], chain->places[i], curtain->along[i + 1]);
   }
   return 1;
 }
 
-// Where the way leaves an edge of a roof, it slips off the corner of the house there: the upright edge below takes the
-// place of that edge, and of those beside it that meet it in that corner. Returns how many edges it leaves, or WT_NONE
-// where there is no upright edge.
+// A way that leaves an edge of a roof slips off the corner of the house there: the upright edge below takes the place
+// of that edge, and of those beside it that meet it in that corner. Returns how many edges it leaves, or WT_NONE where
+// there is no upright edge.
 inline uint slip_off(const wt_edge_map* map, wt_edge_chain* chain) {
   uint kept = 0, left = 0, corner = WT_NONE;  // around which upright edge it has just gone
   for (uint i = 0; i < chain->count; ++i) {
@@ -55,8 +47,8 @@ inline uint slip_off(const wt_edge_map* map, wt_edge_chain* chain) {
   return left;
 }
 
-// Where the way runs through the corner in which two edges of a roof meet, it goes around the upright edge there
-// instead. Returns whether there was such a corner.
+// A way that runs through the corner in which two edges of a roof meet goes around the upright edge there instead.
+// Returns whether there was such a corner.
 inline int round_corner(const wt_edge_map* map, wt_edge_chain* chain, double3 a, double3 b) {
   for (uint i = 0; i + 1 < chain->count; ++i) {
     const double3 way =
@@ -101,8 +93,7 @@ inline int over_roofs(const wt_edge_map* map, const wt_edge_map_arguments* grid,
     if (pull == 0 && aside != 0.0) wt_bend_aside(aside, &curtain);
     *chain = next;
     if (!wt_pull_string(map, grid, &curtain, a.z, b.z, most, &next, along)) return 0;
-    if (!keep_uprights(map->wedges, chain, &curtain, most, &next, along)) return 0;
-    if (next.count == 0) return 0;
+    if (!keep_uprights(map->wedges, chain, &curtain, most, &next, along) || next.count == 0) return 0;
     const int same = is_same_chain(&next, chain);
     if (same) next = *chain;
     int settled = same || wt_shortest_over_chain(map->wedges, &next, a, b);
@@ -119,12 +110,9 @@ inline int over_roofs(const wt_edge_map* map, const wt_edge_map_arguments* grid,
   return 0;
 }
 
-// The string is pulled from so many places beside each other: what slips off the corners of a roof in one plane may
-// hold in the next. Most end at the same edges, and are one path.
-#define WT_STRINGS 9
-
-// WT_STRINGS work-items for each pair of a transmitter and a receiver. Both ways of a link find the same bits: the
-// string is pulled from the end of the lower coordinates. first, listed, radii, uprights: see wt_edge_map.
+// WT_STRINGS work-items for each pair of a transmitter and a receiver: what slips off the corners of a roof in one
+// plane may hold in the next. Most strings end at the same edges, and are one path. Both ways of a link find the same
+// bits: the string is pulled from the end of the lower coordinates. first, listed, radii, uprights: see wt_edge_map.
 kernel void roof_chains(const global wt_wedge* wedges, const global uint* first, const global uint* listed,
                         const global double* radii, const global uint* uprights,
                         const global wt_exact_instance* instances, const global double4* transmitters,

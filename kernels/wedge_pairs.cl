@@ -73,7 +73,7 @@ inline int begins_group(const global uint* keys, const global uint* order, const
   return group->count > 0;
 }
 
-// Which pieces of the edge v each of the group may cross on its way to the edge w. 0 where none does.
+// Leaves each of the group the pieces of the edge v that it may cross on its way to the edge w. 0 where none does.
 inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_surface* boxes,
                          const global wt_wedge* v, const global wt_wedge* w, prefix_group* group) {
   const wt_edge_view to = wt_edge_seen_from(v, w);

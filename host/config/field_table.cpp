@@ -73,14 +73,14 @@ Table trace_table() {
            .slot = t(&TraceConfig::max_diffractions),
            .unit = "diffractions per path",
            .range = {1, 8},
-           .doc = "2 adds paths over two edges, with a straight line from one edge to the other: the field behind a "
-                  "whole building. Pairs of edges that buildings hide from each other are passed over; the others are "
-                  "candidates, which cost time: in a city of 36 blocks some ten times as much as one diffraction. 3 to "
-                  "8 add "
-                  "paths over as many edges as that, a few of each link: over the edges that a string between its ends "
-                  "touches when it is pulled tight over the roofs, and around the corners that it slips off. They take "
-                  "little time, and reach receivers far behind the houses. Such a path has no other interactions, "
-                  "and max_depth, which must be at least 2, does not limit its edges."},
+           .doc =
+               "2 adds paths over two edges, with a straight line from one edge to the other: the field behind a "
+               "whole building. Pairs of edges that buildings hide from each other are passed over; the others are "
+               "candidates, which cost time: in a city of 36 blocks some ten times as much as one diffraction. With 2 "
+               "and more each link also gets a few paths over up to so many edges: those that a string between its "
+               "ends touches when it is pulled tight over the roofs, those a little under it, and the corners that "
+               "it slips off. They take little time, and reach receivers far behind the houses. Such a path has no "
+               "other interactions, and max_depth, which must be at least 2, does not limit its edges."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
            .doc = "Edges that belong to one face only also diffract, as half planes: screens, signs and the borders of "

@@ -18,8 +18,8 @@ namespace wavetracer {
 namespace {
 
 constexpr std::string_view header =
-    "time_s,tx,rx,paths,path_gain_db,sum_of_powers_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,doppler_"
-    "spread_hz,los,"
+    "time_s,tx,rx,paths,path_gain_db,sum_of_powers_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,"
+    "doppler_spread_hz,los,"
     "missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share,tx_beam,rx_beam,"
     "beam_gain_db\n";
 

@@ -2,7 +2,6 @@
 #include "output/path_limits.hpp"
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 #include <unordered_map>
 #include "radio/path_power.hpp"
 
@@ -47,12 +46,12 @@ void append_vertices(const Paths& from, size_t row, Paths& to) {
 
 // Numbers the groups of each link by the rows that are left.
 void number_groups(Paths& paths) {
-  std::unordered_map<uint32_t, uint32_t> numbers;
-  for (size_t row = 0; row < paths.group.size(); ++row) {
-    const auto link = [&](size_t i) { return std::tuple(paths.frame[i], paths.tx[i], paths.rx[i]); };
-    if (row > 0 && link(row) != link(row - 1)) numbers.clear();
-    for (uint32_t& group : paths.group[row])
-      if (group != no_group) group = numbers.try_emplace(group, static_cast<uint32_t>(numbers.size())).first->second;
+  for (size_t first = 0, end = 0; first < paths.group.size(); first = end) {
+    end = end_of_link(paths, first);
+    std::unordered_map<uint32_t, uint32_t> numbers;
+    for (size_t row = first; row < end; ++row)
+      for (uint32_t& group : paths.group[row])
+        if (group != no_group) group = numbers.try_emplace(group, static_cast<uint32_t>(numbers.size())).first->second;
   }
 }
 
@@ -65,9 +64,8 @@ bool limits_paths(const OutputConfig& output) {
 std::vector<uint8_t> written_rows(const Paths& paths, const OutputConfig& output) {
   std::vector<uint8_t> written(paths.size(), !limits_paths(output));
   if (!limits_paths(output)) return written;
-  const auto link_of = [&](size_t row) { return std::tuple(paths.frame[row], paths.tx[row], paths.rx[row]); };
   for (size_t first = 0, end = 0; first < paths.size(); first = end) {
-    while (end < paths.size() && link_of(end) == link_of(first)) ++end;
+    end = end_of_link(paths, first);
     mark_link(paths, output, first, end, written);
   }
   return written;

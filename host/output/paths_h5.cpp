@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include "output/inputs.hpp"
 #include "output/world_h5.hpp"
+#include "radio/path_power.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -70,11 +71,11 @@ void append_coefficients(const Paths& paths, FrameTables& tables, const std::str
 void append_groups(const Paths& paths, FrameTables& tables) {
   std::vector<GroupNumbers> own;
   std::vector<GroupWeights> whole;
-  for (size_t row = 0; paths.group.empty() && row < paths.size(); ++row) {
-    const bool begins = row == 0 || paths.tx[row] != paths.tx[row - 1] || paths.rx[row] != paths.rx[row - 1];
-    own.push_back(only_group(begins ? 0 : own.back()[0] + 1));
-    whole.push_back(whole_weight);
+  for (size_t first = 0, end = 0; paths.group.empty() && first < paths.size(); first = end) {
+    end = end_of_link(paths, first);
+    for (size_t row = first; row < end; ++row) own.push_back(only_group(static_cast<uint32_t>(row - first)));
   }
+  whole.assign(own.size(), whole_weight);
   const auto flat = [rows = paths.size()](const auto& column) {
     return std::span(rows > 0 ? column[0].data() : nullptr, most_groups * rows);
   };

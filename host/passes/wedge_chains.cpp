@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_chains.cl.
-// Nine work-items for a pair of a transmitter and a receiver, whether it is a link or not.
+// WT_STRINGS work-items for a pair of a transmitter and a receiver, whether it is a link or not.
 #include "passes/wedge_chains.hpp"
 
 #include "passes/growing_list.hpp"
@@ -27,11 +27,10 @@ WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t 
 
 SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                     Counters& counters) {
-  constexpr size_t strings = 9;  // as the kernel has it
   const auto run = [&] {
-    roofs_(work_.range(strings * ends.transmitter_count * ends.receiver_capacity), "wedge_chains", wedges.wedges,
-           first_, listed_, radii_, uprights_, scene.exact_instances, ends.transmitters, ends.receivers, ends.links,
-           solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
+    roofs_(work_.range(size_t{WT_STRINGS} * ends.transmitter_count * ends.receiver_capacity), "wedge_chains",
+           wedges.wedges, first_, listed_, radii_, uprights_, scene.exact_instances, ends.transmitters, ends.receivers,
+           ends.links, solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
            wt_wedge_chains_arguments{.map = map_,
                                      .wavelength_m = wavelength_m_,
                                      .transmitter_count = ends.transmitter_count,

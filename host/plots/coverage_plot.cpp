@@ -9,6 +9,7 @@
 #include "plots/gnuplot.hpp"
 #include "radio/grouped_power.hpp"
 #include "radio/link_budget.hpp"
+#include "radio/path_power.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
@@ -108,7 +109,7 @@ std::vector<CoverageCell> coverage_cells(const SavedRun& run, const SavedFrame& 
   std::vector<double> best(cells.size(), 0);
   const Paths& paths = frame.paths;
   for (size_t first = 0, end = 0; first < paths.size(); first = end) {
-    while (end < paths.size() && paths.tx[end] == paths.tx[first] && paths.rx[end] == paths.rx[first]) ++end;
+    end = end_of_link(paths, first);
     const uint32_t k = cell_of[paths.rx[first]];
     if (k == no_cell || (tx && *tx != paths.tx[first])) continue;
     const double power = grouped_power(paths, first, end, run.frequency_hz());

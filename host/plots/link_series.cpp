@@ -9,6 +9,7 @@
 #include "base/spelling.hpp"
 #include "output/path_kinds.hpp"
 #include "radio/grouped_power.hpp"
+#include "radio/path_power.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
@@ -28,7 +29,7 @@ std::vector<Link> strongest_links(const SavedRun& run, const Filter& filter, siz
     const Paths paths = run.frame(row).paths;
     for (size_t first = 0, end = 0; first < paths.size(); first = end) {
       const Link link{paths.tx[first], paths.rx[first]};
-      while (end < paths.size() && Link{paths.tx[end], paths.rx[end]} == link) ++end;
+      end = end_of_link(paths, first);
       if (filter(link.tx, link.rx)) power[link] += grouped_power(paths, first, end, run.frequency_hz());
     }
   }

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "wavetracer/device/vector.h"
+
 namespace wavetracer {
 namespace {
 
 constexpr size_t edge = static_cast<size_t>(InPlace::edge);
-
-glm::dvec3 vector_from(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 // 1 without a detour, 0 from most_detour on, and smooth in between. In wavelengths.
 double share_at(double detour) {
@@ -26,7 +26,8 @@ double square(const glm::dvec3& v) { return glm::dot(v, v); }
 
 EdgeShares edge_shares(const wt_wedge& wedge, const glm::dvec3& k_in, const glm::dvec3& k_out, double before_m,
                        double after_m, double wavelength_m) {
-  const glm::dvec3 along = vector_from(wedge.along), face = vector_from(wedge.face), normal = vector_from(wedge.normal);
+  const glm::dvec3 along = device::wt_vector(wedge.along), face = device::wt_vector(wedge.face),
+                   normal = device::wt_vector(wedge.normal);
   const glm::dvec3 across_in = k_in - glm::dot(k_in, along) * along,
                    across_out = k_out - glm::dot(k_out, along) * along;
   const double sine2 = square(across_in);

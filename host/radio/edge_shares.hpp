@@ -1,6 +1,6 @@
-// How much of a diffracted wave is one with a wave that passes the edge straight or is reflected at one of its faces.
-// At a shadow boundary both leave the edge in one direction, and they are one wave; the farther from it, the longer is
-// the detour over the edge, and where it is two wavelengths they are two waves, whose powers add up.
+// Shares tell how much of a diffracted wave is one with a wave that passes the edge straight or is reflected at one of
+// its faces. At a shadow boundary both leave the edge in one direction, and they are one wave; the farther from it, the
+// longer is the detour over the edge, and where it is two wavelengths they are two waves, whose powers add up.
 #pragma once
 #include <array>
 #include <glm/vec3.hpp>

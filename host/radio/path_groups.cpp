@@ -2,6 +2,7 @@
 // links.
 #include "radio/path_groups.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <unordered_set>
 
 #include "radio/constants.hpp"
+#include "radio/path_power.hpp"
 #include "radio/world_records.hpp"
 
 namespace wavetracer {
@@ -98,8 +100,9 @@ wt_wedge PathGrouping::placed(uint32_t wedge, const WorldState& state) const {
   return out;
 }
 
-// The waves that the path belongs to, with the largest weights and their squares adding up to 1. next: room.
-void PathGrouping::keys_of(const Paths& paths, size_t row, const WorldState& state, Keys& keys, Keys& next) const {
+// The waves that the path belongs to, with the largest weights and their squares adding up to 1. next: room. Returns
+// whether the path is diffracted.
+bool PathGrouping::keys_of(const Paths& paths, size_t row, const WorldState& state, Keys& keys, Keys& next) const {
   constexpr size_t kept = 4 * most_groups;  // on the way
   const bool bends = is_diffracted(paths, row);
   const Legs legs(paths, row, state, origin_m_, bends);
@@ -110,7 +113,10 @@ void PathGrouping::keys_of(const Paths& paths, size_t row, const WorldState& sta
     const uint32_t instance = paths.vertex_instance[k], local = paths.vertex_surface[k];
     const bool moves = instance != no_instance;
     if (bends) since_m += glm::length(legs.leg(at));
-    if (kind == scattering) return keys.assign(1, {mixed(row, step_of(kind, local)), 1});
+    if (kind == scattering) {
+      keys.assign(1, {mixed(row, step_of(kind, local)), 1});
+      return bends;
+    }
     if (kind == transmission) continue;
     if (kind == reflection) {
       const uint32_t plane = planes_of_[local + (moves ? first_surface_[instance] : 0)];
@@ -137,6 +143,7 @@ void PathGrouping::keys_of(const Paths& paths, size_t row, const WorldState& sta
     keys.swap(next);
   }
   if (keys.size() > 1) keep_largest(keys);
+  return bends;
 }
 
 // One of each hash: what leads to one wave in two ways is joined.
@@ -154,42 +161,38 @@ void PathGrouping::keep_largest(Keys& keys) {
   for (Key& key : keys) key.weight /= std::sqrt(sum);
 }
 
-// Rows first to end - 1 are of one link.
-void PathGrouping::group_link(Paths& paths, size_t first, size_t end, const WorldState& state) const {
+// Rows first to end - 1 are of one link. keys: of each row.
+void PathGrouping::number_link(Paths& paths, size_t first, size_t end, const std::vector<RowKeys>& keys) {
   std::unordered_map<uint64_t, uint32_t> numbers;
   numbers.reserve(2 * (end - first));
   std::unordered_set<uint64_t> taken;  // by geometrical waves
-  Keys keys, next;
   for (size_t row = first; row < end; ++row) {
-    keys_of(paths, row, state, keys, next);
-    if (!is_diffracted(paths, row) && !taken.insert(keys[0].hash).second) keys[0].hash = mixed(keys[0].hash, row);
-    for (size_t i = 0; i < keys.size(); ++i) {
-      const auto at = numbers.try_emplace(keys[i].hash, static_cast<uint32_t>(numbers.size())).first;
+    RowKeys own = keys[row];
+    if (!own.bends && !taken.insert(own.keys[0].hash).second) own.keys[0].hash = mixed(own.keys[0].hash, row);
+    for (size_t i = 0; i < own.count; ++i) {
+      const auto at = numbers.try_emplace(own.keys[i].hash, static_cast<uint32_t>(numbers.size())).first;
       paths.group[row][i] = at->second;
-      paths.group_weight[row][i] = keys[i].weight;
+      paths.group_weight[row][i] = own.keys[i].weight;
     }
   }
 }
 
 void PathGrouping::operator()(Paths& paths, const WorldState& state) const {
-  std::vector<size_t> first;
-  const auto begins = [&](size_t row) {
-    return row == 0 || paths.tx[row] != paths.tx[row - 1] || paths.rx[row] != paths.rx[row - 1];
-  };
-  for (size_t row = 0; row < paths.size(); ++row)
-    if (begins(row)) first.push_back(row);
-  const size_t links = first.size();
-  first.push_back(paths.size());
   paths.group.assign(paths.size(), only_group(no_group));
   paths.group_weight.assign(paths.size(), GroupWeights{});
-  tbb::parallel_for(size_t{0}, links, [&](size_t link) {
-    bool edges = false;
-    for (size_t row = first[link]; row < first[link + 1] && !edges; ++row) edges = is_diffracted(paths, row);
-    if (edges) return group_link(paths, first[link], first[link + 1], state);
-    for (size_t row = first[link]; row < first[link + 1]; ++row) {
-      paths.group[row] = only_group(static_cast<uint32_t>(row - first[link]));
-      paths.group_weight[row] = whole_weight;
+  std::vector<RowKeys> keys(paths.size());
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, paths.size(), 64), [&](const tbb::blocked_range<size_t>& rows) {
+    Keys found, next;
+    for (size_t row = rows.begin(); row < rows.end(); ++row) {
+      keys[row].bends = keys_of(paths, row, state, found, next);
+      keys[row].count = found.size();
+      std::ranges::copy(found, keys[row].keys.begin());
     }
+  });
+  std::vector<size_t> first;
+  for (size_t row = 0; row < paths.size(); row = end_of_link(paths, row)) first.push_back(row);
+  tbb::parallel_for(size_t{0}, first.size(), [&](size_t link) {
+    number_link(paths, first[link], link + 1 < first.size() ? first[link + 1] : paths.size(), keys);
   });
 }
 

@@ -1,4 +1,4 @@
-// The power of a path, and what it needs to be added to others as a field.
+// The power of a path, its phase, and the paths that are added to it: those of one link.
 #pragma once
 #include <cmath>
 #include <complex>
@@ -20,6 +20,15 @@ inline double power_of(const Paths& paths, size_t row) {
 inline std::complex<double> carrier_phase(double frequency_hz, double delay_s) {
   const double turns = frequency_hz * delay_s;
   return std::polar(1.0, -2 * std::numbers::pi * (turns - std::floor(turns)));
+}
+
+// The end of the rows of one frame and link of which `first` is the first one. Rows are sorted by frame and link.
+inline size_t end_of_link(const Paths& paths, size_t first) {
+  size_t end = first + 1;
+  while (end < paths.size() && paths.frame[end] == paths.frame[first] && paths.tx[end] == paths.tx[first] &&
+         paths.rx[end] == paths.rx[first])
+    ++end;
+  return end;
 }
 
 }  // namespace wavetracer

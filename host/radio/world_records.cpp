@@ -4,14 +4,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "wavetracer/device/vector.h"
+
 namespace wavetracer {
 namespace {
 
 void store(double (&to)[3], const glm::dvec3& from) {
   for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
 }
-
-glm::dvec3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 wt_wedge record_of(const Wedge& wedge, uint32_t first_surface, uint32_t instance) {
   wt_wedge record{};
@@ -67,10 +67,10 @@ std::vector<wt_wedge> wedge_records(const Scene& scene, std::span<const Scene> m
 void place_wedge(wt_wedge& wedge, const WorldState& state) {
   if (wedge.instance == WT_NONE) return;
   const Placement& body = state.instances[wedge.instance];
-  store(wedge.start, body.rotation * vector_of(wedge.start) + body.position_m);
-  store(wedge.along, body.rotation * vector_of(wedge.along));
-  store(wedge.face, body.rotation * vector_of(wedge.face));
-  store(wedge.normal, body.rotation * vector_of(wedge.normal));
+  store(wedge.start, body.rotation * device::wt_vector(wedge.start) + body.position_m);
+  store(wedge.along, body.rotation * device::wt_vector(wedge.along));
+  store(wedge.face, body.rotation * device::wt_vector(wedge.face));
+  store(wedge.normal, body.rotation * device::wt_vector(wedge.normal));
 }
 
 void place_wedges(std::vector<wt_wedge>& wedges, const WorldState& state) {

@@ -13,10 +13,10 @@ enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, d
 
 constexpr uint32_t no_instance = 0xFFFFFFFFu;
 
-// What is one wave: fields of a group are added with their phases, powers of groups as they are. A diffracted wave near
-// a shadow boundary is one with the wave that ends there, and a smaller part of it the farther it is from the boundary.
-// The power of a link is the sum over its groups g and pairs of ports of |sum over paths i of w_ig a_i
-// exp(-j 2 pi f tau_i)|^2, with the weights w; squares of the weights of a path add up to 1.
+// Groups of paths that are one wave: fields of a group are added with their phases, powers of groups as they are. A
+// diffracted wave near a shadow boundary is one with the wave that ends there, and a smaller part of it the farther it
+// is from the boundary. The power of a link is the sum over its groups g and pairs of ports of |sum over paths i of
+// w_ig a_i exp(-j 2 pi f tau_i)|^2, with the weights w; squares of the weights of a path add up to 1.
 constexpr size_t most_groups = 4;  // of a path
 constexpr uint32_t no_group = 0xFFFFFFFFu;
 // Numbers in the link, 0, 1, 2 ... in the order of its rows; the one with the largest weight comes first, and the last

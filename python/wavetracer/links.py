@@ -54,9 +54,9 @@ class Links:
     """What the paths of each link amount to: one row per pair of a transmitter and a receiver that was asked for.
 
     links["path_gain_db"] is a column, shape (links,). Columns: `tx`, `rx` (places in `transmitters` and `receivers`),
-    `paths` (how many), `los` (True where one of them has no interaction), `path_gain_db` (fields of
-    one wave added, then powers), `sum_of_powers_db` (of all paths), `narrowband_gain_db` (the sum of fields at the carrier), `mean_delay_s`, `rms_delay_spread_s`, `doppler_spread_hz`,
-    `missed_power_share`. Gains are -inf, and delays and spreads NaN, where no path arrives. docs/formats.md has the
+    `paths` (how many), `los` (True where one of them has no interaction), `path_gain_db` (fields of one wave added, then
+    powers), `sum_of_powers_db` (of all paths), `narrowband_gain_db` (the sum of fields at the carrier), `mean_delay_s`,
+    `rms_delay_spread_s`, `doppler_spread_hz`, `missed_power_share`. Gains are -inf, and delays and spreads NaN, where no path arrives. docs/formats.md has the
     formulas.
     """
 

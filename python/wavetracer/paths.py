@@ -25,7 +25,8 @@ Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2}
 _SPECIAL = (2, 8, 4, 1)
 _COLUMNS = ("tx", "rx", "depth", "delay_s", "gain_db", "a", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad",
-            "doppler_hz", "group", "group_weight", "vertex_offset", "vertex_position_m", "vertex_interaction", "vertex_surface", "vertex_instance")
+            "doppler_hz", "group", "group_weight", "vertex_offset", "vertex_position_m", "vertex_interaction",
+            "vertex_surface", "vertex_instance")
 _AT_CARRIERS = ("carrier_a", "carrier_gain_db", "carrier_doppler_hz")
 
 
@@ -125,8 +126,8 @@ class Paths:
 
     @property
     def group(self) -> Array:
-        """Which paths are one wave: numbers of the groups of each path in its link, shape (paths, 4), uint32, the one
-        with the largest weight first; 4294967295 is none. No rows where every path is a group of its own."""
+        """The groups of paths that are one wave: numbers of those of each path in its link, shape (paths, 4), uint32, the
+        one with the largest weight first; 4294967295 is none. No rows where every path is a group of its own."""
         return self._column("group")
 
     @property

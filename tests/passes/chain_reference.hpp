@@ -31,7 +31,7 @@ struct ProfilePoint {
   uint32_t wedge;
 };
 
-// Where edges cross the upright surface over a bent line, and the upper hull of these points and both ends.
+// The points where edges cross the upright surface over a bent line, and the upper hull of these points and both ends.
 inline std::vector<uint32_t> hull_over(const Scene& scene, const Points& line) {
   std::vector<ProfilePoint> profile;
   double before = 0;
@@ -93,7 +93,7 @@ inline bool on_edge(const Wedge& w, const glm::dvec3& p) {
   return at > 0 && at < w.length_m;
 }
 
-// What the string settles on; no wedges where it does not within eight pulls, or leaves an edge.
+// The edges that the string settles on; no wedges where it does not within eight pulls, or leaves an edge.
 inline Chain expected(const Scene& scene, const glm::dvec3& a, const glm::dvec3& b, uint32_t most) {
   Points line{a, b};
   std::vector<uint32_t> wedges;

@@ -64,3 +64,15 @@ TEST_CASE("a chain of edges does not jump where its ends sink under the tops of 
     }
   }
 }
+
+TEST_CASE("what runs along an edge to its end is not diffracted, and leaves numbers that are finite") {
+  for (const uint32_t count : {1u, 2u, 3u}) {
+    CAPTURE(count);
+    test::World world = row_of_screens(count, 1);
+    world.config.transmitters = {
+        test::World::end({leg_m, -600, 0}, "isotropic", "VH")};  // on the line of the first edge
+    const Paths paths = world.paths();
+    REQUIRE(paths.size() == 1);
+    for (const std::complex<double>& a : paths.a[0]) CHECK(std::abs(a) == 0);  // not NaN
+  }
+}

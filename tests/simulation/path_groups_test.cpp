@@ -56,7 +56,7 @@ std::vector<Quad> tower() { return house({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, 6
 
 TEST_CASE("around the corner of a tower: the gain is continuous where the reflection ends, and where the sight does") {
   const SceneFile file(tower());
-  // Of the source 40 deg before the face y = 0, the reflection ends at 220 deg and the line of sight at 140 deg.
+  // The source is 40 deg before the face y = 0: its reflection ends at 220 deg and the line of sight at 140 deg.
   const double turn = std::acos(-1.0) * 40 / 180;
   const glm::dvec3 source{12 * std::cos(turn), -12 * std::sin(turn), 30.3};
   const FrameResult frame = run(at(file.path(), {source}, arc({0, 0, 30.1}, 15, 250, 110, 6001), 1));

@@ -89,7 +89,7 @@ def kernels(b, k, rows):
 
 
 def log_parts(k, r):
-    """What the logarithm of r is multiplied by in G and, on one straight side, in d2G/dn dn' less 1 / (2 pi r^2)."""
+    """The factor of the logarithm of r in G and, on one straight side, in d2G/dn dn' less 1 / (2 pi r^2)."""
     half = np.where(r > 0, k * r / 2, 1)
     return -jv(0, k * r) / (2 * np.pi), -k * k / (4 * np.pi) * np.where(r > 0, jv(1, 2 * half) / half, 1)
 

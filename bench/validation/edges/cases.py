@@ -27,7 +27,7 @@ def wave_number(f_hz):
 
 
 def bend_deg(places, tops, ends):
-    """Of the string that the tops hold up between the ends (x, z), (x, z)."""
+    """The bends of the string that the tops hold up between the ends (x, z), (x, z)."""
     x, z = np.r_[ends[0][0], places, ends[1][0]], np.r_[ends[0][1], tops, ends[1][1]]
     string = cascade.taut(x, z, np.r_[z[0], np.full(len(places), np.inf), z[-1]])
     return float(np.degrees(np.abs(np.diff(np.arctan(np.diff(string) / np.diff(x)))).max()))
@@ -78,7 +78,7 @@ def behind_screens(name, f_hz, steps, tops, ends_z):
 
 
 def two_screens(random):
-    """Of one height, bent by nu = 0 to 5 at each; then grazed ones, both below and above the line; then unequal ones."""
+    """Screens of one height, bent by nu = 0 to 5 at each; then grazed ones, both below and above the line; then unequal ones."""
     rows = []
     for i in range(300):
         f_hz, steps = CARRIERS_HZ[2 + i % 2], np.exp(random.uniform(np.log(10), np.log(100), 3))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What wavetracer's fields behind edges are wrong by: solves every case, and prints a table of errors in dB.
+"""Errors of wavetracer's fields behind edges: solves every case, and prints a table of errors in dB.
 
 Usage: edges_table.py [--edges N] [--sets NAME...] [--rays N] [--csv FILE]; --edges is the largest number of diffractions in
 one path. Two minutes on two cores. References: cases.py, and for solid bodies the CSV files beside this one, which

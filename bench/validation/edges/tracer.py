@@ -25,7 +25,7 @@ BOX = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1,
 
 
 def profile(row):
-    """What cases share that can be solved in one scene."""
+    """The key of cases that can be solved in one scene."""
     return row["f_hz"], row["shape"], row["material"], tuple(row["places"]), tuple(row["tops"])
 
 

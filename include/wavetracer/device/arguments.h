@@ -171,6 +171,8 @@ typedef struct {
   wt_uint padding;
 } wt_edge_map_arguments;
 
+#define WT_STRINGS 9u  // that are pulled for each pair of a transmitter and a receiver, in planes beside each other
+
 typedef struct {
   wt_edge_map_arguments map;
   double wavelength_m;

@@ -8,6 +8,8 @@
 namespace wavetracer::device {
 #endif
 
+#define WT_GRAZING_RAD 1e-9
+
 // permittivity.x is infinite: a perfect conductor.
 typedef struct {
   wt_double2 permittivity;
@@ -57,7 +59,7 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
   // A wave along a good conductor is one of the zone about it, which is much wider than the Brewster angle,
   // 1 / sqrt(permittivity): it is reflected as by a perfect conductor.
   const double size = wt_size(face->permittivity);
-  if (cos_theta < 1e-9 && size > WT_CONDUCTS) cos_theta = 100.0 / sqrt(size);
+  if (cos_theta < WT_GRAZING_RAD && size > WT_CONDUCTS) cos_theta = 100.0 / sqrt(size);
   return wt_slab_coefficients(face->permittivity, cos_theta, face->thickness_m, wavelength_m);
 }
 
@@ -89,10 +91,10 @@ inline wt_slab wt_face_slab_at(const wt_wedge_face* face, wt_double2 cosine, dou
   return slab;
 }
 
-// How far the waves that count on one side of a boundary of reflection are from the ray at the edge, on the mean, where
-// they meet the face: the cosine of incidence is larger there by `shift`, a complex number, or smaller on the lit side,
-// by -shift. even: how much of the coefficient's even part in the shift counts: 0 on the boundary, where the waves of
-// both sides leave just the ray, 1 far from it.
+// A spread tells how far the waves that count on one side of a boundary of reflection are from the ray at the edge, on
+// the mean, where they meet the face: the cosine of incidence is larger there by `shift`, a complex number, or smaller
+// on the lit side, by -shift. even: the part that the coefficient's even part in the shift has: 0 on the boundary,
+// where the waves of both sides leave just the ray, 1 far from it.
 typedef struct {
   wt_double2 shift;
   double even;

@@ -24,6 +24,7 @@ typedef struct {
   wt_chain_waves waves;
   wt_pair_terms terms;    // of the last edge
   wt_shared_plane plane;  // to the next edge
+  wt_pair_form form;      // of the leg to it
   wt_basis from, to;
   wt_matrix sum;
 } wt_chain;
@@ -55,9 +56,8 @@ inline int wt_nearest_term(const wt_pair_terms* terms, int count) {
   return nearest;
 }
 
-// What comes to a height of the next edge on either side, from all heights of the edge before; over a plane with what
-// the plane reflects. come, go: from the edge before to polarizations at the plane and on to the next edge; without a
-// plane, go is the whole way.
+// The leg to the next edge: the coupling of heights, and over a plane what the plane reflects. come, go: from the edge
+// before to polarizations at the plane and on to the next edge; without a plane, go is the whole way.
 typedef struct {
   double coupling;
   int over_plane;
@@ -91,9 +91,10 @@ inline void wt_come_to_height(const wt_chain_waves* waves, const wt_chain_leg* l
 }
 
 // The leg from the chain's last edge to the next one. between: see wt_diffract_at_pair.
-inline wt_chain_leg wt_chain_leg_of(const wt_chain* chain, const wt_pair_terms* next, const wt_pair_form* form,
-                                    const wt_transfer* between, wt_basis coming, double wavelength_m) {
+inline wt_chain_leg wt_chain_leg_of(const wt_chain* chain, const wt_pair_terms* next, const wt_transfer* between,
+                                    wt_basis coming, double wavelength_m) {
   const wt_shared_plane* plane = &chain->plane;
+  const wt_pair_form* form = &chain->form;
   wt_chain_leg leg;
   leg.coupling = form->coupling;
   leg.over_plane = plane->sides > 0;

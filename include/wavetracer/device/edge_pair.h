@@ -15,7 +15,7 @@
 namespace wavetracer::device {
 #endif
 
-// What the quadratic form of a ray's length makes of two edges, once the points along the edges are at their place.
+// The quadratic form of a ray's length over two edges, once the points along the edges are at their place.
 typedef struct {
   double between_m;
   double spreads_m[2];    // L of each edge
@@ -94,8 +94,8 @@ inline void wt_add_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, d
   }
 }
 
-// What the plane reflects between term i of the first edge and term j of the second, TE and TM, as a multiple of the
-// image of one side; the direct wave counts plane->sides times. image: g2 of the reflected wave, with -r.
+// The reflection of the plane between term i of the first edge and term j of the second, TE and TM, as a multiple of
+// the image of one side; the direct wave counts plane->sides times. image: g2 of the reflected wave, with -r.
 inline void wt_reflection_over_plane(const wt_pair_terms* first, const wt_pair_terms* second, int i, int j,
                                      const wt_pair_form* form, const wt_shared_plane* plane, double wavelength_m,
                                      double r, wt_double2 image, wt_double2* te, wt_double2* tm) {
@@ -104,7 +104,7 @@ inline void wt_reflection_over_plane(const wt_pair_terms* first, const wt_pair_t
   for (int side = 0; side < plane->sides; ++side) {
     // To the lower side of a sheet the same ends are on the other side of the boundaries.
     const double sign = side == 0 ? 1.0 : -1.0, before = sign * first->ratio[i], after = sign * second->ratio[j];
-    // Where the wave is there already, its shadow below the edge counts, not what passes above it.
+    // A wave that is there already counts by its shadow below the edge, not by what passes above it.
     const double u = copysign(first->bent * sqrt(form->spreads_m[0] * wavelength_m / WT_PI), -before);
     const double v = copysign(second->bent * sqrt(form->spreads_m[1] * wavelength_m / WT_PI), -after);
     const double lit = before > 0.0 && after > 0.0 ? sign * form->lit * first->bent * second->bent : 0.0;

@@ -81,6 +81,7 @@ inline int wt_is_near_edge(const wt_field_world* world, const wt_edge* edges, wt
 }
 
 // H has three diagonals, so its determinant is the product of the pivots of its rows.
+// edges: all turn, see wt_turns.
 inline double wt_edge_spreading(const wt_edge* edges, wt_uint count) {
   double legs = edges->before_m, determinant = 1.0, before = 1.0;
   for (wt_uint i = 0; i < count; ++i) {
@@ -208,7 +209,7 @@ inline wt_known_waves wt_waves_at(const wt_field_world* world, const wt_ordered_
   return known;
 }
 
-// What is known of the waves at an edge, and the turn of the path there.
+// The turn of the path at an edge, with what is known of the waves there.
 inline wt_known_waves wt_known_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
                                   const wt_path* path, const wt_edge* edge, wt_turn* turn) {
   *turn = wt_turn_at(&edge->frame, edge->k_in, edge->k_out);
@@ -234,35 +235,40 @@ inline void wt_diffract_at(const wt_field_world* world, const wt_ordered_rows* o
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }
 
+// The bend of the path at an edge of several, with what is known of the waves there.
+inline wt_bend wt_bend_on_path(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                               const wt_path* path, const wt_edge* edge, wt_known_waves* known) {
+  wt_turn turn;
+  *known = wt_known_at(world, ordered, row, path, edge, &turn);
+  const wt_wedge_face faces[2] = {wt_face_of(world, edge, 0), wt_face_of(world, edge, 1)};
+  const double legs_m[2] = {edge->before_m, edge->after_m};
+  return wt_bend_at(&edge->frame, faces, edge->k_in, edge->k_out, legs_m, &turn, world->wavelength_m,
+                    wt_edge_transmits(world, edge));
+}
+
+// The form of the leg between edges[0] and edges[1].
+inline wt_pair_form wt_form_between(const wt_edge* edges) {
+  const wt_edge *a = edges, *b = edges + 1;
+  const wt_double3 along[2] = {a->frame.along, b->frame.along};
+  const double sine2[2] = {wt_sine2(a), wt_sine2(b)};
+  return wt_pair_form_of(along, a->k_out, a->before_m, a->after_m, b->after_m, sine2);
+}
+
 // Two edges that follow each other. between: what the leg from the one to the other does to a wave.
 inline void wt_diffract_at_two(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
                                const wt_path* path, const wt_edge* edges, const wt_shared_plane* plane,
                                const wt_transfer* between, wt_transfer* transfer) {
   wt_bend bends[2];
   wt_known_waves known[2];
-  for (int i = 0; i < 2; ++i) {
-    const wt_edge* edge = edges + i;
-    wt_turn turn;
-    known[i] = wt_known_at(world, ordered, row, path, edge, &turn);
-    const wt_wedge_face faces[2] = {wt_face_of(world, edge, 0), wt_face_of(world, edge, 1)};
-    const double legs_m[2] = {edge->before_m, edge->after_m};
-    bends[i] = wt_bend_at(&edge->frame, faces, edge->k_in, edge->k_out, legs_m, &turn, world->wavelength_m,
-                          wt_edge_transmits(world, edge));
-  }
-  const wt_double3 along[2] = {edges[0].frame.along, edges[1].frame.along};
-  const double sine2[2] = {wt_sine2(edges), wt_sine2(edges + 1)};
-  wt_pair_form form =
-      wt_pair_form_of(along, edges[0].k_out, edges[0].before_m, edges[0].after_m, edges[1].after_m, sine2);
+  for (int i = 0; i < 2; ++i) bends[i] = wt_bend_on_path(world, ordered, row, path, edges + i, known + i);
+  wt_pair_form form = wt_form_between(edges);
   if (plane->sides) {
     const double up = -wt_dot3(plane->normal, edges[0].k_in), down = wt_dot3(plane->normal, edges[1].k_out);
     const double length_m = edges[0].before_m + edges[0].after_m + edges[1].after_m;
     if (up * down > 0.0 && fmin(fabs(up), fabs(down)) > WT_GRAZING_RAD)
       form.lit = (up * edges[0].before_m + down * edges[1].after_m) / length_m;
   }
-  wt_wave_map wave = wt_diffract_at_pair(bends, known, &form, between, plane);
-  for (int i = 0; i < 2; ++i)
-    if (!wt_turns(&edges[i].frame, edges[i].k_in, edges[i].k_out))
-      wave.matrix = wt_diagonal(wt_real(0.0), wt_real(0.0));
+  const wt_wave_map wave = wt_diffract_at_pair(bends, known, &form, between, plane);
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }
 

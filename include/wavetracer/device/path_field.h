@@ -185,8 +185,34 @@ inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* or
 }
 #endif
 
-// Row `row` of the ordered rows. Rows that are computed side by side meet their surfaces together and then their edges,
-// wherever on their ways these are.
+#if WT_DIFFRACTS
+// Over all vertices. A wave along an edge is lost: no single point diffracts it. Returns wt_is_near_edge.
+inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
+                       double length_m, wt_wave* wave) {
+  wt_edge edges[WT_MOST_EDGES];
+  const wt_uint count = wt_edges_of(world, path, edges);
+  int turns = 1;
+  for (wt_uint i = 0; i < count; ++i) turns &= wt_turns(&edges[i].frame, edges[i].k_in, edges[i].k_out);
+  if (count > 0) wave->spread = turns ? wt_edge_spreading(edges, count) : 0.0;
+  const wt_uint k = wt_pass_surfaces(world, path, length_m, 0, wave);
+  if (!turns) {
+    for (wt_uint i = 0; i < count; ++i) wt_pass(world, path, k + i, wave);
+  } else if (count > 0) {
+    wt_pass(world, path, k, wave);
+    if (count == 1) wt_diffract_at(world, ordered, row, path, edges, &wave->transfer);
+#if WT_DIFFRACTS > 1
+    if (count == 2) wt_pass_two(world, ordered, row, path, k + 1, edges, wave);
+#endif
+#if WT_DIFFRACTS > 2
+    if (count > 2) wt_pass_chain(world, ordered, row, path, k, edges, count, wave);
+#endif
+  }
+  wt_pass_surfaces(world, path, length_m, k + count, wave);
+  return wt_is_near_edge(world, edges, count);
+}
+#endif
+
+// Row `row` of the ordered rows. Rows side by side meet their surfaces together and then their edges.
 inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row) {
   const wt_path path = wt_path_of(ordered->list, ordered->rows[row]);
   const WT_GLOBAL wt_field_end* tx = world->transmitters + path.transmitter;
@@ -206,22 +232,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   wave.solved = ordered->rows[row] >> 1;
   wave.speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
 #if WT_DIFFRACTS
-  wt_edge edges[WT_MOST_EDGES];
-  const wt_uint edge_count = wt_edges_of(world, &path, edges);
-  out.near_edge = wt_is_near_edge(world, edges, edge_count);
-  if (edge_count > 0) wave.spread = wt_edge_spreading(edges, edge_count);
-  wt_uint k = wt_pass_surfaces(world, &path, length_m, 0, &wave);
-  if (edge_count > 0) {
-    wt_pass(world, &path, k, &wave);
-    if (edge_count == 1) wt_diffract_at(world, ordered, row, &path, edges, &wave.transfer);
-#if WT_DIFFRACTS > 1
-    if (edge_count == 2) wt_pass_two(world, ordered, row, &path, k + 1, edges, &wave);
-#endif
-#if WT_DIFFRACTS > 2
-    if (edge_count > 2) wt_pass_chain(world, ordered, row, &path, k, edges, edge_count, &wave);
-#endif
-    wt_pass_surfaces(world, &path, length_m, k + edge_count, &wave);
-  }
+  out.near_edge = wt_pass_all(world, ordered, row, &path, length_m, &wave);
 #else
   wt_pass_surfaces(world, &path, length_m, 0, &wave);
 #endif

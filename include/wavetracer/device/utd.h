@@ -12,7 +12,6 @@ namespace wavetracer::device {
 
 #define WT_UNDECIDED_RAD 1e-6  // geometry in double from the same points is no further off
 #define WT_BOUNDARIES 4
-#define WT_GRAZING_RAD 1e-9
 
 // In the world's axes.
 typedef struct {
@@ -152,7 +151,7 @@ inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* face
   return bend;
 }
 
-// How much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
+// Tells how much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
 inline double wt_bent(double exterior) { return exterior < 1.5 * WT_PI ? 1.0 - wt_cos_sin(exterior - WT_PI).x : 1.0; }
 
 inline wt_spread_angle wt_no_spread(void) {
@@ -171,10 +170,10 @@ inline wt_spread_angle wt_spread_of(double s, wt_double2 g, double unit_m) {
   return out;
 }
 
-// What face 0 or 1 of a convex wedge reflects. It reflects what comes from the end that is nearer to it by azimuth: R.
-// Luebbers' choice (IEEE Trans. AP 32(1), 1984) with face 0 on the source's side, which is the same the other way. As
-// the faces become one plane, both reflect like the mean of both ends', or it would diffract.
-// spread: of the waves that count on this side of the boundary, their mean distance from the edge, in metres.
+// The reflection at face 0 or 1 of a convex wedge. The face reflects what comes from the end that is nearer to it by
+// azimuth: R. Luebbers' choice (IEEE Trans. AP 32(1), 1984) with face 0 on the source's side, which is the same the
+// other way. As the faces become one plane, both reflect like the mean of both ends', or it would diffract. spread: of
+// the waves that count on this side of the boundary, their mean distance from the edge, in metres.
 inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_spread_angle spread) {
   const wt_corner* corner = &bend->corner;
   const double in = bend->turn.in, away = bend->turn.away, nearer = 0.5 + 0.5 * wt_bent(corner->exterior);
@@ -247,7 +246,7 @@ inline int wt_grazes(double azimuth, double exterior) {
   return azimuth < WT_GRAZING_RAD || exterior - azimuth < WT_GRAZING_RAD;
 }
 
-// What the sum of an edge's terms is multiplied by: sqrt(L / pi) / 2n exp(3 j pi / 4).
+// The factor of the sum of an edge's terms: sqrt(L / pi) / 2n exp(3 j pi / 4).
 inline wt_double2 wt_edge_amplitude(double distance_m, double n) {
   const double size = sqrt(distance_m / WT_PI) / (2.0 * n);
   return WT_DOUBLE2(-size, size) * 0.70710678118654752440;
