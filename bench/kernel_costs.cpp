@@ -143,6 +143,8 @@ constexpr KernelCost costs[] = {
      always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, tree_operations},
     {"wedge_chains/roof_chains", "", "pairs of ends", items_of<"wedge_chains/roof_chains">, always<sizeof(wt_solved)>,
      always<static_cast<size_t>(wedge_operations)>},
+    {"path_groups/path_groups", "diffraction", "paths", path_rows, always<sizeof(device::wt_path_waves)>,
+     always<static_cast<size_t>(wedge_operations)>, true},
     {"wedge_pairs/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, tree_operations},
 
     {"place/place", "drive", "surfaces", items_of<"place/place">, always<2 * sizeof(wt_exact_surface)>, always<66>,

@@ -7,21 +7,10 @@
 #include <utility>
 
 #include "passes/advice.hpp"
+#include "passes/read_room.hpp"
 #include "passes/upload.hpp"
 
 namespace wavetracer {
-namespace {
-
-// Room for so many elements on the device and on the host.
-template <class T>
-void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, gpu::HostMemory& host, size_t count, const char* name) {
-  if (count <= buffer.size()) return;
-  const size_t larger = count + count / 4;
-  host = context.host_memory(larger * sizeof(T), name);
-  buffer = context.buffer<T>(larger, {name, advice::links});  // last, as it says how much room there is
-}
-
-}  // namespace
 
 Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m)
     : context_(context),

@@ -77,6 +77,20 @@ void place_wedges(std::vector<wt_wedge>& wedges, const WorldState& state) {
   for (wt_wedge& wedge : wedges) place_wedge(wedge, state);
 }
 
+std::vector<uint32_t> plane_records(const Scene& scene, std::span<const Scene> models,
+                                    std::span<const Instance> instances) {
+  std::vector<uint32_t> planes;
+  const auto add = [&](const Scene& part) {
+    const auto first = static_cast<uint32_t>(planes.size());
+    for (uint32_t surface = 0; surface < part.surfaces.size(); ++surface) planes.push_back(first + surface);
+    for (const Wedge& wedge : part.wedges)
+      for (int face = 0; face < 2; ++face) planes[first + wedge.surface[face]] = first + wedge.plane[face];
+  };
+  add(scene);
+  for (const Instance& instance : instances) add(models[instance.model]);
+  return planes;
+}
+
 std::vector<wt_exact_instance> instance_records(std::span<const Instance> instances, const WorldState& state) {
   std::vector<wt_exact_instance> records(state.instances.size());
   for (size_t i = 0; i < records.size(); ++i) {

@@ -21,6 +21,11 @@ std::vector<wt_wedge> wedge_records(const Scene& scene, std::span<const Scene> m
 void place_wedge(wt_wedge& wedge, const WorldState& state);
 void place_wedges(std::vector<wt_wedge>& wedges, const WorldState& state);
 
+// The surface that stands for the plane of each surface, as wedges have it: the lowest one in the plane, and the
+// surface itself where no wedge bounds it.
+std::vector<uint32_t> plane_records(const Scene& scene, std::span<const Scene> models,
+                                    std::span<const Instance> instances);
+
 // Without the numbers of surfaces in models.
 std::vector<wt_exact_instance> instance_records(std::span<const Instance> instances, const WorldState& state);
 

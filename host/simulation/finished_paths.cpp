@@ -2,6 +2,8 @@
 #include "simulation/finished_paths.hpp"
 
 #include "radio/carriers.hpp"
+#include "radio/constants.hpp"
+#include "radio/world_records.hpp"
 #include "simulation/tracing_depth.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -21,7 +23,9 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
       sort_(context),
       scan_(context),
       carriers_hz_(carriers_hz(config.radio)) {
-  if (config.trace.diffraction) grouping_.emplace(scene, world.models(), world.instances(), config.radio.frequency_hz);
+  if (config.trace.diffraction)
+    groups_.emplace(context, plane_records(scene, world.models(), world.instances()), tracing_depth(config.trace).edges,
+                    speed_of_light_m_s / config.radio.frequency_hz);
   if (!scene.volumes.empty()) vegetation_.emplace(context, volume_table(scene));
   for (const double carrier_hz : carriers_hz_) {
     Config at_carrier = config;
@@ -48,10 +52,12 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
   if (most.rows > 0) {
     scan_.prefix(distinct_.rows().counts, 2 * places, "distinct");                                         // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
+    const gpu::Buffer<wt_wedge>* wedges = edges ? &edges->wedges.list().wedges : nullptr;
+    if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
-      fields_[i](scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, inside, distinct_,
-                 distinct_.rows(), most);  // fields
+      fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
   }
+  if (groups_) groups_->begin_read(expected.rows);
   for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);
   fields_[0].begin_read(frame, expected);
 }
@@ -63,7 +69,9 @@ Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out, std::ve
     carriers->push_back(fields_[i].carrier(count));
     carriers->back().frequency_hz = carriers_hz_[i];
   }
-  return fields_[0].columns(count);
+  Paths paths = fields_[0].columns(count);
+  if (groups_) groups_->set(paths);
+  return paths;
 }
 
 void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible) {

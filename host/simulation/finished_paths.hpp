@@ -5,11 +5,11 @@
 #pragma once
 #include "passes/distinct.hpp"
 #include "passes/fields.hpp"
+#include "passes/path_groups.hpp"
 #include "passes/scan.hpp"
 #include "passes/sort.hpp"
 #include "passes/vegetation.hpp"
 #include "radio/fields.hpp"
-#include "radio/path_groups.hpp"
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/frame_account.hpp"
 #include "simulation/world.hpp"
@@ -30,12 +30,9 @@ class FinishedPaths {
              Counters& counters);
   // Other materials for the frames that follow, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
-  // Sets their groups; frame by frame, as world has the ends and vehicles. Nothing without trace.diffraction.
-  void group(Paths& paths, const WorldState& world) const {
-    if (grouping_) (*grouping_)(paths, world);
-  }
-  // The paths, once the device has finished, with the counters as it left them. left_out: gets paths that
-  // radio/fields.hpp does not count. carriers: gets the fields that were started besides; may be nullptr.
+  // The paths, once the device has finished, with the counters as it left them; with trace.diffraction they have
+  // groups. left_out: gets paths that radio/fields.hpp does not count. carriers: gets the fields that were started
+  // besides; may be nullptr.
   Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
   // Fields::near_edges() of the paths that take() gave, at each carrier.
   std::vector<uint32_t> near_edges() const {
@@ -52,7 +49,7 @@ class FinishedPaths {
   std::optional<Vegetation> vegetation_;  // where the scene has any
   std::vector<Fields> fields_;            // of each carrier, which share nothing but the rows
   std::vector<double> carriers_hz_;
-  std::optional<PathGrouping> grouping_;
+  std::optional<PathGroups> groups_;  // with diffraction
 };
 
 // Paths that were found elsewhere as visible ones, instead of those that the list has.

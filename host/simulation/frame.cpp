@@ -98,7 +98,6 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
 
   LeftOut left_out;
   out.paths = s_.finish.take(counted, left_out, &out.carriers);
-  s_.finish.group(out.paths, out.world);
   if (!task.compiling) account.near_edges(s_.finish.near_edges(), out.carriers, s_.config.radio.frequency_hz);
   if (block) out.world.links = block->own;
   const bool spheres = s_.trails && s_.trails->receives();

@@ -41,8 +41,8 @@ inline constexpr auto frame_stages = std::to_array<FrameStage>({
     {"wedge_sight", FramePart::paths},   {"wedge_join", FramePart::paths},   {"wedge_pairs", FramePart::paths},
     {"wedge_solve", FramePart::paths},   {"wedge_chains", FramePart::paths}, {"scatter", FramePart::paths},
     {"crowns", FramePart::paths},        {"paths", FramePart::paths},        {"distinct", FramePart::paths},
-    {"vegetation", FramePart::fields},   {"fields", FramePart::fields},      {"columns", FramePart::fields},
-    {"elements", FramePart::fields},     {"transfer", FramePart::transfer},
+    {"vegetation", FramePart::fields},   {"path_groups", FramePart::fields}, {"fields", FramePart::fields},
+    {"columns", FramePart::fields},      {"elements", FramePart::fields},    {"transfer", FramePart::transfer},
 });
 
 constexpr const FrameStage* find_frame_stage(std::string_view name) {

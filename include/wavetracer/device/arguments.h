@@ -211,6 +211,14 @@ typedef struct {
 } wt_fields_arguments;
 
 typedef struct {
+  double wavelength_m;
+  wt_uint row_count;
+  wt_uint row_capacity;
+  wt_uint max_depth;
+  wt_uint padding;
+} wt_path_groups_arguments;
+
+typedef struct {
   wt_uint visible_count;
   wt_uint visible_counter;  // its word of wt_counters, or WT_NONE
   wt_uint max_depth;

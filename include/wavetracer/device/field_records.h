@@ -96,6 +96,15 @@ typedef struct {
   wt_uint tx, rx, first_vertex, quarters;         // vertices of a row follow those of the row before
 } wt_path_row;
 
+// The waves that a path is one with (path_groups.h): the first `count` of these, by weight.
+#define WT_MOST_GROUPS 4u
+typedef struct {
+  wt_ulong keys[4];  // hashes of the steps of a wave
+  double weights[4];
+  wt_uint count;
+  wt_uint bends;  // not 0: the path is diffracted
+} wt_path_waves;
+
 typedef struct {
   double position[3];  // in the coordinates of the file
   wt_uint surface, instance, interaction;

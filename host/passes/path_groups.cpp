@@ -1,0 +1,51 @@
+// Host side of kernels/path_groups.cl.
+// One row per work-item; records are read once per frame.
+#include "passes/path_groups.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "passes/read_room.hpp"
+#include "radio/group_numbers.hpp"
+
+namespace wavetracer {
+
+PathGroups::PathGroups(gpu::Context& context, const std::vector<uint32_t>& planes_of, uint32_t edges,
+                       double wavelength_m)
+    : context_(context),
+      kernel_(context.kernel("path_groups", "path_groups", {{"WT_DIFFRACTS", std::to_string(std::min(edges, 2u))}})),
+      work_(tuning_of(context.info()).exact),
+      arguments_{.wavelength_m = wavelength_m, .row_count = 0, .row_capacity = 0, .max_depth = 0, .padding = 0},
+      planes_of_(context.buffer(planes_of, "planes of surfaces")) {
+  make_room(context_, waves_, host_waves_, 1 << 12, "waves of paths");
+}
+
+void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends, const SolvedList& visible,
+                            const Distinct& distinct, const RowList& rows, uint32_t most) {
+  make_room(context_, waves_, host_waves_, most, "waves of paths");
+  arguments_.row_count = rows.places;
+  arguments_.row_capacity = static_cast<uint32_t>(waves_.size());
+  arguments_.max_depth = visible.max_depth;
+  kernel_(work_.range(rows.places), "path_groups", visible.headers, visible.vertices, visible.sequences,
+          ends.transmitters, ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.counts,
+          wedges, planes_of_, waves_, arguments_);
+}
+
+void PathGroups::begin_read(uint32_t expected) {
+  read_ = std::min<size_t>(expected, waves_.size());
+  waves_.begin_read(0, read_, host_waves_, "path_groups");
+  context_.flush();
+  group_room_.resize(read_);
+  weight_room_.resize(read_);
+}
+
+void PathGroups::set(Paths& paths) {
+  const size_t count = paths.size();
+  if (count > read_) waves_.read(0, count, host_waves_, "path_groups");
+  paths.group = std::exchange(group_room_, {});
+  paths.group_weight = std::exchange(weight_room_, {});
+  number_groups(paths, {static_cast<const device::wt_path_waves*>(host_waves_.data()), count});
+}
+
+}  // namespace wavetracer

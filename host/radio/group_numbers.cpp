@@ -1,0 +1,81 @@
+// Groups of a link are told by a hash of their steps in 64 bits: of 10,000 groups two have one hash once in 10^11
+// links.
+#include "radio/group_numbers.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <bit>
+#include <vector>
+
+#include "radio/path_power.hpp"
+#include "wavetracer/device/path_groups.h"
+
+namespace wavetracer {
+namespace {
+
+constexpr size_t rows_at_once = 512;  // links are given to a core until they have so many
+
+// Numbers of keys in the order in which they are asked for: a table with open addresses.
+class KeyNumbers {
+ public:
+  // Forgets all keys, and makes room for so many.
+  void clear(size_t most) {
+    slots_.assign(std::bit_ceil(2 * most), Slot{});
+    count_ = 0;
+  }
+  // The number of a key, and whether it is new.
+  std::pair<uint32_t, bool> operator[](uint64_t key) {
+    size_t at = key & (slots_.size() - 1);
+    while (slots_[at].number != no_group && slots_[at].key != key) at = (at + 1) & (slots_.size() - 1);
+    const bool is_new = slots_[at].number == no_group;
+    if (is_new) slots_[at] = {key, count_++};
+    return {slots_[at].number, is_new};
+  }
+
+ private:
+  struct Slot {
+    uint64_t key = 0;
+    uint32_t number = no_group;
+  };
+  std::vector<Slot> slots_;
+  uint32_t count_ = 0;
+};
+
+// Rows first to end - 1 are of one link. numbers, straight: room.
+void number_link(Paths& paths, size_t first, size_t end, std::span<const device::wt_path_waves> waves,
+                 KeyNumbers& numbers, KeyNumbers& straight) {
+  numbers.clear(most_groups * (end - first));
+  straight.clear(end - first);
+  for (size_t row = first; row < end; ++row) {
+    const device::wt_path_waves& own = waves[row];
+    const bool is_twin = !own.bends && !straight[own.keys[0]].second;
+    paths.group[row] = only_group(no_group);
+    paths.group_weight[row] = GroupWeights{};
+    for (size_t i = 0; i < own.count; ++i) {
+      paths.group[row][i] = numbers[is_twin ? device::wt_mixed(own.keys[i], row) : own.keys[i]].first;
+      paths.group_weight[row][i] = own.weights[i];
+    }
+  }
+}
+
+}  // namespace
+
+void number_groups(Paths& paths, std::span<const device::wt_path_waves> waves) {
+  static_assert(most_groups == WT_MOST_GROUPS);
+  paths.group.resize(paths.size());
+  paths.group_weight.resize(paths.size());
+  std::vector<size_t> parts{0};  // of whole links
+  for (size_t row = 0; row < paths.size();) {
+    row = end_of_link(paths, row);
+    if (row - parts.back() >= rows_at_once || row == paths.size()) parts.push_back(row);
+  }
+  tbb::parallel_for(size_t{0}, parts.size() - 1, [&](size_t part) {
+    KeyNumbers numbers, straight;
+    for (size_t row = parts[part], end = row; row < parts[part + 1]; row = end) {
+      end = end_of_link(paths, row);
+      number_link(paths, row, end, waves, numbers, straight);
+    }
+  });
+}
+
+}  // namespace wavetracer
