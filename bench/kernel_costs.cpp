@@ -137,6 +137,8 @@ constexpr KernelCost costs[] = {
     {"crowns/crowns", "crowns", "cells of links", joined, scatter_bytes, nothing},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
      mirror_operations, true},
+    {"wedge_prefixes/place_prefixes", "diffraction", "prefixes", items_of<"wedge_prefixes/place_prefixes">,
+     always<2 * sizeof(wt_wedge_prefix)>, nothing, true},
     {"wedge_join/wedge_join", "diffraction", "candidates", joined, join_bytes, always<60>},
     {"wedge_solve/wedge_solve", "diffraction", "candidates", joined, wedge_solve_bytes, wedge_solve_operations, true},
     {"wedge_sight/wedge_sight", "two diffractions", "prefixes", items_of<"wedge_sight/wedge_sight">,
@@ -145,6 +147,7 @@ constexpr KernelCost costs[] = {
      always<static_cast<size_t>(wedge_operations)>},
     {"path_groups/path_groups", "diffraction", "paths", path_rows, always<sizeof(device::wt_path_waves)>,
      always<static_cast<size_t>(wedge_operations)>, true},
+    {"wedge_pairs/mark_runs", "two diffractions", "prefixes", items_of<"wedge_pairs/mark_runs">, always<12>, nothing},
     {"wedge_pairs/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, tree_operations},
 
     {"place/place", "drive", "surfaces", items_of<"place/place">, always<2 * sizeof(wt_exact_surface)>, always<66>,

@@ -58,16 +58,16 @@ typedef struct {
 } prefix_group;
 
 // Is this prefix the first of a group, of those of its wedge in the block? Then its group goes to *group.
-inline int begins_group(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
-                        wt_wedge_join_arguments args, uint i, prefix_group* group) {
+inline int begins_group(const global uint* keys, const global wt_wedge_prefix* prefixes, wt_wedge_join_arguments args,
+                        uint i, prefix_group* group) {
   const uint wedge = wt_wedge_of(keys[i]);
   const uint begin = max(args.first, wt_lower_bound_before(keys, i, wt_wedge_key(wedge, 0)));
   if ((i - begin) % TOGETHER != 0) return 0;
   group->count = group->most = 0;
   for (uint k = i; k < min(i + TOGETHER, args.end) && wt_wedge_of(keys[k]) == wedge; ++k) {
-    const global wt_wedge_prefix* a = prefixes + order[k];
+    const global wt_wedge_prefix* a = prefixes + k;
     if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) continue;
-    group->numbers[group->count++] = order[k];
+    group->numbers[group->count++] = k;
     group->most = max(group->most, args.max_depth - 2 - a->depth);
   }
   return group->count > 0;
@@ -86,64 +86,72 @@ inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt
   return any;
 }
 
-// `lanes` work-items for each group of prefixes of a block of them; keys are sorted, so what sees one wedge stands
-// together and is passed over together.
+// One sorted key per work-item. Runs are the prefixes that see one wedge: heads[i] becomes i where one begins, else
+// WT_NONE. Runs of corners are left out, and those that see nothing have the last keys and are in no run.
+kernel void mark_runs(const global uint* keys, const global wt_wedge* wedges, global uint* heads, uint count) {
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const int begins = keys[i] != WT_NONE && (i == 0 || wt_wedge_of(keys[i - 1]) != wt_wedge_of(keys[i]));
+  heads[i] = begins && !is_corner(wedges + wt_wedge_of(keys[i])) ? i : WT_NONE;
+}
+
+// What is known of the wedge of a group, a, and another one, b, as look() has it: ALL_PAIRS where no path goes from
+// one to the other, 0 where nothing is known.
+inline uint known_of(const global uint* kept, uint kept_wedges, uint a, uint b) {
+  if (a == b) return ALL_PAIRS;
+  return max(a, b) < kept_wedges ? wt_load_relaxed_u32(kept + (size_t)a * kept_wedges + b) : 0;
+}
+
+#define RUNS_AHEAD 16u  // keys are asked for before they are needed
+
+// `lanes` work-items for each group of prefixes of a block of them. runs: where each run of the sorted keys begins;
+// kept: what is known of each static wedge with each other one.
 kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
-                        const global double* sides, global uint* kept, const global uint* keys,
-                        const global uint* order, const global wt_wedge_prefix* prefixes,
-                        const global uint* receiver_of_origin, const global ushort* links,
-                        const global wt_wedge* wedges, const global wt_surface* boxes, global wt_wedge_candidate* out,
-                        global wt_counters* counters, wt_wedge_join_arguments args, wt_sight_arguments sight_args) {
+                        const global double* sides, global uint* kept, const global uint* keys, const global uint* runs,
+                        const global wt_wedge_prefix* prefixes, const global uint* receiver_of_origin,
+                        const global ushort* links, const global wt_wedge* wedges, const global wt_surface* boxes,
+                        global wt_wedge_candidate* out, global wt_counters* counters, wt_wedge_join_arguments args,
+                        wt_sight_arguments sight_args, uint run_count) {
   const uint i = args.first + get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
   if (i >= args.end || keys[i] == WT_NONE) return;
   const uint wedge_a = wt_wedge_of(keys[i]);
+  const global wt_wedge* v = wedges + wedge_a;
   prefix_group group;
-  if (is_corner(wedges + wedge_a) || !begins_group(keys, order, prefixes, args, i, &group)) return;
+  if (is_corner(v) || !begins_group(keys, prefixes, args, i, &group)) return;
   const wt_sight sight = {nodes,       triangles, sight_args.triangle_slots,  sight_args.extent_m,   surfaces,
                           first_sides, sides,     sight_args.static_surfaces, sight_args.only_opaque};
-  uint wedge_b = WT_NONE, known = 0, was_known = 0;
-  global uint* keep = 0;
-  wt_edge_view back;
   wt_found_candidates batch;
   batch.count = 0;
   wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
-  for (uint j = lane; j < args.count && keys[j] != WT_NONE;) {
-    if (wt_wedge_of(keys[j]) != wedge_b) {
-      wedge_b = wt_wedge_of(keys[j]);
-      const global wt_wedge* w = wedges + wedge_b;
-      const size_t low = min(wedge_a, wedge_b), high = max(wedge_a, wedge_b);
-      keep = 0;
-      known = was_known = ALL_PAIRS;
-      if (low != high && !is_corner(w) && leave_pieces(prefixes, boxes, wedges + wedge_a, w, &group)) {
-        keep = high < sight_args.kept_wedges ? kept + high * (high - 1) / 2 + low : 0;
-        known = was_known = keep ? wt_load_relaxed_u32(keep) : 0;
-        if (!known && !in_sight(wedges + low, wedges + high)) known = ALL_PAIRS;
-        back = wt_edge_seen_from(w, wedges + wedge_a);
-      }
-    }
-    if (known != ALL_PAIRS && keys[j] <= wt_wedge_key(wedge_b, group.most)) {
-      const global wt_wedge_prefix* b = prefixes + order[j];
-      j += args.lanes;
-      const uint pieces_b = b->pieces & wt_crossed_pieces(wedges + wedge_b, b, boxes, &back);
-      const int a_is_low = wedge_a < wedge_b;
+  for (uint r = 0; r < run_count; ++r) {
+    if (r + RUNS_AHEAD < run_count) wt_prefetch(keys + runs[r + RUNS_AHEAD]);
+    const uint wedge_b = wt_wedge_of(keys[runs[r]]), last = wt_wedge_key(wedge_b, group.most);
+    const uint was_known = known_of(kept, sight_args.kept_wedges, wedge_a, wedge_b);
+    const global wt_wedge* w = wedges + wedge_b;
+    if (was_known == ALL_PAIRS || !leave_pieces(prefixes, boxes, v, w, &group)) continue;
+    const int a_is_low = wedge_a < wedge_b;
+    const global wt_wedge *low = a_is_low ? v : w, *high = a_is_low ? w : v;
+    uint known = was_known || in_sight(low, high) ? was_known : ALL_PAIRS;
+    const uint end = known == ALL_PAIRS ? 0 : args.count;
+    const wt_edge_view back = wt_edge_seen_from(w, v);
+    for (uint j = runs[r] + lane; j < end && keys[j] <= last; j += args.lanes) {
+      const global wt_wedge_prefix* b = prefixes + j;
+      const uint pieces_b = b->pieces & wt_crossed_pieces(w, b, boxes, &back);
       for (uint k = 0; pieces_b && k < group.count; ++k) {
         const global wt_wedge_prefix* a = prefixes + group.numbers[k];
         const uint pieces_a = group.pieces[k];
         const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_origin, links, args.groups);
         if (!pieces_a || receiver == WT_NONE) continue;
         const uint wanted = pairs_of(a_is_low ? pieces_a : pieces_b, a_is_low ? pieces_b : pieces_a);
-        known = look(&sight, wedges + min(wedge_a, wedge_b), wedges + max(wedge_a, wedge_b), wanted, known, &hiders);
+        known = look(&sight, low, high, wanted, known, &hiders);
         if (known >> 16 & wanted)
           wt_emit_candidate(a, b, wedge_a, wedge_b, receiver, &batch, out, args.capacity, counters);
       }
-    } else {
-      const uint next = wt_lower_bound(keys, args.count, wt_wedge_key(wedge_b + 1, 0));
-      j = next + (lane + args.lanes - next % args.lanes) % args.lanes;
     }
-    if (keep && known != was_known) {
-      atomic_or(keep, known);
-      was_known = known;
+    if (known != was_known && max(wedge_a, wedge_b) < sight_args.kept_wedges) {
+      atomic_or(kept + (size_t)wedge_a * sight_args.kept_wedges + wedge_b, known);
+      atomic_or(kept + (size_t)wedge_b * sight_args.kept_wedges + wedge_a, known);
     }
   }
   wt_list_candidates(&batch, out, args.capacity, counters);

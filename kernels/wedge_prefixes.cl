@@ -115,3 +115,11 @@ kernel void wedge_prefixes(const global ulong* table, const global uint* quarter
   }
   if (count > 0) list_views(table, quarters, wedges, &from, views, count, keys, prefixes, counters, args);
 }
+
+// One sorted key per work-item: its prefix goes to the place of the key. Those that see nothing have the last keys, and
+// nothing reads them.
+kernel void place_prefixes(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
+                           global wt_wedge_prefix* sorted, uint count) {
+  const uint i = get_global_id(0);
+  if (i < count && keys[i] != WT_NONE) sorted[i] = prefixes[order[i]];
+}

@@ -13,10 +13,11 @@ struct WedgeList {
   gpu::Buffer<uint32_t> first, sides, of_surfaces;
 };
 
-// Prefixes with their wedges as keys, to be sorted: order[i] is the place of the prefix that key i had.
+// Prefixes with their wedges as keys. Once the keys are sorted, order[i] is the place that the prefix of key i had, and
+// sorted[i] is that prefix: what sees one wedge stands together.
 struct WedgePrefixList {
   gpu::Buffer<uint32_t> keys, order;
-  gpu::Buffer<wt_wedge_prefix> prefixes;
+  gpu::Buffer<wt_wedge_prefix> prefixes, sorted;
   uint32_t count = 0;
 };
 

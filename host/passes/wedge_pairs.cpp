@@ -9,13 +9,11 @@
 namespace wavetracer {
 namespace {
 
-size_t words_of(uint64_t wedges) { return wedges * wedges / 2 + 1; }
-
-// The bits of known pairs may take this much memory, 32,000 wedges. Of more, which are corners first, each frame finds
-// it out again.
+// The bits of known pairs, of each wedge with each other one, may take this much memory, 23,000 wedges. Of more, which
+// are corners first, each frame finds it out again.
 uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
   const uint64_t most = std::min({uint64_t{1} << 31, device.max_buffer, device.global_memory / 16});
-  const auto room = static_cast<uint64_t>(std::sqrt(static_cast<double>(most) / 2 - 2));  // words_of(room) fit
+  const auto room = static_cast<uint64_t>(std::sqrt(static_cast<double>(most) / sizeof(wt_uint)));
   return static_cast<uint32_t>(std::min(wedges, room));
 }
 
@@ -23,12 +21,31 @@ uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
 
 WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission)
     : sight(context, device_scene, scene, transmission),
+      context_(context),
       kernel_(context.kernel("wedge_pairs", "wedge_pairs", device_scene.definitions)),
+      mark_(context.kernel("wedge_pairs", "mark_runs", device_scene.definitions)),
+      mark_work_(tuning_of(context.info()).exact),
+      compact_(context),
+      scan_(context),
       group_(tuning_of(context.info()).pairs_group),
       kept_wedges_(kept_wedges(context.info(), scene.wedges.size())),
-      kept_(context.buffer<uint32_t>(words_of(kept_wedges_), "pairs of wedges")) {
+      kept_(context.buffer<uint32_t>(std::max<size_t>(size_t{kept_wedges_} * kept_wedges_, 1), "pairs of wedges")) {
   const wt_uint zero = 0;
   context.fill(kept_, &zero, sizeof zero, 0, kept_.size() * sizeof zero, "wedge_pairs");
+}
+
+void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefixes) {
+  if (heads_.size() < prefixes.count) {
+    heads_ = context_.buffer<float>(prefixes.keys.size(), "heads of runs");
+    runs_ = context_.buffer<uint32_t>(prefixes.keys.size(), "runs of prefixes");
+    blocks_ = context_.buffer<uint32_t>(compact_.blocks(static_cast<uint32_t>(heads_.size())) + 1, "blocks of runs");
+  }
+  run_count_ = 0;
+  if (prefixes.count == 0) return;
+  mark_(mark_work_.range(prefixes.count), "wedge_pairs", prefixes.keys, wedges.wedges, heads_, prefixes.count);
+  compact_.count_blocks(heads_, 0, prefixes.count, blocks_);
+  run_count_ = scan_(blocks_, compact_.blocks(prefixes.count), "wedge_pairs");
+  compact_(heads_, 0, prefixes.count, blocks_, runs_);
 }
 
 void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
@@ -36,9 +53,9 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                             const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
                             Counters& counters) {
   kernel_({size_t{join.end - join.first} * join.lanes, group_}, "wedge_pairs", scene.leg_nodes(), scene.leg_leaves(),
-          scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, prefixes.order,
-          prefixes.prefixes, receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(),
-          join, sight.arguments(scene, join.count, kept_wedges_));
+          scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, runs_, prefixes.sorted,
+          receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(), join,
+          sight.arguments(scene, join.count, kept_wedges_), run_count_);
 }
 
 }  // namespace wavetracer

@@ -2,9 +2,11 @@
 // no path is lost by it (wedge_sight).
 #pragma once
 #include "gpu/gpu.hpp"
+#include "passes/compact.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
+#include "passes/scan.hpp"
 #include "passes/wedge_lists.hpp"
 #include "passes/wedge_sight.hpp"
 #include "wavetracer/device/arguments.h"
@@ -15,6 +17,8 @@ class WedgePairs {
  public:
   // The scene, of which device_scene was made, and whether waves pass surfaces of it that are not opaque.
   WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission);
+  // Finds the runs of prefixes that see one wedge. To be called once they are sorted, before their pairs are asked for.
+  void list_runs(const WedgeList& wedges, const WedgePrefixList& prefixes);
   // Appends to the list, and counts in counters.wedge_candidates. join: of the same prefixes (see wedge_join).
   void operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                   const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
@@ -23,9 +27,15 @@ class WedgePairs {
   WedgeSight sight;  // to be asked before prefixes are sorted
 
  private:
-  gpu::Kernel kernel_;
-  uint32_t group_, kept_wedges_;
-  gpu::Buffer<uint32_t> kept_;  // a word for each pair of static wedges: which pieces see each other
+  gpu::Context& context_;
+  gpu::Kernel kernel_, mark_;
+  Work mark_work_;
+  Compact compact_;
+  Scan scan_;
+  uint32_t group_, kept_wedges_, run_count_ = 0;
+  gpu::Buffer<uint32_t> kept_;  // a word for each static wedge with each other one: which pieces see each other
+  gpu::Buffer<float> heads_;    // numbers in the bits, as Compact takes them
+  gpu::Buffer<uint32_t> runs_, blocks_;
 };
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_prefixes.cl.
-// One node of the trie per work-item.
+// One node of the trie per work-item, then one prefix.
 #include "passes/wedge_prefixes.hpp"
 
 #include "passes/advice.hpp"
@@ -11,13 +11,15 @@ namespace wavetracer {
 WedgePrefixes::WedgePrefixes(gpu::Context& context)
     : context_(context),
       work_(tuning_of(context.info()).prefixes),
-      kernel_(context.kernel("wedge_prefixes", "wedge_prefixes")) {
+      kernel_(context.kernel("wedge_prefixes", "wedge_prefixes")),
+      place_(context.kernel("wedge_prefixes", "place_prefixes")) {
   reserve(1 << 14);
 }
 
 void WedgePrefixes::reserve(size_t entries) {
   list_ = {context_.buffer<uint32_t>(entries, {"wedge keys", advice::links}),
            context_.buffer<uint32_t>(entries, {"wedge order", advice::links}),
+           context_.buffer<wt_wedge_prefix>(entries, {"wedge prefixes", advice::links}),
            context_.buffer<wt_wedge_prefix>(entries, {"wedge prefixes", advice::links})};
 }
 
@@ -40,6 +42,11 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
         counters.restart(count, 0, "wedge_prefixes");
       });
   return list_;
+}
+
+void WedgePrefixes::place(WedgePrefixList& list) {
+  if (list.count > 0)
+    place_(work_.range(list.count), "wedge_prefixes", list.keys, list.order, list.prefixes, list.sorted, list.count);
 }
 
 }  // namespace wavetracer

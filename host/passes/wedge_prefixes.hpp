@@ -17,13 +17,15 @@ class WedgePrefixes {
   WedgePrefixList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                               const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
                               const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
+  // Sets list.sorted, by sorted keys.
+  void place(WedgePrefixList& list);
 
  private:
   void reserve(size_t entries);
 
   gpu::Context& context_;
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::Kernel kernel_, place_;
   WedgePrefixList list_;
 };
 

@@ -45,9 +45,11 @@ struct DiffractedPaths {
 
   WedgePairs* for_two() { return pairs ? &*pairs : nullptr; }
 
-  // Sorts prefixes by the wedges that they see.
+  // Puts prefixes in the order of the wedges that they see.
   void sort(WedgePrefixList& list) {
     if (list.count > 0) sort_(list.keys, list.order, list.count, wedges.key_bits());
+    prefixes.place(list);
+    if (pairs) pairs->list_runs(wedges.list(), list);
   }
 
   Wedges wedges;

@@ -253,7 +253,7 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
     WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
                                                set.nodes(), nodes, counters);   // wedge_prefixes
     if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);  // wedge_sight
-    edges.sort(prefixes);                                                       // sort
+    edges.sort(prefixes);                                                       // sort, wedge_prefixes, wedge_pairs
     out = join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) {
       watch.tell("paths", steps * kinds_done + steps * done / std::max(prefixes.count, 1u), steps * exact.kinds());
     });

@@ -62,16 +62,18 @@ Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_depth, bool
   if (two) two->sight(scene, wedges.list(), list);
   Sort sort(context());
   sort(list.keys, list.order, list.count, wedges.key_bits());
+  see.place(list);
+  if (two) two->list_runs(wedges.list(), list);
   WedgeJoin pass(context(), world.receiver_of_origin, max_depth, max_depth);
   const uint32_t count = pass(scene, list, 0, list.count, wedges.list(), ends, set.counters(), two ? &*two : nullptr);
   Run out;
   const std::vector<uint64_t> table = set.table().read();
-  const auto keys = list.keys.read(0, list.count), order = list.order.read(0, list.count);
-  const auto prefixes = list.prefixes.read(0, list.count);
+  const auto keys = list.keys.read(0, list.count);
+  const auto prefixes = list.prefixes.read(0, list.count), sorted = list.sorted.read(0, list.count);
   CHECK(std::ranges::is_sorted(keys));
   for (uint32_t i = 0; i < list.count; ++i) {
     out.prefixes.emplace_back(sequence_of(table, prefixes[i].node), seen[i] >> 5);
-    CHECK((keys[i] == WT_NONE || (keys[i] & 31) == prefixes[order[i]].depth));
+    CHECK((keys[i] == WT_NONE || (keys[i] & 31) == sorted[i].depth));
   }
   for (const wt_wedge_candidate& c : count ? pass.list().read(0, count) : std::vector<wt_wedge_candidate>{})
     CHECK(out.candidates
