@@ -91,7 +91,7 @@ def with_blocks(path, text, tables):
     def block(match):
         if match[2] not in tables:
             sys.exit(f"{path}: no generated block is called {match[2]}: {', '.join(sorted(tables))}")
-        return match[1] + "\n".join(tables[match[2]]) + "\n" + match[3]
+        return match[1] + "\n" + "\n".join(tables[match[2]]) + "\n\n" + match[3]
     return BLOCK.sub(block, text)
 
 

@@ -41,7 +41,8 @@ def peer_cell(row):
     """The time of the program beside which a row was measured, and how many times as fast the row is."""
     if not row or not row["baseline_value"] or "Sionna" not in row["baseline"]:
         return ""
-    return f"{seconds(row['baseline_value'])} ({digits(row['ratio'])} times)"
+    found = f", finds {row['baseline_paths']:,}" if row.get("baseline_paths") else ""
+    return f"{seconds(row['baseline_value'])} ({digits(row['ratio'])} times{found})"
 
 
 def markdown(head, lines, right):
@@ -210,5 +211,63 @@ def visitor(groups):
     return markdown(["one frame of", "two CPU cores", "Sionna RT 2.2 on the same cores", "one GPU", "lost"], lines, 3) + devices_and_dates(found)
 
 
-TABLES = {"visitor": visitor, "links": links, "edges": edges, "drives": drives, "live": live, "coverage": coverage,
+CARS = [(f"{n} moving cars, {links} links, {words}", f"munich, {n} moving cars, {links} links: {way}, 1e+06 rays")
+        for n in (20, 100) for links in ("1 x 10", "10 x 100") for words, way in (("no reuse", "cold"), ("reuse", "reuse"))]
+STEPS = [("20 vehicles, rays each 0.1 s", "munich, 20 vehicles, depth 3: steps of 1 ms"),
+         ("100 vehicles, rays each 0.1 s", "munich, 100 vehicles, depth 3: steps of 1 ms"),
+         ("100 vehicles, rays each 0.03 s", "munich, 100 vehicles, depth 3: steps of 1 ms, rays every 30 ms")]
+FEATURES = [(words, f"munich, 1x24, depth 5: {case}") for words, case in (
+    ("reflection alone", "reflections"), ("transmission, one a path", "transmission, 1 a path"), ("two a path", "transmission, 2 a path"),
+    ("diffraction at wedges", "diffraction, wedges"), ("scattering, tiles of 10 m", "scattering, tiles of 10 m"), ("all of them", "all"),
+    ("transmission asked for, nothing lets waves through", "transmission, half spaces alone"),
+    ("scattering asked for, nothing is rough", "scattering, no rough material"))]
+PLACES = ("munich_street_0", "munich_street_1", "munich_street_2", "munich_street_deep", "munich_roof", "street_canyon_cars_specular")
+
+
+def cars(groups):
+    return three_devices(groups, "drive", CARS, lambda rows: [peer_cell(rows[0]), peer_cell(rows[1]) or peer_cell(rows[2]),
+                                                              share(power_lost(newest_of(rows)))],
+                         ["one frame", "Sionna RT on two cores", "Sionna RT on an H200", "power lost"])
+
+
+def steps(groups):
+    return three_devices(groups, "drive", STEPS, lambda rows: [seconds(newest_of(rows)["baseline_value"]), share(newest_of(rows)["error"]),
+                                                               share(newest_of(rows)["late_largest_share"])],
+                         ["steps of 1 ms, depth 3", "all frames with rays (newest device)", "power lost, mean", "the most that came late"])
+
+
+def features(groups):
+    return three_devices(groups, "features", FEATURES, lambda rows: [f"{newest_of(rows)['cost']:.3g}", f"{newest_of(rows)['paths']:,}"],
+                         ["Munich, 1 x 24 links, depth 5", "times the frame of reflection alone", "paths"])
+
+
+def recall(groups):
+    """Shares of the reference paths that launches lose, with the time of a frame, on the H200."""
+    settings = [("hilbert", "1e+05"), ("hilbert", "1e+06"), ("horizon", "1e+04"), ("horizon", "1e+05"), ("horizon", "1e+06")]
+    lines, found = [], []
+    for place in PLACES:
+        rows = [of_device(groups, "recall", H200, f"{place}, {way}, {rays} rays") for way, rays in settings]
+        lines.append([place] + [f"{share(row['error'])}, {seconds(row['value'])}" if row else "" for row in rows])
+        found += rows
+    return markdown(["place", "even, 10^5 rays", "even, 10^6", "horizon, 10^4", "horizon, 10^5", "horizon, 10^6"], lines, 5) + sources(found)
+
+
+def checks(groups):
+    """Counts of checks that hold, and of rays that slip through closed meshes."""
+    lines, found = [], []
+    for device in (CPU, H100, H200):
+        hard = [row for (b, d), cases in groups.items() if b == "hard" and d.startswith(device) for row in cases.values()]
+        leaks = [row for (b, d), cases in groups.items() if b == "leaks" and d.startswith(device) for row in cases.values()]
+        if hard:
+            lines.append(["numerically hard cases that hold", f"{sum(row['holds'] for row in hard)} of {len(hard)}", device_name(hard[0]["device"])])
+        if leaks:
+            rays = sum(row["rays"] for row in leaks)
+            lines.append(["rays at edges and vertices that slip through", f"{sum(row['value'] for row in leaks):.0f} of {rays:,}",
+                          device_name(leaks[0]["device"])])
+        found += hard + leaks
+    return markdown(["check", "result", "device"], lines, 1) + sources(found)
+
+
+TABLES = {"cars": cars, "steps": steps, "features": features, "recall": recall, "checks": checks,
+          "visitor": visitor, "links": links, "edges": edges, "drives": drives, "live": live, "coverage": coverage,
           "scaling": scaling, "parts": parts}
