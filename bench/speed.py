@@ -41,8 +41,8 @@ def peer_cell(row):
     """The time of the program beside which a row was measured, and how many times as fast the row is."""
     if not row or not row["baseline_value"] or "Sionna" not in row["baseline"]:
         return ""
-    found = f", finds {row['baseline_paths']:,}" if row.get("baseline_paths") else ""
-    return f"{seconds(row['baseline_value'])} ({digits(row['ratio'])} times{found})"
+    found = f"; finds {row['baseline_paths']:,}" if row.get("baseline_paths") else ""
+    return f"{seconds(row['baseline_value'])} ({digits(row['ratio'])} times as long{found})"
 
 
 def markdown(head, lines, right):

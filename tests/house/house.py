@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """The rules of the house that a program can check.
 
-usage: house.py SOURCE format|names|sizes|types|kernels
+usage: house.py SOURCE format|names|sizes|types|kernels|project
 
 format  every source is what clang-format makes of it with .clang-format
 names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
 types   no two types of one namespace have one name: their functions would be one to the linker, and which is chance
 kernels every kernel has a row in bench/kernel_costs.cpp, which says the least that it has to do; sorts have bench_sort
+project all files name one version; warnings are errors in the presets alone; the hosted checks are those of .ci/run
 """
+import json
 import pathlib
 import re
 import shutil
@@ -136,8 +138,36 @@ def unmeasured(root):
     return faults
 
 
+def project_faults(root):
+    faults = []
+
+    def found(name, pattern):
+        match = re.search(pattern, (root / name).read_text(), re.M)
+        return match[1] if match else None
+
+    version = found("CMakeLists.txt", r"^project\(wavetracer VERSION ([0-9.]+)")
+    named = {"CHANGELOG.md": found("CHANGELOG.md", r"^## \[([0-9.]+)\]"), "CITATION.cff": found("CITATION.cff", r"^version: (.*)$")}
+    faults += [f"{name}: it names version {told}, and CMakeLists.txt {version}" for name, told in named.items() if told != version]
+    soname = found("python/wavetracer/_library.py", r'^SONAME = "libwavetracer.so.([0-9.]+)"')
+    if soname != ".".join(version.split(".")[:2]):
+        faults.append(f"python/wavetracer/_library.py: SONAME is of {soname}, and CMakeLists.txt of {version}")
+
+    if found("CMakeLists.txt", r"^option\(WAVETRACER_WERROR .* (ON|OFF)\)") != "OFF":
+        faults.append("CMakeLists.txt: WAVETRACER_WERROR is not OFF by default, so a newer compiler stops a packager")
+    for preset in json.loads((root / "CMakePresets.json").read_text())["configurePresets"]:
+        keys = preset["cacheVariables"]  # warnings are those of GCC
+        if "CMAKE_CXX_COMPILER" not in keys and keys.get("WAVETRACER_WERROR") != "ON":
+            faults.append(f"CMakePresets.json: {preset['name']} lets warnings pass")
+
+    own = set(re.findall(r"^part (\w+)", (root / ".ci/run").read_text(), re.M))
+    hosted = set(found(".github/workflows/checks.yml", r"part: \[(.*)\]").split(", "))
+    if own != hosted:
+        faults.append(f".github/workflows/checks.yml: its parts are {sorted(hosted)}, and those of .ci/run {sorted(own)}")
+    return faults
+
+
 CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes, "types": types_twice,
-          "kernels": unmeasured}
+          "kernels": unmeasured, "project": project_faults}
 
 
 def main():
