@@ -12,6 +12,7 @@ import re
 import sys
 
 import plots
+import ray_studies
 import rows
 import speed
 import verdicts
@@ -110,7 +111,7 @@ def generated(root):
     files.update({bench / "figures" / f"{name}.svg": text for name, text in plots.drawn(groups)})
     claims = verdicts.read(bench / "results" / "verdicts.csv")
     files[root / "docs" / "thesis_verdicts.md"] = verdicts.page(claims)
-    tables = {name: make(groups) for name, make in speed.TABLES.items()} | {"verdict_counts": verdicts.counts(claims)}
+    tables = {name: make(groups) for name, make in (speed.TABLES | ray_studies.TABLES).items()} | {"verdict_counts": verdicts.counts(claims)}
     for path in [root / "README.md", *sorted((root / "docs").rglob("*.md"))]:
         if path not in files:
             files[path] = with_blocks(path.relative_to(root), path.read_text(encoding="utf-8"), tables)

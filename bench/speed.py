@@ -45,9 +45,9 @@ def peer_cell(row):
     return f"{seconds(row['baseline_value'])} ({digits(row['ratio'])} times as long{found})"
 
 
-def markdown(head, lines, right):
-    """A table; `right` columns after the first are aligned to the right."""
-    rule = ["---"] + ["---:"] * right + ["---"] * (len(head) - right - 1)
+def markdown(head, lines, right, left=1):
+    """A table; `right` columns after the first `left` ones are aligned to the right."""
+    rule = ["---"] * left + ["---:"] * right + ["---"] * (len(head) - right - left)
     return ["| " + " | ".join(row) + " |" for row in [head, rule] + lines]
 
 
