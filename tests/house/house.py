@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The rules of the house that a program can check.
 
-usage: house.py SOURCE format|names|sizes|types|kernels|project
+usage: house.py SOURCE format|names|sizes|types|kernels|project|licence
 
 format  every source is what clang-format makes of it with .clang-format
 names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
@@ -9,6 +9,7 @@ sizes   files above 300 lines (kernels: 200) and functions above 60 are those th
 types   no two types of one namespace have one name: their functions would be one to the linker, and which is chance
 kernels every kernel has a row in bench/kernel_costs.cpp, which says the least that it has to do; sorts have bench_sort
 project all files name one version; warnings are errors in the presets alone; the hosted checks are those of .ci/run
+licence every source file begins with the line of its licence, after an interpreter's line or a document type
 """
 import json
 import pathlib
@@ -24,6 +25,14 @@ SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cl", ".clh"}
 OF_THE_WHOLE = {"consumers", "documents", "drivers", "fuzz", "hard", "house", "install", "kernels", "python", "reference", "robustness",
                 "validation"}
 MOST_LINES, MOST_KERNEL_LINES, MOST_FUNCTION_LINES = 300, 200, 60
+
+
+SPDX = "SPDX-License-Identifier: Apache-2.0"
+# How a comment of one line is written, by the end of a file's name; other files carry no such line.
+COMMENTS = {"// {}": (".cpp", ".hpp", ".h", ".c", ".cl", ".clh", ".cu", ".js", ".hpp.in"), "/* {} */": (".css",), "<!-- {} -->": (".html",),
+            "# {}": (".py", ".sh", ".cmake", ".cmake.in", ".pc.in", ".yml", "CMakeLists.txt", "pyproject.toml", "dev", ".ci/run")}
+# Inputs of the program and of tests.
+NOT_SOURCES = ("build", "out", "bundle", "tests/fuzz/corpus", "tests/reference/oracle", "tests/reference/scenes")
 
 
 def sources(root):
@@ -89,7 +98,7 @@ def large(root):
     found = {}
     for path in sources(root):
         name = str(path.relative_to(root))
-        lines = path.read_text().splitlines()
+        lines = [line for line in path.read_text().splitlines() if not line.endswith(SPDX)]
         most = MOST_KERNEL_LINES if name.startswith("kernels/") else MOST_LINES
         if len(lines) > most:
             found[name] = f"{len(lines)} lines, where {most} are the limit"
@@ -166,8 +175,24 @@ def project_faults(root):
     return faults
 
 
+def unlicensed(root):
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard"], capture_output=True, text=True)
+    names = listed.stdout.splitlines() if listed.returncode == 0 else [str(p.relative_to(root)) for p in root.rglob("*") if p.is_file()]
+    faults = []
+    for name in sorted(names):
+        style = next((style for style, ends in COMMENTS.items() for end in ends if name == end or name.endswith(end if end[0] == "." else "/" + end)), None)
+        if not style or name.startswith(tuple(folder + "/" for folder in NOT_SOURCES)) or not (root / name).is_file():
+            continue
+        lines = (root / name).read_text(encoding="utf-8").splitlines()
+        if lines and (lines[0].startswith("#!") or lines[0].lower().startswith("<!doctype")):
+            lines.pop(0)
+        if not lines or lines[0] != style.format(SPDX):
+            faults.append(f"{name}: its first line is not {style.format(SPDX)}")
+    return faults
+
+
 CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes, "types": types_twice,
-          "kernels": unmeasured, "project": project_faults}
+          "kernels": unmeasured, "project": project_faults, "licence": unlicensed}
 
 
 def main():
