@@ -64,7 +64,7 @@ def bench_page(bench, groups):
         lines += ["", f"## {device}", ""] + table(cases.values())
         commands = {}
         for result in cases.values():
-            commands.setdefault(result["command"], set()).add(result["date"][:10])
+            commands.setdefault(rows.command(result), set()).add(result["date"][:10])
         lines.append("")
         lines += [f"`{command}`, {', '.join(sorted(dates))}  " for command, dates in commands.items()]
     return "\n".join(lines).rstrip() + "\n"

@@ -58,6 +58,11 @@ def of_device(groups, bench, device, case):
     return max(found, key=lambda row: row["date"], default=None)
 
 
+def command(row):
+    """The command of a row as anybody may repeat it: without folders of the machine that it ran on."""
+    return re.sub(r"(?<=[ =])/\S*/(?=\S)", "", re.sub(r" --shared \S+", "", row["command"]))
+
+
 def device_name(name):
     """A device as a reader calls it: PoCL names a processor `pthread-KIND-NAME`."""
     name = re.sub(r"^pthread-[a-z0-9-]*?-(?=[A-Z])", "two cores of an ", name)

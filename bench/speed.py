@@ -3,7 +3,7 @@
 What a row is called stands here; each number, with its error, command and date, is of bench/results. So one measurement
 has one number in all pages. A row that no benchmark has printed is left out, and a cell stays empty.
 """
-from rows import device_name, of_device
+from rows import command, device_name, of_device
 
 H100, H200, CPU, GPU = "NVIDIA H100", "NVIDIA H200", "pthread", "NVIDIA"
 
@@ -69,7 +69,7 @@ def sources(found):
     texts = []
     for device, rows in sorted(devices.items()):
         dates = sorted({row["date"][:10] for row in rows})
-        commands = sorted({"`" + row["command"].split(" --shared")[0] + "`" for row in rows})
+        commands = sorted({f"`{command(row)}`" for row in rows})
         texts.append(f"{device}: {' and '.join(commands)}, {dates[0]}" + (f" to {dates[-1]}" if len(dates) > 1 else ""))
     return ["", "Measured on " + "; on ".join(texts) + "."]
 
