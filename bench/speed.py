@@ -128,7 +128,11 @@ def three_devices(groups, bench, table, extra, head, value=seconds, cores="two C
         if any(rows):
             lines.append([words] + [value_cell(row, value) for row in rows] + extra(rows))
             found += rows
-    return markdown([head[0], cores, "H100", "H200"] + head[1:], lines, 3) + sources(found)
+    empty = [column for column in (3, 2, 1) if not any(line[column] for line in lines)]
+    rows = [[head[0], cores, "H100", "H200"] + head[1:]] + lines
+    for column in empty:
+        rows = [row[:column] + row[column + 1:] for row in rows]
+    return markdown(rows[0], rows[1:], 3 - len(empty)) + sources(found)
 
 
 def newest_of(rows):
