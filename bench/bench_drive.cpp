@@ -181,9 +181,9 @@ void run_links(const Options& options, const std::string& command) {
       measure(drive, setting, references, options.device, command);
     }
   };
-  run(1, 10, options.gpu ? "Sionna RT 2.2 on an H200 (sionna.md)" : "Sionna RT 2.2 on a 2-core CPU (sionna.md)",
+  run(1, 10, options.gpu ? "Sionna RT 2.2 on an H200" : "Sionna RT 2.2 on a 2-core CPU",
       options.gpu ? sionna_1x10_gpu_s : sionna_1x10_cpu_s);
-  run(10, 100, "Sionna RT 2.2 on an H200 (sionna.md): its still frame of 1.35 s, and 0.25 s to move 100 cars",
+  run(10, 100, "Sionna RT 2.2 on an H200: its still frame of 1.35 s, and 0.25 s to move 100 cars",
       options.gpu ? std::optional(sionna_10x100_gpu_s) : std::nullopt);
 }
 

@@ -34,6 +34,8 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples/ DESTINATION ${CMAKE_INSTALL
 file(GLOB documents CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.md)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${documents} DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/design DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
 # The Python package, where Debian's Python looks for packages below /usr; elsewhere it goes into PYTHONPATH.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/wavetracer DESTINATION lib/python3/dist-packages
   PATTERN __pycache__ EXCLUDE)

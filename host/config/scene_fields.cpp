@@ -203,7 +203,7 @@ Table material_table() {
                    .doc = "Exponent of the scattering lobe around the specular direction, an integer; 4 is usual for "
                           "walls. 0: no lobe, scattering by Lambert's law, which sends all of the share S^2. A lobe "
                           "sends less of it, so that it is the same there and back: with 4 it sends 77, 80, 82 and "
-                          "91 % at 0, 45, 60 and 80 degrees of incidence (docs/method.md, limits).",
+                          "91 % at 0, 45, 60 and 80 degrees of incidence (docs/limits.md).",
                    .example = "4"},
                   {.name = "scattering_cross_polar",
                    .slot = m(&MaterialConfig::scattering_cross_polar),

@@ -45,7 +45,7 @@ int wavetracer_error_code(const wavetracer_error* error);
 const char* wavetracer_error_message(const wavetracer_error* error);
 void wavetracer_error_free(wavetracer_error* error);
 
-/* The version of the library, such as "0.2.0"; the text lives forever. */
+/* The version of the library, such as "0.3.0"; the text lives forever. */
 const char* wavetracer_version(void);
 
 /* One line per OpenCL device, in the order of their index: name, tab, platform, tab, "GPU", "CPU" or "other". Lives

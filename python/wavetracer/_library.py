@@ -11,7 +11,7 @@ from typing import Any
 from . import _drivers
 from .errors import RunError, error_of
 
-SONAME = "libwavetracer.so.0.2"
+SONAME = "libwavetracer.so.0.3"
 Handle, Text = ctypes.c_void_p, ctypes.c_char_p
 Doubles, Sizes = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_size_t)
 Observer = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_uint64, ctypes.c_uint64)
@@ -112,7 +112,7 @@ def text(value: bytes | None) -> str:
 
 
 def version() -> str:
-    """The version of the library, such as "0.2.0"."""
+    """The version of the library, such as "0.3.0"."""
     return text(library.wavetracer_version())
 
 

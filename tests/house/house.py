@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 """The rules of the house that a program can check.
 
-usage: house.py SOURCE format|names|sizes|types|kernels
+usage: house.py SOURCE format|names|sizes|types|kernels|project|licence
 
 format  every source is what clang-format makes of it with .clang-format
 names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
 types   no two types of one namespace have one name: their functions would be one to the linker, and which is chance
 kernels every kernel has a row in bench/kernel_costs.cpp, which says the least that it has to do; sorts have bench_sort
+project all files name one version; warnings are errors in the presets alone; the hosted checks are those of .ci/run
+licence every source file begins with the line of its licence, after an interpreter's line or a document type
 """
+import json
 import pathlib
 import re
 import shutil
@@ -22,6 +25,14 @@ SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cl", ".clh"}
 OF_THE_WHOLE = {"consumers", "documents", "drivers", "fuzz", "hard", "house", "install", "kernels", "python", "reference", "robustness",
                 "validation"}
 MOST_LINES, MOST_KERNEL_LINES, MOST_FUNCTION_LINES = 300, 200, 60
+
+
+SPDX = "SPDX-License-Identifier: Apache-2.0"
+# How a comment of one line is written, by the end of a file's name; other files carry no such line.
+COMMENTS = {"// {}": (".cpp", ".hpp", ".h", ".c", ".cl", ".clh", ".cu", ".js", ".hpp.in"), "/* {} */": (".css",), "<!-- {} -->": (".html",),
+            "# {}": (".py", ".sh", ".cmake", ".cmake.in", ".pc.in", ".yml", "CMakeLists.txt", "pyproject.toml", "dev", ".ci/run")}
+# Inputs of the program and of tests.
+NOT_SOURCES = ("build", "out", "bundle", "tests/fuzz/corpus", "tests/reference/oracle", "tests/reference/scenes")
 
 
 def sources(root):
@@ -87,7 +98,7 @@ def large(root):
     found = {}
     for path in sources(root):
         name = str(path.relative_to(root))
-        lines = path.read_text().splitlines()
+        lines = [line for line in path.read_text().splitlines() if not line.endswith(SPDX)]
         most = MOST_KERNEL_LINES if name.startswith("kernels/") else MOST_LINES
         if len(lines) > most:
             found[name] = f"{len(lines)} lines, where {most} are the limit"
@@ -136,8 +147,52 @@ def unmeasured(root):
     return faults
 
 
+def project_faults(root):
+    faults = []
+
+    def found(name, pattern):
+        match = re.search(pattern, (root / name).read_text(), re.M)
+        return match[1] if match else None
+
+    version = found("CMakeLists.txt", r"^project\(wavetracer VERSION ([0-9.]+)")
+    named = {"CHANGELOG.md": found("CHANGELOG.md", r"^## \[([0-9.]+)\]"), "CITATION.cff": found("CITATION.cff", r"^version: (.*)$")}
+    faults += [f"{name}: it names version {told}, and CMakeLists.txt {version}" for name, told in named.items() if told != version]
+    soname = found("python/wavetracer/_library.py", r'^SONAME = "libwavetracer.so.([0-9.]+)"')
+    if soname != ".".join(version.split(".")[:2]):
+        faults.append(f"python/wavetracer/_library.py: SONAME is of {soname}, and CMakeLists.txt of {version}")
+
+    if found("CMakeLists.txt", r"^option\(WAVETRACER_WERROR .* (ON|OFF)\)") != "OFF":
+        faults.append("CMakeLists.txt: WAVETRACER_WERROR is not OFF by default, so a newer compiler stops a packager")
+    for preset in json.loads((root / "CMakePresets.json").read_text())["configurePresets"]:
+        keys = preset["cacheVariables"]  # warnings are those of GCC
+        if "CMAKE_CXX_COMPILER" not in keys and keys.get("WAVETRACER_WERROR") != "ON":
+            faults.append(f"CMakePresets.json: {preset['name']} lets warnings pass")
+
+    own = set(re.findall(r"^part (\w+)", (root / ".ci/run").read_text(), re.M))
+    hosted = set(found(".github/workflows/checks.yml", r"part: \[(.*)\]").split(", "))
+    if own != hosted:
+        faults.append(f".github/workflows/checks.yml: its parts are {sorted(hosted)}, and those of .ci/run {sorted(own)}")
+    return faults
+
+
+def unlicensed(root):
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard"], capture_output=True, text=True)
+    names = listed.stdout.splitlines() if listed.returncode == 0 else [str(p.relative_to(root)) for p in root.rglob("*") if p.is_file()]
+    faults = []
+    for name in sorted(names):
+        style = next((style for style, ends in COMMENTS.items() for end in ends if name == end or name.endswith(end if end[0] == "." else "/" + end)), None)
+        if not style or name.startswith(tuple(folder + "/" for folder in NOT_SOURCES)) or not (root / name).is_file():
+            continue
+        lines = (root / name).read_text(encoding="utf-8").splitlines()
+        if lines and (lines[0].startswith("#!") or lines[0].lower().startswith("<!doctype")):
+            lines.pop(0)
+        if not lines or lines[0] != style.format(SPDX):
+            faults.append(f"{name}: its first line is not {style.format(SPDX)}")
+    return faults
+
+
 CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes, "types": types_twice,
-          "kernels": unmeasured}
+          "kernels": unmeasured, "project": project_faults, "licence": unlicensed}
 
 
 def main():
