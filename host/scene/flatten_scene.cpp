@@ -1,4 +1,4 @@
-// Tolerances of vertices, and words for the user.
+// Computes tolerances of vertices and writes messages for the user.
 #include "scene/flatten_scene.hpp"
 
 #include <fmt/format.h>

@@ -32,7 +32,7 @@ bool meet(const SceneBox& a, const SceneBox& b) {
   return true;
 }
 
-// Triangles and their corners in an order that does not depend on the file.
+// Returns triangles and their corners in an order that does not depend on the file.
 std::vector<Corners> in_order(const Volume& volume) {
   const auto before = [](const dvec3& a, const dvec3& b) {
     return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};

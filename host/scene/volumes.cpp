@@ -1,4 +1,4 @@
-// The sign of the volume of a closed part says which side of its triangles is outside.
+// The sign of the volume of a closed part tells which side of its triangles is outside.
 #include "scene/volumes.hpp"
 
 #include <fmt/format.h>
