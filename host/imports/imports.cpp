@@ -1,5 +1,5 @@
-// From a map to a folder: read, plan, build, write, say.
-// Assumes that a city and its file fit into memory.
+// Turns a map into a folder: reads, plans, builds, writes and reports.
+// A city and its file must fit into memory.
 #include "imports/imports.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ void check(const ImportOptions& options) {
 
 bool is_city_model(std::string_view begin) { return imports::is_cityjson(begin) || imports::is_citygml(begin); }
 
-// Whether this is read here, not by GDAL.
+// Tells whether this code reads the file, and not GDAL.
 bool is_read_here(std::string_view begin) {
   return imports::is_osm(begin) || imports::is_sumo_polygons(begin) || is_city_model(begin);
 }
@@ -117,7 +117,7 @@ void add_counts(ImportSummary& summary, const imports::Plan& plan) {
   summary.guessed = plan.guessed;
 }
 
-// Writes the files of a scene; what they are goes to the summary.
+// Writes the files of a scene, and fills the summary.
 ImportSummary write_city(const std::vector<imports::SceneMesh>& meshes, const Georeference& georeference,
                          ImportSummary summary, const ImportOptions& options) {
   for (const imports::SceneMesh& mesh : meshes) summary.triangles += mesh.triangles.size();

@@ -1,5 +1,5 @@
-// Networks by pugixml, which neither recurses nor expands entities.
-// Assumes of SUMO's networks what net_file.xsd says: <net><edge><lane shape="x,y[,z] ...">.
+// Reads networks by pugixml, which neither recurses nor expands entities.
+// Networks have the form of net_file.xsd: <net><edge><lane shape="x,y[,z] ...">.
 #include "imports/road_network.hpp"
 
 #include <fmt/format.h>
