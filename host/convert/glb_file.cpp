@@ -1,5 +1,5 @@
-// The layout of .glb: a header of 12 bytes, then chunks of JSON and of the buffer, each padded to 4 bytes.
-// Names that are not UTF-8 get U+FFFD in place of what is not.
+// The layout of .glb: a header of 12 bytes, then chunks of JSON and of the buffer, each padded to 4 bytes. In names,
+// bytes that are not UTF-8 become U+FFFD.
 #include "convert/glb_file.hpp"
 #include <fmt/format.h>
 #include <algorithm>

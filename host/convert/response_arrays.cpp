@@ -1,4 +1,4 @@
-// Padding is by the largest antennas of either side.
+// Arrays are padded to the largest number of antennas on either side.
 #include "convert/response_arrays.hpp"
 #include <fmt/format.h>
 #include <algorithm>
