@@ -1,5 +1,5 @@
-// Samples into tracks, tracks into their final order.
-// Assumes that samples which agree in id are of one vehicle, whatever else the file says of them.
+// Collects samples into tracks, and puts tracks into their final order.
+// Samples with the same id belong to one vehicle.
 #include "motion/track_builder.hpp"
 
 #include <fmt/format.h>
@@ -16,10 +16,10 @@
 namespace wavetracer {
 namespace {
 
-// As the keys of the configuration take them (config/field_table.hpp).
+// These are the limits of the configuration's keys (config/field_table.hpp).
 constexpr double farthest_m = 1e9, fastest_m_s = 1e8, most_time_s = 1e12;
 
-// The first of the names, for messages.
+// Returns the first of the names, for messages.
 std::string listed(const std::vector<std::string>& names) {
   constexpr size_t shown = 5;
   std::string out;
@@ -38,10 +38,10 @@ TrackBuilder::TrackBuilder(std::string file, const TrajectoryOptions& options)
   if (options.default_type) check_type(*options.default_type);
 }
 
-// Files are full of numbers that a program had no value for, such as 1e308.
+// Files contain numbers such as 1e308 that stand for a missing value.
 void TrackBuilder::check_sizes(const Sample& sample, uint64_t line, std::string_view what) const {
   const auto check = [&](double value, double most, const char* name, const char* unit) {
-    if (std::abs(value) > most)  // false for what is not given
+    if (std::abs(value) > most)  // the comparison is false for missing values
       fail_at(file_, line, fmt::format("{}: its {} is {:g} {}, and {:g} is the most", what, name, value, unit, most));
   };
   check(sample.time_s, most_time_s, "time", "s");
@@ -126,8 +126,8 @@ void TrackBuilder::in_degrees(bool above_ground) {
                     file_));
 }
 
-// File coordinates to those of the scene; heights above the ground to z. A place without a ground below has the one of
-// the sample before.
+// Converts file coordinates to those of the scene, and heights above the ground to z. A place without ground below gets
+// the ground of the sample before.
 void TrackBuilder::place(Track& track) {
   const bool on_ground = (above_ground_ || options_.above_ground) && options_.ground;
   double ground_m = 0;
@@ -141,7 +141,7 @@ void TrackBuilder::place(Track& track) {
     off_ground_ += !below_m;
     ground_m = below_m.value_or(ground_m);
     s.position_m.z += ground_m;
-    s.pitch_rad = not_given;  // that of the ground
+    s.pitch_rad = not_given;  // pitch follows the ground
   }
 }
 
