@@ -1,4 +1,4 @@
-// One table a file, but for responses.h5, whose rows belong to links: links differ in their numbers of antennas.
+// Each file has one table, except responses.h5, whose rows belong to links: links have different numbers of antennas.
 #include "output/element_h5.hpp"
 #include <fmt/format.h>
 #include "wavetracer/arrays.hpp"
@@ -25,7 +25,7 @@ void write_numbers(hdf5::File& file, const std::string& group, const std::string
   hdf5::Rows<double>(file, group + "/" + name, meaning, {values.size()}).append(values);
 }
 
-// The elements of all ends of a role, one after the other.
+// Writes the elements of all ends of a role, one after the other.
 void write_elements(hdf5::File& file, const std::string& group, const Config& config,
                     const std::vector<RadioEnd>& ends) {
   std::vector<std::string> names;

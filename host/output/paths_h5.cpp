@@ -1,5 +1,6 @@
-// paths.h5: /paths (one row per path) and /vertices (compressed rows); the world around them is in world_h5.cpp.
-// Every dataset says its units and meaning in attributes; the root has the conventions, the config and the versions.
+// Writes paths.h5: /paths (one row per path) and /vertices (compressed rows); world_h5.cpp writes the world around
+// them. Every dataset has its units and meaning in attributes; the root has the conventions, the config and the
+// versions.
 #include "output/paths_h5.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 
 using hdf5::Meaning;
 
-// A table that is not rectangular would be written as a file that reads well and is wrong.
+// A table with columns of different lengths would be written as a file that reads well but is wrong.
 bool is_rectangular(const Paths& paths) {
   const size_t rows = paths.size(), vertices = paths.vertex_position_m.size();
   bool whole = paths.vertex_offset.size() == rows + 1 && paths.vertex_offset.front() == 0 &&
@@ -37,7 +38,7 @@ bool names_known_ends(const Paths& paths, const Config& config) {
   return below(paths.tx, config.transmitters.size()) && below(paths.rx, config.receivers.size());
 }
 
-// Every end and instance has a state, and links and paths name ends that there are.
+// Every end and instance must have a state, and links and paths must name ends that exist.
 bool fits(const FrameResult& frame, const Run& run) {
   const WorldState& world = frame.world;
   const auto named = [&](const Link& link) {
@@ -56,7 +57,8 @@ void check(const Run& run, const FrameResult& frame) {
         frame.frame));
 }
 
-// One part of the coefficients, (path, rx port, tx port), packed from the four slots of Paths::a.
+// Appends the real or imaginary parts of the coefficients, (path, rx port, tx port), packed from the four slots of
+// Paths::a.
 void append_coefficients(const Paths& paths, FrameTables& tables, const std::string& name, const Meaning& meaning,
                          double (*part)(const std::complex<double>&)) {
   const size_t ports = size_t{paths.rx_ports} * paths.tx_ports;
@@ -67,7 +69,7 @@ void append_coefficients(const Paths& paths, FrameTables& tables, const std::str
   tables.append<double>(name, meaning, values, {paths.rx_ports, paths.tx_ports});
 }
 
-// Without groups each path is one, numbered in its link.
+// Without groups, each path is its own group, numbered within its link.
 void append_groups(const Paths& paths, FrameTables& tables) {
   std::vector<GroupNumbers> own;
   std::vector<GroupWeights> whole;

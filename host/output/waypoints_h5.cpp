@@ -1,4 +1,4 @@
-// waypoints.h5: one table, /waypoints, a row per waypoint.
+// Writes waypoints.h5: one table, /waypoints, a row per waypoint.
 // Kinds are the numbers of WaypointKind; positions are those of the scene file.
 #include "output/waypoints_h5.hpp"
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ bool is_rectangular(const WaypointRows& rows) {
          rows.instance.size() == count && rows.source.size() == count;
 }
 
-// What the numbers of WaypointKind mean, in their order.
+// Explains the numbers of WaypointKind, in their order.
 std::string kind_legend() {
   std::map<int, std::string_view> interactions;
   for (const InteractionKind& kind : interaction_kinds)
