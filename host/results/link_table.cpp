@@ -1,5 +1,5 @@
 // A line of links.csv is a row of /links, in the same order; another number of lines means another run.
-// Assumes nothing of the file but that: fields that are no numbers are NaN.
+// Fields that are no numbers become NaN.
 #include "results/link_table.hpp"
 #include <fmt/format.h>
 #include <filesystem>

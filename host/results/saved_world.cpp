@@ -1,4 +1,4 @@
-// Assumes that the configuration's paths are absolute, as runs write them.
+// The configuration's paths must be absolute, as runs write them.
 // Vehicles are matched by their id, because a run of a part of the frames lists the same vehicles.
 #include "results/saved_world.hpp"
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace wavetracer {
 namespace {
 
-// Of files that are gone the readers speak.
+// Files that no longer exist are reported by their readers.
 void warn_changed(const SavedRun& run, std::vector<std::string>& warnings) {
   for (const InputFile& input : run.inputs()) {
     const auto now = hash_of_file(input.file);
@@ -28,7 +28,7 @@ void warn_changed(const SavedRun& run, std::vector<std::string>& warnings) {
   }
 }
 
-// Lanes of a flat network on the ground that vehicles drive on.
+// Puts lanes of a flat network on the ground that vehicles drive on.
 void drape(std::vector<Street>& streets, const Scene& scene) {
   constexpr double step_m = 5;
   const Ground ground(scene);
