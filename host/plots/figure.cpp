@@ -1,5 +1,5 @@
-// Sizes are those of a screen; vector formats take 96 pixels for an inch, and PNG twice the pixels, so that it prints.
-// Assumes gnuplot 5.2 or later with cairo terminals, as Debian's gnuplot-nox has them.
+// Sizes are those of a screen; vector formats use 96 pixels per inch, and PNG has twice the pixels, so that it prints
+// well. It needs gnuplot 5.2 or later with cairo terminals, as in Debian's gnuplot-nox.
 #include "plots/figure.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -85,12 +85,12 @@ Drawn draw(const Figure& figure, Format format, const fs::path& folder) {
   Drawn out;
   for (const PendingFile& file : files) out.files.push_back(file.path());
   const fs::path picture = directory.path() / fmt::format("{}.{}", figure.name, ending(format));
-  remove_old_file(picture);  // an earlier one would belie the new data
+  remove_old_file(picture);  // an old picture would not match the new data
   out.problem = run_gnuplot(directory.path(), figure.name + ".gp");
   if (out.problem.empty())
     out.files.push_back(picture);
   else
-    remove_old_file(picture);  // half drawn
+    remove_old_file(picture);  // it is incomplete
   return out;
 }
 
