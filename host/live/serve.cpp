@@ -1,4 +1,4 @@
-// The order in which things are checked, opened and made.
+// Decides the order in which things are checked, opened and made.
 // Clients that connect while the kernels compile wait in the listener's queue.
 #include "live/serve.hpp"
 
@@ -13,7 +13,7 @@ namespace wavetracer::live {
 
 namespace {
 
-// Without what answers have no room for, which would be computed for nobody.
+// Removes the parts that answers cannot contain, which would be computed in vain.
 Config answered(Config config, const Log& log) {
   const auto drop = [&log](const char* key, const char* file) {
     log(fmt::format("warning: {} is left out: answers have paths and links, not what {} has", key, file));
@@ -51,7 +51,7 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
   Simulation simulation(answered(config, log), options.device);
   simulation.profile_every(profiled_frames);
   for (const std::string& warning : simulation.warnings()) log("warning: " + warning);
-  simulation.run_frame(0);  // with nobody there: buffers are made, drivers finish compiling
+  simulation.run_frame(0);  // before any client connects: buffers are made, drivers finish compiling
   simulation.forget();
   Server server(simulation, listener, token, log, options.solved);
   ready(listener.name());
