@@ -1,5 +1,5 @@
-// Sentences from rows.
-// Assumes that the axes rays, auto and reuse share their reference.
+// Makes sentences from rows.
+// The axes rays, auto and reuse share their reference.
 #include "accuracy/advice.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,7 +31,7 @@ std::string decibels(const study::PathError& error) {
                                                          error.power_median_db, error.power_max_db);
 }
 
-// What a limit asks of rays or depth, or that nothing keeps it.
+// Says which rays or depth a limit needs, or that no row keeps it.
 std::string limit_text(const Row* best, const Row& whole) {
   if (!best) return fmt::format("only the reference, {} ({} per frame)", keys(whole), milliseconds(whole));
   return fmt::format(
@@ -87,7 +87,7 @@ void add_reuse(const Study& study, std::vector<std::string>& out) {
       milliseconds(*on), share_text(on->error.lost_power), milliseconds(*off), share_text(off->error.lost_power)));
 }
 
-// What is gained by it, on top of the user's other settings.
+// Says what the mechanism gains, on top of the user's other settings.
 std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row& off) {
   std::string text = fmt::format("{} ({}): ", mechanism.words, fmt::join(mechanism.on, ", "));
   const study::PathError& error = off.error;

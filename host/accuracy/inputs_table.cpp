@@ -1,5 +1,5 @@
-// The rows of a study of inputs as CSV, as lines for a terminal, and as a figure.
-// A number is empty where a link has none.
+// Writes the rows of a study of inputs as CSV, as lines for a terminal, and as a figure.
+// A number is empty if a link has none.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6
 
 double width(const InputInterval& interval) { return interval.high - interval.low; }
 
-// NaN of none.
+// Returns NaN for an empty list.
 double median_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return std::nan("");

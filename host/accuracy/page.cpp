@@ -1,4 +1,4 @@
-// The page and the order in which files are written: the table first, because the plot and the page are made of it.
+// Makes the page, and writes the files: the table first, because the plot and the page are made from it.
 #include "study/page.hpp"
 #include <fmt/format.h>
 #include <span>

@@ -1,5 +1,5 @@
-// The user's own settings first, because mistakes and a scene without links show there; then axis by axis.
-// Paths are kept of the own settings and of one reference at a time.
+// The user's own settings are measured first, because mistakes and a scene without links show there; then axis by axis.
+// Only the paths of the own settings and of one reference at a time are kept.
 #include "accuracy/study.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -75,7 +75,7 @@ class Measurement {
     return !setting.leads && resolved_config(config) == resolved_config(own_);
   }
 
-  // Nothing where it was interrupted; a refusal where the configuration or the device cannot do it.
+  // Returns nothing if it was interrupted; a refusal if the configuration or the device cannot do it.
   std::optional<Measured> try_measure(const Setting& setting, bool& own) const {
     Measured refused;
     try {
@@ -91,7 +91,7 @@ class Measurement {
     return refused;
   }
 
-  // Before a setting is measured: how many are, of all.
+  // Reports progress before a setting is measured: how many of all are done.
   void tell(const Setting& setting) const {
     host_.tell(setting.axis + " " + setting.name, out_.rows.size(), out_.planned, "settings");
   }
