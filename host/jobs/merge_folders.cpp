@@ -1,5 +1,5 @@
-// Looks for gaps along the frames that the run was asked for, or among its blocks.
-// Two parts of one unit must agree; the first that is found is taken.
+// Finds gaps among the frames that the run was asked for, or among its blocks.
+// If two parts hold the same unit, they must agree, and the first that is found is taken.
 #include "jobs/merge_folders.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -69,7 +69,7 @@ void find_missing(FoundParts& found) {
   if (next <= found.run.last) add_missing(found, {static_cast<uint32_t>(next), found.run.last, 0, 1});
 }
 
-// No two parts may hold the same frames, or be of different cuts.
+// No two parts may hold the same frames, unless they are the same unit.
 void check_cut(const FoundParts& found) {
   const Shard* before = nullptr;
   for (const auto& [key, shard] : found.shards) {
@@ -83,7 +83,7 @@ void check_cut(const FoundParts& found) {
   }
 }
 
-// Two parts of one unit, computed twice, say the same.
+// Two parts of one unit, computed twice, must be equal.
 void check_agrees(const Shard& a, const Shard& b, const fs::path& folder) {
   const bool same = a.unit == b.unit && a.totals.counts.paths == b.totals.counts.paths &&
                     a.totals.links == b.totals.links && a.totals.vertices == b.totals.vertices &&

@@ -1,4 +1,5 @@
-// The record of the run that wrote the shards, run.json, has its configuration and inputs, so that messages name them.
+// run.json, the record of the run that wrote the shards, has its configuration and inputs, so that messages can name
+// them.
 #include "jobs/same_run.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 const char* const run_record_name = "run.json";
 
-// Frames of two worlds must not come together.
+// Frames of two different worlds must not be mixed.
 void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
                        const std::vector<InputFile>& inputs) {
   if (there.inputs == asked.inputs) return;
@@ -28,7 +29,7 @@ void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const
                   which.empty() ? "an input file has changed" : which, folder.string()));
 }
 
-// The keys that differ, by the record of the run that wrote the shards; empty where that does not tell.
+// Returns the keys that differ, by the record of the run that wrote the shards; empty if the record does not tell.
 std::string changed_keys(const fs::path& folder, const std::string& config) {
   constexpr size_t shown = 5;
   std::error_code none;
