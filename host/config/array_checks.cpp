@@ -1,4 +1,5 @@
-// What only the whole configuration shows of arrays and carriers: names that nothing has, keys that exclude each other.
+// Checks of arrays and carriers that need the whole configuration: names that nothing has, keys that exclude each
+// other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace wavetracer::config {
 namespace {
 
-constexpr uint64_t most_elements = 65536;  // of an array
+constexpr uint64_t most_elements = 65536;  // limit of an array
 
 template <class End>
 void check_references(const std::string& table, const std::vector<End>& ends, const std::vector<std::string>& arrays,
@@ -51,7 +52,7 @@ void check_carriers(const RadioConfig& radio, std::vector<Contradiction>& out) {
         {{"radio.frequencies_hz"}, fmt::format("radio.frequencies_hz has {} twice: name each carrier once", *twice)});
 }
 
-// Half of a band lies below its carrier, and there are no frequencies below zero.
+// Half of a band lies below its carrier, and frequencies are positive.
 void check_bands(const Config& config, std::vector<Contradiction>& out) {
   const RadioConfig& radio = config.radio;
   std::vector<double> carriers = radio.frequencies_hz;

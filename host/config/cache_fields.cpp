@@ -1,5 +1,5 @@
-// Rows of the field table about the ray cache: its table, what its keys tell apart, and what makes entries stale.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// Rows of the field table about the ray cache: its table, the fields of its keys, and the age at which entries expire.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_rows.hpp"
 
 namespace wavetracer::config {

@@ -1,5 +1,5 @@
-// One function a topic, each adding what it finds.
-// Assumes nothing about where keys stand; the parser knows, and names the place.
+// Each topic has one function, which adds the contradictions that it finds.
+// The parser knows where keys stand, and names the place.
 #include "config/contradictions.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ void check_launch(const Config& config, Found& out) {
                                config.order.method.word(), curve, shape.word())});
 }
 
-// A refined launch splits cells of the hilbert map and goes along its curve, level by level.
+// A refined launch splits cells of the hilbert map and follows its curve, level by level.
 void check_rays(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.rays) {
@@ -67,7 +67,7 @@ void check_rays(const Config& config, Found& out) {
   }
 }
 
-// Frames without rays have nothing but the sequences of earlier ones.
+// Frames without rays only have the sequences of earlier frames.
 void check_discoveries(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (!(trace.discover_every_s > 0)) return;
@@ -99,7 +99,7 @@ void check_reception(const Config& config, Found& out) {
          "where few sequences were found: give trace.rays a number, or use trace.reception = \"exact\""});
 }
 
-// Features that reception by spheres, or the recording of waypoints, cannot be combined with.
+// Checks features that cannot be combined with reception by spheres or with the recording of waypoints.
 void check_features(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   for (const InteractionKind& kind : interaction_kinds) {
@@ -118,7 +118,7 @@ void check_features(const Config& config, Found& out) {
                      config.output.waypoints)});
 }
 
-// A signal-to-noise ratio has a signal and a noise.
+// A signal-to-noise ratio needs a signal and a noise.
 void check_link_budget(const RadioConfig& radio, Found& out) {
   if (radio.bandwidth_hz && !radio.transmit_power_dbm)
     out.push_back(
@@ -170,7 +170,7 @@ void check_cache(const Config& config, Found& out) {
                                cache.first_depth, config.trace.max_depth)});
 }
 
-// member: the member that holds the name of an element. Returns seen and the names of all elements.
+// member: the member that holds an element's name. Returns the names of all elements, and adds those that occur twice.
 template <class Element>
 std::set<std::string> check_names(const std::string& table, const std::string& key, const std::vector<Element>& all,
                                   std::string Element::*member, std::set<std::string> seen, Found& out) {

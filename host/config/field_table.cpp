@@ -1,5 +1,5 @@
 // The rows of the field table, one per key of the config file, in the order in which `init` writes them.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_table.hpp"
 
 #include "config/field_rows.hpp"
@@ -200,7 +200,7 @@ Table launch_table() {
           }};
 }
 
-// With the words of each Choice, and that of an optional that is not set, as choices.
+// Adds the words of each Choice, and the word of an optional that is not set, as choices.
 std::vector<Table> with_words(std::vector<Table> tables) {
   Config sample;
   for (Table& table : tables) {

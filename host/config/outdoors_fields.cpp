@@ -1,5 +1,5 @@
-// Rows of the field table about what stands and hangs between the ends: the air, and vegetation.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// Rows of the field table about media that attenuate a wave without turning it: the air and vegetation.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_rows.hpp"
 
 namespace wavetracer::config {

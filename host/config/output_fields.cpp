@@ -1,5 +1,5 @@
 // Rows of the field table about the files that a run writes.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_rows.hpp"
 
 namespace wavetracer::config {

@@ -1,4 +1,5 @@
-// What only the whole configuration shows of where things are: places in degrees, and air that waves of a carrier pass.
+// Checks of places that need the whole configuration: places in degrees, and air whose models are valid at each
+// carrier.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +10,7 @@
 
 namespace wavetracer::config {
 
-// Ranges of the recommendations. fog: P.840 is Rayleigh scattering.
+// Ranges are those of the recommendations. fog: P.840 assumes Rayleigh scattering.
 void check_air(const Config& config, std::vector<Contradiction>& out) {
   std::vector<double> carriers = config.radio.frequencies_hz;
   carriers.push_back(config.radio.frequency_hz);

@@ -1,4 +1,4 @@
-// A row per key; it stays, as the configurations of old runs do.
+// Each key has a row, which stays, since configurations of old runs stay too.
 #include "config/retired_keys.hpp"
 
 #include <algorithm>

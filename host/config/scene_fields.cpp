@@ -1,5 +1,5 @@
-// Rows of the field table about what stands: the static scene, radio materials and radio ends.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// Rows of the field table about fixed objects: the static scene, radio materials and radio ends.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include <utility>
 
 #include "config/field_rows.hpp"

@@ -1,4 +1,4 @@
-// What only the whole configuration shows of vehicles: where they come from, what they carry, when they drive.
+// Checks of vehicles that need the whole configuration: their sources, their antennas, the times of the drive.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Rows of the field table about vehicles: their trajectories, bodies and antennas, the frames and links of a drive.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// Rows of the field table about vehicles: their trajectories, bodies and antennas, the frames and links of a drive. The
+// doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include <utility>
 
 #include "config/field_rows.hpp"
