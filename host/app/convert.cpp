@@ -1,5 +1,5 @@
 // `wavetracer convert`: a run in the format of another program, or a map as a scene.
-// What INPUT is decides its content; what is written decides --to, or the suffix of -o where it says enough.
+// The content of INPUT decides which of the two it is; --to, or a sufficient suffix of -o, decides what is written.
 #include "convert/convert.hpp"
 #include <fmt/format.h>
 #include <fstream>
@@ -66,7 +66,7 @@ const Exporter& chosen_exporter(const ConvertOptions& options) {
   return exporter;
 }
 
-// OUT is made of one kind; what stands there must not be of another.
+// An output is a file or a folder; an existing OUT must be of the same kind.
 void check_output(const Exporter& exporter, const fs::path& output) {
   std::error_code ignored;
   if (!fs::exists(output, ignored)) return;
@@ -80,7 +80,7 @@ void check_output(const Exporter& exporter, const fs::path& output) {
                                   output.string(), exporter.name));
 }
 
-// Rows of the frames that --frames names by their numbers.
+// Chooses the rows of the frames that --frames names by their numbers.
 void choose_rows(const SavedRun& run, const std::string& text, ExportOptions& options) {
   const size_t count = run.frame_count();
   options.first_row = 0;
@@ -118,7 +118,7 @@ void export_run(const ConvertOptions& options) {
   out << "\n";
 }
 
-// Where the vehicles of a file are: the ground has to reach below them.
+// Returns the area of a file's vehicles, which the ground must cover.
 Extent extent_of_traffic(const ConvertOptions& options) {
   if (options.map.net.empty() && fs::path(options.input).extension() != ".xml")
     throw ConfigError(

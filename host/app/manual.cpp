@@ -1,5 +1,5 @@
-// wavetracer(1): every subcommand with its options, as CLI11 describes them, and what the program says to its
-// surroundings. Assumes that footers of subcommands are laid out as they are to be shown.
+// wavetracer(1): every subcommand with its options, as CLI11 describes them, environment variables, files and exit
+// codes. Footers of subcommands are laid out as they are shown.
 #include <fmt/format.h>
 #include <algorithm>
 #include "app/command_text.hpp"
@@ -42,7 +42,7 @@ std::string section(const CommandText& command) {
   return out;
 }
 
-// Each item is a tag and what it means.
+// Each item is a tag and its meaning.
 std::string list(std::initializer_list<std::pair<const char*, const char*>> items) {
   std::string out;
   for (const auto& [name, meaning] : items) out += fmt::format(".TP\n.B {}\n{}\n", roff(name), roff(meaning));

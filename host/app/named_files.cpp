@@ -1,5 +1,5 @@
-// Existence and permissions of the files and folders that a config names.
-// What is checked here may change before it is used; the code that opens a file reports that again.
+// Checks existence and permissions of the files and folders that a config names.
+// A file may change between the check and its use; the code that opens it reports that.
 #include "app/named_files.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -49,7 +49,7 @@ void check_streets(const Config& config) {
 }  // namespace
 
 void check_inputs(const Config& config) {
-  Config values = config;  // what names files may be written to
+  Config values = config;  // a copy, since slots point to values that may be written
   for (const config::NamedFile& file : config::input_files(values)) check_file(*file.path, file.key, config.file);
   if (!config.scene.generate.empty()) parse_city_options(config.scene.generate);
   if (!config.trajectories.generate.empty()) parse_traffic_options(config.trajectories.generate);

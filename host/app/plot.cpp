@@ -1,5 +1,5 @@
-// `wavetracer plot`: figures of a run, each with its data and the gnuplot script that drew it.
-// Needs no device; without gnuplot data and scripts are still written.
+// `wavetracer plot` makes figures of a run, each with its data and the gnuplot script that drew it.
+// It needs no device; without gnuplot, data and scripts are still written.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <filesystem>

@@ -1,5 +1,5 @@
-// `wavetracer serve`: poses in, channels out, over a socket, until a signal ends it.
-// Standard output says where it listens, once it does; everything else goes to standard error.
+// `wavetracer serve`: poses come in over a socket, channels go out, until a signal ends it.
+// Standard output gets the address once it listens; everything else goes to standard error.
 #include "live/serve.hpp"
 #include <fmt/format.h>
 #include <iostream>
