@@ -9,12 +9,9 @@
 namespace wavetracer {
 
 // All functions throw RuntimeError if a file cannot be removed, and do nothing if the folder does not exist.
-//
+
 // Describes what an earlier run left there, for a message before it is replaced: "paths.h5, links.csv and shards in
 // DIR". Empty if there is nothing.
-
-// What an earlier run left there, in words for whoever is about to replace it: "paths.h5, links.csv and shards in DIR".
-// Empty where there is nothing.
 std::string earlier_results(const std::filesystem::path& directory);
 
 // Throws RuntimeError if the name of an output is a pipe, a device or a socket: a run reads its outputs again.
