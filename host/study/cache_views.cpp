@@ -1,5 +1,5 @@
-// Rows to plots and tables of numbers.
-// Assumes that set_savings() has run.
+// Turns rows into plots and tables of numbers.
+// set_savings() must have run.
 #include "study/cache_views.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -40,7 +40,8 @@ constexpr const char* operations_note =
     "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
     "table costs besides is the gathering of missed rays";
 
-// Of the rows of a drive and number of rays, the one that saves most and yet loses at most `lost_power`; null: none.
+// Returns, among the rows of a drive and number of rays, the one that saves most and loses at most `lost_power`; null
+// if there is none.
 const CacheRow* best_within(const std::vector<CacheRow>& rows, const std::string& drive, uint64_t rays,
                             double lost_power) {
   const CacheRow* best = nullptr;
@@ -51,7 +52,7 @@ const CacheRow* best_within(const std::vector<CacheRow>& rows, const std::string
   return best;
 }
 
-// The setting that saves most of those that lose little enough, for each world, number of rays and loss.
+// Shows for each world, number of rays and loss the setting that saves most among those that lose little enough.
 NumberTable trade_table(const std::vector<CacheRow>& rows, const std::string& head,
                         const std::function<std::string(const CacheRow&)>& value) {
   NumberTable table{.caption = "The fastest of those that lose little enough:",
@@ -157,7 +158,7 @@ CacheView trade(const std::string& column, const std::string& label, const std::
                 std::function<std::string(const CacheRow&)> value) {
   return [=](const CacheMeasurement& measured) -> CacheShown {
     std::vector<std::string> shown = settings_of(measured.rows);
-    shown.erase(shown.begin());  // what the others are measured by
+    shown.erase(shown.begin());  // the reference of the others
     return {.plot = {.settings = shown,
                      .x = column,
                      .x_label = label,

@@ -1,4 +1,4 @@
-// Records frame by frame and keeps three: the first, the one before and the one at hand.
+// Records frame by frame and keeps three: the first, the previous and the current one.
 // Rays of one launch index have one direction in all frames, so that the index pairs them.
 #include "study/coherence_frames.hpp"
 #include <fmt/format.h>
@@ -13,12 +13,12 @@
 namespace wavetracer::study {
 namespace {
 
-// Six times the signed volume of a tetrahedron.
+// Returns six times the signed volume of a tetrahedron.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
-// A point in the plane of a triangle counts as in front of it, so that a way is seen to cross it once.
+// A point in the plane of a triangle counts as in front of it, so that a way crosses it once.
 bool crosses(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, const glm::dvec3& b,
              const glm::dvec3& c) {
   if ((volume(a, b, c, from) < 0) == (volume(a, b, c, to) < 0)) return false;
@@ -26,7 +26,7 @@ bool crosses(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, 
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-// Two at least, since frames are compared.
+// At least two, since frames are compared.
 uint32_t wanted_frames(const FrameFigure& figure, const Request& request) {
   const uint64_t frames = request.frames > 0 ? request.frames + 1 : figure.frames / (request.quick ? 5 : 1);
   return static_cast<uint32_t>(std::clamp<uint64_t>(frames, 2, UINT32_MAX));
@@ -37,7 +37,7 @@ Config frame_world(const FrameFigure& figure, const Config& config, uint32_t fra
   return has_vehicles(config) ? config : driven(config, frames - 1);
 }
 
-// What the transmitter drives through. A vehicle without a body is none.
+// Describes the traffic around the transmitter. Vehicles without a body do not count.
 std::string world_words(const TracedWorld& traced) {
   size_t bodies = 0;
   for (const Instance& instance : traced.world.instances())
@@ -167,7 +167,7 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   const FrameHits first = record(drive.transmitter, drive.first);
   FrameHits previous = first;
   for (uint32_t frame = 1; frame < drive.frames(); ++frame) {
-    if (host.interrupted()) return found;  // half a drive is no result
+    if (host.interrupted()) return found;  // half of a drive is no result
     host.tell(experiment.name, frame, drive.frames(), "frames");
     FrameHits now = record(drive.transmitter, drive.first + frame);
     for (const auto& pairs : {compare_pair(first, now, "first", frame), compare_pair(previous, now, "previous", frame)})

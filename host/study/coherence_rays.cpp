@@ -1,5 +1,5 @@
-// One frame for each map of directions, judged in launch order: the order in which rays share launches and packets.
-// A ray that ended leaves a gap, so a lag counts launched rays at every depth.
+// Traces one frame for each map of directions, and judges it in launch order: the order in which rays share launches
+// and packets. A ray that ended leaves a gap, so a lag counts launched rays at every depth.
 #include "study/coherence_rays.hpp"
 #include <fmt/format.h>
 #include <numeric>

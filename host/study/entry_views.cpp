@@ -1,5 +1,5 @@
-// Entries to tables and plots.
-// Assumes that a study has both a setting and its counted twin.
+// Turns entries into tables and plots.
+// A study must have both a setting and its counted twin.
 #include "study/entry_views.hpp"
 #include <fmt/format.h>
 #include <cmath>
@@ -20,7 +20,7 @@ const CacheRow* counted_row(const CacheMeasurement& measured, const std::string&
   return find_cached(measured.rows, counted_name(setting), first.rays, first.drive);
 }
 
-// In the buckets themselves, and on average below them.
+// Returns the value in the buckets themselves, and the average below them.
 std::string levels(const std::vector<EntryGroup>& depths, double EntryGroup::*cycles, bool below) {
   double sum = 0, entries = 0;
   for (const EntryGroup& group : depths) {

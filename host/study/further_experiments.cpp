@@ -1,6 +1,6 @@
-// Beyond the thesis' figures: coherence inside a frame, and what the two quantisations of a cache trade.
-// cache-division and cache-step launch rays along a Hilbert curve, so that the frame without a cache is as fast as it
-// gets without a sort.
+// Experiments beyond the thesis' figures: coherence inside a frame, and the trade-off of the two quantisations of a
+// cache. cache-division and cache-step launch rays along a Hilbert curve, so that the frame without a cache is as fast
+// as possible without a sort.
 #include <fmt/format.h>
 #include <utility>
 #include "study/experiment.hpp"
@@ -9,7 +9,7 @@
 namespace wavetracer::study {
 namespace {
 
-// The same setting with room for all segments, along a Hilbert curve, one key changed.
+// Returns the same setting with room for all segments, along a Hilbert curve, with one key changed.
 Setting varied(const std::string& name, const Setting& base, const std::function<void(CacheConfig&)>& change) {
   return {name, [apply = base.apply, change](Config& config) {
             apply(config);

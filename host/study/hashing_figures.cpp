@@ -38,7 +38,7 @@ Claims<OrderRow> moving_gains() {
   return claims;
 }
 
-// All in order, and no cache and two of them also without.
+// Returns all settings in order, and also no cache and two caches without order.
 std::vector<Setting> with_orders(std::vector<Setting> settings) {
   for (Setting& setting : settings) setting = with_order(setting);
   for (const Setting& setting : {no_cache(), position(3), precision(thesis_residual, 3)})

@@ -1,5 +1,5 @@
-// Coherence inside a frame: of rays with equal keys one is traced, at cells of directions that the control equation
-// gives for a C_E. Every frame finds its table empty, so that it saves nothing but what is in itself.
+// Coherence inside a frame: of rays with equal keys one is traced, with cells of directions that the control equation
+// gives for a C_E. Every frame finds its table empty, so that it only saves time within itself.
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace wavetracer::study {
 namespace {
 
-// No commas: they are cells of tables.
+// They contain no commas, since they are cells of tables.
 constexpr const char *each = "no groups", *own = "groups with own hit points", *taken = "groups with one hit point";
 const std::vector<std::string> grouped_settings = {own, taken};
 
@@ -30,7 +30,7 @@ Setting grouping(const std::string& name, double error, Directions directions, c
 std::vector<Setting> by_error(Directions directions) {
   std::vector<Setting> settings = {
       {"no cache", [directions](Config& config) { config.trace.directions = directions; }}};
-  // As the thesis: what is cached moves, and the ray becomes the one that was traced.
+  // As in the thesis: moving objects are cached too, and the ray becomes the one that was traced.
   const Change as_thesis = [](CacheConfig& cache) {
     cache.scope = "all";
     cache.hit_point = "cached";

@@ -1,5 +1,5 @@
-// A Simulation a series, all alive at once, their frames interleaved.
-// Assumes device memory for the queues of all of them.
+// Each series has a Simulation; all exist at once, with their frames interleaved.
+// Device memory must hold the queues of all of them.
 #include "study/order_rows.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 struct OrderSubject {
   Simulation simulation;
-  uint64_t rays = 0, segments = 0, paths = 0, sequences = 0;  // of all frames that count
+  uint64_t rays = 0, segments = 0, paths = 0, sequences = 0;  // sums over all counted frames
   std::vector<StageSeconds> samples{};
 
   void count(const FrameResult& frame) {

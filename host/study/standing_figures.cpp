@@ -1,4 +1,4 @@
-// Figures 6.1 to 6.9: orders, and the chained and the open table, in a standing scene.
+// Figures 6.1 to 6.9: orders, and the chained and the open table, in a scene without motion.
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
 #include "study/cache_claims.hpp"
 #include "study/cache_regions.hpp"
@@ -22,7 +22,7 @@ Names counted_names(Names names) {
   return names;
 }
 
-// Ours, then the same as the thesis prints them.
+// Returns our tables, then the same as the thesis prints them.
 Names with_printed(Names names) {
   const Names ours = names;
   for (const std::string& name : ours) names.push_back("printed " + name);
@@ -45,14 +45,14 @@ std::shared_ptr<const CacheStudy> shared(CacheStudy study) {
   return std::make_shared<const CacheStudy>(std::move(study));
 }
 
-// Of settings, each with its counted twin.
+// Returns settings, each with its counted twin.
 std::vector<Setting> with_counted(std::vector<Setting> settings) {
   const size_t count = settings.size();
   for (size_t i = 1; i < count; ++i) settings.push_back(counted(settings[i]));
   return settings;
 }
 
-// One number of rays, depth by depth, or transmitter by transmitter.
+// Makes a study of one number of rays, depth by depth, or transmitter by transmitter.
 CacheStudy operations_study(const std::string& name, std::vector<Setting> settings, bool by_transmitter) {
   return {.name = name,
           .settings = std::move(settings),
@@ -62,7 +62,7 @@ CacheStudy operations_study(const std::string& name, std::vector<Setting> settin
           .by_transmitter = by_transmitter};
 }
 
-// 1,000 doubled up to the thesis' 20,480,000 at most, which is the last.
+// The numbers of rays are 1,000 doubled up to the thesis' 20,480,000 at most, which is the last.
 CacheStudy rays_study(const std::string& name, std::vector<Setting> settings) {
   CacheStudy study{
       .name = name, .settings = std::move(settings), .rays = {}, .few_rays = {1000, 16000, 64000}, .at_once = 4};
@@ -77,14 +77,14 @@ bool writes_as_three_reads(const CacheRow& row) {
   return reads >= 2.5 && reads <= 3.5;
 }
 bool gathers_quickly(const CacheRow& row) { return gather_ns(row) < 0.1 * write_ns(row); }
-// Of the chained tables that keep their entries.
+// Judges the chained tables that keep their entries.
 Judge<CacheRow> of_entries(std::optional<bool> (*holds)(const EntrySummary&)) {
   return of_each(chained_counted, [holds](const CacheRow& row) { return holds(row.entries); });
 }
 bool some_unused(const CacheRow& row) { return entries_used(row) < row.cache.entries; }
 bool some_never_answer(const CacheRow& row) { return row.cache.entries_by_hits.front() > 0; }
 
-// What figures 6.3 and 6.7 claim of tracing a segment against looking it up.
+// Returns the claims of figures 6.3 and 6.7 about tracing a segment against looking it up.
 Claims<CacheRow> trace_claims(const Names& settings) {
   return {{"tracing takes longer than a read",
            of_each(settings, [](const CacheRow& row) { return trace_ns(row) > read_ns(row); })},
@@ -94,13 +94,13 @@ Claims<CacheRow> trace_claims(const Names& settings) {
            of_each(settings, [](const CacheRow& row) { return trace_ns(row) > write_ns(row); })}};
 }
 
-// What figure 6.3 claims beside that.
+// Returns the other claims of figure 6.3.
 Claims<CacheRow> bucket_claims() {
   Claims<CacheRow> claims = trace_claims(all_chained);
   claims.push_back({"tracing takes longer for buckets than for other nodes", not_judged(no_time_of_a_ray)});
   return claims;
 }
-// What figure 6.7 claims beside the same.
+// Returns the other claims of figure 6.7.
 Claims<CacheRow> region_claims() {
   Claims<CacheRow> claims = trace_claims(all_mutexes);
   claims.push_back({"regions that take longer to write and read are faster to trace",
@@ -111,7 +111,7 @@ Claims<CacheRow> region_claims() {
 
 OrderFigure all_orders() {
   Series direction_origin = ordered("direction-origin");
-  direction_origin.each_depth = true;  // what it is for: rays that no longer share their origin
+  direction_origin.each_depth = true;  // the method is meant for rays that no longer share their origin
   const std::string h3dh = "hilbert3d-histogram", hz = "morton-histogram", to_2d = h3dh + "-hilbert2d",
                     to_3d = h3dh + "-hilbert3d";
   Claims<OrderRow> claims = h3dh_gains();
