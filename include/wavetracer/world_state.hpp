@@ -33,7 +33,7 @@ struct EndState {
 
 constexpr uint32_t no_end = 0xFFFFFFFFu;
 
-// A transmitter and a receiver between which paths are wanted.
+// A transmitter and a receiver between which paths are computed.
 struct Link {
   uint32_t tx, rx;
   auto operator<=>(const Link&) const = default;
@@ -43,15 +43,15 @@ struct WorldState {
   double time_s = 0;
   std::vector<Placement> instances;
   std::vector<EndState> transmitters, receivers;
-  std::vector<Link> links;  // of ends that are present, sorted, each once
-  bool arrivals = false;    // of a live world: a vehicle has come, or jumped, since the frame before
+  std::vector<Link> links;  // links of ends that are present, sorted, each once
+  bool arrivals = false;    // in a live world: a vehicle has arrived, or jumped, since the previous frame
 };
 
 // The last frame of a source of poses that launched rays.
 struct DiscoveryMark {
   std::optional<double> time_s;
   std::vector<bool>
-      active;  // of the vehicles, then of the transmitters: whether they were there, and whether they sent
+      active;  // for the vehicles, then the transmitters: whether they were present, and whether they sent
 };
 
 // The properties of an instance that do not change with time.
