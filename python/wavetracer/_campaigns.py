@@ -167,6 +167,6 @@ def read_dump(file: pathlib.Path) -> dict[tuple[str, float], tuple[float, Place]
     return out
 
 
-# How a campaign is read: the reader, and the column of the level where there are several.
+# For each campaign: the reader, and the column of the level if there are several.
 CAMPAIGNS: dict[str, tuple[Callable[[pathlib.Path, str], list[Route]], str]] = {
     "cost231": (read_cost231, ""), "berlin": (read_berlin, "RSRP"), "flourish": (read_flourish, "")}

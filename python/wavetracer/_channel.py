@@ -50,7 +50,7 @@ class dense:
         """(rx, rx port, tx, tx port, path, ...) of a column (path, rx port, tx port, ...); 0 where there are fewer."""
         rx, tx, path = self.shape
         out = zeros((rx, column.shape[1], tx, column.shape[2], path, *extra), "the impulse response")
-        # Indices that are not side by side come first: (row, rx port, tx port, ...).
+        # Indices that are not adjacent come first: (row, rx port, tx port, ...).
         out[self.rx, :, self.tx, :, self.path] = column
         return out
 
@@ -85,7 +85,7 @@ class Antennas:
         later = delay - paths.delay_s[:, None, None]
         moved = amplitude * turns(-paths.frequency_hz * later)
         rx, tx = self.a.shape[1:]
-        # Antenna port * elements + element, as Sionna RT counts.
+        # The antenna number is port * elements + element, as in Sionna RT.
         self.a = np.einsum("npq,nrt->nprqt", self.a, moved).reshape(len(moved), rx * moved.shape[1], tx * moved.shape[2])
         self.later = np.tile(later, (1, rx, tx))
 

@@ -22,7 +22,8 @@ _NVIDIA = "libnvidia-opencl.so.1"
 _LIBRARY_FOLDERS = ("/usr/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib/wsl/lib", "/usr/local/nvidia/lib64")
 
 
-# A machine without a compiler lacks the files that -lc and -lgcc name; the process that loads a kernel has them loaded.
+# A machine without a compiler lacks the files that -lc and -lgcc name; the process that loads a kernel has the
+# libraries loaded already.
 _LINKER = """#!/bin/sh
 for word do
   shift

@@ -12,7 +12,7 @@ from typing import Any, Union
 
 from .errors import ConfigError
 
-# None: a bar where somebody looks on and tqdm is there; or a class with tqdm's interface.
+# None: a bar if the output is interactive and tqdm is installed; or a class with tqdm's interface.
 Wanted = Union[bool, None, Callable[..., Any]]
 
 

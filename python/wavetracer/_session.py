@@ -22,7 +22,8 @@ class Session:
     @contextmanager
     def use(self, why: str) -> Iterator[int]:
         """Waits for the other threads, and gives the handle. why: what cannot be done without it, for messages."""
-        # Asked before the lock, which a thread that was not forked with this process may have.
+        # This is checked before the lock is taken, since the lock may belong to a thread that was not forked with this
+        # process.
         if os.getpid() != self._process:
             raise RunError(f"{why}: this process was forked from the one that has opened the simulation, and the threads "
                            "of OpenCL are not in it: start processes with multiprocessing.get_context(\"spawn\"), and "

@@ -41,7 +41,7 @@ __all__ = ["DriveError", "Job", "cancel", "merge", "run", "submit", "submit_slur
 
 log = logging.getLogger("wavetracer.distributed")
 
-# Exit codes of the program: usage or configuration, input, parts missing. Trying again would end the same way.
+# Exit codes of the program: usage or configuration, input, parts missing. A retry would end the same way.
 _FINAL_CODES = {2, 3, 5}
 _MISSING = ("dask.distributed is not installed: install it with `pip install distributed`, or use submit_slurm, which "
             "needs no Python package")
@@ -138,7 +138,7 @@ _running: dict[str, set[Any]] = collections.defaultdict(set)  # processes of thi
 _stopped: set[str] = set()                   # tokens of what was given up
 _lock = threading.Lock()
 
-# The program ends with its worker, even if that is killed: a part that is tried again elsewhere should not be computed
+# The program ends with its worker, even if that is killed: a part that is retried elsewhere should not be computed
 # twice. The kernel sends the signal to children of a thread that has ended, and workers keep their threads.
 _WITH_PARENT = ("import ctypes, os, sys\n"
                 "ctypes.CDLL(None).prctl(1, 9)\n"  # PR_SET_PDEATHSIG, SIGKILL
@@ -434,6 +434,6 @@ def main(words: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    # As the module of this name, not as __main__, so that workers find what they are sent.
+    # The module is called by this name, not as __main__, so that workers find the functions that they are sent.
     from wavetracer.distributed import main as named_main
     sys.exit(named_main())

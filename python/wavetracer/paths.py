@@ -21,7 +21,8 @@ Array = NDArray[Any]
 # Delays and amplitudes of rows of a frame between all pairs of elements, for (rx elements, tx elements).
 Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 
-# What a path is called, the most special of its interactions deciding, and the bits of its interactions that say so.
+# The word for a path, which depends on the most special of its interactions, and the bits of its interactions that
+# decide it.
 KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2}
 _SPECIAL = (2, 8, 4, 1)
 _COLUMNS = ("tx", "rx", "depth", "delay_s", "gain_db", "a", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad",
@@ -171,7 +172,7 @@ class Paths:
         words = {bit: word for word, bit in KINDS.items()}
         return np.select([(bits & bit) != 0 for bit in _SPECIAL], [words[bit] for bit in _SPECIAL], words[0])
 
-    # --- what the columns are of ---
+    # --- shapes and names of the columns ---
 
     @property
     def transmitters(self) -> list[str]:
