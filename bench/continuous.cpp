@@ -1,4 +1,4 @@
-// Both simulations solve a frame in turn, so that whatever else the machine does meets both alike.
+// The two simulations solve frames alternately, so that other load of the machine affects both.
 #include "continuous.hpp"
 
 #include <fmt/format.h>
@@ -26,8 +26,8 @@ void measure_continuous(const std::string& name, const Config& config, double di
   Config changed = config;
   changed.trace.discover_every_s = discover_every_s;
   Simulation spared(changed, device);
-  for (Simulation* simulation : {&all, &spared}) {  // buffers are made, drivers finish compiling
-    simulation->profile_every(16);                  // as runs do
+  for (Simulation* simulation : {&all, &spared}) {  // allocates buffers, lets drivers finish compiling
+    simulation->profile_every(16);                  // as in runs
     simulation->run_frame(0);
     simulation->run_frame(1);
     simulation->forget();

@@ -1,5 +1,5 @@
-// Arithmetic is measured by tests/kernels/probe_arithmetic.cl: chains of fused multiplies and adds.
-// GPUs want one lane per work-item, CPUs vectors: the better of both counts.
+// tests/kernels/probe_arithmetic.cl measures arithmetic: chains of fused multiplies and adds.
+// GPUs need one lane per work-item, CPUs vectors: the better of both counts.
 #include "device_limits.hpp"
 
 #include <string>

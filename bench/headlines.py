@@ -9,7 +9,7 @@ import subprocess
 
 GPU, CPU = "NVIDIA H200", "pthread"
 
-# What the figure says, the benchmark, the beginning of the device's name, the case.
+# Each row has the text of the figure, the benchmark, the beginning of the device's name, and the case.
 HEADLINES = [
     ("One link in Munich, five reflections", "paths", GPU, "munich, 1x1 links, 1e+05 rays per transmitter, error against 3e+07"),
     ("The same on two cores", "paths", CPU, "munich, 1x1 links, 1e+05 rays per transmitter, error against 3e+07"),

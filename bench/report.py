@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Makes bench/RESULTS.md from bench/results/*.jsonl: a first page (headlines.py), then a folded table for each benchmark
-# and device with the newest value of each case. The plots take gnuplot.
-# Assumes the keys of json_line.hpp; a line that is not such an object is an error that names its file and line.
+# and device with the newest value of each case. The plots need gnuplot.
+# Lines have the keys of json_line.hpp; a line that is not such an object is an error that names its file and line.
 """Usage: report.py [FOLDER]; FOLDER holds results/ and gets RESULTS.md, by default this file's folder."""
 import json
 import pathlib
@@ -30,7 +30,7 @@ def read_results(folder):
     return sorted(results, key=lambda result: result["date"])
 
 
-# Benchmarks whose error counts what is wrong: their numbers are worth nothing where it is not 0.
+# Benchmarks whose error counts wrong results: their numbers are worthless unless it is 0.
 EXACT = ("frame_kernels", "hard", "kernels", "leaks", "order", "scaling", "sort", "trace")
 
 
