@@ -61,7 +61,7 @@ def compare(before, after, config, sets, work, exports):
     options = [word for each in sets for word in ("--set", each)]
     codes, folders = [], []
     for side, program in (("before", before), ("after", after)):
-        # A name that both share: a few exports write the name of their run.
+        # Both use one name, since a few exports write the name of their run.
         folder = work / side / "run"
         codes.append(run(program, "run", "-c", f"configs/{config}.toml", "-o", folder, *options))
         folders.append(folder)

@@ -18,7 +18,7 @@ import sys
 SKIPPED = 77
 FOLDERS = ("bench", "host", "include", "kernels", "tests")
 SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cl", ".clh"}
-# Folders of tests that are about more than one folder of host/.
+# These folders of tests are about more than one folder of host/.
 OF_THE_WHOLE = {"consumers", "documents", "drivers", "fuzz", "hard", "house", "install", "kernels", "python", "reference", "robustness",
                 "validation"}
 MOST_LINES, MOST_KERNEL_LINES, MOST_FUNCTION_LINES = 300, 200, 60
