@@ -29,8 +29,8 @@ struct Both {
   }
 };
 
-// From points in and around the soup, half towards points of a triangle (among them its corners and edges), half
-// anywhere.
+// Rays start from points in and around the soup, half towards points of a triangle (among them its corners and edges),
+// half anywhere.
 std::vector<OracleRay> rays_for(const Soup& soup, size_t count, uint32_t seed) {
   Box box;
   for (const AccelTriangle& triangle : soup)

@@ -1,5 +1,5 @@
-// Studies of scenes whose answers are known: the image lattice of a box, a screen with an edge. Then the program.
-// What needs a device is skipped, saying so, where there is none.
+// Studies of scenes whose answers are known: the image lattice of a box, a screen with an edge. Then the program. Cases
+// that need a device are skipped with a message if there is none.
 #include <signal.h>
 
 #include "accuracy/advice.hpp"

@@ -1,4 +1,4 @@
-// What is varied, which row is recommended, and the table: rows made by hand, no device.
+// The varied settings, the recommended row, and the table, with rows made by hand and without a device.
 #include <doctest/doctest.h>
 #include <algorithm>
 #include "accuracy/advice.hpp"

@@ -1,6 +1,6 @@
-// What lies on the disk between and after runs: files equal byte by byte however the work was shared, inputs that
-// change or move, two runs that want one folder, folders where files should be. Skipped, saying so, where there is no
-// OpenCL device.
+// Files on the disk between and after runs: files equal byte by byte however the work was shared, inputs that change or
+// move, two runs that want one folder, folders where files should be. The cases are skipped with a message if there is
+// no OpenCL device.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <ctime>

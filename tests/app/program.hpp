@@ -40,7 +40,7 @@ class Program {
   void signal(int number) const;
   bool ended() const;
   pid_t id() const { return process_; }
-  // What it has written to stderr so far.
+  // Returns what it has written to stderr so far.
   std::string messages() const;
 
  private:
@@ -50,5 +50,5 @@ class Program {
 
 Outcome run_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
-// Whether the program finds an OpenCL device; says in the test's output that what needs one is skipped.
+// Tells whether the program finds an OpenCL device; if not, the test's output says that cases are skipped.
 bool device_present();

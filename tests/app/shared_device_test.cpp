@@ -1,5 +1,5 @@
-// Runs that several processes share give the data of one process, bit for bit, whatever the split and whoever dies.
-// Skipped, saying so, where there is no OpenCL device. With mpirun: tests/app/mpirun_test.py.
+// Runs that several processes share give the data of one process, bit for bit, for every split and for every process
+// that dies. The cases are skipped with a message if there is no OpenCL device. With mpirun: tests/app/mpirun_test.py.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <cstdlib>
@@ -81,7 +81,7 @@ void check_same(const fs::path& found, const fs::path& expected, bool work_too) 
   if (work_too) CHECK(a["segments_per_depth"] == b["segments_per_depth"]);
 }
 
-// What processes need among themselves is gone when they are done.
+// Files of processes that shared a folder are gone when they are done.
 void check_tidy(const fs::path& out) {
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     const std::string name = entry.path().filename().string();

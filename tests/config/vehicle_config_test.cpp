@@ -210,7 +210,7 @@ TEST_CASE("a refined launch goes along the hilbert curve and nothing else") {
     check_contains(error_of(automatic + "order.method = \"" + method + "\"\n" + ends),
                    "a.toml:3:16: trace.rays = \"auto\" launches rays in its own order, but order.method = \"" + method +
                        "\" asks for another one: remove order.method");
-  // What stands last is to blame, and --set comes after the file.
+  // The last key is reported, and --set comes after the file.
   check_contains(error_of(scene + "order.method = \"Z\"\n" + ends, {"trace.rays=auto"}), "--set trace.rays=auto: ");
   CHECK(error_of(automatic + "order.method = \"Z\"\n" + ends, {"trace.rays=1000"}) == "no error");
 }

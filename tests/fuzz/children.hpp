@@ -6,7 +6,7 @@
 #include <sys/time.h>
 #include <csignal>
 
-// Of the sanitizers, where they are: else they would report, and libFuzzer would keep the input.
+// This is the sanitizers' function, if they are there: else they would report, and libFuzzer would keep the input.
 extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());
 
 namespace wavetracer::fuzz {
@@ -14,7 +14,7 @@ namespace wavetracer::fuzz {
 inline void end_quietly_and_soon() {
   if (__sanitizer_set_death_callback) __sanitizer_set_death_callback(nullptr);
   std::signal(SIGVTALRM, SIG_DFL);
-  // Of the processor, for all requests; a sound file takes 2 ms. LimitedChild's own timer is another one.
+  // The limit is processor time for all requests; a sound file takes 2 ms. LimitedChild's own timer is another one.
   const itimerval limit{{0, 0}, {0, 100000}};
   setitimer(ITIMER_VIRTUAL, &limit, nullptr);
 }

@@ -1,4 +1,4 @@
-// What every fuzz target needs: the input as a file in memory, and the errors that are right answers.
+// Every fuzz target includes this: the input as a file in memory, and the errors that are valid answers.
 // A target ends with a crash for anything else: another exception, a fault, a leak, too much memory or time.
 #pragma once
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // Fuzz target: well-formed containers whose numbers and lengths come from the input, as view, plot and convert read
 // them. An input is a row of patches, 11 bytes each: the dataset, the element (16 bits), its value; of datasets from
-// 128 on the value's first byte is the number of rows instead. In place of output/foreign_file.cpp stands a reader of
-// datasets in memory: the library would take a hundred times as long.
+// 128 on the value's first byte is the number of rows instead. A reader of datasets in memory replaces
+// output/foreign_file.cpp: the library would take a hundred times as long.
 #include <algorithm>
 #include <cstring>
 #include <unordered_map>

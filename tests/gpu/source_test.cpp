@@ -25,7 +25,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// What a compiler makes of the expansion: (file, line) -> text.
+// Returns the lines of the expansion as a compiler locates them: (file, line) -> text.
 std::map<std::pair<std::string, size_t>, std::string> located_lines(const std::string& source) {
   static const std::regex line_directive("#line ([0-9]+) \"(.*)\"");
   std::map<std::pair<std::string, size_t>, std::string> located;
@@ -142,7 +142,7 @@ TEST_CASE("a source with one of its kernels keeps its lines, and what is no kern
   CHECK_FALSE(contains(third, "first"));
   CHECK_FALSE(contains(third, "reqd_work_group_size"));
   CHECK(third.ends_with("void third(global int* a) {\n  printf(\"}\");\n}\n"));
-  // Where each branch of a condition opens a brace, nothing is known.
+  // If each branch of a condition opens a brace, kernels cannot be told apart.
   const std::string unmatched =
       "#if A\nkernel void a(int x) {\n#else\nkernel void a(int y) {\n#endif\n}\nkernel void b() {}\n";
   CHECK(gpu::with_one_kernel(unmatched, "b") == unmatched);

@@ -55,7 +55,7 @@ void add_figures(const std::string& device, HardCases& cases) {
 }
 
 // Antennas 5 mm above the ground, 10 km apart: the ground is met at 1e-6 rad, and the wave reflected there all but
-// cancels the direct one. What is left is -j k (L1 - L0), whose digits are those of the two delays.
+// cancels the direct one. The difference is -j k (L1 - L0), whose digits are those of the two delays.
 void add_millionth(const std::string& device, HardCases& cases) {
   const double height_m = 0.005, distance_m = side_m - 2;
   for (const auto& [name, strips, width_m] :

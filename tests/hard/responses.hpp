@@ -1,5 +1,5 @@
-// What cases of the hard suite share: fields of links summed over their paths, kinds of paths, errors in decibels.
-// Assumes ends with two ports each, V and H, as config_of makes them.
+// Helpers of the hard suite: fields of links summed over their paths, kinds of paths, errors in decibels. Ends have two
+// ports each, V and H, as config_of makes them.
 #pragma once
 #include <algorithm>
 #include <array>

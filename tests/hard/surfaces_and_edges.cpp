@@ -29,7 +29,7 @@ Points all_places() {
   return out;
 }
 
-// Whether a run warns that the line of sight is left out, and says what to do.
+// Tells whether a run warns that the line of sight is left out, and says what to do.
 bool tells_to_move(const Config& config, const std::string& device) {
   const FrameResult frame = run(config, device);
   return std::ranges::count(frame.paths.depth, 0u) == 0 && frame.warnings.size() == 1 &&

@@ -1,4 +1,5 @@
-// What city models of both formats share: triangles of faces, coordinate systems, and what is said of broken files.
+// Properties that city models of both formats share: triangles of faces, coordinate systems, and messages about broken
+// files.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -25,7 +25,7 @@ bool survives(const std::string& text, const TemporaryFolder& folder) {
   return true;
 }
 
-// What the import of a map leaves out, of maps that it may refuse, in seconds of the processor.
+// Returns the summary of an import that may also refuse the map, within seconds of processor time.
 ImportSummary summary_of(const std::string& text) {
   const TemporaryFolder folder;
   ImportOptions options;

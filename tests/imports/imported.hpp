@@ -36,8 +36,8 @@ struct Imported {
 };
 Imported import_text(const std::string& text, const TemporaryFolder& folder, ImportOptions options = {});
 
-// Of all triangles whose object's name starts with `object`: the volume that they enclose (outward normals: positive),
-// the area of those that look up, and the greatest and least height.
+// Return, for all triangles whose object's name starts with `object`: the volume that they enclose (outward normals:
+// positive), the area of those that look up, and the greatest and least height.
 double volume_m3(const Scene& scene, const std::string& object);
 double roof_area_m2(const Scene& scene, const std::string& object);
 double top_m(const Scene& scene, const std::string& object);

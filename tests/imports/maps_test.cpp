@@ -1,5 +1,5 @@
-// Maps and terrain by GDAL: files that ogr2ogr and gdal_translate wrote, against what was put into them. Without the
-// module or the programs (Debian: gdal-bin) the cases say so and are skipped.
+// Maps and terrain by GDAL: files that ogr2ogr and gdal_translate wrote, compared with the data that were put into
+// them. Without the module or the programs (Debian: gdal-bin) the cases say so and are skipped.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -157,7 +157,7 @@ struct HillRaster {
     REQUIRE(
         run(fmt::format("{} -a_srs EPSG:32632 '{}' '{}'", WAVETRACER_GDAL_TRANSLATE, ascii.string(), file.string())));
   }
-  // Of a post, from the corner.
+  // Returns the coordinate of a post, from the corner.
   static double at(double index) { return (index + 0.5) * cell_m; }
 };
 

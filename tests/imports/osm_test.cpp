@@ -17,7 +17,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Of a shape with this border: every corner may be off by half of 11 mm.
+// Returns the area error of a shape with this border: every corner may be off by half of 11 mm.
 double area_error(double perimeter_m) { return perimeter_m * 0.0085; }
 
 }  // namespace

@@ -19,7 +19,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
-# As a user would move it: nothing may remember where it was built or installed first.
+# The folder is moved as a user would move it: nothing may remember where it was built or installed first.
 file(RENAME ${prefix} ${WORK}/moved)
 set(prefix ${WORK}/moved)
 step(${prefix}/bin/wavetracer --version)
@@ -82,7 +82,7 @@ else:
   expect("^(skipped|${VERSION} .*: [1-9][0-9,]* paths of .* True)")
 endif()
 
-# What the library shows: functions of wavetracer, of C and C++, and nothing of what it is made of.
+# The library exports functions of wavetracer, of C and C++, and none of the libraries that it is made of.
 file(GLOB library ${library_folder}/libwavetracer.so)
 step(nm --dynamic --defined-only --demangle --format=posix ${library})
 string(REGEX REPLACE "(wavetracer_|wavetracer::|(typeinfo|typeinfo name|vtable) for wavetracer::)[^\n]*\n" "" others "${said}")

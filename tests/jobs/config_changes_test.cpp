@@ -1,4 +1,4 @@
-// Which keys of two configurations differ, in words.
+// Names the keys in which two configurations differ.
 #include "jobs/config_changes.hpp"
 #include <doctest/doctest.h>
 

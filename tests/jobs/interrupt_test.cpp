@@ -1,4 +1,5 @@
-// What an interrupt says of files, in a process of its own: before and after they have got their final names.
+// Checks the messages of an interrupt about files, in a separate process: before and after they have got their final
+// names.
 #include "jobs/interrupt.hpp"
 
 #include <doctest/doctest.h>

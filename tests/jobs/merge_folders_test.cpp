@@ -67,7 +67,7 @@ TEST_CASE("parts in one folder or in many make the files of a run that was writt
   merge_found(find_parts({folder.path() / "a"}), folder.path() / "a", "");
   check_same(folder.path() / "a", folder.path() / "whole");
   CHECK(fs::exists(folder.path() / "a/shards/manifest.1_of_2.jsonl"));
-  // What is there twice and agrees counts once.
+  // Units that are there twice and agree count once.
   merge_found(find_parts({folder.path() / "b", folder.path() / "a"}), folder.path() / "twice", "");
   check_same(folder.path() / "twice", folder.path() / "whole");
 }

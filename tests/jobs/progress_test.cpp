@@ -15,7 +15,7 @@ using wavetracer::progress_words;
 
 namespace {
 
-// What `action` writes to stderr while that is a terminal.
+// Returns what `action` writes to stderr while that is a terminal.
 template <class Action>
 std::string on_terminal(const Action& action) {
   int master = -1, slave = -1;

@@ -1,4 +1,4 @@
-// What the tests of shards share: the run that they are of, its cuts, and the names of what is in a folder.
+// Helpers of the tests of shards: the run that they belong to, its cuts, and the names of the files in a folder.
 #pragma once
 #include <algorithm>
 #include <filesystem>
@@ -34,7 +34,7 @@ inline void note_as_written(const std::filesystem::path& manifest) {
   std::ofstream(manifest, std::ios::binary) << text;
 }
 
-// In order.
+// Returns the names in order.
 inline std::vector<std::string> names(const std::filesystem::path& folder) {
   std::vector<std::string> out;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back(entry.path().filename());

@@ -131,7 +131,7 @@ TEST_CASE("a drive that is resumed ends as one that was not interrupted, from ev
   const SampleRun sample = with_waypoints();
   const auto expected = write_drive(folder.path() / "expected", sample);
   const fs::path drive = folder.path() / "drive", manifest = drive / "shards" / "manifest.jsonl";
-  // What a run that was killed leaves: the shards before it, and one of these.
+  // A killed run leaves the shards before the current one, and one of these states.
   const std::vector<std::function<void()>> states = {
       [] {},
       [&] { std::ofstream(drive / "shards" / "frames_000010_000019.h5.77.tmp") << "half"; },

@@ -1,5 +1,5 @@
-// How a run is cut, and who computes which part: units, process files, claims.
-// Processes are this one, a child of it that has ended, and made-up ones of another machine.
+// The cut of a run, and the assignment of its parts: units, process files, claims.
+// Processes are this one, a child of it that has ended, and invented ones of another machine.
 #include "jobs/units.hpp"
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@ using test::TemporaryFolder;
 
 namespace {
 
-// What a process that has ended leaves.
+// Returns the file content of a process that has ended.
 ProcessInfo dead_process(const std::string& job) {
   int ends[2];
   REQUIRE(pipe(ends) == 0);

@@ -133,7 +133,7 @@ def mistakes(client, folder):
     assert error.code == 2 and pickle.loads(pickle.dumps(error)).code == 2
     wait_until("the other parts are given up", lambda: not list((folder / "parts").glob("*")))
     fails(lambda: wd.run(wrong, folder, client=client, parts=1, program="no-such-wavetracer"), "no such program")
-    # What fails every time fails for good after the retries, and says what the program said.
+    # A part that fails every time fails for good after the retries, and the error has the program's message.
     broken = written(folder.with_suffix(".sh"), "#!/bin/sh\necho the device is gone >&2\nexit 4\n", executable=True)
     fails(lambda: wd.run(wrong, folder, client=client, parts=1, program=[broken], retries=1), "the device is gone",
           "exit code 4")

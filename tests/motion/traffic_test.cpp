@@ -66,7 +66,7 @@ double mean_speed_m_s(const Trajectories& t, size_t sample) {
   return sum / static_cast<double>(t.tracks.size());
 }
 
-// From the nearest centre line of a street, signed.
+// Returns the signed distance from the nearest centre line of a street.
 double off_centre_m(double x, uint32_t blocks, const StreetGrid& grid) {
   const double pitch_m = grid.block_m + grid.street_m, shift_m = blocks / 2.0 * pitch_m;
   return std::remainder(x + shift_m, pitch_m);

@@ -1,5 +1,5 @@
-// Where outputs cannot be written, the error names the file and nothing partial is left behind.
-// The full disk is played by the file size limit of the process, which fails writes in the same places.
+// If outputs cannot be written, the error names the file and nothing partial is left behind.
+// The file size limit of the process simulates a full disk: it fails writes in the same places.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <algorithm>

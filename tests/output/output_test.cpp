@@ -1,4 +1,4 @@
-// What write_outputs() writes is what a reader finds: paths.h5 through the C library, links.csv and summary.json.
+// A reader finds the data that write_outputs() has written: paths.h5 through the C library, links.csv and summary.json.
 // Leaves its sample under tests/output/sample of the build folder, for the tests that read it from Python.
 #include "wavetracer/output.hpp"
 #include <doctest/doctest.h>
@@ -155,7 +155,7 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
                                          {"solved", 16},
                                          {"paths", 5},
                                          {"receptions", 6}});
-  // Of five paths of depth 0 to 4, every second vertex is a transmission.
+  // Five paths have depths 0 to 4; every second vertex is a transmission.
   CHECK(
       json["paths_by_kind"] ==
       nlohmann::json{{"line_of_sight", 1}, {"reflected", 1}, {"transmitted", 3}, {"diffracted", 0}, {"scattered", 0}});

@@ -1,5 +1,5 @@
-// What the limits of output leave out, and that it is counted wherever it may be missed.
-// The sample's paths are few enough to say by hand which of them remain.
+// Limits of output leave paths out, and these are counted wherever they may be missed.
+// The sample's paths are so few that the remaining ones are known by hand.
 #include "output/path_limits.hpp"
 #include <doctest/doctest.h>
 #include <cmath>

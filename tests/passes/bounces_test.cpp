@@ -15,8 +15,8 @@ namespace {
 
 using Chain = std::vector<uint32_t>;
 
-// What is left of a batch: of each sequence, root first, its quarters and its age; the ends of the samples, likewise by
-// their sequences; how many rays made so many hits.
+// The results of a batch: for each sequence, root first, its quarters and its age; the ends of the samples, by their
+// sequences; the numbers of hits, with the number of rays that made them.
 struct Discovered {
   std::map<Chain, std::pair<uint32_t, uint32_t>> sequences;
   std::vector<Chain> ends;

@@ -22,7 +22,7 @@ std::vector<CachedRay> rays_with_twins(uint32_t seed, size_t count) {
   return rays;
 }
 
-// Without the hashes and cells of the cache: the definition of its key (docs/architecture.md).
+// This follows the definition of the key (docs/architecture.md), without the hashes and cells of the cache.
 bool same_key(const CacheConfig& config, const CachedRay& a, const CachedRay& b) {
   if (a.region != b.region || a.left != b.left) return false;
   if (config.key == "exact") return a.origin == b.origin && a.direction == b.direction;

@@ -1,6 +1,6 @@
-// cache_lookup and cache_store on every kind of table: rays of a room against a model on the host, keys, and hits.
-// Of rays that meet under a lock of the open table one is turned away: which of them, and so which key is kept, is the
-// device's choice; that every slot that is wanted gets one of them is not.
+// cache_lookup and cache_store on every kind of table: rays of a room against a model on the host, keys, and hits. If
+// rays meet under a lock of the open table, one of them is refused. The device decides which one, and so which key is
+// kept, but every wanted slot must get one of them.
 #include <doctest/doctest.h>
 
 #include <array>

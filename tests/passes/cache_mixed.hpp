@@ -1,5 +1,6 @@
-// Mixed operations on a table of the ray cache, all at once, and what is in it afterwards beside a model that runs in
-// sequence: for tests and bench_cache. Whatever the order of the operations was, every count of MixedFaults is 0.
+// Mixed operations on a table of the ray cache, all at once, and the content of the table afterwards, compared with a
+// model that runs in sequence: for tests and bench_cache. Whatever the order of the operations was, every count of
+// MixedFaults is 0.
 #pragma once
 #include <algorithm>
 
@@ -31,7 +32,7 @@ struct SequentialModel {
   }
 };
 
-// What no order of the operations leaves.
+// Counts states that no order of the operations can leave.
 struct MixedFaults {
   size_t wrong_answers = 0;  // torn, of another key, or of a frame in which it was not written
   size_t never_put = 0;      // keys that are in the table all the same

@@ -37,7 +37,7 @@ thesis::CacheKey listing_key(const CacheConfig& config, const CachedRay& ray) {
           static_cast<int>(config.division)};
 }
 
-// Of few keys, each again and again, so that operations meet.
+// There are few keys, each used again and again, so that operations meet.
 std::vector<CachedRay> few_rays(uint32_t seed, size_t count) {
   Random random(seed);
   const std::vector<CachedRay> keys = random_rays(seed, 30);

@@ -73,14 +73,14 @@ class CacheProbe {
   }
 
   static constexpr uint32_t wrong_answer = WT_NONE - 1;
-  // Of keys 0 .. universe - 1: where each is found, WT_NONE, or wrong_answer.
+  // Returns for the keys 0 .. universe - 1 where each is found, WT_NONE, or wrong_answer.
   std::vector<uint32_t> find_keys(uint32_t universe) {
     auto slots = no_slots(universe);
     run("find_keys", universe, region_count_, table.widths, universe, slots);
     return slots.read();
   }
 
-  // What the puts returned.
+  // Returns the results of the puts.
   std::vector<uint32_t> put_keys(uint32_t first, uint32_t count, uint32_t now) {
     auto slots = no_slots(first + count);
     run("put_keys", count, region_count_, table.widths, first, count, now, slots);

@@ -1,5 +1,5 @@
-// What may answer, and what is removed, on every kind of table: position, precision, receivers and instances that move,
-// and cache_purge by age. Assumes hits that are given, not traced.
+// The entries that may answer, and those that are removed, on every kind of table: position, precision, receivers and
+// instances that move, and cache_purge by age. Hits are given, not traced.
 #include <doctest/doctest.h>
 
 #include <array>

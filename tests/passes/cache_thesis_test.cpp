@@ -14,7 +14,7 @@ using namespace wavetracer::device;
 using namespace wavetracer::test;
 
 TEST_CASE("keys of equal hash are told apart; the thesis takes one for the other") {
-  // By a birthday search in each hash: 32 bits, 300,000 keys, 10 pairs expected.
+  // The pairs come from a birthday search in each hash: 32 bits, 300,000 keys, 10 pairs expected.
   Random random(31);
   std::unordered_map<uint32_t, CachedRay> ours, theirs[2];
   std::vector<std::array<CachedRay, 2>> our_pairs, their_pairs[2];

@@ -1,5 +1,5 @@
 // A ray cache on the device for tests: labelled rays as plain records, put into it and looked up by its own passes.
-// What is put is given, not traced: any hit for any ray.
+// Stored hits are given, not traced: any hit for any ray.
 #pragma once
 #include <numeric>
 #include <set>
@@ -183,7 +183,7 @@ class Cache {
     table.counters.write(std::vector<device::wt_cache_counters>(1));
     return counts;
   }
-  // Of the transmitter's position key.
+  // Sets the transmitter's position key.
   void set_stamp(uint32_t region, uint32_t stamp) {
     table.regions[region].stamp = stamp;
     table.device_regions.write(table.regions);

@@ -11,8 +11,8 @@
 
 namespace wavetracer::test {
 
-// Where the line of a ray meets a triangle's plane, and how far it passes inside the triangle: the least distance from
-// the lines of the edges, negative outside, in metres. not_a_number where the ray lies in the plane.
+// The point where the line of a ray meets a triangle's plane, and how far it passes inside the triangle: the least
+// distance from the lines of the edges, negative outside, in metres. It is not_a_number if the ray lies in the plane.
 struct Meeting {
   double t, inside_m, t_error;
 };
@@ -37,7 +37,8 @@ inline Meeting meet(const AccelTriangle& triangle, const Ray& ray, double positi
   return {glm::dot(normal, v[0] - o) / along, inside_m, position_error_m * size / std::abs(along)};
 }
 
-// What is wrong with the hit of a ray, or nothing. position_error_m: what float32 may do to a coordinate.
+// Returns a text about an error in the hit of a ray, or an empty one. position_error_m: the largest float32 error of a
+// coordinate.
 inline std::string fault(std::span<const AccelTriangle> triangles, const Ray& ray, const Hit& hit,
                          double position_error_m) {
   Meeting mine{std::numeric_limits<double>::infinity(), 0, 0};

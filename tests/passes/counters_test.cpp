@@ -71,8 +71,8 @@ TEST_CASE("a frame with more than was foreseen does not settle, and the next one
   CHECK(settles(counters, true, 12'000, 1'200));
   CHECK(!settles(counters, true, 12'000, 9'000));  // one list is enough
   CHECK(counters.last().solved == 1'200);
-  // Read, as a frame that did not settle is repeated. What hid paths in its first try hides them at once in the second:
-  // counts may be lower then, and yet the next frame needs the room of the first.
+  // Read, as a frame that did not settle is repeated. A surface that hides paths during the first try hides them from
+  // the start in the second: counts may be lower then, and yet the next frame needs the room of the first.
   CHECK(settles(counters, false, 12'000, 2'000));
   CHECK(settles(counters, true, 12'000, 9'000));
   // A list that has no room for all of it does not settle either.

@@ -47,7 +47,8 @@ double length(const wt_direction& d) { return std::hypot(double{d.x}, double{d.y
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float tiny = std::numeric_limits<float>::min();
 
-// Where maps break: axes and poles with both zeros, planes between octants, just beside them, and what is no direction.
+// Directions at which maps may fail: axes and poles with both zeros, planes between octants, just beside them, and
+// invalid directions.
 std::vector<wt_direction> hard_directions() {
   std::vector<wt_direction> out;
   for (const float x : {-1.0f, -0.70710678f, -tiny, -0.0f, 0.0f, tiny, 0.70710678f, 1.0f, not_a_number})

@@ -1,5 +1,5 @@
 // Maps from launch index to direction: equal solid angles, unit length, and neighbours in index that are neighbours on
-// the sphere. What devices make of them is tested with generate_rays.
+// the sphere. The results of devices are tested with generate_rays.
 #include <doctest/doctest.h>
 
 #include <algorithm>

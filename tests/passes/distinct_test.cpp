@@ -79,7 +79,7 @@ bool same_place(const Path& a, const Path& b) {
   return true;
 }
 
-// What is wanted, by trying every pair of rows.
+// Computes the expected result by trying every pair of rows.
 std::vector<Path> by_plain_code(const Ends& ends, const std::vector<Path>& found, const std::vector<Link>& links) {
   std::vector<std::pair<Path, int>> rows;
   for (const Path& path : found) {

@@ -27,7 +27,7 @@ struct Sequence {
 };
 using SequenceSet = std::set<Sequence>;
 
-// What the trie must hold: every sequence with all its beginnings, the empty one excepted.
+// Returns the required content of the trie: every sequence with all its beginnings, except the empty one.
 inline SequenceSet with_prefixes(const std::vector<Sequence>& sequences) {
   SequenceSet out;
   for (Sequence s : sequences)

@@ -44,7 +44,7 @@ Launcher launcher(uint32_t transmitter, glm::dvec3 position_m, uint32_t source =
   return {transmitter, position_m, source, 1};
 }
 
-// What a ray of this number in its launch begins as.
+// Returns the beginning of the ray with this number in its launch.
 uint32_t numbered(uint32_t root, uint64_t number) {
   return root | static_cast<uint32_t>(number & 3) << WT_QUARTER_SHIFT;
 }

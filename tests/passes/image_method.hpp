@@ -1,5 +1,5 @@
-// The image method once more, on parallelograms: no triangles, no tolerance. For sequences that a test names.
-// Shares nothing with kernels/solve.cl; legs are not tested.
+// The image method again, on parallelograms, without triangles and tolerances, for sequences that a test names. It
+// shares no code with kernels/solve.cl; legs are not tested.
 #pragma once
 #include <cmath>
 #include <glm/geometric.hpp>

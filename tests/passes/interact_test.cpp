@@ -147,7 +147,7 @@ TEST_CASE("with transmission rays that hit also go on straight behind the surfac
       rays.back().node = WT_ROOT | (i % 5);
     }
     const Step without(scene, rays), step(scene, rays, false, true), last(scene, rays, true, true);
-    // What is reflected is the same to the last bit; a node is its slot, and who comes to a slot first may differ.
+    // Reflected rays are the same to the last bit; a node is its slot, and which ray comes to a slot first may differ.
     const auto without_nodes = [](std::vector<Ray> of) {
       for (Ray& ray : of) ray.node = 0;
       return of;

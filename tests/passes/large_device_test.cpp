@@ -1,5 +1,5 @@
-// What takes too many work-items for Oclgrind: a million rays at edges and vertices, a million bounces, long lists.
-// The small cases are in the files named after the passes.
+// Cases with too many work-items for Oclgrind: a million rays at edges and vertices, a million bounces, long lists. The
+// small cases are in the files named after the passes.
 #include <doctest/doctest.h>
 
 #include "passes/image_method.hpp"

@@ -27,7 +27,7 @@ std::vector<LaunchShape> all_shapes() {
   return shapes;
 }
 
-// What wt_launch_index computes, on the host.
+// Computes wt_launch_index on the host.
 uint64_t index_of(const LaunchShape& shape, const std::array<size_t, 3>& global, size_t x, size_t y, size_t z) {
   const auto X = static_cast<uint32_t>(x), Y = static_cast<uint32_t>(y), Z = static_cast<uint32_t>(z);
   const auto width = static_cast<uint32_t>(global[0]);

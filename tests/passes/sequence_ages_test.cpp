@@ -36,8 +36,8 @@ void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>&
   }
 }
 
-// What a set that keeps ages must hold: every sequence with its age, twice the last frame that met it, and one more if
-// a ray did.
+// The required content of a set that keeps ages: every sequence with its age, twice the last frame that met it, and one
+// more if a ray did.
 using Aged = std::map<Sequence, uint32_t>;
 
 void renew(Aged& known, const std::vector<Sequence>& sequences, uint32_t age) {

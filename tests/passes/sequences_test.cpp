@@ -80,7 +80,7 @@ TEST_CASE("a table that is far too small overflows, says so, and grows to the sa
 
 TEST_CASE("what follows a prefix that found no slot is not entered") {
   // 970 first surfaces crowd the table: some find no slot near theirs, while others are free elsewhere. Only the last
-  // go on, and what comes after one that found no slot would hang in the air.
+  // continue, and a sequence after one that found no slot would have no parent.
   const DeviceScene scene = scene_of_floors(1000);
   std::vector<Sequence> sequences;
   for (uint32_t a = 0; a < 970; ++a) sequences.push_back({a % 3, {a}});

@@ -149,7 +149,7 @@ inline float calculateResidual(Point a, Point b) {
   return std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.z - b.z);
 }
 
-// Listing C.3 for one stream at a time. What is stored is a number, and where the result begins (data.nextOrigin).
+// Listing C.3 for one stream at a time. It stores a number, and the place where the result begins (data.nextOrigin).
 class OpenTable {
  public:
   struct Node {

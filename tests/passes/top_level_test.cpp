@@ -69,7 +69,7 @@ class Walk {
     return all;
   }
 
-  // Of the box of an instance's model, turned and moved in double; checks the instance's record.
+  // Returns the corners of the box of an instance's model, turned and moved in double; checks the instance's record.
   Span corners(size_t leaf) {
     const auto record = at<wt_instance>(at<wt_moving_head>(0, 0).instances, leaf);
     const uint32_t number = record.number;

@@ -1,5 +1,5 @@
-// Legs next to what touches: walls that stand on a mirror, houses side by side, edges that are only touched. In any
-// direction and far from the origin, with occlusion and with transmissions.
+// Legs near touching surfaces: walls that stand on a mirror, houses side by side, edges that are only touched. They run
+// in any direction and far from the origin, with occlusion and with transmissions.
 #include <doctest/doctest.h>
 
 #include <numbers>

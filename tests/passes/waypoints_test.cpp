@@ -26,7 +26,7 @@ std::vector<Corners> open_room() {
   return walls;
 }
 
-// Where a ray goes in it, by the six planes alone; a direction after the last point where it flew out.
+// The points of a ray by the six planes alone; a direction after the last point if it flew out.
 struct Polyline {
   std::vector<glm::dvec3> points;
   bool out = false;

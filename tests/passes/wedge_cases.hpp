@@ -1,5 +1,5 @@
-// What the tests of the wedge passes share: quads with wedges on the device, ends, and wedges read back.
-// Sequences are listed, not traced; numbers of surfaces are those of the quads.
+// Helpers of the tests of the wedge passes: quads with wedges on the device, ends, and wedges read back. Sequences are
+// listed, not traced; numbers of surfaces are those of the quads.
 #pragma once
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -63,7 +63,7 @@ inline Scene box_and_panels() {
   return scene;
 }
 
-// Of a node of the trie or a root.
+// Returns the sequence of a node of the trie or a root.
 inline Sequence sequence_of(const std::vector<uint64_t>& table, uint32_t node) {
   Sequence s;
   for (; !(node & WT_ROOT); node = static_cast<uint32_t>(table[node] >> 32))

@@ -26,7 +26,7 @@ Scene tops_of(const std::vector<Quad>& quads) {
   return scene;
 }
 
-// By transmitter and receiver, of all pairs.
+// Returns the chains of all pairs, by transmitter and receiver.
 Chains chains(const Scene& scene, const Points& tx, const Points& rx, uint32_t most, bool free_edges = true) {
   const DeviceScene uploaded = make_device_scene(context(), scene, false, 1000);
   std::vector<EndState> from, to;

@@ -63,7 +63,7 @@ Listed list(const PrefixWorld& world, const std::vector<Sequence>& sequences, ui
   return out;
 }
 
-// Whether a mirror shows a point of a wedge, or may do so by rounding: lines from the image to many points of it.
+// Tells whether a mirror shows a point of a wedge, or may do so by rounding: lines from the image to many points of it.
 bool shows(const wt_exact_surface& mirror, const wt_surface& box, const glm::dvec3& image, const Wedge& wedge,
            double tolerance_m) {
   const glm::dvec3 normal = vector_of(mirror.normal);

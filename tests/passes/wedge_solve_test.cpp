@@ -239,7 +239,7 @@ TEST_CASE("what is no path: ends on the edge's line or in the solid, reflections
   CHECK_FALSE(one(scene, free, w.start - 2.0 * w.along, {3}));
   CHECK_FALSE(one(scene, {0, 0, 2}, also, {3}));
   CHECK_FALSE(one(scene, free, {0, 0, 2}, {3}));
-  // On either face, a nanometre beyond rounding included.
+  // The ends lie on either face, or a nanometre beyond rounding.
   for (const double off : {0.0, 1e-10, 1e-3}) {
     CHECK(one(scene, {upper.x + off, 0.3, 2}, also, {3}));
     CHECK(one(scene, free, {-0.4, upper.y + off, 3}, {3}));

@@ -1,5 +1,5 @@
-// What plots hold, against the run that was written: made-up runs without a device, numbers of which are known.
-// Pictures need gnuplot; without it the tests of files say so and check the rest.
+// The contents of plots are compared with the run that was written: invented runs without a device, whose numbers are
+// known. Pictures need gnuplot; without it the tests of files say so and check the rest.
 #include "plots/plots.hpp"
 
 #include <doctest/doctest.h>

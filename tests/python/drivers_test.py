@@ -72,7 +72,7 @@ assert drivers(added["OCL_ICD_VENDORS"]) == [f"{root}/lib/libnvidia-opencl.so.1"
 root, added = system({"intel.icd": "libigdrcl.so\n"}, nvidia=True, pocl=True)
 assert drivers(added["OCL_ICD_VENDORS"]) == [f"{root}/lib/libnvidia-opencl.so.1",
                                              f"{root}/site/pyopencl/.libs/libpocl-0.so", "libigdrcl.so"]
-# What the user has named stays.
+# A value set by the user is kept.
 assert "OCL_ICD_VENDORS" not in system({}, pocl=True, OCL_ICD_VENDORS="/mine")[1]
 # Caches that cannot be written to, or that others can write to, are not used.
 for cache in ("/proc/nowhere", str(work / "open")):

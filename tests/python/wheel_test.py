@@ -61,7 +61,7 @@ from wavetracer import *
 assert all(getattr(wavetracer, name) is not None for name in dir(wavetracer)) and open is not wavetracer.open
 assert Simulation is wavetracer.Simulation and callable(view) and not hasattr(wavetracer, "nothing")
 """)
-# What the loader takes from outside of the wheel is of every Linux.
+# Libraries that the loader takes from outside of the wheel must be part of every Linux.
 own = next(environment.glob("lib/python3*/site-packages"))
 for file in (own / "wavetracer/bin/wavetracer", own / "wavetracer/lib/libwavetracer.so"):
     for name, found in re.findall(r"(\S+) => (/\S+)", run("ldd", file)):

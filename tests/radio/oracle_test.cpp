@@ -116,7 +116,7 @@ bool solve(const Scene& scene, const glm::dvec3& tx, const glm::dvec3& rx, const
   }
 }
 
-// Of the gain (dB), and of the 2 x 2 matrix relative to its norm.
+// Errors of the gain (dB), and of the 2 x 2 matrix relative to its norm.
 struct Errors {
   std::vector<double> gain_db, matrix;
 

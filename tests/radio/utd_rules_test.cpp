@@ -27,7 +27,7 @@ glm::dvec3 edge_direction(double azimuth, double beta0) {
   return at_azimuth(std::sin(beta0), azimuth, std::cos(beta0));
 }
 
-// Of a source and a receiver at these azimuths, the directions at beta0 to the edge.
+// Returns the coefficients for a source and a receiver at these azimuths, with directions at beta0 to the edge.
 Diffraction between(const Corner& corner, double in, double out, double beta0, double length_m,
                     const LitSides& lit = {}) {
   glm::dvec3 k_in = -edge_direction(in, beta0);
@@ -48,7 +48,7 @@ TEST_CASE("reciprocity: the coefficient the other way is the transpose, beta tur
         exterior, {concrete_face(), i % 3 ? glass_face() : perfect_conductor}, wavelength_m, i % 2 == 0};
     const Matrix2 there = between(corner, in, out, beta0, length_m).coefficient;
     const Matrix2 back = between(corner, out, in, pi - beta0, length_m).coefficient;
-    // Of sqrt(L), which is the coefficient of a whole wave: in corners the four terms may cancel.
+    // The scale is sqrt(L), the coefficient of a whole wave: in corners the four terms may cancel.
     CHECK(size({back[0] - there[0], back[1] + there[2], back[2] + there[1], back[3] - there[3]}) <
           1e-12 * std::sqrt(length_m));
   }
@@ -91,7 +91,7 @@ TEST_CASE("the numbering of faces does not matter") {
       CHECK(glm::length(d.from[j] + e.from[j]) < 1e-14);
       CHECK(glm::length(d.to[j] + e.to[j]) < 1e-14);
     }
-    // Of a direction close to the edge, the azimuth has fewer digits.
+    // The azimuth of a direction close to the edge has fewer digits.
     for (size_t j = 0; j < 4; ++j)
       CHECK(std::abs(d.coefficient[j] - e.coefficient[j]) < 1e-12 * size(d.coefficient) / std::sin(beta0));
   }

@@ -8,7 +8,7 @@
 
 namespace wavetracer::reference {
 
-// Which paths are wanted. Line of sight always is.
+// The paths that are wanted; line of sight always is.
 struct Limits {
   uint32_t max_depth = 3;  // interactions a path, transmissions included
   bool reflection = true;
@@ -24,7 +24,7 @@ struct Limits {
 // Fermat's principle. Positions and vertices are recentred, as the scene is; numbers are those of PathGeometry. Rows
 // are sorted by tx, rx, number of interactions, then their kinds, then their surfaces and wedges.
 //
-// What counts as a path:
+// Rules for a path:
 // - a receiver at a transmitter has no line of sight;
 // - a sequence never names one surface or wedge twice in a row;
 // - each reflection point lies inside its surface, borders included (to 1e-9 of the triangle's size), and both

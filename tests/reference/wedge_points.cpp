@@ -22,7 +22,7 @@ double slope(const Wedge& wedge, double x_m, const dvec3& a) {
   return glm::dot(wedge.along, from) / glm::length(from);
 }
 
-// Where a growing function of x in [0, length_m] vanishes; the end next to that place if it does so outside.
+// Finds where a growing function of x in [0, length_m] vanishes; the nearer end if that is outside.
 template <typename Function>
 double vanishing(const Function& function, double length_m) {
   if (function(0.0) >= 0) return 0;

@@ -19,7 +19,7 @@ long setting(const char* name) {
   return text ? std::atol(text) : 0;
 }
 
-// Whether this is the N-th call or a later one, N from the variable.
+// Tells whether this is the N-th call or a later one, with N from the variable.
 class Countdown {
  public:
   explicit Countdown(const char* variable) : from_(setting(variable)) {}

@@ -1,5 +1,5 @@
-// What happens when the machine gives out in the middle of a drive: the device is lost, its memory or the host's is
-// used up, the disk is full. Each is an error with a code and a word on what to do, and nothing that was done is lost.
+// The machine fails in the middle of a drive: the device is lost, its memory or the host's is used up, the disk is
+// full. Each is an error with a code and advice, and finished work is kept.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <cstdlib>

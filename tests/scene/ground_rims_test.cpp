@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// What a scene's loader keeps of all edges that diffract.
+// The edges that a scene's loader keeps of all edges that diffract.
 struct Kept {
   size_t free, rims;
 };

@@ -241,7 +241,7 @@ TEST_CASE("vegetation is refused what only a surface has, and a surface what onl
   MaterialConfig bare = table("brick");
   bare.in_leaf = false;
   refuses(bare, no_leaves);
-  // What vegetation does take, the two keys of its scattering among them.
+  // Vegetation does use these keys, including the two of its scattering.
   CHECK(resolve(named("hedge"), {hedge({{&MaterialConfig::scattering, 0.6},
                                         {&MaterialConfig::scattering_cross_polar, 0.2},
                                         {&MaterialConfig::attenuation_db_m, 1}})})

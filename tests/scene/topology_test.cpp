@@ -33,7 +33,7 @@ Scene load_boxes(const std::vector<std::pair<dvec3, dvec3>>& boxes) {
   return load_scene_file(folder.write("scene.xml", xml + "</scene>"), {});
 }
 
-// What every Scene promises, checked from its triangles.
+// Checks the promises of every Scene, from its triangles.
 void check_consistent(const Scene& s) {
   REQUIRE(s.triangle_surface.size() == s.triangles.size());
   REQUIRE(s.triangle_object.size() == s.triangles.size());

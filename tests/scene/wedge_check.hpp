@@ -104,7 +104,7 @@ inline bool diffracts(const Scene& s, const dvec3& a, const dvec3& b, double ext
   return between(s, a, b, 1e-9, exterior_deg) != nullptr;
 }
 
-// To a triangle, by its inside or its nearest side.
+// Returns the distance to a triangle, to its inside or its nearest side.
 inline double distance_m(const dvec3& p, const std::array<dvec3, 3>& t) {
   const dvec3 n = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
   bool inside = true;

@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 namespace {
 
 using Complex = std::complex<double>;
-// What a path has met: kinds and surfaces, and of what is scattered which tile of a surface.
+// The interactions of a path: kinds and surfaces, and for a scattering the tile of its surface.
 using Sequence = std::vector<std::tuple<uint8_t, uint32_t, int64_t>>;
 
 Sequence sequence_of(const Paths& paths, size_t row) {
@@ -172,8 +172,8 @@ TEST_CASE("an 8 x 8 panel and a 4 x 2 panel: spherical waves are as if every ele
   CHECK(all.worst_rad < 1e-6);
 }
 
-// What a plane leaves out of |r + d| is at most d^2 / (2 r) of a path of length r; d: by how much the elements of both
-// ends are away from their centres.
+// The error of a plane wave is at most d^2 / (2 r) for a path of length r, the part that |r + d| leaves out; d:
+// distance of the elements of both ends from their centres.
 TEST_CASE("plane waves err by the curvature that they leave out, and no more") {
   const SceneFile scene = street();
   Config config = array_config(scene.path());

@@ -14,8 +14,8 @@ namespace {
 
 constexpr uint32_t frame_count = 12;
 
-// How many vehicles each frame has: one to begin with, then numbers that often differ by a factor of four, as levels of
-// a refined launch do.
+// Returns the number of vehicles in each frame: one at first, then numbers that often differ by a factor of four, as
+// levels of a refined launch do.
 std::vector<size_t> random_counts(Random& random) {
   std::vector<size_t> counts{1};
   while (counts.size() < frame_count) counts.push_back(size_t{1} << random.below(4));

@@ -113,7 +113,7 @@ TEST_CASE("each transmitter finds what it would alone") {
   size_t of_second = 0;
   for (size_t i = 0; i < both.paths.size(); ++i) of_second += both.paths.tx[i] == 1;
   CHECK(alone.paths.size() > 30);
-  // Where one of them would have stopped, it goes on with the other.
+  // If one of them would have stopped, it continues with the other.
   CHECK(std::abs(static_cast<double>(alone.paths.size()) - static_cast<double>(of_second)) <=
         0.02 * static_cast<double>(of_second));
 }

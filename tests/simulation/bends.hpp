@@ -1,4 +1,4 @@
-// What the tests of diffraction share: small scenes with edges, and paths matched with those of brute force by their
+// Helpers of the tests of diffraction: small scenes with edges, and paths matched with those of brute force by their
 // interactions and the numbers of their surfaces and wedges. Coordinates are generic: no path runs through a corner.
 #pragma once
 #include <map>

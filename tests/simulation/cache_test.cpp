@@ -161,7 +161,7 @@ TEST_CASE("quantised keys: the finer, the fewer paths are lost") {
     const std::vector<FrameResult> cached = frames_of(config, 3);
     losses.push_back(lost(cached, plain));
     CHECK(cached[2].cache.hits > 0);
-    // What is found is exact: every path is one that more rays would find, or was found.
+    // Paths that are found are exact: every path is one that more rays would find, or was found.
     CHECK(lost(plain, cached) <= plain[0].counts.paths / 10);
   }
   CHECK(losses[0] > losses[1]);

@@ -80,7 +80,7 @@ TEST_CASE("phases go on between launches: Doppler shifts are those of central di
   Config config = city(0.1, 0.001);
   config.trace.discover_every_s = 0.1;
   Simulation simulation(config);
-  // What tells a path from others of one world: ends, then surfaces with the vehicles that they belong to.
+  // This key distinguishes paths of one world: ends, then surfaces with the vehicles that they belong to.
   const auto rows = [](const Paths& paths) {
     std::map<std::vector<uint32_t>, size_t> out;
     for (size_t i = 0; i < paths.size(); ++i) {

@@ -50,14 +50,14 @@ double scattered_power(const Paths& paths, uint32_t rx = 0) {
   return sum;
 }
 
-// How far it is from p, inside of the spheroid, to where the way to the end leaves it.
+// Returns the distance from p, inside of the spheroid, to the point where the way to the end leaves it.
 double way_out_m(const dvec3& p, const dvec3& end, const dvec3& centre, const dvec3& half) {
   const dvec3 q = (p - centre) / half, v = (end - p) / half;
   const double a = glm::dot(v, v), b = glm::dot(q, v), c = glm::dot(q, q) - 1;
   return (-b + std::sqrt(b * b - a * c)) / a * glm::length(end - p);
 }
 
-// Of power, of dB per metre.
+// Returns the coefficient of the power for dB per metre.
 double per_metre(double db_m) { return db_m * std::numbers::ln10 / 10; }
 
 constexpr double without_end = std::numeric_limits<double>::infinity();

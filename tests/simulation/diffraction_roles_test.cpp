@@ -1,5 +1,5 @@
-// Who launches, and what moves: listeners, twins and masked links; edges of vehicles as instances and as static meshes;
-// drives that reuse sequences; launches, orders, batches and caches that change nothing.
+// The ends that launch, and moving objects: listeners, twins and masked links; edges of vehicles as instances and as
+// static meshes; drives that reuse sequences; launches, orders, batches and caches that change nothing.
 #include "simulation/bends.hpp"
 
 using namespace wavetracer;

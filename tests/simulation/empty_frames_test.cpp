@@ -32,7 +32,7 @@ void by_everything(Config& config) {
   config.trace.max_diffractions = 2;
 }
 
-// Whatever a frame may be asked to do, alone or together.
+// The options that a frame may have, alone or together.
 std::vector<Variant> variants() {
   return {
       {"reflection", [](Config&) {}},
@@ -144,7 +144,7 @@ std::map<uint32_t, FrameResult> frames_of(Simulation& simulation, const std::vec
 
 const std::vector<uint32_t> empty_first{0, 1, 2, 3, 4, 5, 6, 7, 8}, full_first{4, 3, 2, 1, 0, 5, 8, 7, 6};
 
-// In blocks of one transmitter, of none and of all.
+// Checks blocks of one transmitter, of none and of all.
 void check_blocks(Simulation& simulation, const std::map<uint32_t, FrameResult>& whole) {
   if (!block_obstacle(simulation.config()).empty()) return;
   for (const uint32_t number : {0u, 2u, 4u, 1u}) {

@@ -205,6 +205,6 @@ TEST_CASE("diffraction_rays: of ends that only receive; few of them find less, a
   CHECK(missing(few, expected) == 0);
   CHECK(50 * missing(expected, many) <= expected.size());
   CHECK(10 * missing(expected, few) > expected.size());
-  // Where all ends send, nobody listens.
+  // If all ends send, nobody listens.
   CHECK(identical(found_with(ends, rays, rays), found_with(ends, rays, 50)));
 }

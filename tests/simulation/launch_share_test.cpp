@@ -1,4 +1,4 @@
-// Which directions frames launch, and how deep their rays go: counted out, direction by direction.
+// The directions that frames launch, and the depth of their rays: counted direction by direction.
 #include "simulation/launch_share.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// Which heights a launch gets for which world: streets, masts, rooms, drones, hills.
+// The heights that a launch gets for a world: streets, masts, rooms, drones, hills.
 #include "simulation/launch_slopes.hpp"
 
 #include <doctest/doctest.h>
@@ -50,7 +50,7 @@ std::vector<float> table(const Scene& scene, const WorldState& world, uint32_t o
   return table_of(LaunchSlopes(Surroundings(scene), 0).tables(world, origins_of(world, listen)), origin);
 }
 
-// Of the directions, the share between these z.
+// Returns the share of the directions between these z.
 double share(const std::vector<float>& table, double from, double to) {
   const auto above = [&](double z) {
     for (uint32_t k = 1; k <= WT_HEIGHT_CELLS; ++k)

@@ -40,7 +40,7 @@ struct Ways {
   FrameResult there, back;
 };
 
-// From each near end to the far one, and back.
+// Finds paths from each near end to the far one, and back.
 Ways both_ways(const Place& place, const std::function<glm::dvec3(double gap_m)>& near, const glm::dvec3& far) {
   const SceneFile file = place.scene();
   Points ends;
@@ -77,7 +77,8 @@ void check_reciprocal(const Ways& ways) {
 
 bool reflects_first(const Row& row, uint32_t surface) { return !row.surfaces.empty() && row.surfaces[0] == surface; }
 
-// Of the surface that the near ends stand on: paths that leave it first where the gap is beyond the limit, none below.
+// Counts paths that first leave the surface that the near ends stand on: they exist if the gap is beyond the limit, and
+// not below it.
 void check_rule(const Ways& ways, size_t expected_others) {
   for (uint32_t near = 0; near < gaps_m.size(); ++near) {
     CAPTURE(gaps_m[near]);

@@ -1,5 +1,5 @@
-// Whole frames with diffraction and transmission against the reference path lists: every path, none twice, gains.
-// Of diffracted paths gains are only told: the lists weight the terms of a wedge otherwise, neither continuously nor
+// Whole frames with diffraction and transmission against the reference path lists: every path, none twice, gains. Gains
+// of diffracted paths are only printed: the lists weight the terms of a wedge otherwise, neither continuously nor
 // reciprocally (tests/radio/utd_oracle_test.cpp).
 #include <algorithm>
 #include <filesystem>
@@ -165,8 +165,8 @@ TEST_CASE("munich, transmission: every path, no other") {
   CHECK(c.kinds.at("transmission").reference > 0);
 }
 
-// Where buildings touch, the list has two wedges, one of each mesh. The faces of both together leave no sector wider
-// than 180 degrees there, so nothing but a corner diffracts: those paths are none. All others are there to be found.
+// Where buildings touch, the list has two wedges, one for each mesh. The faces of both together leave no sector wider
+// than 180 degrees there, so nothing but a corner diffracts: those paths do not exist. All others must be found.
 TEST_CASE("munich, diffraction: every path whose edge is one when all faces there are counted") {
   const auto list = munich("munich_diffraction");
   if (!list) return;

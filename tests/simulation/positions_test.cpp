@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Of 48.137 degrees north, 11.575 degrees east in UTM zone 32.
+// The UTM coordinates, zone 32, of 48.137 degrees north, 11.575 degrees east.
 constexpr double easting_m = 691567.326384, northing_m = 5334734.330482;
 constexpr double slope = 0.1;
 

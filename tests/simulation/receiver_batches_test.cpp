@@ -31,7 +31,7 @@ Config map_of(const SceneFile& file) {
   return config;
 }
 
-// So many candidates are listed at a time as long as this lives.
+// While it exists, this many candidates are listed at a time.
 class MostCandidates {
  public:
   explicit MostCandidates(const char* most) { setenv("WAVETRACER_MOST_CANDIDATES", most, 1); }

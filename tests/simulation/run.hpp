@@ -1,4 +1,4 @@
-// What the end-to-end tests share: scene files made of parallelograms, configurations in code, comparisons of paths.
+// Helpers of the end-to-end tests: scene files made of parallelograms, configurations in code, comparisons of paths.
 // Scenes go through the loader like any other: welded, recentred, coplanar neighbours of one material merged.
 #pragma once
 #include <doctest/doctest.h>

@@ -97,7 +97,7 @@ TEST_CASE("one mirror: paths are too long by what their rays miss the receiver b
       if (paths.depth[i] != 1) continue;
       const glm::dvec3 p = paths.vertex_position_m[paths.vertex_offset[i]], rx = receivers[paths.rx[i]];
       const double exact_m = glm::distance(mirrored, rx), r1 = glm::distance(mirrored, p);
-      // How far the straight ray from the image passes the receiver.
+      // The straight ray from the image passes the receiver at this distance.
       const glm::dvec3 d = (p - mirrored) / r1;
       const double b = glm::distance(rx, mirrored + glm::dot(rx - mirrored, d) * d);
       const double expected_m = r1 + std::sqrt(std::pow(std::sqrt(exact_m * exact_m - b * b) - r1, 2) + b * b);
@@ -190,7 +190,7 @@ TEST_CASE("a box: of the exact paths, spheres find those that a ray of that dens
       variance += lost * (1 - lost);
       found += heard.contains(key);
     }
-    // Where a path passes an edge closer than the radius, a part of its rays takes another sequence.
+    // If a path passes an edge closer than the radius, a part of its rays takes another sequence.
     CHECK(std::abs(found - expected) < 4 * std::sqrt(variance) + 0.01 * static_cast<double>(exact.size()));
     const double recall = found / static_cast<double>(exact.size());
     CHECK(recall > recall_before);

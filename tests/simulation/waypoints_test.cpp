@@ -1,5 +1,5 @@
-// output.waypoints: which rays are sampled, where they go, and what they hear, whatever order rays are traced in.
-// In a box, where every ray goes on to the last depth, and over a ground, which half of them miss.
+// output.waypoints: the sampled rays, their points, and the receivers that they pass, for every order of tracing. The
+// scenes are a box, where every ray continues to the last depth, and a ground, which half of them miss.
 #include <algorithm>
 #include <array>
 

@@ -13,7 +13,7 @@ using namespace cache_verdicts;
 
 namespace {
 
-// Of one world at one number of rays: seconds per frame and metres of the centroid.
+// Makes a row of one world at one number of rays: seconds per frame and metres of the centroid.
 CacheRow row(const std::string& setting, uint64_t rays, double seconds, double off_m = 0,
              const std::string& drive = "fixed") {
   CacheRow out{.drive = drive, .setting = setting, .rays = rays};

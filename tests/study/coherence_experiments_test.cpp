@@ -112,7 +112,7 @@ TEST_CASE("coherence-frames: pairing by ray or by place") {
   CHECK(pairs[0].frame == 3);
   CHECK(pairs[0].found.points.component.y == doctest::Approx(1));
   CHECK(pairs[0].found.pairs == 6);
-  // By place: 0 1 0 1 0 1 with 1 0 1 0 1 0.
+  // By place, 0 1 0 1 0 1 is compared with 1 0 1 0 1 0.
   CHECK(pairs[0].by_place > 0.9);  // a length, which hides that they are opposite
   CHECK(pairs[0].found.points.pooled > 0.9);
 }

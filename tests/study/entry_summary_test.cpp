@@ -29,7 +29,7 @@ CacheEntryRows rows_of(const std::vector<Entry>& entries) {
   return out;
 }
 
-// Of 20,000 entries in a row, their hits from `hits_of` their slot.
+// Makes 20,000 entries in a row, whose hits are `hits_of` their slot.
 template <class HitsOf>
 EntrySummary spread(HitsOf hits_of) {
   std::vector<Entry> entries;

@@ -1,5 +1,5 @@
 // `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Small ranges only.
-// What needs a device is skipped, saying so, where there is none.
+// Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <signal.h>

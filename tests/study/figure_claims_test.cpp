@@ -21,7 +21,7 @@ CacheCost taking(const std::vector<std::pair<std::string, double>>& seconds) {
   };
 }
 
-// Of one setting: seconds at 1,000 rays, and at all other numbers of them.
+// Returns seconds of one setting at 1,000 rays, and at all other numbers of rays.
 CacheCost growing(const std::string& setting, double few_s, double many_s) {
   return [=](const std::string& one, uint64_t rays) {
     return std::pair{one == setting ? (rays == 1000 ? few_s : many_s) : 1.0, 0.0};

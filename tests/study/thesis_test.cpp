@@ -29,7 +29,7 @@ std::string unbalanced(const std::string& html) {
   return open.empty() ? "" : open.back();
 }
 
-// As gnuplot writes it.
+// This is the form that gnuplot writes.
 const std::string drawing =
     "<?xml version=\"1.0\" encoding=\"utf-8\"  standalone=\"no\"?>\n<svg \n width=\"400\" height=\"300\"\n "
     "xmlns=\"http://www.w3.org/2000/svg\"\n xmlns:xlink=\"http://www.w3.org/1999/xlink\"\n>\n<g id=\"gnuplot_canvas\">"

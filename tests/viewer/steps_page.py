@@ -32,7 +32,7 @@ def pixels_of(link):
         "return [p.point(frame.transmitter_m, arguments[0]), p.point(frame.receiver_m, arguments[1])]", *link), float)
 
 
-# What was missed: of the run, and of a link.
+# The missed power is shown for the run, and for a link.
 said = page.text("missed")
 assert f"missed about {missed['paths']['estimate']:.0f} of 264 paths" in said, said
 assert f"({missed['paths']['low']:.0f} to {np.ceil(missed['paths']['high']):.0f})" in said, said

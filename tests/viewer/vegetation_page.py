@@ -24,7 +24,7 @@ def greenness(pixels):
     return (pixels[..., 1] - (pixels[..., 0] + pixels[..., 2]) / 2).mean()
 
 
-# Where nothing but the street was, it is greener, and a part of what was there shines through.
+# Where only the street was, it is greener now, and shines through in part.
 page.check("show_labels", False)
 bare, crown = looks(False, False), looks(True, False)
 assert greenness(crown) > greenness(bare) + 5, (greenness(crown), greenness(bare))

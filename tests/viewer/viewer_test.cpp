@@ -289,7 +289,7 @@ TEST_CASE("a hundred vehicles, a hundred thousand paths per frame") {
   MESSAGE(
       fmt::format("page of 2 x 100000 paths and 100 vehicles: {:.1f} MB", static_cast<double>(page.html.size()) / 1e6));
 
-  // What does not fit is left out, strongest first, and said.
+  // Paths that do not fit are left out, the weakest first, and the page says so.
   const ViewPage small = make_view(SavedRun(folder / "large"), {.max_bytes = 12'000'000});
   CHECK(small.html.size() < 12'000'000);
   CHECK(small.html.size() > 11'500'000);
