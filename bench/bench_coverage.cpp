@@ -52,8 +52,8 @@ std::vector<double> powers(const FrameResult& frame) {
 }
 
 struct CoverageError {
-  size_t heard = 0, lost = 0,
-         wrong = 0;  // receivers with a path in the reference, of these without a path here, of these wrong by wrong_db
+  // Receivers with a path in the reference, of these without a path here, of these wrong by wrong_db.
+  size_t heard = 0, lost = 0, wrong = 0;
   double mean_db = 0;  // for those that have paths in both
 };
 

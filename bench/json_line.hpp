@@ -23,8 +23,8 @@ struct Result {
   Better better = Better::higher;
   std::string baseline;                  // the baseline that it is compared with; empty if there is none
   std::optional<double> baseline_value;  // in the same unit
-  double error =
-      0;  // the price of the speed, as the benchmark's documentation defines it; 0 if exact, NaN if it was not measured
+  // The price of the speed, as the benchmark's documentation defines it; 0 if exact, NaN if it was not measured.
+  double error = 0;
   std::string detail;                                               // a short remark for the table; may be empty
   nlohmann::ordered_json extra = nlohmann::ordered_json::object();  // fields of this benchmark alone
   bool exact = false;  // error counts wrong results, and a result with errors is refused

@@ -10,8 +10,8 @@ namespace wavetracer::bench {
 
 struct PathRecall {
   size_t reference = 0, mine = 0, found = 0;
-  double paths = 1,
-         power = 1;  // found shares of the reference, by number and by the sum of |a|^2; 1 if the reference is empty
+  // Found shares of the reference, by number and by the sum of |a|^2; 1 if the reference is empty.
+  double paths = 1, power = 1;
 
   size_t extra() const { return mine - found; }  // paths that the reference lacks
 };

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double antenna_height_m = 1.5,
-                 radius_m = 300;  // antenna height of cars; receivers are around the corner, not out of town
+// Antenna height of cars; receivers are around the corner, not out of town.
+constexpr double antenna_height_m = 1.5, radius_m = 300;
 
 std::vector<RadioEnd> ends(const char* prefix, const std::vector<glm::dvec3>& points) {
   std::vector<RadioEnd> result;

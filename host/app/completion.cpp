@@ -59,7 +59,7 @@ std::string bash(const CommandText& program) {
   }
   return fmt::format(
       R"(# Completion of wavetracer for bash. Written by `wavetracer documentation --completion bash`: do not edit.
-# Where COMPREPLY stays empty, bash completes files.
+# If COMPREPLY stays empty, bash completes files.
 _wavetracer() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}} path= of= words= i
   COMPREPLY=()

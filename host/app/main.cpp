@@ -75,8 +75,8 @@ int run_program(int argc, char** argv) {
 int run_and_report(int argc, char** argv) {
   try {
     return run_program(argc, argv);
-  } catch (
-      const wavetracer::Error& e) {  // of a device or a library that ran out of memory and may report something else
+  } catch (const wavetracer::Error& e) {
+    // A device or a library may have run out of memory and report something else.
     const bool may_lack_memory = e.code() == ExitCode::device || e.code() == ExitCode::runtime;
     return fail(e.code(), e.what() + (may_lack_memory ? wavetracer::app::limit_hint() : ""));
   } catch (const std::bad_alloc&) {

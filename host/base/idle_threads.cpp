@@ -12,8 +12,8 @@ namespace wavetracer {
 IdleThreads::IdleThreads(unsigned count) {
   try {
     for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
-  } catch (
-      ...) {  // there is no memory for another thread: those that were started must end before the exception leaves
+  } catch (...) {
+    // There is no memory for another thread: those that were started must end before the exception leaves.
     stop();
     throw;
   }

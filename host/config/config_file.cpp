@@ -22,7 +22,7 @@ namespace {
 using namespace config;
 namespace fs = std::filesystem;
 
-// Where an assignment was made: a position in the file, or a --set.
+// The place of an assignment: a position in the file, or a --set.
 struct Place {
   toml::source_position position{};  // position in the file
   size_t set = 0;                    // 1 + the index of the --set, 0 for the file
@@ -126,8 +126,8 @@ class Parser {
   Config config_;
   std::map<std::string, Assignment> assignments_;                            // by unique path: transmitter.0.name
   std::map<std::string_view, std::pair<const toml::node*, Place>> retired_;  // by key
-  std::map<std::string, std::vector<toml::source_position>>
-      elements_;  // positions of [[transmitter]] and other arrays of tables
+  // Positions of [[transmitter]] and other arrays of tables.
+  std::map<std::string, std::vector<toml::source_position>> elements_;
   std::vector<std::pair<Place, std::string>> problems_;
 
   static Place place(const toml::source_region& region) { return {region.begin, 0}; }

@@ -9,8 +9,8 @@
 namespace wavetracer::config {
 
 struct Contradiction {
-  std::vector<std::string>
-      keys;  // such as trace.rays, track.0.waypoints, mount.0; the one that comes last in the file is reported
+  // The keys, such as trace.rays, track.0.waypoints, mount.0; the one that comes last in the file is reported.
+  std::vector<std::string> keys;
   std::string what;
 };
 

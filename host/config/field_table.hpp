@@ -22,7 +22,7 @@ struct ChoiceSlot {
   ChoiceIndex* chosen;
   std::span<const std::string_view> words;
 };
-// Where the value of a field is stored. The alternative that it holds is the type of the field.
+// A pointer to the value of a field. The alternative that it holds is the type of the field.
 using Slot =
     std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<uint32_t>*, std::optional<uint64_t>*,
                  std::optional<double>*, std::array<double, 3>*, std::optional<std::array<double, 2>>*,
@@ -59,8 +59,8 @@ struct Field {
   bool required = false;
   std::string instead = {};  // for a required field: the key that may be given in its place
   std::string doc = {};
-  std::string example =
-      {};  // TOML that `init` writes instead of the default, as a comment unless the field is required or needed
+  // TOML that `init` writes instead of the default, as a comment unless the field is required or needed.
+  std::string example = {};
   bool needed = false;  // not required, but the config of `init` would not run without its example
 };
 

@@ -24,8 +24,8 @@ class DeepmimoScene {
  private:
   SavedWorld world_;
   std::vector<std::string> vehicles_;  // names, one for each row of /instances
-  std::vector<uint32_t>
-      first_material_;  // index of the first material of the scene and of each model in the list of all materials
+  // Index of the first material of the scene and of each model in the list of all materials.
+  std::vector<uint32_t> first_material_;
   double frequency_hz_ = 0;
 };
 

@@ -182,8 +182,8 @@ void GlbWriter::animate(size_t target, const NodeTrack& track) {
     const auto& key = track.keys[i];
     scales.emplace_back(key ? 1.0f : 0.0f);
     if (!key) continue;
-    const glm::dquat q =
-        glm::dot(key->rotation, last) < 0 ? -key->rotation : key->rotation;  // turns the shorter way round
+    // Turns the shorter way round.
+    const glm::dquat q = glm::dot(key->rotation, last) < 0 ? -key->rotation : key->rotation;
     times_s.push_back(times_s_[i]);
     positions.emplace_back(key->position_m - world_.scene.origin_m);
     rotations.emplace_back(q.x, q.y, q.z, q.w);

@@ -1,5 +1,5 @@
 // Colours belong to vertices and are linear, as glTF requires.
-// Where a line continues, both legs use the same position, so that lines share their corners.
+// If a line continues, both legs use the same position, so that lines share their corners.
 #include "convert/glb_lines.hpp"
 #include <algorithm>
 #include <cmath>

@@ -23,8 +23,8 @@ class Npz {
   // values: their number is the product of the shape. Throws RuntimeError beyond npz_limit_bytes.
   void add(const std::string& name, const Shape& shape, std::span<const double> values);
   void add(const std::string& name, const Shape& shape, std::span<const uint32_t> values);
-  void add_flags(const std::string& name, const Shape& shape,
-                 std::span<const uint8_t> values);  // values are 0 or 1, and are read as bool
+  // Values are 0 or 1, and are read as bool.
+  void add_flags(const std::string& name, const Shape& shape, std::span<const uint8_t> values);
   void add_number(const std::string& name, double value) { add(name, {}, std::span<const double>(&value, 1)); }
   void add_texts(const std::string& name, const std::vector<std::string>& texts);  // UTF-8
   void add_text(const std::string& name, const std::string& text);

@@ -107,8 +107,8 @@ double step_s(const SavedRun& run, const ExportOptions& options, Warnings& warni
     warnings.push_back("ns3: one frame is one step, of 1 s");
     return 1;
   }
-  const double last_s = run.time_s(options.last_row),
-               rounding_s = 2 * time_spacing_s(last_s);  // rounding of time differences
+  // Rounding of time differences.
+  const double last_s = run.time_s(options.last_row), rounding_s = 2 * time_spacing_s(last_s);
   const double step = simplest_decimal((last_s - run.time_s(options.first_row)) / static_cast<double>(steps),
                                        rounding_s / static_cast<double>(steps));
   if (!(step > 0)) throw InputError("ns3: the times of the frames do not go up");

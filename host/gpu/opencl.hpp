@@ -2,8 +2,8 @@
 // Only this folder's .cpp files include it; gpu.hpp, which all others include, names nothing of OpenCL.
 #pragma once
 #define CL_HPP_ENABLE_EXCEPTIONS
-#define CL_HPP_MINIMUM_OPENCL_VERSION \
-  110  // with 120, the bindings leave out what their own CommandQueue uses (CLHPP 2.0.16)
+// With 120, the bindings leave out what their own CommandQueue uses (CLHPP 2.0.16).
+#define CL_HPP_MINIMUM_OPENCL_VERSION 110
 #define CL_HPP_TARGET_OPENCL_VERSION 300
 #include <CL/opencl.hpp>
 #include <string>

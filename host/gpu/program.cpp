@@ -12,7 +12,7 @@ namespace wavetracer::gpu {
 
 namespace {
 
-// How OpenCL drivers split their option string is not specified, so blanks and quotes are refused.
+// No specification says how OpenCL drivers split their option string, so blanks and quotes are refused.
 std::string definition_options(const std::string& program, const Definitions& definitions) {
   std::string options;
   for (const auto& [name, value] : definitions) {

@@ -14,7 +14,7 @@ namespace wavetracer::imports {
 
 using SpaceRing = std::vector<glm::dvec3>;  // the first corner may be repeated at the end
 
-// What a surface is in its building. Without semantics its slope decides.
+// The role of a surface in its building. Without semantics its slope decides.
 enum class Role { unknown, wall, roof, ground, window, door };
 
 struct ModelFace {

@@ -65,10 +65,10 @@ struct ImportSummary {
   std::map<std::string, uint64_t> guessed;   // number of values that were assumed for buildings, by kind
   glm::dvec2 lower_m{0}, upper_m{0};         // bounds of the buildings, in the coordinates of the scene
   Extent ground;                             // empty if there is no ground
-  glm::dvec2 offset_m{
-      0};  // scene coordinates = projected coordinates (OSM) or those of SUMO (.poly.xml, net) + offset_m
-  uint64_t straightened =
-      0;  // number of corners that were moved onto straight walls, since the map's coordinates are rounded
+  // Scene coordinates = projected coordinates (OSM) or those of SUMO (.poly.xml, net) + offset_m.
+  glm::dvec2 offset_m{0};
+  // Number of corners that were moved onto straight walls, since the map's coordinates are rounded.
+  uint64_t straightened = 0;
   double straightened_by_m = 0;  // the largest move
   double rounding_m = 0;         // rounding of the map's coordinates
   std::string attribution;       // text that must be shown with the data; empty if the source requires none

@@ -28,8 +28,8 @@ struct Map {
   std::vector<Footprint> footprints;
   Georeference georeference;  // reference of the footprints' coordinates; it has no projection if none is known
   Extent network;             // convBoundary of SUMO's <location>
-  double rounding_m =
-      0;  // largest error of a coordinate, because the file has few digits: half of the last digit's step
+  // Largest error of a coordinate, because the file has few digits: half of the last digit's step.
+  double rounding_m = 0;
   bool nested_are_courtyards = false;  // a footprint inside another one with the same tags is a hole in it
   std::map<std::string, uint64_t> left_out;
   std::vector<std::string> warnings;
@@ -48,8 +48,8 @@ Map read_sumo_polygons(std::string_view content, const std::string& name);
 // The <location> of a .net.xml or .poly.xml.
 struct SumoLocation {
   Georeference georeference;
-  Extent
-      boundary;  // bounds of the network or the polygons, in its coordinates; empty if SUMO says that there is nothing
+  // Bounds of the network or the polygons, in its coordinates; empty if SUMO says that there is nothing.
+  Extent boundary;
 };
 // Returns nothing if there is none. Throws InputError if it is malformed.
 std::optional<SumoLocation> sumo_location(std::string_view content, const std::string& name);

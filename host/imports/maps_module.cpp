@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* gdal_name =
-    WAVETRACER_GDAL_NAME;  // such as "libgdal.so.32"; empty if the program was built without GDAL
+// A name such as "libgdal.so.32"; empty if the program was built without GDAL.
+constexpr const char* gdal_name = WAVETRACER_GDAL_NAME;
 
 constexpr const char* other_formats =
     "or convert the file to OpenStreetMap, SUMO's polygons, CityJSON or CityGML, which are read without GDAL";

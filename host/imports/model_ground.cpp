@@ -15,8 +15,8 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr double steepest_roof =
-    0.1;  // a surface without a role is a wall if the cosine of its normal to the vertical is below this
+// A surface without a role is a wall if the cosine of its normal to the vertical is below this.
+constexpr double steepest_roof = 0.1;
 
 }  // namespace
 

@@ -1,6 +1,5 @@
 // Reads buildings of OpenStreetMap files, XML or PBF, by libosmium, whose assembler makes areas of ways and
-// multipolygons. Objects may come in any order and in several versions, of which the last one counts. The file's size
-// bounds the memory.
+// multipolygons. Objects may come in any order and in several versions; the last counts. The file bounds the memory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -93,8 +92,7 @@ class OsmReader {
   }
 
   void node(const osmium::Node& node) {
-    // Every node takes at least a byte, compressed ones perhaps half a byte: a file with more of them is an attack on
-    // memory.
+    // Every node takes at least a byte, compressed ones perhaps half: more of them are an attack on memory.
     if (++nodes_ > 1000000 + 8 * content_.size()) {
       throw InputError(fmt::format("{}: the file contains far more nodes than its size allows: it is damaged", name_));
     }
@@ -273,8 +271,8 @@ class OsmReader {
   bool is_pbf_, vegetation_;
   Map map_;
   size_t nodes_ = 0, row_trees_ = 0;
-  size_t way_nodes_ = 0,
-         member_nodes_ = 0;  // nodes of the ways that are kept; nodes of multipolygons so far, counted for each of them
+  // Nodes of the ways that are kept; nodes of multipolygons so far, counted for each of them.
+  size_t way_nodes_ = 0, member_nodes_ = 0;
   const osmium::area::AssemblerConfig assembler_config_{};
   DeletedObjects deleted_;
   NodePlaces places_;

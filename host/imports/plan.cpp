@@ -95,8 +95,8 @@ class Planner {
   void drop_repeated_outlines() {
     std::map<Ring, size_t> seen;
     for (size_t i = 0; i < candidates_.size(); ++i) {
-      if (candidates_[i].solid.part || !candidates_[i].solid.is_building())
-        continue;  // parts may be on top of one another
+      // Parts may be on top of one another.
+      if (candidates_[i].solid.part || !candidates_[i].solid.is_building()) continue;
       const auto [entry, is_new] = seen.try_emplace(canonical(candidates_[i].solid.polygon.outer), i);
       if (is_new) continue;
       const auto courtyards = [this](size_t k) { return candidates_[k].solid.polygon.holes.size(); };

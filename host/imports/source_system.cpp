@@ -113,8 +113,8 @@ struct SourceSystem::State {
       metres_per_height = unit_of_axis(crs, 2);
       return crs;  // heights do not change longitudes and latitudes
     }
-    if (type == PJ_TYPE_PROJECTED_CRS)
-      metres_per_height = unit_of_axis(crs, 0);  // the default if the system says nothing else
+    // The default if the system says nothing else.
+    if (type == PJ_TYPE_PROJECTED_CRS) metres_per_height = unit_of_axis(crs, 0);
     return type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_PROJECTED_CRS ? crs : nullptr;
   }
 };

@@ -67,8 +67,8 @@ SumoLocation read_location(const pugi::xml_node node, const std::string& at) {
                                  node.attribute("netOffset").value()));
   }
   Georeference out{node.attribute("projParameter").value(), *offset, {}};
-  if (!out.projection.starts_with("+proj"))
-    out.projection.clear();  // SUMO writes "!" for none, and "-" for unchanged coordinates
+  // SUMO writes "!" for none, and "-" for unchanged coordinates.
+  if (!out.projection.starts_with("+proj")) out.projection.clear();
   return {out, read_boundary(node.attribute("convBoundary").value(), at)};
 }
 

@@ -10,11 +10,8 @@
 
 namespace wavetracer {
 
-enum class ClaimState {
-  free,
-  taken,
-  failed
-};  // taken: by a living process; failed: most_attempts processes died over it
+// taken: by a living process; failed: most_attempts processes died over it.
+enum class ClaimState { free, taken, failed };
 
 class Claims {
  public:

@@ -42,8 +42,8 @@ std::vector<size_t> listed(const std::string& text) {
 }
 
 void check_listed(const std::vector<gpu::DeviceInfo>& there, const std::string& text, const std::vector<size_t>& list) {
-  for (const size_t index : list)
-    gpu::choose_device(there, std::to_string(index));  // throws and names the existing ones
+  // Throws and names the existing ones.
+  for (const size_t index : list) gpu::choose_device(there, std::to_string(index));
   for (const size_t index : list)
     if (!same_kind(there[index], there[list.front()]))
       throw ConfigError(fmt::format("--devices {}: {} and {} are of different kinds; name only CPUs or only GPUs", text,
@@ -159,8 +159,8 @@ void take_share_of_cores(const Ranks& ranks) {
   for (size_t i = first; i < end; ++i) CPU_SET(cores[i], &own);
   if (sched_setaffinity(0, sizeof own, &own) != 0) return;
   unsetenv("POCL_AFFINITY");  // with it, PoCL binds its threads to the first cores and ignores the mask
-  for (const char* variable :
-       {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"})  // names of the variable before and since PoCL 6
+  // These are the names of the variable before and since PoCL 6.
+  for (const char* variable : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"})
     setenv(variable, std::to_string(end - first).c_str(), 0);
 }
 

@@ -33,18 +33,18 @@ void remove_files(const fs::path& folder, const Which& which) {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (which(entry.path().filename().string())) found.push_back(entry.path());
-  tbb::parallel_for_each(
-      found, [](const fs::path& path) {  // on several cores: freeing the space of large files takes a while
-        std::error_code error;
-        const fs::file_status status = fs::status(path, error);
-        if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
-          return;  // it is a device or a pipe
-        if (!fs::remove(behind_links(path), error) && error)
-          throw RuntimeError(
-              fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
-                          "with -o",
-                          path.string(), error.message()));
-      });
+  tbb::parallel_for_each(found, [](const fs::path& path) {
+    // On several cores: freeing the space of large files takes a while.
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    // It is a device or a pipe.
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
+    if (!fs::remove(behind_links(path), error) && error)
+      throw RuntimeError(
+          fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
+                      "with -o",
+                      path.string(), error.message()));
+  });
 }
 
 bool is_output(const std::string& name) { return std::ranges::find(output_names, name) != output_names.end(); }

@@ -22,8 +22,8 @@ RunIdentity identity_of(const Config& config, const RunSummary& summary, const F
   // These keys do not affect results.
   elsewhere.output.keep_shards = OutputConfig().keep_shards;
   elsewhere.output.compression = OutputConfig().compression;
-  for (const config::NamedFile& file : config::input_files(elsewhere))
-    file.path->clear();  // places of inputs do not count, contents do
+  // Places of inputs do not count, contents do.
+  for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();
   return {summary.version,
           fnv1a_128(resolved_config(elsewhere)),
           summary.device.gpu ? "gpu" : "cpu",

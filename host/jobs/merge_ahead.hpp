@@ -48,8 +48,8 @@ class MergeAhead {
   std::filesystem::path directory_;
   NewLines lines_;
   uint64_t next_ = 0;  // index of the first unit that was not taken
-  std::map<uint32_t, std::vector<std::string>>
-      finished_;  // by first frame: names of files of finished units that wait for an earlier unit
+  // By first frame: names of files of finished units that wait for an earlier unit.
+  std::map<uint32_t, std::vector<std::string>> finished_;
   bool given_up_ = false;
   std::vector<std::unique_ptr<OutputAhead>> ahead_;  // one per output, from the first unit on
   std::unique_ptr<IdleThreads> threads_;             // declared last, since the threads use the other members

@@ -17,7 +17,7 @@ using WriteHead = std::function<void(const H5Output&, const std::filesystem::pat
 // The origin of the parts: foreign ones are read in a child process (limited_child.hpp).
 enum class Parts { own, foreign };
 
-// Whether all rows are read back and compared with those of the parts.
+// Tells whether all rows are read back and compared with those of the parts.
 enum class Proof { none, rows };
 
 // Called with the whole table of links, in parallel with the rest of a merge.

@@ -14,7 +14,7 @@ struct Ranks {
   bool started = false;  // started by `run --devices`: only this program divides the cores of this host
 };
 
-// How the work of a run is divided among processes.
+// The division of a run's work among processes.
 enum class Sharing {
   alone,   // this process does all of it
   shard,   // --shard K/N: a fixed part; other processes, started one by one, do the rest

@@ -1,5 +1,5 @@
 // Threads and processes of the C interface.
-// Assumes that nobody begins to use a simulation that is being closed.
+// No thread may begin to use a simulation that is being closed.
 #include <unistd.h>
 #include <string>
 #include "library/handles.hpp"
@@ -7,7 +7,8 @@
 namespace wavetracer::c_api {
 namespace {
 
-std::atomic<pid_t> first_process{0};  // that has used a device; inherited by those that are forked from it
+// The first process that used a device; processes forked from it inherit the value.
+std::atomic<pid_t> first_process{0};
 
 [[noreturn]] void refuse_fork(const char* function) {
   throw RuntimeError(

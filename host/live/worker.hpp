@@ -86,8 +86,8 @@ class Worker {
       const std::lock_guard lock(mutex_);
       results_.splice(results_.end(), task);
       const uint64_t one = 1;
-      [[maybe_unused]] const ssize_t written =
-          write(*event_, &one, sizeof one);  // the counter is far from its limit of 2^64
+      // The counter is far from its limit of 2^64.
+      [[maybe_unused]] const ssize_t written = write(*event_, &one, sizeof one);
     }
   }
 

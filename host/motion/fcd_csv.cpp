@@ -99,8 +99,8 @@ class FcdCsvReader {
       samples_.add_rider();
       ++riders;
     }
-    if (riders > 0 && !carrying_.insert(vehicle).second)
-      return;  // the vehicle appears in one row for each of its riders
+    // The vehicle appears in one row for each of its riders.
+    if (riders > 0 && !carrying_.insert(vehicle).second) return;
     for (const Columns& of : columns_)
       if (!cell(of.id).empty() && (riders == 0 || of.kind == &fcd_vehicle)) add(of);
   }
@@ -138,9 +138,8 @@ bool is_fcd_csv(std::string_view text) {
   }
   const auto has = [&](const char* name) { return names.contains(name); };
   if (has("timestep_time")) return true;
-  if (!has("id"))
-    return has("vehicle_id") || has("person_id") ||
-           has("container_id");  // it is another output, which the message names
+  // It is another output, which the message names.
+  if (!has("id")) return has("vehicle_id") || has("person_id") || has("container_id");
   return separator == ';' && has("time") && has("x") && has("y") &&
          (has("angle") || has("lane") || has("slope") || has("edge"));
 }

@@ -139,8 +139,8 @@ class Traffic {
 
   void choose_turn(Vehicle& v) const {
     std::vector<Turn> turns;
-    for (const Turn turn :
-         {Turn::straight, Turn::straight, Turn::left, Turn::right}) {  // straight on is twice as likely
+    for (const Turn turn : {Turn::straight, Turn::straight, Turn::left, Turn::right}) {
+      // Straight on is twice as likely.
       if (streets_.exists(streets_.lane_after(v.lane, turn))) turns.push_back(turn);
     }
     v.turn = turns[v.random.below(static_cast<uint32_t>(turns.size()))];

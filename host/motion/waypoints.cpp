@@ -83,8 +83,8 @@ Trajectories connect_waypoints(std::span<const WaypointTrack> tracks, const Grou
   set_order(out);
   for (const WaypointTrack& from : tracks)
     if (from.above_ground && ground)
-      lay_on_ground(*std::ranges::find(out.tracks, from.id, &Track::id),
-                    ground);  // the step remains that of the waypoints
+      // The step remains that of the waypoints.
+      lay_on_ground(*std::ranges::find(out.tracks, from.id, &Track::id), ground);
   return out;
 }
 

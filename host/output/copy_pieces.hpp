@@ -12,8 +12,8 @@ namespace wavetracer {
 // Bytes that are copied from one file to another; offsets are in bytes from the beginning of each file.
 struct Piece {
   uint64_t from = 0, to = 0, bytes = 0;
-  uint64_t base =
-      0;  // added to each 64-bit number of the piece; if it is not 0, the piece must consist of such numbers
+  // Added to each 64-bit number of the piece; if it is not 0, the piece must consist of such numbers.
+  uint64_t base = 0;
 };
 
 // [part]: the pieces of each part that go into the file.

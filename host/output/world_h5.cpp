@@ -102,8 +102,8 @@ void append_poses(const Run& run, const FrameResult& frame, FrameTables& tables)
     append(positions_m, run.scene.origin_m + placed.position_m + arm_m);
     append(velocities_m_s, placed.velocity_m_s + glm::cross(placed.angular_velocity_rad_s, arm_m));
     for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column)
-        rotations.push_back(placed.rotation[column][row]);  // glm stores matrices by column
+      // Glm stores matrices by column.
+      for (int column = 0; column < 3; ++column) rotations.push_back(placed.rotation[column][row]);
   }
   const std::vector<uint32_t> numbers(instances.size(), frame.frame);
   tables.group("/poses", "one row per frame and vehicle that is present in it, sorted so");

@@ -14,8 +14,8 @@ namespace wavetracer::plots {
 struct CoverageCell {
   uint32_t ix = 0, iy = 0;
   glm::dvec3 position_m{0};  // file coordinates
-  double path_gain_db =
-      0;  // gain of the best transmitter, with the powers of its groups of paths added; NaN without a path
+  // Gain of the best transmitter, with the powers of its groups of paths added; NaN without a path.
+  double path_gain_db = 0;
   std::optional<uint32_t> tx;  // that transmitter
   uint32_t paths = 0;          // for all transmitters that count
 };

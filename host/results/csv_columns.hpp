@@ -19,8 +19,8 @@ class CsvColumns {
   const std::vector<double>& values(size_t i) const { return columns_[i].values; }
 
  private:
-  static constexpr size_t no_field = ~size_t{0},
-                          longest = 64;  // longest: number of characters of a name or a number that are kept
+  // Longest: number of characters of a name or a number that are kept.
+  static constexpr size_t no_field = ~size_t{0}, longest = 64;
   struct Column {
     std::string name;
     size_t field = no_field;

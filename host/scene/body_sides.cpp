@@ -9,8 +9,8 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double upright_z =
-    0.7;  // part of the way from a sheet to the body that stands on it, up to which they count as one
+// Part of the way from a sheet to the body that stands on it, up to which they count as one.
+constexpr double upright_z = 0.7;
 
 struct BorderSides {
   bool free = true, above = false, below = false;  // free: no other face shares the edge

@@ -27,8 +27,8 @@ namespace {
 
 using glm::dvec3;
 constexpr uint32_t none = 0xFFFFFFFFu;
-constexpr double largest_extent_m =
-    1e6;  // rays on a flat Earth reach no farther: a larger scene has a wrong unit or a stray vertex
+// Rays on a flat Earth reach no farther: a larger scene has a wrong unit or a stray vertex.
+constexpr double largest_extent_m = 1e6;
 // Corners within 1 mm are merged, and points within 0.1 mm of a plane lie on it. In scenes smaller than the first
 // extent these tolerances would change which paths exist; up to the second extent they may blur details.
 constexpr double smallest_extent_m = 0.1, detailed_extent_m = 1;

@@ -78,7 +78,7 @@ class CityBuilder {
   }
 
  private:
-  // Where a call needs several random numbers, each is stored in a variable first: the order in which arguments are
+  // If a call needs several random numbers, each is stored in a variable first: the order in which arguments are
   // evaluated is the compiler's choice.
   int metres(int low, int high) { return random_.range(low, high) * grid_per_m; }
   int height() {

@@ -55,8 +55,8 @@ std::vector<glm::dvec2> hull(std::vector<glm::dvec2> points, double tolerance_m)
 // Returns the sides of one surface, or none if it is not convex.
 std::vector<glm::dvec4> sides_of(const Scene& scene, const Surface& surface) {
   constexpr double tolerance_m = 1e-6;
-  constexpr uint32_t max_triangles =
-      4 * max_face_sides;  // a limit of the time, since each pair of triangles is compared
+  // A limit of the time, since each pair of triangles is compared.
+  constexpr uint32_t max_triangles = 4 * max_face_sides;
   if (surface.triangle_count == 0 || surface.triangle_count > max_triangles) return {};
   const glm::dvec3 n = surface.normal;
   const glm::dvec3 x = glm::normalize(glm::cross(n, std::abs(n.z) < 0.9 ? glm::dvec3{0, 0, 1} : glm::dvec3{1, 0, 0}));

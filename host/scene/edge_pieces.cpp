@@ -12,8 +12,8 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double parallel_sine2 =
-    1e-6;  // edges within 1 mrad of each other do not cross: they touch at an end, or not at all
+// Edges within 1 mrad of each other do not cross: they touch at an end, or not at all.
+constexpr double parallel_sine2 = 1e-6;
 
 struct Line {
   uint32_t edge;

@@ -22,8 +22,8 @@ namespace wavetracer {
 // as well (wt_share_plane of kernels/lib/wedge.clh).
 class FacePlanes {
  public:
-  explicit FacePlanes(
-      const Scene& scene);  // joins surfaces that share flat edges of the mesh; the scene must outlive this object
+  // Joins surfaces that share flat edges of the mesh; the scene must outlive this object.
+  explicit FacePlanes(const Scene& scene);
   // Joins two surfaces that touch at a point and are bent there by less than 1 mrad, on the side that `front` points
   // to, if they lie in one plane.
   void join(uint32_t surface, uint32_t other, const glm::dvec3& front, const glm::dvec3& at);

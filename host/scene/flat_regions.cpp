@@ -20,8 +20,8 @@ namespace {
 using glm::dvec3;
 constexpr uint32_t no_region = 0xFFFFFFFFu;
 constexpr int most_rounds = 100;  // about 20 are enough for a million triangles
-constexpr int most_retreats =
-    8;  // rounds in which triangles were removed again; after more of them the surface counts as curved
+// Rounds in which triangles were removed again; after more of them the surface counts as curved.
+constexpr int most_retreats = 8;
 
 class RegionGrower {
  public:

@@ -13,8 +13,8 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double least_sine =
-    1e-6;  // sine of the angle of a plane with all others at a vertex: a smaller one adds no direction
+// Sine of the angle of a plane with all others at a vertex: a smaller one adds no direction.
+constexpr double least_sine = 1e-6;
 constexpr double on_plane_m = 1e-9;      // a vertex that is nearer than this is on the plane
 constexpr double least_fit_sine = 1e-3;  // smaller angles count as this where planes are fitted together
 constexpr int most_fits = 30;

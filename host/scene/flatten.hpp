@@ -16,10 +16,10 @@ constexpr uint32_t no_plane = 0xFFFFFFFFu;
 struct Flattened {
   std::vector<glm::dvec3> vertices;  // same number and order as before
   std::vector<Plane> planes;
-  std::vector<uint32_t>
-      triangle_plane;  // per triangle: index into planes, or no_plane; its corners were moved into that plane
-  std::vector<uint32_t>
-      exact_plane;  // per triangle: index into planes, or no_plane; it lies within 0.1 mm of that plane without moving
+  // Per triangle: index into planes, or no_plane; its corners were moved into that plane.
+  std::vector<uint32_t> triangle_plane;
+  // Per triangle: index into planes, or no_plane; it lies within 0.1 mm of that plane without moving.
+  std::vector<uint32_t> exact_plane;
   uint64_t moved = 0;     // number of vertices that were moved
   double farthest_m = 0;  // the largest move
   uint64_t left_out = 0;  // triangles of planes that one of their corners could not be moved onto

@@ -17,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t fewest_zeros =
-    4096;  // number of elements that an accessor without data may have, however short the file is
+// Number of elements that an accessor without data may have, however short the file is.
+constexpr uint64_t fewest_zeros = 4096;
 
 enum ComponentType : int64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
@@ -141,8 +141,8 @@ std::string GltfData::read_uri(const std::string& uri) {
     fail(fmt::format("a buffer is at '{}': nothing is fetched; put the file beside this one", uri.substr(0, 200)));
   std::filesystem::path path = file_.path.parent_path() / percent_decoded(uri);
   std::error_code unnameable;
-  if (!std::filesystem::exists(path, unnameable))
-    path = file_.path.parent_path() / uri;  // the name is not percent-encoded
+  // The name is not percent-encoded.
+  if (!std::filesystem::exists(path, unnameable)) path = file_.path.parent_path() / uri;
   if (const std::string problem = input_file_problem(path, "the buffer"); !problem.empty())
     fail(fmt::format("the buffer {}: {}", path.string(), problem));
   files_.push_back(path.string());

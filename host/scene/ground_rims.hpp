@@ -23,8 +23,8 @@ namespace wavetracer {
 // A closed slab has no free edges and is not a sheet. Up is z. Models of vehicles have no ground.
 class GroundRims {
  public:
-  explicit GroundRims(
-      const Scene& scene);  // joins surfaces that share edges of the mesh; the scene must outlive this object
+  // Joins surfaces that share edges of the mesh; the scene must outlive this object.
+  explicit GroundRims(const Scene& scene);
   void join(uint32_t surface, uint32_t other);  // joins surfaces that touch along an edge without sharing it
   // Tells whether the wedge is the rim of a ground. All surfaces that touch must have been joined before.
   bool are_of(const Wedge& wedge, const TriangleGrid& triangles);

@@ -155,9 +155,8 @@ class Resolver {
     return nullptr;
   }
 
-  // Returns the libraries' law for this exact name at the carrier. Outside the ranges of its laws it is the nearest
-  // law, whose range limit is lifted if the configuration asks for that. law_is_given: the configuration replaces the
-  // law, so no warning is made about it.
+  // Returns the libraries' law for this exact name at the carrier, or the nearest law outside the ranges, without its
+  // range limit if the configuration asks for that. law_is_given: the configuration replaces it: there is no warning.
   std::optional<Material> itu(const std::string& name, bool law_is_given) {
     std::optional<ItuLaw> law = find_itu_law(scene_.itu_edition, name, frequency_ghz_);
     if (!law) law = find_vehicle_law(name, frequency_ghz_);
@@ -268,8 +267,7 @@ ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scen
                                     const std::vector<MaterialConfig>& overrides, double frequency_hz) {
   Resolver resolver(scene, overrides, frequency_hz);
   ResolvedMaterials out;
-  std::vector<uint32_t> index_of(raw.materials.size() + 1,
-                                 no_material);  // the last entry is for meshes without a material
+  std::vector<uint32_t> index_of(raw.materials.size() + 1, no_material);  // the last: meshes without a material
   for (const RawMesh& mesh : raw.meshes) {
     uint32_t& index = index_of[std::min<size_t>(mesh.material, raw.materials.size())];
     if (index == no_material) {

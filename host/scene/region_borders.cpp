@@ -61,8 +61,8 @@ class Borders {
     uint32_t best = own;
     neighbours_.visit(t, [&](const FlatNeighbour& pair) {
       const uint32_t other = region_of_[pair.other];
-      if (other == own || other >= best + (best == own ? regions_.size() : 0))
-        return;  // if several are equal, the lowest
+      // If several are equal, the lowest.
+      if (other == own || other >= best + (best == own ? regions_.size() : 0)) return;
       if (regions_[other].vertices.size() > 3 && neighbours_.unfolded(pair, regions_[own].plane.normal) &&
           fits(t, regions_[other]) && is_beyond(t, own, other))
         best = other;

@@ -26,8 +26,8 @@ template <class Visit>
 bool cut(const Corners& c, double tile_m, const Visit& visit) {
   const glm::dvec3 u = c[1] - c[0], v = c[2] - c[1], w = c[0] - c[2];
   const std::array<double, 3> side_m2{glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)};
-  const auto k =
-      static_cast<size_t>(std::ranges::max_element(side_m2) - side_m2.begin());  // the first one if several are equal
+  // The first one if several are equal.
+  const auto k = static_cast<size_t>(std::ranges::max_element(side_m2) - side_m2.begin());
   if (!(side_m2[k] > tile_m * tile_m)) return visit(c);
   const glm::dvec3 &a = c[k], &b = c[(k + 1) % 3], &opposite = c[(k + 2) % 3], middle = (a + b) / 2.0;
   return cut({a, middle, opposite}, tile_m, visit) && cut({middle, b, opposite}, tile_m, visit);

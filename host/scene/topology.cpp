@@ -46,8 +46,8 @@ class SurfaceGrower {
 
  private:
   Plane own_plane(uint32_t t) const {
-    const dvec3 n =
-        shapes_[t].area_m2 > 0 ? oriented(shapes_[t].normal) : dvec3(0, 0, 1);  // a flattened strip has no normal
+    // A flattened strip has no normal.
+    const dvec3 n = shapes_[t].area_m2 > 0 ? oriented(shapes_[t].normal) : dvec3(0, 0, 1);
     return {n, glm::dot(n, scene_.vertices[scene_.triangles[t][0]])};
   }
 

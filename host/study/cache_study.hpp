@@ -24,8 +24,8 @@ struct CacheStudy {
   size_t at_once = 16;         // number of settings that share a device besides the first, which is then measured again
   uint64_t most_frames = 500;  // of a drive, unless the request gives the number
   bool by_depth = false;       // adds a row per depth
-  bool by_transmitter =
-      false;                  // adds a row per transmitter, which has a region of the table; for the first few of them
+  // Adds a row per transmitter, which has a region of the table; for the first few of them.
+  bool by_transmitter = false;
   bool empty_tables = false;  // every frame finds the table empty: it only saves time within itself
   bool centroids = false;     // rows keep the error of every frame
 };

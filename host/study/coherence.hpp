@@ -23,7 +23,7 @@ inline bool is_hit(const Hit& hit) { return hit.surface != nothing; }
 // hits[depth - 1][launch index]. Every depth has an entry for every ray, also for those that ended before.
 using FrameHits = std::vector<std::vector<Hit>>;
 
-// How points move with each other, a[i] with b[i].
+// The correlation of the motions of points, a[i] with b[i].
 struct PointCorrelation {
   glm::dvec3 component{undefined};  // Pearson's coefficients of x, of y and of z; NaN if one is undefined
   // Equation 6.4 with its normalisation: the root mean square of the defined components, so 0 to 1, and 1 for equal

@@ -105,8 +105,8 @@ EntrySummary summary_of(const CacheEntryRows& rows) {
   run_entries /= static_cast<double>(std::max<size_t>(out.runs.size(), 1));
   out.dispersion = variance(all) / all.mean();
   const double by_chance = variance(all) / run_entries;
-  out.clustering =
-      by_chance > 0 ? variance(means) / by_chance : by_chance;  // 0 if all are alike, NaN if there are too few
+  // 0 if all are alike, NaN if there are too few.
+  out.clustering = by_chance > 0 ? variance(means) / by_chance : by_chance;
   return out;
 }
 

@@ -11,8 +11,8 @@ namespace wavetracer::study {
 struct Series {
   std::string mnemonic;
   std::string method;  // order.method by its plain name
-  std::string
-      directions;     // trace.directions: "random" is the thesis' unordered launch, "hilbert" is ordered from the start
+  // Trace.directions: "random" is the thesis' unordered launch, "hilbert" is ordered from the start.
+  std::string directions;
   std::string shape;  // launch.shape
   bool each_depth = false;
 

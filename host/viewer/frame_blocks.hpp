@@ -29,8 +29,8 @@ struct FrameBlocks {
   double lowest_db = 0, highest_db = 0;  // range of the finite gains on the page; 0, 0 if there is none
   uint32_t highest_order = 0;
   uint32_t interactions = 0;  // bits of all paths' interactions, as in paths.h5
-  std::optional<PageBounds>
-      ends_m;  // box around ends and vehicles in all frames, file coordinates; nothing if there are none
+  // Box around ends and vehicles in all frames, file coordinates; nothing if there are none.
+  std::optional<PageBounds> ends_m;
   uint64_t paths = 0, shown_paths = 0, links = 0, shown_links = 0;
 };
 

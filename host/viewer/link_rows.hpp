@@ -13,8 +13,8 @@ struct LinkRow {
   Link link;
   uint32_t paths = 0;
   bool los = false;
-  double path_gain_db =
-      -std::numeric_limits<double>::infinity();  // fields within a group are added, then powers of groups
+  // Fields within a group are added, then powers of groups.
+  double path_gain_db = -std::numeric_limits<double>::infinity();
   double narrowband_gain_db = -std::numeric_limits<double>::infinity();  // coherent sum at the carrier
   double rms_delay_spread_s = std::numeric_limits<double>::quiet_NaN();  // NaN if no power arrives
   double missed_power_share = std::numeric_limits<double>::quiet_NaN();  // NaN if unknown

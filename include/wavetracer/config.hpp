@@ -71,8 +71,8 @@ struct ArrayConfig {  // [[array]]: the positions of the elements of ends
   uint32_t rows = 1, columns = 1;  // a panel: rows along z, columns along y of the antenna's axes
   double vertical_spacing_wavelengths = 0.5, horizontal_spacing_wavelengths = 0.5;  // at radio.frequency_hz
   std::optional<double> vertical_spacing_m = {}, horizontal_spacing_m = {};         // alternatives to these
-  std::vector<std::array<double, 3>> positions_m =
-      {};                         // instead of a panel: positions of elements, in the antenna's axes
+  // Instead of a panel: positions of elements, in the antenna's axes.
+  std::vector<std::array<double, 3>> positions_m = {};
   std::string codebook = "none";  // a NamedCodebook, or a codebook file
 };
 
@@ -112,8 +112,8 @@ struct TrackConfig {  // [[track]]: a vehicle on waypoints
   std::string id;
   std::string type = "passenger";
   std::vector<std::array<double, 4>> waypoints;  // time_s, x, y, z; file coordinates of the scene
-  std::vector<std::array<double, 4>> waypoints_wgs84 =
-      {};                      // alternative: time_s, latitude, longitude, m above the ground
+  // Alternative: time_s, latitude, longitude, m above the ground.
+  std::vector<std::array<double, 4>> waypoints_wgs84 = {};
   HeightAbove above = "zero";  // reference of the heights of waypoints
 };
 
@@ -172,8 +172,8 @@ struct TraceConfig {
   uint64_t max_rays = 10000000;               // with rays = "auto"
   bool reuse = true;                          // sequences of earlier frames of a drive are kept and solved again
   std::optional<uint64_t> refresh_rays = {};  // per transmitter, in a frame that reuses; not given: a tenth of rays
-  double discover_every_s =
-      0;  // time between frames that launch rays, if frames reuse sequences; 0: all frames launch rays
+  // Time between frames that launch rays, if frames reuse sequences; 0: all frames launch rays.
+  double discover_every_s = 0;
   uint32_t forget_frames = 50;  // a sequence that no ray has met for this many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;

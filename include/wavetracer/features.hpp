@@ -1,4 +1,4 @@
-// How a run computes: its device, the order of its rays, and the features (interactions) that are on.
+// The settings of a run's computation: its device, the order of its rays, and the features (interactions) that are on.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -12,7 +12,7 @@ struct DeviceSummary {
   bool gpu = false;
 };
 
-// How rays were ordered and launched.
+// The order and the launch of rays.
 struct OrderSummary {
   std::string method = "none";  // plain name; also "none" if order.method = "auto" found that no sort saves time
   bool each_depth = false;

@@ -30,7 +30,7 @@ struct FrameCounts {
   uint64_t receptions = 0;  // segments that passed a receiver, with trace.reception = "sphere"
 };
 
-// What the ray cache did in a frame. Counts are of this frame alone.
+// Statistics of the ray cache in a frame. Counts are of this frame alone.
 struct CacheSummary {
   bool on = false;       // false: the frame had no cache, and everything below is 0 or empty
   uint64_t lookups = 0;  // look-ups by rays, at all depths

@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// What happens to a wave at a vertex of its path, with the numbers in files; see also interaction_kinds.hpp.
+// The interaction of a wave at a vertex of its path, with the numbers in files; see also interaction_kinds.hpp.
 enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, diffraction = 8 };
 
 constexpr uint32_t no_instance = 0xFFFFFFFFu;
@@ -36,8 +36,8 @@ struct Paths {
   std::vector<double> delay_s, gain_db;
   std::vector<std::array<std::complex<double>, 4>> a;
   std::vector<double> aod_theta_rad, aod_phi_rad, aoa_theta_rad, aoa_phi_rad, doppler_hz;
-  // Which quarters of the launch found the path, one bit each (missed.hpp); empty if unknown. A path that needs no ray
-  // has all four.
+  // The quarters of the launch that found the path, one bit each (missed.hpp); empty if unknown. A path that needs no
+  // ray has all four.
   std::vector<uint8_t> quarters;
   // The groups of each path and its weight in them, see above; empty: every path is a group of its own.
   std::vector<GroupNumbers> group;
@@ -46,8 +46,8 @@ struct Paths {
   // One entry per interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates
   std::vector<uint8_t> vertex_interaction;
-  std::vector<uint32_t>
-      vertex_surface;  // index in its scene or model; for a diffraction the wedge (`scene info --edges`)
+  // Index in its scene or model; for a diffraction the wedge (`scene info --edges`).
+  std::vector<uint32_t> vertex_surface;
   std::vector<uint32_t> vertex_instance;
 
   size_t size() const { return delay_s.size(); }

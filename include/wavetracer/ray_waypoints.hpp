@@ -16,7 +16,7 @@ enum class WaypointKind : uint8_t {
   miss = 4,  // a point 1 m along the segment that met nothing
 };
 
-// What found the end of the segment before a waypoint.
+// The origin of the hit at the end of the segment before a waypoint.
 enum class WaypointSource : uint8_t {
   launch = 0,   // there is no segment before it
   traced = 1,   // the ray was traced

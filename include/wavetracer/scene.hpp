@@ -66,8 +66,8 @@ struct Wedge {
   glm::dvec3 face{1, 0, 0};    // unit, normal to along: from the edge into face 0
   glm::dvec3 normal{0, 1, 0};  // normal of face 0, into free space
   double exterior_rad = 0;     // n pi; 2 pi: a half plane
-  std::array<uint32_t, 2> surface{
-      0, 0};  // surfaces of face 0 and face 1, indices into Scene::surfaces; both are the same for a free edge
+  // The surfaces of face 0 and face 1, indices into Scene::surfaces; both are the same for a free edge.
+  std::array<uint32_t, 2> surface{0, 0};
   // For face 0 and face 1: the lowest of the surfaces that form one plane with it, see host/scene/face_planes.hpp.
   std::array<uint32_t, 2> plane{0, 0};
 };
@@ -76,8 +76,8 @@ struct Wedge {
 enum class VolumeShape : uint32_t { box, cylinder, spheroid, mesh };  // as WT_VOLUME_... of wavetracer/device/volumes.h
 struct Volume {
   VolumeShape shape = VolumeShape::box;
-  glm::dvec3 centre{0},
-      half_size{0};  // centre and half size of its box, turned by yaw_rad about z; an upright cylinder is elliptic
+  // Centre and half size of its box, turned by yaw_rad about z; an upright cylinder is elliptic.
+  glm::dvec3 centre{0}, half_size{0};
   double yaw_rad = 0;
   std::vector<std::array<glm::dvec3, 3>> triangles = {};  // for a mesh: closed, counter-clockwise seen from outside
   uint32_t material = 0;                                  // index into Scene::materials, which has a VegetationLaw
@@ -89,7 +89,7 @@ struct SceneNode {
   glm::dvec3 position_m{0};
 };
 
-// What was left out when the scene was loaded, and why; every count is reported to the user.
+// Counts of everything that was left out when the scene was loaded; every count is reported to the user.
 struct LoadReport {
   uint64_t degenerate_triangles = 0;  // zero area, dropped
   uint64_t duplicate_triangles = 0;   // same three welded vertices and material as an earlier one, dropped

@@ -24,7 +24,7 @@ struct FrameProgress {
 // Called between batches of rays and between these steps; if it returns false, the frame is cancelled.
 using FrameObserver = std::function<bool(const FrameProgress&)>;
 
-// What run_frame() throws if the observer has cancelled the frame. The simulation can continue with any frame.
+// Thrown by run_frame() if the observer has cancelled the frame. The simulation can continue with any frame.
 class FrameStopped : public std::runtime_error {
  public:
   FrameStopped() : std::runtime_error("the frame was given up") {}

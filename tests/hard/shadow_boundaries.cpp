@@ -58,7 +58,7 @@ HardCase case_of(const std::string& device, double interior_rad, const std::stri
     const std::vector<Response> h = responses_at(hz, paths, tx, receivers.size());
     for (const size_t port : {0, 1}) out.measured = std::max(out.measured, boundary_jump(at_m, h, first, port));
     // A path that passes the edge, or is reflected beside it, must exist on one side alone, or this is no boundary.
-    // Where walls transmit, the direct path continues as another one.
+    // If walls transmit, the direct path continues as another one.
     const bool ends = geometrical_paths(paths, tx, first) != geometrical_paths(paths, tx, last);
     if (!ends && !(transmits && b == 0)) out.measured = std::numeric_limits<double>::infinity();
   }

@@ -78,7 +78,7 @@ inline MixedReport run_mixed(gpu::Context& context, const TableKind& kind, uint6
     count += found[key] != WT_NONE;
     faults.never_put += found[key] != WT_NONE && !model.was_put[key];
     if (outcome.slots[key] == WT_NONE) continue;
-    // Of an open table others may have taken the slot since; never does it become empty.
+    // In an open table others may have taken the slot since, but it never becomes empty.
     faults.lost += kind.kind == "open" ? table[outcome.slots[key]].version == 0 : found[key] != outcome.slots[key];
   }
   if (kind.kind != "open") agree(count == kept);  // more were kept than are found where a key is there twice

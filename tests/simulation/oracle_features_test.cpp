@@ -165,7 +165,7 @@ TEST_CASE("munich, transmission: every path, no other") {
   CHECK(c.kinds.at("transmission").reference > 0);
 }
 
-// Where buildings touch, the list has two wedges, one for each mesh. The faces of both together leave no sector wider
+// If buildings touch, the list has two wedges, one for each mesh. The faces of both together leave no sector wider
 // than 180 degrees there, so nothing but a corner diffracts: those paths do not exist. All others must be found.
 TEST_CASE("munich, diffraction: every path whose edge is one when all faces there are counted") {
   const auto list = munich("munich_diffraction");

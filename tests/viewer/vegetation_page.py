@@ -24,7 +24,7 @@ def greenness(pixels):
     return (pixels[..., 1] - (pixels[..., 0] + pixels[..., 2]) / 2).mean()
 
 
-# Where only the street was, it is greener now, and shines through in part.
+# The places of the street are greener now, and the street shines through in part.
 page.check("show_labels", False)
 bare, crown = looks(False, False), looks(True, False)
 assert greenness(crown) > greenness(bare) + 5, (greenness(crown), greenness(bare))
