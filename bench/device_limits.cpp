@@ -9,7 +9,7 @@
 namespace wavetracer::bench {
 namespace {
 
-constexpr uint32_t chains = 8;  // of the kernel
+constexpr uint32_t chains = 8;  // number of chains of the kernel
 
 template <class Scalar>
 double operations_per_second(gpu::Context& context, size_t runs, uint32_t lanes) {

@@ -9,7 +9,7 @@ namespace wavetracer::bench {
 
 struct Frames {
   double first_s = 0;   // a cold frame: buffers are allocated, drivers finish compiling
-  double median_s = 0;  // of the frames after it
+  double median_s = 0;  // median of the frames after it
   FrameResult result;   // result of the last frame
 };
 

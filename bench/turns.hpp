@@ -15,7 +15,7 @@ struct Variant {
 };
 
 struct Turns {
-  double median_s = 0;  // of warm frames, by wall time
+  double median_s = 0;  // median of warm frames, by wall time
   // Ratio of a frame's seconds to those of the first variant's frame in the same round: the median, and half its
   // interval of about 95% confidence (R. McGill, J. Tukey, W. Larsen, The American Statistician 32(1), 1978).
   double cost = 1, cost_error = 0;

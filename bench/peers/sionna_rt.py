@@ -70,7 +70,7 @@ def write_paths(file, paths, links, rays, interactions, tx_count, rx_count):
     """The distinct paths as a reference list (tests/reference/README.md) of V ports; the H ports are 0."""
     kinds = np.moveaxis(paths.interactions.numpy(), 0, -1)
     vertices = np.moveaxis(paths.vertices.numpy(), 0, -2)  # rx, tx, path, depth, xyz
-    real, imaginary = (part.numpy()[:, 0, :, 0] for part in paths.a)  # of rx, antenna, tx, antenna, path
+    real, imaginary = (part.numpy()[:, 0, :, 0] for part in paths.a)  # axes: rx, antenna, tx, antenna, path
     angles = {"aod_theta_phi_rad": (paths.theta_t.numpy(), paths.phi_t.numpy()),
               "aoa_theta_phi_rad": (paths.theta_r.numpy(), paths.phi_r.numpy())}
     delay = paths.tau.numpy()

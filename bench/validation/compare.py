@@ -6,7 +6,7 @@ import streets
 import tr37885
 import tr38901
 
-NLOS_FROM_M = 30.0  # where the NLOS formulas of P.1411 begin
+NLOS_FROM_M = 30.0  # the NLOS formulas of P.1411 begin here
 WEAK_DB = 150.0  # losses above this are hard to measure
 ROUGH = ("brick", "concrete", "glass", "marble")  # walls and ground of generated cities
 

@@ -33,7 +33,8 @@ def azimuth_spread(link, power, phi, count, weight):
     """Degrees, by equation A-1 of TR 38.901, Annex A."""
     mean = (np.bincount(link, power * np.cos(phi), count) + 1j * np.bincount(link, power * np.sin(phi), count)) / weight
     length = np.abs(mean)
-    return np.degrees(np.sqrt(-2 * np.log(np.where(length > 1 - 1e-12, 1, length))))  # of one path: 0, not its rounding
+    # A single path has a spread of 0, not its rounding.
+    return np.degrees(np.sqrt(-2 * np.log(np.where(length > 1 - 1e-12, 1, length))))
 
 
 def line_of_sight(paths, transmitters, receivers):

@@ -19,10 +19,10 @@ constexpr std::array<const char*, input_count> input_names{"position", "height",
 
 // Standard deviations of normal errors; an input with 0 is not varied.
 struct InputErrors {
-  double position_m = 2;      // of each horizontal coordinate of each antenna that is not on a vehicle
-  double height_m = 0.2;      // of each antenna
-  double permittivity = 0.1;  // of the logarithm of (permittivity - 1) and of the conductivity, of each material
-  double vehicles_m = 2;      // of each horizontal coordinate of each vehicle, its antennas with it
+  double position_m = 2;      // error of each horizontal coordinate of each antenna that is not on a vehicle
+  double height_m = 0.2;      // error of each antenna's height
+  double permittivity = 0.1;  // error of the logarithm of (permittivity - 1) and of the conductivity, for each material
+  double vehicles_m = 2;      // error of each horizontal coordinate of each vehicle with its antennas
 };
 
 struct InputRequest {

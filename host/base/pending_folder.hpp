@@ -11,7 +11,7 @@ namespace wavetracer {
 
 class PendingFolder {
  public:
-  enum class Earlier { refused, kept };  // what happens if the folder has files already
+  enum class Earlier { refused, kept };  // the treatment of files that are in the folder already
 
   // Throws InputError if the path exists and is not an empty folder, RuntimeError if it cannot be made. With
   // Earlier::kept the files are added to those of the folder or replace them, one by one, once all are on the disk;

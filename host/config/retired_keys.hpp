@@ -9,7 +9,7 @@ namespace wavetracer::config {
 // All were switches that are off by default. Runs write down every key, so `false` is accepted and has no effect.
 struct RetiredKey {
   std::string_view key;  // such as trace.join
-  std::string advice;    // what happened to the key, and what to do
+  std::string advice;    // the change of the key, and what to do
 };
 
 // Returns nullptr if there was no such key.

@@ -28,7 +28,7 @@ class KernelScan {
   std::string_view text_;
   size_t at_ = 0, declaration_ = 0;
   int depth_ = 0;
-  bool of_kernel_ = false;          // whether the current declaration is that of a kernel
+  bool of_kernel_ = false;          // true if the current declaration is that of a kernel
   std::string_view word_, called_;  // the last word, and the one before the last parenthesis of a declaration
   std::vector<KernelPlace> found_;
 

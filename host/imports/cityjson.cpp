@@ -231,7 +231,7 @@ class CityJsonReader {
   CityModel model_;
   std::vector<glm::dvec3> vertices_;
   std::unordered_map<std::string, size_t> places_;
-  const Json* surface_types_ = nullptr;      // of the current geometry
+  const Json* surface_types_ = nullptr;      // types of the current geometry's surfaces
   std::vector<ModelFace>* faces_ = nullptr;  // faces of the current geometry
 };
 

@@ -37,7 +37,7 @@ struct wt_maps_query {
 };
 
 struct wt_maps_layers {
-  int in_degrees;       /* whether xy are degrees; 0: no layer has a coordinate system */
+  int in_degrees;       /* 1: xy are degrees; 0: no layer has a coordinate system */
   uint64_t features;    /* number of features that were read */
   uint64_t no_polygons; /* features without a polygon */
   uint64_t too_large;   /* polygons of more than most_points */
@@ -56,7 +56,7 @@ int wt_maps_footprints(const char* file, const struct wt_maps_query* query,
 struct wt_maps_raster {
   size_t columns, rows;
   const float* heights_m; /* row by row, from the first row of the file; NaN where the file has no height */
-  int clipped;            /* whether requested places are outside of the raster */
+  int clipped;            /* 1: some requested places are outside of the raster */
   double full_columns, full_rows;
   char driver[64];
   void* handle;

@@ -12,7 +12,7 @@ namespace wavetracer::imports {
 struct PlacedModel {
   Georeference georeference;
   Extent network;                // bounds of options.net, in coordinates of the projection
-  bool above_ellipsoid = false;  // whether heights are above the ellipsoid
+  bool above_ellipsoid = false;  // heights are above the ellipsoid
 };
 // Converts the coordinates of the model to those of the scene, in metres, by the system that the file names. Throws
 // InputError, and RuntimeError if PROJ has no database.
@@ -21,7 +21,7 @@ PlacedModel place_model(CityModel& model, const std::string& name, const ImportO
 struct ModelScene {
   std::vector<SceneMesh> meshes;  // the ground first
   Georeference georeference;
-  ImportSummary summary;  // what was built and left out; the files are not set
+  ImportSummary summary;  // counts of objects that were built and left out; the files are not set
 };
 // Throws InputError if nothing can be built.
 ModelScene build_model(CityModel model, const std::string& name, const ImportOptions& options);

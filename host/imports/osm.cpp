@@ -271,8 +271,7 @@ class OsmReader {
   bool is_pbf_, vegetation_;
   Map map_;
   size_t nodes_ = 0, row_trees_ = 0;
-  // Nodes of the ways that are kept; nodes of multipolygons so far, counted for each of them.
-  size_t way_nodes_ = 0, member_nodes_ = 0;
+  size_t way_nodes_ = 0, member_nodes_ = 0;  // nodes of kept ways; nodes of multipolygons, counted for each of them
   const osmium::area::AssemblerConfig assembler_config_{};
   DeletedObjects deleted_;
   NodePlaces places_;

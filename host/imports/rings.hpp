@@ -14,7 +14,8 @@ namespace wavetracer::imports {
 constexpr int64_t grid_per_m = 1024;
 constexpr double largest_coordinate_m = 16384;
 constexpr int64_t max_size = 4096 * grid_per_m;  // largest size of a footprint, so that sums of areas cannot overflow
-constexpr size_t max_corners = 5000;  // of a footprint: checking and triangulating take time that grows as the square
+// Limit of a footprint: checking and triangulating take time that grows as the square.
+constexpr size_t max_corners = 5000;
 
 struct Point {
   int64_t x = 0, y = 0;

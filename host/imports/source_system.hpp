@@ -26,7 +26,7 @@ class SourceSystem {
   // file, positive if most roofs look up, 0 if that is unknown. Throws InputError if the model is outside of that area
   // with either order.
   void choose_order(const glm::dvec2& middle, double roofs_up);
-  bool swapped() const;  // whether the order is the opposite of the system's own
+  bool swapped() const;  // tells whether the order is the opposite of the system's own
 
   glm::dvec2 geographic(const glm::dvec2& file) const;  // (longitude, latitude), WGS84
   double metres_per_height() const;

@@ -28,7 +28,7 @@ struct PairSummary {
 struct GridSummary {
   std::string name;
   uint64_t cells = 0, covered = 0;  // covered: cells with a path from any transmitter in any frame
-  Quantiles gain_db;                // of the best transmitter, over the covered cells
+  Quantiles gain_db;                // gain of the best transmitter, over the covered cells
 };
 
 struct LinkStatistics {

@@ -32,7 +32,7 @@ class Progress {
   std::string prefix_;
   bool terminal_, colour_;
   size_t bar_width_ = 0;     // number of the bar's characters on the screen
-  std::string what_, unit_;  // of the current task
+  std::string what_, unit_;  // step and unit of the current task
   uint64_t total_ = 0, begun_ = 0, last_done_ = 0;
   Clock::time_point start_, said_;
   void draw(const std::string& what);

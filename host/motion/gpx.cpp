@@ -133,7 +133,7 @@ class GpxReader : private XmlStream {
   TrackBuilder tracks_;
   std::vector<GpxTrack> found_;
   std::vector<std::string> open_;  // names of elements, from the root
-  std::string text_;               // of the innermost element
+  std::string text_;               // text of the innermost element
   TrackPoint point_{};
   std::set<std::string> ids_;
   uint64_t repeated_ = 0, elevations_ = 0;

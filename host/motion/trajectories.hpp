@@ -32,7 +32,7 @@ struct Track {
   uint32_t type = 0;               // index into Trajectories::types
   std::vector<Sample> samples;     // in order of strictly increasing time
   std::vector<uint32_t> segments;  // first sample of each segment; between segments the vehicle is absent
-  bool mounts = true;              // whether [[mount]] entries put antennas on it
+  bool mounts = true;              // true if [[mount]] entries put antennas on it
 };
 
 struct Trajectories {

@@ -52,7 +52,7 @@ class LimitedChild {
 
   std::string file_;
   ChildLimits limits_;
-  std::string end_;  // how the child ended; empty while it lives
+  std::string end_;  // message about the end of the child; empty while it lives
   pid_t process_ = -1;
   int socket_ = -1;
 };

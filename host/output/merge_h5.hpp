@@ -32,7 +32,7 @@ using BeginPart = std::function<void(const std::filesystem::path&)>;
 class GrowingParts {
  public:
   struct RunOfPart {
-    std::vector<std::string> names, files;  // of the inputs
+    std::vector<std::string> names, files;  // lists of the inputs
     std::vector<uint64_t> hashes;
     std::string config;
   };

@@ -28,7 +28,7 @@ struct Totals {
   std::map<std::string, std::vector<double>> seconds;
   uint64_t timed_segments = 0;        // the part of counts.segments that was traced in frames that measured tracing
   std::vector<std::string> warnings;  // each text once, in order of first appearance
-  MissingLinks missing;               // of the first frame that was checked
+  MissingLinks missing;               // links without a path in the first frame that was checked
 };
 
 Totals totals_of(Frames frames);

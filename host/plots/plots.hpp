@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 7> plot_names{"gain",   "pdp",      "dela
                                                      "angles", "coverage", "rays"};
 
 struct PlotChoice {
-  std::vector<std::string> what;  // of plot_names; empty: all that suit the run
+  std::vector<std::string> what;  // some of plot_names; empty: all that suit the run
   LinkChoice link;
   std::string grid;  // for coverage; empty: every grid of the run
   Format format = Format::svg;
@@ -25,7 +25,7 @@ struct PlotChoice {
 
 struct PlotReport {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> warnings;  // what is missing, why, and what to do
+  std::vector<std::string> warnings;  // missing results, with reasons and advice
 };
 
 // Throws ConfigError for names that the run does not have and for plots that do not suit it, InputError if plots other

@@ -69,7 +69,7 @@ class SavedRun {
   uint32_t number(size_t row) const;
   double time_s(size_t row) const;
   uint64_t path_count() const;            // over all frames
-  uint64_t path_count(size_t row) const;  // of one frame
+  uint64_t path_count(size_t row) const;  // number in one frame
   uint64_t link_count() const;            // over all frames
   uint64_t first_link(size_t row) const;  // row of the frame's first link among those of all frames
   SavedFrame frame(size_t row) const;     // throws InputError

@@ -18,7 +18,7 @@ class SavedWaypoints {
 
   const std::filesystem::path& file() const;
   uint64_t count() const;                 // over all frames
-  uint64_t count(uint32_t number) const;  // of this frame
+  uint64_t count(uint32_t number) const;  // number in this frame
   // Returns the rows of a frame by its number; none if it has none. Sources are unknown in files before format 2.
   // Throws InputError.
   WaypointRows frame(uint32_t number) const;

@@ -17,7 +17,7 @@ struct SavedWorld {
   std::vector<uint32_t>
       instance_model;           // for each of SavedRun::instances(), the index in models, or no_instance if unknown
   std::vector<Street> streets;  // in file coordinates; empty if none are known
-  std::vector<std::string> warnings;  // what is missing, and why
+  std::vector<std::string> warnings;  // missing objects, with reasons
 };
 
 // with_wedges: also finds the edges that diffract, whether or not the run computed them. Never throws for files that

@@ -35,8 +35,8 @@ CutParts cut_convex(const ConvexPolygon& polygon, const CutLine& line, double to
 double polygon_area_m2(const ConvexPolygon& polygon);
 // Returns the least distance of two parallel lines with the polygon between them; 0 for fewer than three corners.
 double polygon_width_m(const ConvexPolygon& polygon);
-// Returns the corner numbers of triangles that fill a polygon of at least three corners. Of all fans, it takes the one
-// whose lowest triangle is highest.
+// Returns the corner numbers of triangles that fill a polygon of at least three corners. Among all fans, it takes the
+// one whose lowest triangle is highest.
 std::vector<std::array<size_t, 3>> best_fan(const ConvexPolygon& polygon);
 
 }  // namespace wavetracer

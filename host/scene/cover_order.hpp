@@ -20,7 +20,7 @@ class CoverOrder {
   // triangle_edges: as find_edges() returns them.
   CoverOrder(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges);
 
-  // Tells whether a surface covers another one of another material. Of two surfaces exactly one covers the other,
+  // Tells whether a surface covers another one of another material. Exactly one of two surfaces covers the other,
   // whatever their order in the file.
   bool covers(uint32_t surface, uint32_t other) const { return key(surface) < key(other); }
   bool equally_large(uint32_t surface, uint32_t other) const { return area_m2_[surface] == area_m2_[other]; }

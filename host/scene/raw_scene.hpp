@@ -57,7 +57,7 @@ struct RawScene {
   std::vector<RawVolume> volumes;
   std::vector<SceneNode> nodes;
   std::vector<std::string> warnings;
-  bool y_up = false;  // what the format prescribes; scene.up overrides it
+  bool y_up = false;  // the format's rule; scene.up overrides it
 };
 
 }  // namespace wavetracer

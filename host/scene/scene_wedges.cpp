@@ -107,7 +107,7 @@ class FaceFinder {
   // Tells whether a point in the plane of triangle t is inside the triangle.
   bool holds(uint32_t t, const dvec3& p) const {
     const dvec3& normal = scene_.surfaces[scene_.triangle_surface[t]].normal;
-    bool left = true, right = true;  // whether it is on this side of all edges
+    bool left = true, right = true;  // the point is on this side of all edges
     for (size_t k = 0; k < 3; ++k) {
       const dvec3 &a = scene_.vertices[scene_.triangles[t][k]], &b = scene_.vertices[scene_.triangles[t][(k + 1) % 3]];
       const double distance_m = glm::dot(normal, glm::cross(b - a, p - a)) / glm::distance(a, b);

@@ -51,15 +51,15 @@ struct CacheRow {
   uint32_t region = 0;                     // 0: rays of all transmitters; else of this one alone, counted from 1
   std::string transmitter{};               // name of that transmitter
   uint64_t frames = 0;                     // number of frames after the cold one, which are averaged
-  CacheTimes cold{}, warm{};               // of a frame whose table is empty, and of those after it
+  CacheTimes cold{}, warm{};               // times of a frame whose table is empty, and of those after it
   double warm_error_s = undefined;         // standard error of the mean of warm.loop_s; NaN for medians
   double frame_s = 0;                      // wall time of a warm frame, with candidates, paths and fields
-  CacheCounts cold_counts{}, counts{};     // of the cold frame, and of an average warm one
-  CacheSummary cache{};                    // of the last frame
+  CacheCounts cold_counts{}, counts{};     // counts of the cold frame, and of an average warm one
+  CacheSummary cache{};                    // statistics of the last frame
   double paths = 0, sequences = 0;         // averages over warm frames
-  PathError error{};                       // of warm frames
+  PathError error{};                       // errors of warm frames
   double saved_percent = 0;                // relative to the time of the first setting, warm
-  EntrySummary entries{};                  // of the last frame, for settings that keep entries
+  EntrySummary entries{};                  // entries of the last frame, for settings that keep entries
   std::vector<CentroidError> centroids{};  // one per frame, in studies that keep them
 };
 

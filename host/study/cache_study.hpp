@@ -22,7 +22,7 @@ struct CacheStudy {
   // For the built-in city, see with_traffic() of worlds.hpp. A config with vehicles of its own is "own".
   std::vector<std::string> drives = {"still"};
   size_t at_once = 16;         // number of settings that share a device besides the first, which is then measured again
-  uint64_t most_frames = 500;  // of a drive, unless the request gives the number
+  uint64_t most_frames = 500;  // limit of a drive, unless the request gives the number
   bool by_depth = false;       // adds a row per depth
   // Adds a row per transmitter, which has a region of the table; for the first few of them.
   bool by_transmitter = false;
@@ -36,7 +36,7 @@ std::vector<Setting> cut_settings(const CacheStudy& study);
 struct CacheMeasurement {
   DeviceSummary device;
   std::vector<CacheRow> rows;
-  uint64_t frames = 0;             // of a drive
+  uint64_t frames = 0;             // number of frames of a drive
   size_t points = 0, planned = 0;  // points are pairs of a drive and a number of rays
 };
 

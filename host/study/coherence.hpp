@@ -45,7 +45,7 @@ struct DepthCoherence {
   double both = undefined;           // pairs / either
   double same_surface = undefined;   // share of pairs that hit one surface
   double same_sequence = undefined;  // share of pairs whose surfaces agree up to this depth
-  PointCorrelation points;           // of the pairs
+  PointCorrelation points;           // correlation over the pairs
 };
 
 // Returns one entry per depth that both have. The frames must have launched the same rays: throws std::invalid_argument

@@ -66,7 +66,7 @@ Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<
                  const std::string& where) {
   std::vector<Drive> running(transmitters.size());
   Drive longest;
-  bool mounted = false;  // whether any is on a vehicle
+  bool mounted = false;  // true if any transmitter is on a vehicle
   for (uint32_t frame = 0; frame < count && longest.frames() < frames; ++frame) {
     const WorldState world = state(frame);
     for (const EndState& end : world.transmitters) mounted = mounted || end.instance != no_instance;

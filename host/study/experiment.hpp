@@ -46,8 +46,8 @@ struct LagFigure {};
 struct Experiment {
   std::string name;       // name on the command line, and of the files
   std::string doc;        // one line for the list
-  std::string title;      // of the report and the plot
-  std::string caption;    // of the plot
+  std::string title;      // title of the report and the plot
+  std::string caption;    // caption of the plot
   std::string paragraph;  // the thesis' statement, its place, and how it was measured; with fields
   std::variant<OrderFigure, CacheFigure, FrameFigure, LagFigure> figure;
 

@@ -22,7 +22,7 @@ struct PathError {
   double delay_ns = undefined;                                        // mean over paired paths
   // Distances of the centroids of the two clouds of path vertices, without ends: equation 6.3 of the thesis.
   double l1_m = undefined, l2_m = undefined;
-  double mean_path_length_m = undefined;  // of the reference: errors in metres are compared with it
+  double mean_path_length_m = undefined;  // mean of the reference: errors in metres are compared with it
   double l1_relative = undefined, l2_relative = undefined;
 };
 

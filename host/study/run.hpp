@@ -40,7 +40,7 @@ struct Findings {
   DeviceSummary device;
   size_t points = 0, planned = 0;    // measured and requested points; nothing is written if none was measured
   std::string table{}, script{};     // contents of NAME.csv and NAME.gp
-  Words words{};                     // of the report
+  Words words{};                     // text of the report
   std::vector<std::string> notes{};  // lines of the report that say how it was measured
 };
 

@@ -14,7 +14,7 @@ std::vector<const Experiment*> thesis_experiments();
 
 struct ThesisPage {
   Heading heading;
-  std::vector<CacheRow> rows;  // of all studies, the reference first in each
+  std::vector<CacheRow> rows;  // rows of all studies, the reference first in each
   std::string svg;             // speed against error
   std::vector<Section> figures;
 };

@@ -26,7 +26,7 @@ struct ViewPage {
   std::string html;  // ASCII
   size_t frames = 0;
   uint64_t paths = 0;                 // number of paths on the page
-  std::vector<std::string> warnings;  // what is missing or was left out; the page shows them too
+  std::vector<std::string> warnings;  // missing or omitted parts; the page shows them too
 };
 
 // Throws ConfigError if the run has no frame between those two, InputError if its file is damaged.

@@ -79,7 +79,7 @@ class ElementModel {
 
  private:
   struct End {
-    std::vector<glm::dvec3> positions_m;  // of elements
+    std::vector<glm::dvec3> positions_m;  // positions of elements
     uint32_t ports = 1;
   };
   friend class ElementLink;
@@ -89,7 +89,7 @@ class ElementModel {
   std::vector<Instance> instances_;
   std::vector<End> transmitters_, receivers_;
   std::vector<double> carriers_hz_;
-  bool plane_ = false;  // whether wavefronts are plane
+  bool plane_ = false;  // wavefronts are plane
 };
 
 }  // namespace wavetracer

@@ -17,8 +17,8 @@ struct CacheEntryRows {
   std::vector<uint32_t> hits;    // answers since the region was cleared
   std::vector<uint32_t> age;     // frames since it was written: 0 in the frame that wrote it
   std::vector<double> length_m;  // length of the segment; infinite if the ray hit nothing
-  std::vector<uint32_t> read_cycles;   // of the last answer; 0: no answer yet, or a device without a clock
-  std::vector<uint32_t> write_cycles;  // of the last write
+  std::vector<uint32_t> read_cycles;   // clock cycles of the last answer; 0: no answer yet, or a device without a clock
+  std::vector<uint32_t> write_cycles;  // clock cycles of the last write
 
   size_t size() const { return slot.size(); }
 };

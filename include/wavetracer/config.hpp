@@ -102,7 +102,7 @@ struct TrajectoriesConfig {
   std::string file;                         // a format of motion/read.hpp
   std::string generate;                     // arguments of `wavetracer scene city` about vehicles, instead of a file
   std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of `file` + offset_m
-  double scale = 1;                         // of positions in `file`
+  double scale = 1;                         // factor of positions in `file`
   HeightAbove above = "zero";  // reference of heights in `file`; for a file in degrees it is always the ground
   bool persons = false, containers = false;
   std::string default_type;  // vehicle type of vehicles whose type is unknown; empty: such a vehicle is an error
@@ -122,7 +122,7 @@ struct ParkedConfig {  // [[parked]]: vehicles that stand in all frames
   std::string file;    // CSV with a header that names the columns x, y and optionally z, yaw, type
   std::vector<std::array<double, 4>> places;  // x, y, z, yaw in degrees; file coordinates of the scene
   std::string type = "passenger";             // used where the file names none
-  bool mounts = false;                        // whether [[mount]] entries put antennas on them, too
+  bool mounts = false;                        // true if [[mount]] entries put antennas on them, too
 };
 
 // The bodies of vehicles that are built in (else: a mesh file).
@@ -225,7 +225,7 @@ struct CacheConfig {
   CacheLocking locking = "readers";  // only for an open table
   uint32_t readers_number = 5;       // open, readers: an entry must be renewed after this many reads
   CachePurging purge = "position";
-  double position_step_m = 0.1;     // of the transmitter's position key
+  double position_step_m = 0.1;     // step of the transmitter's position key
   double residual_value = 0.0125;   // precision: largest L1 distance of origins and directions
   CacheScope scope = "static";      // static: vehicles and receivers are tested every time; all: they are cached too
   CacheHitPoint hit_point = "own";  // of an answered ray: own (its line meets the surface), cached (of the other ray)
@@ -253,7 +253,7 @@ struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type
 };
 
 struct LiveConfig {                      // [live]: what `wavetracer serve` accepts
-  double margin_m = 100;                 // how far vehicles may be outside of the scene's box
+  double margin_m = 100;                 // largest distance of vehicles from the scene's box
   uint32_t max_clients = 8;              // connections that have said hello
   uint32_t max_strangers = 8;            // connections that have not said hello
   uint64_t max_message_bytes = 1048576;  // limit of one line

@@ -94,7 +94,7 @@ struct FrameResult {
   uint32_t frame = 0;
   WorldState world;
   Paths paths;
-  std::vector<CarrierFields> carriers;  // of radio.frequencies_hz, without the first
+  std::vector<CarrierFields> carriers;  // fields at radio.frequencies_hz, without the first
   Responses responses;                  // with response.bandwidth_hz
   BeamRows beams;                       // with array.codebook
   FrameCounts counts;
@@ -104,7 +104,7 @@ struct FrameResult {
   KernelTimes kernels;   // for the device stages, in the same frames
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
-  WaypointRows waypoints;        // of output.waypoints samples per transmitter
+  WaypointRows waypoints;        // waypoints of output.waypoints samples per transmitter
   CacheEntryRows cache_entries;  // with output.cache_entries
   std::vector<std::string> warnings;
   MissingLinks missing;  // set by Simulation::explain_missing, else empty

@@ -10,7 +10,7 @@ namespace wavetracer {
 struct LateCounts {
   uint64_t discoveries = 0;   // number of frames that were measured; 0: nothing is known
   uint64_t paths = 0;         // paths that the earlier sequences did not give
-  double power = 0, all = 0;  // of these paths, and of all paths of these frames
+  double power = 0, all = 0;  // power of these paths, and of all paths of these frames
   double largest_share = 0;   // largest share of power in all, over frames
 
   void add(const LateCounts& more) {

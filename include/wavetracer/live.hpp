@@ -55,11 +55,11 @@ struct LiveTraffic {
     std::optional<glm::dvec3> velocity_m_s = {};  // given, or computed from two poses
   };
   using Vehicles = std::map<std::string, Vehicle, std::less<>>;  // by id
-  Vehicles vehicles;                                             // of the last frame
-  double time_s = 0;                                             // of the last frame
+  Vehicles vehicles;                                             // vehicles of the last frame
+  double time_s = 0;                                             // time of the last frame
   uint32_t frames = 0;      // number of frames computed so far, which is the number of the next frame
-  Vehicles earlier;         // of the frame before the last one
-  double earlier_s = 0;     // of the frame before the last one
+  Vehicles earlier;         // vehicles of the frame before the last one
+  double earlier_s = 0;     // time of the frame before the last one
   DiscoveryMark discovery;  // see trace.discover_every_s
 };
 

@@ -16,9 +16,10 @@ struct MissedCounts {
   // [k]: paths that depend on rays and that k + 1 quarters found; [0] also counts paths that no quarter found alone,
   // because their parts come from different quarters.
   std::array<uint64_t, 4> paths{};
-  std::array<double, 4> powers{};  // of these
-  double amplitude = 0;  // of these, sum of |a|: it is typical even if a few paths are much stronger than all others
-  double power = 0;      // of all paths
+  std::array<double, 4> powers{};  // power of these paths
+  // Sum of |a| over these paths: it is typical even if a few paths are much stronger than all others.
+  double amplitude = 0;
+  double power = 0;  // power of all paths
 };
 // low to high: the 95% confidence interval.
 struct MissedRange {

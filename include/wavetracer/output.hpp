@@ -17,7 +17,7 @@ namespace wavetracer {
 struct InputFile {
   std::string name;  // the key that names it; for a file that another file names, also its path: "scene.file: a.ply"
   std::string file;
-  uint64_t bytes = 0, hash = 0;  // of its content
+  uint64_t bytes = 0, hash = 0;  // length and hash of its content
   bool operator==(const InputFile&) const = default;
 };
 
@@ -31,7 +31,7 @@ struct RunSummary {
   std::string command_line;
   std::vector<InputFile> inputs;
   uint64_t frames_asked = 1;
-  uint32_t repeat_count = 1;          // how often each frame was computed; its seconds are medians
+  uint32_t repeat_count = 1;          // number of times that each frame was computed; its seconds are medians
   std::vector<std::string> warnings;  // warnings of the run; frames have their own
 };
 

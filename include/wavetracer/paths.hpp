@@ -17,7 +17,7 @@ constexpr uint32_t no_instance = 0xFFFFFFFFu;
 // added. A diffracted wave near a shadow boundary belongs to the wave that ends there, with a weight that falls with
 // the distance from the boundary. The power of a link is the sum over its groups g and pairs of ports of |sum over
 // paths i of w_ig a_i exp(-j 2 pi f tau_i)|^2, with the weights w; squares of the weights of a path add up to 1.
-constexpr size_t most_groups = 4;  // of a path
+constexpr size_t most_groups = 4;  // largest number of groups of a path
 constexpr uint32_t no_group = 0xFFFFFFFFu;
 // Numbers within the link, 0, 1, 2 ... in the order of its rows; the one with the largest weight comes first, and the
 // last ones may be no_group with weight 0.

@@ -102,8 +102,8 @@ struct LoadReport {
   uint64_t nonmanifold_edges = 0;   // more than two faces
   uint64_t free_edges = 0;          // one face
   // Pieces of edges at which nothing diffracts (host/scene/scene_wedges.hpp), not counting edges that are flat:
-  uint64_t flat_pieces = 0;    // of two faces in one plane
-  uint64_t corner_pieces = 0;  // of three or more faces with right angles between them, such as the foot of a wall
+  uint64_t flat_pieces = 0;    // pieces with two faces in one plane
+  uint64_t corner_pieces = 0;  // pieces with three or more faces at right angles, such as the foot of a wall
   uint64_t ground_rims = 0;    // free edges at the rim of a scene's ground (host/scene/ground_rims.hpp)
   std::vector<std::string> warnings;
 };

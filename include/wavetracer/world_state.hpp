@@ -56,7 +56,7 @@ struct DiscoveryMark {
 
 // The properties of an instance that do not change with time.
 struct Instance {
-  std::string id, type;  // of the vehicle, as in its trajectory
+  std::string id, type;  // id and type of the vehicle, as in its trajectory
   uint32_t model = 0;    // index into the models of the world
   // Its surfaces and wedges are those of its model, numbered from here on; those of the static scene come first.
   uint32_t first_surface = 0;

@@ -29,7 +29,7 @@ def _float(value: float) -> str:
 def text_of(value: Any, where: str) -> str:
     """One value in TOML. `where` is the key that it belongs to, for messages."""
     if type(value).__module__ == "numpy" and hasattr(value, "tolist"):
-        value = value.tolist()  # of an array a list, of a number one of Python's; NumPy itself is not needed here
+        value = value.tolist()  # an array becomes a list, a number one of Python's; NumPy itself is not needed here
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):

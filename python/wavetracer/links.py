@@ -26,7 +26,7 @@ class Ends:
     transmitters: tuple[str, ...]
     receivers: tuple[str, ...]
     frequency_hz: float
-    tx_elements: tuple[int, ...] = ()  # of the array of each; empty: one each
+    tx_elements: tuple[int, ...] = ()  # elements of each array; empty: one each
     rx_elements: tuple[int, ...] = ()
     carriers_hz: tuple[float, ...] = ()
 

@@ -8,10 +8,10 @@ namespace wavetracer::test {
 namespace {
 
 struct Bend {
-  double exterior_deg;  // of the free space between the faces
+  double exterior_deg;  // angle of the free space between the faces
   std::string material = "metal";
   double hz = frequency_hz;
-  double scale = 1;    // of all lengths; 1: the source stands 8 m from the edge, receivers 5 m
+  double scale = 1;    // factor of all lengths; 1: the source stands 8 m from the edge, receivers 5 m
   bool lying = false;  // a horizontal edge
 };
 

@@ -61,7 +61,7 @@ HardCases drives(const std::string& device) {
   for (uint32_t frame = 0; frame < frames; ++frame) drive.push_back(simulation.run_frame(frame).paths);
 
   double worst_cycles = 0, worst_jump = 0;
-  size_t ends = 0, other_changes = 0;  // of the direct path, and of all others, coming or going
+  size_t ends = 0, other_changes = 0;  // changes of the direct path, and of all others, coming or going
   std::vector<Response> h{past_the_edge(drive[0])};
   for (uint32_t frame = 1; frame < frames; ++frame) {
     const Paths &before = drive[frame - 1], &after = drive[frame];

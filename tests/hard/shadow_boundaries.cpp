@@ -7,8 +7,9 @@
 namespace wavetracer::test {
 namespace {
 
-constexpr double radius_m = 5, skew_m = -1;  // of receivers, from the edge and along it
-constexpr double turned_rad = 0.37;          // of the whole scene about the edge: nothing is round in float32
+constexpr double radius_m = 5, skew_m = -1;  // place of receivers, from the edge and along it
+// Rotation of the whole scene about the edge, so that no coordinate is exact in float32.
+constexpr double turned_rad = 0.37;
 
 glm::dvec3 at_azimuth(double rho_m, double azimuth_rad, double z_m) {
   return {rho_m * std::cos(azimuth_rad + turned_rad), rho_m * std::sin(azimuth_rad + turned_rad), z_m};

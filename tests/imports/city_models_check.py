@@ -229,7 +229,7 @@ def main():
         files.append(FOLDER / f"town_{code}.city.json")
         cj(second, "crs_reproject", code, "save", files[-1])
     files += [in_degrees(second, True), in_degrees(second, False)]
-    scale = 1.0  # of areas: the scene's projection is true to scale in its middle, UTM's is not
+    scale = 1.0  # factor of areas: the scene's projection is true to scale in its middle, UTM's is not
     x = pyproj.Proj("EPSG:25832").get_factors(*pyproj.Proj("EPSG:25832")(EAST, NORTH, inverse=True))
     scale /= x.areal_scale
     for file in files:

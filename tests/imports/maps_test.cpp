@@ -140,7 +140,7 @@ double hills_m(double x, double y) {
 // A raster of hills about the middle in UTM, written as text and made a GeoTIFF by gdal_translate.
 struct HillRaster {
   fs::path file;
-  glm::dvec2 corner;  // of the first pixel, lower left
+  glm::dvec2 corner;  // corner of the first pixel, lower left
   Projection utm{{"+proj=utm +zone=32 +ellps=WGS84 +units=m", {0, 0}, {}, {}}};
 
   explicit HillRaster(const TemporaryFolder& folder) {

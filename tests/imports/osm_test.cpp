@@ -263,7 +263,8 @@ TEST_CASE("trees, rows and woods are volumes of leaves where they are asked for,
   CHECK(summary.guessed.at("wood without a height: 15 m used") == 1);
   REQUIRE(scene.volumes.size() == 6);
   CHECK(scene.triangles.size() == without.scene.triangles.size());
-  std::map<std::string, std::pair<size_t, double>> found;  // of each material: volumes, and their cubic metres
+  // For each material the number of volumes, and their cubic metres.
+  std::map<std::string, std::pair<size_t, double>> found;
   double top = 0;
   for (const Volume& volume : scene.volumes) {
     double six = 0;

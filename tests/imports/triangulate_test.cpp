@@ -61,7 +61,7 @@ void check_triangles(Polygon polygon) {
     CHECK(count == 1);
     inner += edges.count({edge.second, edge.first});
   }
-  CHECK(edges.size() == border + inner);     // what is no border has its opposite
+  CHECK(edges.size() == border + inner);     // every inner edge has its opposite
   for (const auto& [edge, count] : edges) {  // diagonals stay inside
     for (size_t i = 0; i <= polygon.holes.size(); ++i) {
       const Ring& r = i == 0 ? polygon.outer : polygon.holes[i - 1];

@@ -84,7 +84,7 @@ TEST_CASE(
   const auto files_of = [&](uint64_t index) {
     return folder.path() / "shards" / (unit_name(cut_units.at(index)) + ".h5");
   };
-  const auto known = [&] {  // of() ends it, so each question has an object of its own
+  const auto known = [&] {  // each call of of() ends it, so each question has an object of its own
     MergeAhead asked(sample.config, cut_units, folder.path());
     asked.look();
     std::vector<fs::path> parts;

@@ -49,7 +49,7 @@ struct Growing {
     groups[0].tables[0].take(parts.size() - 1, 0, rows_of_part);
     groups[0].tables[1].take(parts.size() - 1, 4 * rows_of_part, rows_of_part + 1, offsets.back());
   }
-  Pieces pieces;  // of the last write()
+  Pieces pieces;  // pieces of the last write()
   fs::path write(const std::string& name, const PackedAhead* ahead) {
     PendingFile out(folder.path() / name);
     hdf5::File head;

@@ -70,7 +70,7 @@ TEST_CASE("each limit leaves out what its key says, link by link") {
   CHECK(kept(limits(none, 10, {})) == Rows{0, 2, 3, 4});
   CHECK(kept(limits(none, 0, {})) == Rows{0, 4});
   CHECK(kept(limits(none, none, 1)) == Rows{0, 4});
-  CHECK(kept(limits(none, none, 2)) == Rows{0, 2, 4, 5});  // of two as strong the first
+  CHECK(kept(limits(none, none, 2)) == Rows{0, 2, 4, 5});  // the first of two equally strong paths is kept
   CHECK(kept(limits(-75, none, 2)) == Rows{0, 2});
   CHECK(kept(limits(0, none, {})).empty());
 }

@@ -1,5 +1,5 @@
 // Mixed operations on a table of the ray cache, all at once, and the content of the table afterwards, compared with a
-// model that runs in sequence: for tests and bench_cache. Whatever the order of the operations was, every count of
+// model that runs in sequence: for tests and bench_cache. For every order of the operations, each count of
 // MixedFaults is 0.
 #pragma once
 #include <algorithm>

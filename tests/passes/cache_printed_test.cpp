@@ -76,7 +76,7 @@ TEST_CASE("printed tables: hashes and buckets are those of the listings") {
       }
     }
   }
-  CHECK(wt_thesis_bucket(0x7FFFFFFF, 0xFFFFFFF0u) < 0xFFFFFFF0u);  // where float rounds up
+  CHECK(wt_thesis_bucket(0x7FFFFFFF, 0xFFFFFFF0u) < 0xFFFFFFF0u);  // float rounds up here
 }
 
 TEST_CASE("thesis: the open table answers as listing C.3, by position and by precision") {

@@ -60,7 +60,7 @@ class CacheProbe {
   struct Outcome {
     uint32_t puts, finds, hits, wrong;
     std::vector<uint32_t> slots;  // a key: what a put of it returned, or WT_NONE
-    double seconds;               // of the kernel, by the device's clock
+    double seconds;               // time of the kernel, by the device's clock
   };
   Outcome mixed(uint64_t operations, uint32_t universe) {
     auto slots = no_slots(universe);

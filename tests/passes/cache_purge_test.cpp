@@ -149,7 +149,7 @@ TEST_CASE("entries that answer are touched where that is asked for, and purge go
     cache.counters();
     cache.purge(4);
     CHECK(cache.counters().evicted == kept - touched.size());
-    CHECK(cache.find(touched).count() == touched.size());  // which share no slot
+    CHECK(cache.find(touched).count() == touched.size());  // they share no slot
     CHECK(cache.find(std::span(rays).subspan(200)).count() == 0);
     cache.put(rays, std::vector<Hit>(rays.size(), {2, 2, 2}));
     if (kind == "concurrent") CHECK(cache.find(rays).count() == rays.size());
@@ -163,7 +163,7 @@ TEST_CASE("cache_purge clears a chained region when more than half of it is old"
   cache.now = 2;
   cache.put(late, hits_of(100));
   cache.touch = true;
-  std::vector<CachedRay> touched;  // of region 0, 100 of 150
+  std::vector<CachedRay> touched;  // 100 of 150 rays in region 0
   for (uint32_t i = 0; i < 200; i += 2) touched.push_back(early[i]);
   CHECK(cache.find(touched).count() == 100);
   cache.touch = false;

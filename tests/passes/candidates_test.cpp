@@ -88,7 +88,7 @@ TEST_CASE("receivers in groups: every one once, in groups of 16 that are halves 
     std::vector<float> positions;
     for (size_t i = 0; i < 3 * count; ++i) positions.push_back(static_cast<float>(random.between(-100, 100)));
     std::vector<uint32_t> order = grouped(positions);
-    double sizes = 0;  // of the groups' boxes
+    double sizes = 0;  // sum of the sizes of the groups' boxes
     for (size_t first = 0; first + 16 <= count; first += 16)
       for (size_t axis = 0; axis < 2; ++axis) {
         float lower = 100, upper = -100;
@@ -98,7 +98,7 @@ TEST_CASE("receivers in groups: every one once, in groups of 16 that are halves 
         }
         sizes += upper - lower;
       }
-    if (count == 1000) CHECK(sizes / 2 / 62 < 80);  // of a cube of 200 m; its 63rd part is a cube of 50 m
+    if (count == 1000) CHECK(sizes / 2 / 62 < 80);  // the points fill a cube of 200 m; its 63rd part is a cube of 50 m
     std::ranges::sort(order);
     for (uint32_t i = 0; i < count; ++i) CHECK(order[i] == i);
   }

@@ -230,7 +230,7 @@ TEST_CASE(
   for (size_t slot = 0; slot < step.table.size(); ++slot)
     if (step.table[slot] != WT_EMPTY) kinds.insert(found[step.table[slot]] = step.quarters[slot]);
   CHECK(found == expected);
-  CHECK(kinds.size() > 5);  // of the 15 there are
+  CHECK(kinds.size() > 5);  // 15 kinds exist
 }
 
 TEST_CASE("what its options need and nobody gives is refused") {

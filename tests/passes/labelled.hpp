@@ -10,7 +10,7 @@ namespace wavetracer::test {
 struct LabelledRay {
   Ray ray;
   uint32_t sample = 0, transmitter = 0;
-  Hit hit;  // of its segment
+  Hit hit;  // hit of its segment
 };
 
 inline RayQueue upload_labelled(const std::vector<LabelledRay>& rays) {

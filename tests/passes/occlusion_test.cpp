@@ -135,7 +135,7 @@ TEST_CASE("a vertex is on the surfaces that its step names, and on no other surf
   occlusion(uploaded, ends_of(rows), list, counters, nullptr, {&wedges, &tiles});
   std::vector<bool> blocked;
   for (const PathRow& row : download_rows(list)) blocked.push_back(row.blocked);
-  // Behind wall 0 by 10 mm, by 0.05 mm and in its plane. What lies in one plane with a surface of the step, to 0.1 mm,
+  // Behind wall 0 by 10 mm, by 0.05 mm and in its plane. A surface in one plane with a surface of the step, to 0.1 mm,
   // counts as that surface; the faces of edge 1 are parallel to wall 0 here. Tile 2 is a cell of vegetation.
   const std::vector<bool> none{false, false, false}, far{true, false, false}, third{true, true, false};
   std::vector<bool> expected;

@@ -62,7 +62,7 @@ Nearest nearest(const LabelledRay& r, const glm::dvec3& p) {
   return {along, glm::distance(p, o + along * d)};
 }
 
-constexpr double rounding_m = 1e-5;  // of a float32 distance over some 20 m
+constexpr double rounding_m = 1e-5;  // rounding of a float32 distance over some 20 m
 
 // (ray, receiver) of receptions, with a check of everything else that they say.
 std::map<std::pair<uint32_t, uint32_t>, float> pairs_of(const Case& c, const std::vector<wt_reception>& list,

@@ -150,7 +150,7 @@ TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, 
       return nodes;
     };
     const std::vector<uint32_t> after_exchanges = listed(count);
-    CHECK((listed(set.collect(2)) == after_exchanges));  // what is new is listed, once
+    CHECK((listed(set.collect(2)) == after_exchanges));  // new sequences are listed once
     CHECK(contents(set, 2) == with_prefixes(expected));
   }
 }
@@ -195,6 +195,6 @@ TEST_CASE(
     CHECK(found_by({1, 2, 0}) == 0b110);  // one from 1 0 2 and from 2 1 0
     CHECK(found_by({2, 1, 0}) == 0b100);
     CHECK(found_by({2, 0, 1}) == 0b100);
-    CHECK(found_by({1, 2}) == 0b110);  // of the prefix of 1 2 0, and exchanged from 2 1
+    CHECK(found_by({1, 2}) == 0b110);  // quarters of the prefix of 1 2 0, and exchanged from 2 1
   }
 }

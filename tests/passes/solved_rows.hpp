@@ -77,8 +77,8 @@ struct Crossing {
 };
 
 // Returns the surfaces between two points, in order, if nothing touches: those with both points farther than 0.1 mm
-// from their plane, on opposite sides, but not `source` and `goal`. Of such in one place and plane the first of the
-// scene stays.
+// from their plane, on opposite sides, but not `source` and `goal`. If several lie in one place and plane, the first of
+// the scene stays.
 inline std::vector<Crossing> crossings(const Scene& scene, const glm::dvec3& from, const glm::dvec3& to,
                                        uint32_t source = WT_NONE, uint32_t goal = WT_NONE) {
   std::vector<Crossing> out;

@@ -157,7 +157,7 @@ class OpenTable {
     Point nextOrigin{};
     int writeLock = 0, readLock = 0;
     uint32_t readN = 0;
-    bool used = false;  // what an unused node holds is not said; here it is no answer
+    bool used = false;  // the listing does not define an unused node; here it is no answer
   };
 
   OpenTable(int buckets, uint32_t readers, float residual)

@@ -28,8 +28,8 @@ class Walk {
 
   std::multiset<uint32_t> instances;  // those of the leaves
   size_t deepest = 0;                 // inner nodes on the longest way down
-  double half_areas = 0;              // of the boxes of inner nodes, but the root
-  double worst_gap_m = 0;             // how far a corner of an instance lies outside of a box above it
+  double half_areas = 0;              // sum over the boxes of inner nodes except the root
+  double worst_gap_m = 0;             // largest distance of an instance's corner outside of a box above it
   double most_slack_m = 0;            // by which the box of a leaf is larger than it need be
 
  private:

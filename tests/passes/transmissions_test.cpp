@@ -106,7 +106,7 @@ TEST_CASE("walls 1 mm apart are two, in the order of the leg, also half a kilome
 }
 
 TEST_CASE("walls nearer each other than float32 tells apart are in order too") {
-  const glm::dvec3 far{3000, 20, 30};  // where 0.24 mm are one unit in the last place
+  const glm::dvec3 far{3000, 20, 30};  // 0.24 mm are one unit in the last place there
   std::vector<Quad> walls{wall(0.00045), wall(0.0003), wall(0.00015), wall(0)};
   for (Quad& w : walls) w.corner += far;
   const glm::dvec3 a = far + glm::dvec3{-3, 0.1, 0.2}, b = far + glm::dvec3{3, 0.3, -0.4};

@@ -30,7 +30,7 @@ std::vector<Corners> open_room() {
 struct Polyline {
   std::vector<glm::dvec3> points;
   bool out = false;
-  double nearest_edge_m = half_m;  // of all points: there, rounding decides
+  double nearest_edge_m = half_m;  // distance from all points: near an edge rounding decides
 };
 
 Polyline follow(glm::dvec3 p, glm::dvec3 d, uint32_t reflections) {

@@ -228,7 +228,7 @@ TEST_CASE("reflections before and after: the edge is met where the images' strai
 
 TEST_CASE("what is no path: ends on the edge's line or in the solid, reflections at the wedge's own faces, corners") {
   const Scene scene = box_and_panels();
-  const glm::dvec3 upper{1.7, 2.4, 4.1};  // of the box
+  const glm::dvec3 upper{1.7, 2.4, 4.1};  // upper corner of the box
   // Wedge 3 is the edge along z between the walls x upper (1) and y upper (3).
   const Wedge& w = scene.wedges[3];
   REQUIRE(w.surface == std::array<uint32_t, 2>{1, 3});

@@ -107,7 +107,8 @@ TEST_CASE("where strong paths are easy to find, the power is that of paths which
   }
   CAPTURE(near);
   CHECK(launches == 200);
-  CHECK(near >= 0.7 * launches);  // of the mean of all that one or two quarters found: a fifth of the launches
+  // Compared with the mean of all launches that one or two quarters found: a fifth of them.
+  CHECK(near >= 0.7 * launches);
 }
 
 TEST_CASE("the estimate of the formula, by hand") {

@@ -157,7 +157,7 @@ TEST_CASE("hints decide the side where rounding cannot, and only there") {
     double out;
     LitSides yes, no;
   };
-  const double mirror_out = 2 * pi - 2.0;  // of a source at 2.0: face 1 reflects until 3 pi - pi - 2.0
+  const double mirror_out = 2 * pi - 2.0;  // for a source at 2.0: face 1 reflects until 3 pi - pi - 2.0
   for (const Case& c : {Case{in + pi, {true, {}}, {false, {}}}, Case{pi - in, {{}, {true, {}}}, {{}, {false, {}}}}}) {
     for (const double off : {-1e-9, 0.0, 1e-9}) {
       const Matrix2 yes = coefficient(c.out + off, c.yes), no = coefficient(c.out + off, c.no);

@@ -19,7 +19,8 @@ using glm::dvec3;
 
 using Points = std::vector<dvec3>;
 
-constexpr double corner_tolerance = 1e-9;  // of coordinates: reflections so near to each other happen in one point
+// Relative to coordinates: reflections so near to each other happen in one point.
+constexpr double corner_tolerance = 1e-9;
 
 // Reflections in a row, as one end sees them. image[k]: the end mirrored by the first k surfaces.
 struct Chain {

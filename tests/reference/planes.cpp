@@ -11,11 +11,11 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double border_tolerance = 1e-9;    // of a triangle's longest side
+constexpr double border_tolerance = 1e-9;    // relative to a triangle's longest side
 constexpr double parallel_tolerance = 1e-4;  // sine of the angle between planes that count as one
 
 constexpr double front_m = 5e-4;             // in front of what it is on a leg begins
-constexpr double position_tolerance = 1e-9;  // of coordinates: what an interaction is off by
+constexpr double position_tolerance = 1e-9;  // relative to coordinates: the error of an interaction's position
 
 bool inside_triangle(const std::array<dvec3, 3>& corner, const dvec3& point) {
   const dvec3 normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));

@@ -33,7 +33,7 @@ struct Stop {
   glm::dvec3 point{0};
   bool antenna = true;            // else an interaction
   std::vector<uint32_t> on = {};  // the surfaces that it is on: of a reflection one, of a wedge two
-  glm::dvec3 front{0};            // of an interaction on surfaces: a unit vector from them towards the leg
+  glm::dvec3 front{0};            // for an interaction on surfaces: a unit vector from them towards the leg
 };
 
 // Returns the surfaces between a and b, nearest to a first; `before` is the point before a on the path, or a. Three

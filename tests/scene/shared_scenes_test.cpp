@@ -65,7 +65,7 @@ TEST_CASE("munich") {
   CHECK(scene.report.free_edges == 7373);
   CHECK(scene.report.nonmanifold_edges == 13);
   CHECK(scene.surfaces.size() > 17000);
-  CHECK(scene.surfaces.size() < 17432);  // what merging without the rule for slivers gives
+  CHECK(scene.surfaces.size() < 17432);  // the number without the rule for slivers
   CHECK(scene.materials.size() == 5);
   REQUIRE(scene.report.warnings.size() == 1);  // marble facades and metal ones lie on each other
   CHECK(scene.report.warnings[0].starts_with("surfaces of marble and metal lie on each other in one plane, on 442 m2"));

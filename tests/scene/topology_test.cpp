@@ -226,7 +226,7 @@ TEST_CASE("a fine cylinder does not drift into one surface; a sliver joins its w
   wall.triangles.push_back({3, 2, 4});
   const Scene s = build({wall});
   CHECK(s.surfaces.size() == 1);
-  CHECK(s.surfaces[0].normal == dvec3(0, 1, 0));  // of the large triangles, whatever the strip says
+  CHECK(s.surfaces[0].normal == dvec3(0, 1, 0));  // the normal of the large triangles, whatever the strip's is
 }
 
 TEST_CASE("normals do not depend on the winding, ids not on anything but the lowest triangle") {

@@ -145,7 +145,7 @@ inline void check_contract(const Scene& s, double touching_m = 1e-9) {
     CHECK(w.exterior_rad <= 2 * pi);
     CHECK(is_free(w) == (w.exterior_rad == 2 * pi));
     const double radius_m = 0.01;
-    const dvec3 on_edge = w.start + w.along * (w.length_m * 0.37);  // where no other face crosses the edge
+    const dvec3 on_edge = w.start + w.along * (w.length_m * 0.37);  // no other face crosses the edge there
     const auto at = [&](double azimuth) {
       return on_edge + (w.face * std::cos(azimuth) + w.normal * std::sin(azimuth)) * radius_m;
     };

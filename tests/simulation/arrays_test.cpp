@@ -117,8 +117,8 @@ Config traced_mounts(Config config) {
 
 struct PhaseErrors {
   size_t compared = 0;   // pairs of elements, of all paths
-  size_t moving = 0;     // of them those that vehicles turn
-  double worst_rad = 0;  // of the phase of the delay at the carrier
+  size_t moving = 0;     // number of them that vehicles turn
+  double worst_rad = 0;  // largest error of the phase of the delay at the carrier
 };
 
 // kinds: of the interactions of the paths that are compared.

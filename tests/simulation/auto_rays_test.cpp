@@ -21,7 +21,7 @@ TEST_CASE("what four million rays find, for a fraction of the rays") {
   CAPTURE(plain.paths.size());
   CAPTURE(refined.paths.size());
   CHECK(static_cast<double>(missing(plain.paths, refined.paths)) <= 0.01 * static_cast<double>(plain.paths.size()));
-  CHECK(refined.counts.rays < 2 * 200000);  // of both transmitters
+  CHECK(refined.counts.rays < 2 * 200000);  // rays of both transmitters
 }
 
 TEST_CASE("a launch that ends before its recall says so, and why, once a drive") {
@@ -73,7 +73,7 @@ TEST_CASE("a launch that begins again, because its set of sequences had to grow,
   const FrameResult result = run(config);
   CHECK(result.counts.sequences > 2 * 262144);  // more than the set begins with
   CHECK(result.counts.rays <= 8 * config.trace.max_rays);
-  CHECK(result.segments_per_depth[0] > result.counts.rays);  // what was traced, however often
+  CHECK(result.segments_per_depth[0] > result.counts.rays);  // segments are counted as often as they were traced
 }
 
 TEST_CASE("more recall takes more rays and loses no path") {

@@ -216,7 +216,7 @@ TEST_CASE("a town of rounded cells, order 3: its walls are surfaces") {
     const std::vector<Quad> quads = town(2, 2, seed);
     const RoundedFile file(quads, 3);
     const Simulation simulation(config_of(file.path(), {{0.4, 14.1, 4.3}}, {{1, 2, 3}}, 1000, 1));
-    CHECK(simulation.scene().surfaces.size() == quads.size());  // of 1,200 triangles
+    CHECK(simulation.scene().surfaces.size() == quads.size());  // the scene has 1,200 triangles
     Random random(seed + 10);
     Points receivers;
     for (int i = 0; i < 12; ++i)

@@ -77,7 +77,7 @@ TEST_CASE("innerframe, exact keys: the paths of no cache, for every table, while
 TEST_CASE("innerframe: one ray of a cell is traced, and cells are as many as the sphere of directions meets") {
   const SceneFile file(street());
   Config config = street_with_cars(file, 50000);
-  config.tracks.clear();  // what left a car is traced alone
+  config.tracks.clear();  // rays that leave a car are traced alone
   config.cache.kind = "concurrent";
   config.cache.hit_point = "cached";
   for (const uint32_t division : {10u, 40u}) {

@@ -260,7 +260,7 @@ TEST_CASE("the thesis' tables as printed: warned of; answers of other keys lose 
       refused += frame.cache.conflicts;
     }
     if (kind.locking == "mutex" && answered > refused) CHECK(lost(cached, plain) > plain[0].counts.paths / 10);
-    CHECK(lost(plain, cached) <= plain[0].counts.paths / 10);  // what is found is solved exactly all the same
+    CHECK(lost(plain, cached) <= plain[0].counts.paths / 10);  // paths that are found are solved exactly all the same
     CHECK(warned());
   }
   config.cache.kind = "open";

@@ -127,7 +127,7 @@ TEST_CASE("a ball of leaves scatters no more than it takes, and most of it where
     double mean = 0;
     for (uint32_t rx = 0; rx < around.size(); ++rx) mean += scattered_power(paths, rx) / 24;
     const double out = mean * 16 * pi * pi * far * far / (wavelength_m * wavelength_m);
-    double taken = 0;  // of what the transmitter sends, by the length of chords
+    double taken = 0;  // power taken from the transmitter's, by the length of chords
     const double widest = std::asin(radius / away);
     for (int i = 0; i < 10000; ++i) {
       const double alpha = widest * (i + 0.5) / 10000, aside = away * std::sin(alpha);

@@ -12,7 +12,7 @@ using namespace wavetracer::test;
 namespace {
 
 const std::vector<double> gaps_m{0, 1e-15, 1e-13, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 9e-5, 1.1e-4, 1e-3};
-constexpr double limit_m = 1e-4;  // of radio/fields.hpp
+constexpr double limit_m = 1e-4;  // the limit of radio/fields.hpp
 
 // A ground of `size` with a wall whose foot runs along y = 20, and a slanted roof; all turned and moved as one.
 struct Place {

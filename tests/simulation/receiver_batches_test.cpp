@@ -49,7 +49,7 @@ TEST_CASE("receivers are cut into ranges that hold each of them once") {
   };
   using Cut = std::vector<std::pair<uint32_t, uint32_t>>;
   const Cut whole{{0, no_end}};
-  CHECK(cut(1000000) == whole);  // who launches no rays keeps nothing
+  CHECK(cut(1000000) == whole);  // a receiver that launches no rays keeps nothing
   CHECK(receiver_batches(trace, 10, 6).size() == 2);
   CHECK(receiver_batches(trace, 6, 6).size() == 1);
   trace.diffraction = true;
@@ -75,7 +75,7 @@ TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
     CAPTURE(batch);
     config.trace.batch_receivers = batch;
     bool within = true;
-    uint64_t least = 0, most = 0;  // of the steps that paths take
+    uint64_t least = 0, most = 0;  // bounds of the steps that paths take
     uint64_t part = 0;
     Simulation simulation(config);
     simulation.observe([&](const FrameProgress& at) {

@@ -51,8 +51,8 @@ TEST_CASE("an antenna at a node of the mesh, which goes with the body where that
   config.mounts[0].offset_m = {1, 0.5, 0.25};
   check_near(roof_of(config), {10 - 0.125 - 0.5, 20 - 0.75 + 1, 1.8125}, 1e-6);
   config.mounts[0].offset_m = {0, 0, 0};
-  config.vehicle_types[0].length_m = 8.8;  // of 4.4
-  config.vehicle_types[0].width_m = 3.6;   // of 1.8
+  config.vehicle_types[0].length_m = 8.8;  // twice 4.4
+  config.vehicle_types[0].width_m = 3.6;   // twice 1.8
   check_near(roof_of(config), {10 - 0.25, 20 - 1.5, 1.5625}, 1e-6);
 }
 

@@ -56,7 +56,7 @@ TEST_CASE("samples are spread evenly, and their rays are mirrored from wall to w
     const glm::dvec3 in = rows.position_m[i] - rows.position_m[i - 1];
     const glm::dvec3 out = rows.position_m[i + 1] - rows.position_m[i];
     const double apart = glm::distance(glm::abs(glm::normalize(in)), glm::abs(glm::normalize(out)));
-    wrong += apart > 1e-5 / std::min(glm::length(in), glm::length(out));  // of points that are right to some 1e-6
+    wrong += apart > 1e-5 / std::min(glm::length(in), glm::length(out));  // the points are right to some 1e-6
     int turned = 0;
     for (int axis = 0; axis < 3; ++axis) turned += in[axis] * out[axis] < 0;
     wrong += turned != 1;

@@ -77,7 +77,7 @@ TEST_CASE("correlate: one component agrees, one does not, one is constant") {
   CHECK(found.component.x == doctest::Approx(1));
   CHECK(std::abs(found.component.y) < 1e-12);
   CHECK(std::isnan(found.component.z));
-  CHECK(found.total == doctest::Approx(std::sqrt(0.5)));  // of the two that are defined
+  CHECK(found.total == doctest::Approx(std::sqrt(0.5)));  // over the two that are defined
   CHECK(found.pooled == doctest::Approx(36.0 / 40));      // 4 * 9 of 4 * (9 + 1)
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("hits by chance: both numbers are near 1; more even: less; crowded ent
   std::poisson_distribution<uint32_t> poisson(3);
   const EntrySummary chance = spread([&](uint32_t) { return poisson(random); });
   CHECK(chance.dispersion == doctest::Approx(1).epsilon(0.05));
-  CHECK(chance.clustering == doctest::Approx(1).epsilon(0.6));  // of 50 runs: a standard deviation of 0.2
+  CHECK(chance.clustering == doctest::Approx(1).epsilon(0.6));  // there are 50 runs: a standard deviation of 0.2
   CHECK(are_even(chance) == true);
   CHECK(is_without_clusters(chance) == true);
   const EntrySummary alike = spread([](uint32_t) { return 2u; });

@@ -133,7 +133,7 @@ TEST_CASE("coherence-rays and coherence-frames: table, plot and paragraph agree"
     const auto rows = table(folder.path("out/" + name + ".csv"));
     REQUIRE(rows.size() == (frames ? 2 * 200 * 2 : 3 * 2 * 1000));  // two depths
     const std::string report = contents(folder.path("out/" + name + ".md"));
-    std::map<std::string, std::string> first_of_last;  // of coherence-frames, by depth
+    std::map<std::string, std::string> first_of_last;  // rows of coherence-frames, by depth
     for (const auto& row : rows) {
       CHECK(number(row.at("same_surface")) >= 0);
       CHECK(number(row.at("same_surface")) <= 1);

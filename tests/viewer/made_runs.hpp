@@ -9,7 +9,7 @@ namespace wavetracer::test {
 struct MadeRun {
   uint32_t vehicles = 2, frames = 11, paths_a_link = 6;
   std::string scene = "generate = \"--seed 1 --blocks 2x2\"";  // of the configuration
-  std::string prefix = {};                                     // of all names
+  std::string prefix = {};                                     // prefix of all names
 };
 
 // Writes paths.h5 and the rest into the folder. One road-side unit sends, every vehicle sends and receives.

@@ -247,7 +247,7 @@ TEST_CASE("figures of links count the paths that output limits have left out") {
     CHECK(rows[k].paths == 100 + k);
     CHECK(rows[k].path_gain_db == -50.0 - static_cast<double>(k));
     CHECK(rows[k].los);
-    CHECK(std::isfinite(rows[k].rms_delay_spread_s));  // of the paths that are there, as the table has none
+    CHECK(std::isfinite(rows[k].rms_delay_spread_s));  // computed from the paths that are there, as the table has none
   }
 }
 

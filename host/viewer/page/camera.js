@@ -14,7 +14,7 @@ class OrbitCamera {
     this.element = element;
     this.changed = changed;
     this.pointers = new Map();
-    this.dragged = false;  // whether the pointer moved during the last press, so that it was no click
+    this.dragged = false;  // the pointer moved during the last press, so that it was no click
     element.addEventListener("pointerdown", (event) => this.press(event));
     element.addEventListener("pointermove", (event) => this.move(event));
     for (const end of ["pointerup", "pointercancel"])

@@ -19,7 +19,7 @@ class PathLines {
     this.reserve(1024);
     this.visible = new Uint32Array(0);  // rows of the frame that pass the filter
     this.segments = 0;
-    this.fade = true;  // whether clutter is faded
+    this.fade = true;  // clutter is faded
     this.faded = 0;  // number of faded paths
   }
 

@@ -44,7 +44,7 @@ class RayLines {
     this.object.add(this.lines, this.marks);
     this.object.visible = false;
     this.segments = 0;
-    this.depths = [];  // of the frame, see centroids_of
+    this.depths = [];  // centroids of the frame, see centroids_of
   }
 
   colour(rays, i, by) {
