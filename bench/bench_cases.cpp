@@ -160,8 +160,8 @@ class Bench {
         "",
         {},
         record.mean_path_share(),
-        fmt::format("{} of {} cases at recall {} or more; paths in their interval {:.0f}%, power {:.0f}%; where "
-                    "something is lost ({} cases) its power is within a factor of three {:.0f}%; {:.3g} s, "
+        fmt::format("{} of {} cases at recall {} or more; paths in their interval {:.0f}%, power {:.0f}%; "
+                    "where something is lost ({} cases) its power is within a factor of three {:.0f}%; {:.3g} s, "
                     "{:.3g} segments",
                     record.kept(), record.cases(), options_.recall, 100 * record.paths_held(),
                     100 * record.power_held(), record.losing(), 100 * record.power_near(), record.seconds(),

@@ -271,8 +271,8 @@ void run(Options options, const std::string& command) {
   const auto plates = small_place(options.shared, "triple_reflector", {0.3, 0.2, 1}, {0.5, 0.4, 1.5});
   if (!munich || !canyon || !plates)
     fmt::print(stderr,
-               "bench_features: munich, simple_street_canyon or triple_reflector is not in {}/scenes, so cases "
-               "are left out; --shared names their folder\n",
+               "bench_features: munich, simple_street_canyon or triple_reflector is not in {}/scenes, "
+               "so cases are left out; --shared names their folder\n",
                options.shared);
   const Place& main = munich ? *munich : city;
 

@@ -56,8 +56,8 @@ void measure_continuous(const std::string& name, const Config& config, double di
   line.error = mean(lost);
   const double worst = *std::max_element(lost.begin(), lost.end());
   line.detail = fmt::format(
-      "{} frames of 1 ms, rays every {} s; a frame without rays {:.4g} s (median); the worst lacks {:.2g} of the "
-      "power; "
+      "{} frames of 1 ms, rays every {} s; a frame without rays {:.4g} s (median); "
+      "the worst lacks {:.2g} of the power; "
       "late by the run itself: {} paths, {:.2g} of the power, at most {:.2g}",
       spared_s.size(), discover_every_s, median(between_s), worst, late.paths, late.power_share(), late.largest_share);
   line.extra = {{"between_s", median(between_s)},

@@ -176,8 +176,7 @@ double measure(const Drive& drive, const Setting& setting, const References& ref
                          path_recalls.back(), last.reference, last.extra(), mean(path_recalls), mean(power_recalls));
   }
   line.detail = fmt::format(
-      "{:.3g} frames/s, p95 {:.4g} s, cold frame {:.4g} s; {} links, {} paths, {} rays a "
-      "transmitter; {}; {}",
+      "{:.3g} frames/s, p95 {:.4g} s, cold frame {:.4g} s; {} links, {} paths, {} rays a transmitter; {}; {}",
       1 / median_s, p95_s, cold_s, result.world.links.size(), result.counts.paths, rays, recall, stages);
   for (const std::string& warning : result.warnings) fmt::print(stderr, "{}: {}\n", line.name, warning);
   print(line, command);

@@ -50,8 +50,8 @@ dvec3 OpenPlaces::open(const Area& area, double height_m) {
     return {x, y, to_millimetres(ground + height_m)};
   }
   throw InputError(
-      fmt::format("{}: of {} places between ({}, {}) and ({}, {}) none is open to the sky; is this a scene "
-                  "with streets?",
+      fmt::format("{}: of {} places between ({}, {}) and ({}, {}) none is open to the sky; "
+                  "is this a scene with streets?",
                   scene_.file, most_tries, area.lower_m.x, area.lower_m.y, area.upper_m.x, area.upper_m.y));
 }
 

@@ -46,8 +46,8 @@ std::vector<dvec3> street_points(const Scene& scene, dvec3 centre_m, double radi
   for (size_t tries = 0; points.size() < count; tries++) {
     if (tries > 100 * count + 1000)
       throw InputError(
-          fmt::format("{}: only {} of {} places within {} m of ({}, {}) are open to the sky at z = 0; is "
-                      "this a city with streets at z = 0?",
+          fmt::format("{}: only {} of {} places within {} m of ({}, {}) are open to the sky at z = 0; "
+                      "is this a city with streets at z = 0?",
                       scene.file, points.size(), count, radius_m, centre_m.x, centre_m.y));
     const double x = draw(centre_m.x), y = draw(centre_m.y);
     if (std::hypot(x - centre_m.x, y - centre_m.y) > radius_m) continue;

@@ -166,8 +166,8 @@ std::vector<TrackConfig> street_traffic(const Scene& scene, const StreetTraffic&
   for (size_t tries = 0; tracks.size() < traffic.vehicles; tries++) {
     if (tries > 500 * traffic.vehicles + 5000)
       throw InputError(
-          fmt::format("{}: only {} of {} vehicles find a free way of {} s within {} m of ({}, {}): drive "
-                      "fewer, shorter or in a larger part of the scene",
+          fmt::format("{}: only {} of {} vehicles find a free way of {} s within {} m of ({}, {}): drive fewer, "
+                      "shorter or in a larger part of the scene",
                       scene.file, tracks.size(), traffic.vehicles, traffic.duration_s, traffic.radius_m,
                       traffic.centre_m.x, traffic.centre_m.y));
     const dvec2 offset(draw(-traffic.radius_m, traffic.radius_m), draw(-traffic.radius_m, traffic.radius_m));

@@ -92,12 +92,12 @@ Config study_config(const InputRequest& request) {
   Config config = load_config(request.file, request.sets);
   if (!config.live_vehicles.empty())
     throw ConfigError(request.file +
-                      ": its [[live_vehicle]] tables need a client that sends poses, so nothing can be "
-                      "varied; give trajectories instead of them");
+                      ": its [[live_vehicle]] tables need a client that sends poses, so nothing can be varied; "
+                      "give trajectories instead of them");
   if (config.trace.reception == "sphere")
     throw ConfigError(request.file +
-                      ": trace.reception = \"sphere\" keeps no sequences from sample to sample; use "
-                      "--set trace.reception=exact");
+                      ": trace.reception = \"sphere\" keeps no sequences from sample to sample; "
+                      "use --set trace.reception=exact");
   config.trace.reuse = true;
   config.trace.discover_every_s = request.discover_every;  // a sample counts as a second
   config.cache.kind = "none";
@@ -132,8 +132,8 @@ class InputMeasurement {
     }
     if (links == 0)
       throw ConfigError(
-          fmt::format("{}: none of the frames has a link, so there is nothing to vary; look at [links], and at where "
-                      "and when transmitters and receivers are there",
+          fmt::format("{}: none of the frames has a link, so there is nothing to vary; look at [links], "
+                      "and at where and when transmitters and receivers are there",
                       request_.file));
     if (out_.frames_run > 0) out_.sample_s = all_s_ / static_cast<double>(out_.frames_run);
     return std::move(out_);

@@ -77,8 +77,8 @@ std::string inputs_text(const InputStudy& study) {
   std::stable_sort(widest.begin(), widest.end(),
                    [](const InputRow* a, const InputRow* b) { return width(a->gain_db) > width(b->gain_db); });
   std::string text = fmt::format(
-      "{} links, {} samples of each; intervals hold 90% of them\nmedian width  path gain {:.2g} dB, delay spread "
-      "{:.2g} ns\nshares        path gain: {}\n              delay spread: {}\n",
+      "{} links, {} samples of each; intervals hold 90% of them\nmedian width  path gain {:.2g} dB, "
+      "delay spread {:.2g} ns\nshares        path gain: {}\n              delay spread: {}\n",
       study.rows.size(), study.samples, median_over(study, [](const InputRow& r) { return width(r.gain_db); }),
       median_over(study, [](const InputRow& r) { return width(r.delay_spread_ns); }),
       shares_line(study, &InputRow::gain_share), shares_line(study, &InputRow::delay_spread_share));

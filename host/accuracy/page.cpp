@@ -26,8 +26,8 @@ std::string table_html(const std::vector<Row>& rows) {
 
 std::string frames_text(const Study& study) {
   const std::string times = fmt::format(
-      "the time of a frame is the median of warm frames, each solved {} times, once where it takes more than two "
-      "seconds",
+      "the time of a frame is the median of warm frames, each solved {} times, "
+      "once where it takes more than two seconds",
       study.repeats);
   if (!study.drive) return fmt::format("one frame with {} links; {}", study.links, times);
   return fmt::format("{} frames spread over the drive, {} links in all, each frame cold but for the rows of reuse; {}",

@@ -38,8 +38,8 @@ std::string panel(const std::vector<std::string>& axes, const std::string& y, co
         column("axis"), plots::quoted(axes[i]), column("frame_s"), column(y), none, column(y), none);
     const std::string_view colour = plots::colours[i % plots::colours.size()];
     text += fmt::format(
-        "{}{} with points pointtype 7 pointsize 0.8 linecolor '{}' title '{}', \\\n  {}:{} with labels "
-        "noenhanced left rotate by 50 offset 0.3,0.6 font ',9' textcolor '{}' notitle",
+        "{}{} with points pointtype 7 pointsize 0.8 linecolor '{}' title '{}', \\\n"
+        "  {}:{} with labels noenhanced left rotate by 50 offset 0.3,0.6 font ',9' textcolor '{}' notitle",
         i == 0 ? "" : ", \\\n  ", points, colour, plots::quoted(axes[i]), points, column("setting"), colour);
   }
   return text + "\n";

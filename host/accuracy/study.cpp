@@ -27,10 +27,9 @@ class Measurement {
   Measurement(const Request& request, const study::Host& host)
       : request_(request), host_(host), own_(load_config(request.file, request.sets)) {
     if (!own_.live_vehicles.empty())
-      throw ConfigError(
-          request.file +
-          ": its [[live_vehicle]] tables need a client that sends poses, so no frame can be measured; give "
-          "trajectories instead of them");
+      throw ConfigError(request.file +
+                        ": its [[live_vehicle]] tables need a client that sends poses, so no frame can be measured; "
+                        "give trajectories instead of them");
   }
 
   Study operator()() {
@@ -137,8 +136,8 @@ class Measurement {
     for (const Row& row : out_.rows)
       if (row.reference && row.paths > 0) return;
     throw ConfigError(fmt::format(
-        "{}: none of the {} links has a path at any setting, not even with every mechanism that the scene needs, so "
-        "there is nothing to compare; look at where the antennas stand",
+        "{}: none of the {} links has a path at any setting, not even with every mechanism that the scene needs, "
+        "so there is nothing to compare; look at where the antennas stand",
         request_.file, out_.links));
   }
 

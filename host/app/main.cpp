@@ -40,9 +40,9 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", wavetracer::app::build_info);
   program.require_subcommand(0, 1);  // a missing subcommand is reported below, after a misspelt one
   program.footer(
-      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` explains a key of configuration files such "
-      "as trace.rays, and `wavetracer help config` explains all keys. `wavetracer init --minimal` prints a first "
-      "file.");
+      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` explains a key of configuration files "
+      "such as trace.rays, and `wavetracer help config` explains all keys. "
+      "`wavetracer init --minimal` prints a first file.");
   wavetracer::app::Invocation invocation{command_line(argc, argv)};
   wavetracer::app::add_run(program, invocation);
   wavetracer::app::add_devices(program, invocation);
@@ -85,8 +85,8 @@ int run_and_report(int argc, char** argv) {
   } catch (const std::system_error& e) {
     if (e.code() != std::errc::resource_unavailable_try_again) return fail(ExitCode::runtime, e.what());
     return fail(ExitCode::runtime,
-                "no thread can be started: the memory or the number of threads of this process (`ulimit -u`) is used "
-                "up; raise the limit, or lower trace.batch_rays or trace.rays" +
+                "no thread can be started: the memory or the number of threads of this process (`ulimit -u`) "
+                "is used up; raise the limit, or lower trace.batch_rays or trace.rays" +
                     wavetracer::app::limit_hint());
   } catch (const std::exception& e) {
     return fail(ExitCode::runtime, e.what() + wavetracer::app::limit_hint());

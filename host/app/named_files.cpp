@@ -25,9 +25,8 @@ void check_file(const std::string& file, const std::string& key, const std::stri
     throw InputError(fmt::format("{}{} is \"{}\", a folder: name the file in it", where, key, file));
   if (access(file.c_str(), R_OK) != 0)
     throw InputError(
-        fmt::format("{}{} is \"{}\", which cannot be read: {}; relative paths start at the config file's "
-                    "folder",
-                    where, key, file, std::strerror(errno)));
+        fmt::format("{}{} is \"{}\", which cannot be read: {}; relative paths start at the config file's folder", where,
+                    key, file, std::strerror(errno)));
   check_input_file(file, key.c_str());
 }
 
@@ -41,8 +40,8 @@ void check_streets(const Config& config) {
                     traffic = words(parse_traffic_options(config.trajectories.generate).grid);
   if (city != traffic)
     throw ConfigError(
-        fmt::format("{}trajectories.generate has the streets of {}, scene.generate those of {}: vehicles "
-                    "would drive through houses; give both the same",
+        fmt::format("{}trajectories.generate has the streets of {}, scene.generate those of {}: "
+                    "vehicles would drive through houses; give both the same",
                     config.file.empty() ? "" : config.file + ": ", traffic, city));
 }
 

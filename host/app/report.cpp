@@ -206,8 +206,7 @@ std::string late_line(const Run& run, const Totals& totals) {
       fmt::format("new when rays were launched again, every {} s", run.config.trace.discover_every_s);
   if (late.paths == 0) return fmt::format("late       no path was {}\n", when);
   return fmt::format(
-      "late       {} paths with {:.1g} of the power (at most {:.1g}) were {}: frames before that may lack "
-      "them\n",
+      "late       {} paths with {:.1g} of the power (at most {:.1g}) were {}: frames before that may lack them\n",
       grouped(late.paths), late.power_share(), late.largest_share, when);
 }
 

@@ -53,8 +53,8 @@ Config configuration(const RunOptions& options, bool shared) {
     parse_frames(options.frames, 1);
     if (options.resume && !shared)
       throw ConfigError(
-          "--resume: a run without trajectories has only one frame, so there is nothing to resume; leave the option "
-          "out");
+          "--resume: a run without trajectories has only one frame, so there is nothing to resume; "
+          "leave the option out");
   }
   if (!options.directory.empty()) config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return config;
@@ -138,8 +138,8 @@ std::optional<Results> run_shared(const DriveTask& task, const RunOptions& optio
                               shared.missing, options.shard));
   } else {
     progress.line(
-        fmt::format("--shard {} is done{}; when all are, `wavetracer merge {}` writes the results, of several "
-                    "folders `wavetracer merge -o OUT DIR...`",
+        fmt::format("--shard {} is done{}; when all are, `wavetracer merge {}` writes the results, "
+                    "of several folders `wavetracer merge -o OUT DIR...`",
                     options.shard, shared.units == 0 ? ", and it is empty, because the run has fewer parts than N" : "",
                     directory));
   }
@@ -241,12 +241,12 @@ void add_run(CLI::App& program, Invocation& invocation) {
                    "Compute each frame N times and report the median times; what is written stays the same")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--devices", options->devices,
-                      "all, gpu, cpu or indices such as 0,1,2: one process per device, and they share the run. With "
-                      "mpirun or srun: the devices that the ranks of each host use in turn");
+                      "all, gpu, cpu or indices such as 0,1,2: one process per device, and they share the run. "
+                      "With mpirun or srun: the devices that the ranks of each host use in turn");
   command
       ->add_option("--processes", options->processes,
-                   "Number of processes that share the run and the CPU cores; they are distributed over --devices, or "
-                   "all use --device")
+                   "Number of processes that share the run and the CPU cores; they are distributed over --devices, "
+                   "or all use --device")
       ->check(CLI::Range(1, 1024));
   command->add_option(
       "--shard", options->shard,

@@ -64,8 +64,8 @@ void add_serve(CLI::App& program, Invocation&) {
   command->add_option("--token-file", options->serve.token_file,
                       "File with the secret that clients must send; required unless the address is a loopback address");
   command->add_option("--page", options->page,
-                      "Page that shows the newest frame, written at most once per second; open it in a browser, which "
-                      "loads it again by itself");
+                      "Page that shows the newest frame, written at most once per second; open it in a browser, "
+                      "which loads it again by itself");
   command->callback([options] { serve(*options); });
 }
 

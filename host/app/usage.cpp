@@ -162,8 +162,8 @@ void add_help(CLI::App& program) {
   CLI::App* command = program.add_subcommand("help", "Explain a command, or the keys of configuration files");
   const auto topic = std::make_shared<std::vector<std::string>>();
   command->add_option("topic", *topic,
-                      "A command; or config for all keys of configuration files; or one key or table such as "
-                      "trace.rays, rays or trace. If not given, all commands are listed");
+                      "A command; or config for all keys of configuration files; "
+                      "or one key or table such as trace.rays, rays or trace. If not given, all commands are listed");
   command->callback([topic, &program] { help(program, *topic); });
 }
 

@@ -30,13 +30,12 @@ void check_panel(const ArrayConfig& array, const std::string& key, std::vector<C
   const bool panel = array.rows > 1 || array.columns > 1 || array.vertical_spacing_m || array.horizontal_spacing_m;
   if (!array.positions_m.empty() && panel)
     out.push_back({{key, key + ".positions_m"},
-                   named + " has both positions_m and the keys of a panel (rows, columns, spacing): give either of "
-                           "them"});
+                   named + " has both positions_m and the keys of a panel (rows, columns, spacing): "
+                           "give either of them"});
   if (!array.positions_m.empty() && array.codebook == "dft")
     out.push_back({{key, key + ".codebook"},
-                   named +
-                       " has positions_m, but codebook = \"dft\" needs a panel of rows and columns: give a codebook "
-                       "file, or \"none\""});
+                   named + " has positions_m, but codebook = \"dft\" needs a panel of rows and columns: "
+                           "give a codebook file, or \"none\""});
   const uint64_t elements = std::max<uint64_t>(uint64_t{array.rows} * array.columns, array.positions_m.size());
   if (elements > most_elements)
     out.push_back(
@@ -61,8 +60,8 @@ void check_bands(const Config& config, std::vector<Contradiction>& out) {
   const auto check = [&](const char* key, std::optional<double> bandwidth_hz) {
     if (bandwidth_hz && *bandwidth_hz / 2 >= lowest_hz)
       out.push_back({{key, radio.frequencies_hz.empty() ? "radio.frequency_hz" : "radio.frequencies_hz"},
-                     fmt::format("{} = {:g}: half of it is more than the carrier of {:g} Hz, so the band would reach "
-                                 "below 0 Hz: give less than twice the carrier",
+                     fmt::format("{} = {:g}: half of it is more than the carrier of {:g} Hz, "
+                                 "so the band would reach below 0 Hz: give less than twice the carrier",
                                  key, *bandwidth_hz, lowest_hz)});
   };
   check("radio.bandwidth_hz", radio.bandwidth_hz);

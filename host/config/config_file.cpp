@@ -76,8 +76,8 @@ std::string key_hint(const std::string& key) {
 std::string whole_table_words(const Table& table) {
   if (table.append)
     return fmt::format(
-        "--set changes one key of a [[{0}]] that the file has: write {0}.INDEX.KEY=VALUE, such as {0}.0.{1}=...; to "
-        "add a [[{0}]], write it into the file",
+        "--set changes one key of a [[{0}]] that the file has: write {0}.INDEX.KEY=VALUE, such as {0}.0.{1}=...; "
+        "to add a [[{0}]], write it into the file",
         table.name, table.fields[0].name);
   return fmt::format("{0} is a table: set one of its keys, {0}.KEY=VALUE, such as {0}.{1}=...", table.name,
                      table.fields[0].name);

@@ -55,8 +55,8 @@ Field polarization_field(const Member& member, auto polarization) {
   return {.name = "polarization",
           .slot = member(polarization),
           .doc =
-              "VH (V and H) and cross (+45 and -45 degrees) have two ports. The default is V, as usual for vehicle "
-              "antennas."};
+              "VH (V and H) and cross (+45 and -45 degrees) have two ports. The default is V, "
+              "as usual for vehicle antennas."};
 }
 
 template <class Member>
@@ -64,8 +64,8 @@ Field array_field(const Member& member, auto array) {
   return {.name = "array",
           .slot = member(array),
           .doc =
-              "Name of an [[array]], whose elements are placed around the position and turned by orientation_deg; each "
-              "has the antenna and the polarization that are given here. Empty: one element."};
+              "Name of an [[array]], whose elements are placed around the position and turned by orientation_deg; "
+              "each has the antenna and the polarization that are given here. Empty: one element."};
 }
 
 // Defined in array_fields.cpp; the first two are keys of [radio].

@@ -40,12 +40,12 @@ std::string cell(std::string_view text) {
 }
 
 constexpr const char* how_to_read =
-    "A configuration is a TOML file; `wavetracer init` prints one with every key, and it runs as it is. Tables in "
-    "double brackets may be given many times, once per element. Any key can be set on the command line, which "
-    "overrides the file: `--set trace.rays=1000000`. For an element, give its number: `--set "
-    "transmitter.0.antenna=dipole`. A value is TOML, and text that is not valid TOML is a string. Relative paths in a "
-    "file start at the folder of the file, those of --set at the current folder. Unknown keys are errors; the message "
-    "gives file, line, column and the nearest known key.";
+    "A configuration is a TOML file; `wavetracer init` prints one with every key, and it runs as it is. "
+    "Tables in double brackets may be given many times, once per element. Any key can be set on the command line, "
+    "which overrides the file: `--set trace.rays=1000000`. For an element, give its number: "
+    "`--set transmitter.0.antenna=dipole`. A value is TOML, and text that is not valid TOML is a string. "
+    "Relative paths in a file start at the folder of the file, those of --set at the current folder. "
+    "Unknown keys are errors; the message gives file, line, column and the nearest known key.";
 
 }  // namespace
 
@@ -105,8 +105,8 @@ std::string markdown_reference() {
 
 std::string manual_page(std::string_view version) {
   std::string out = fmt::format(
-      ".TH WAVETRACER.TOML 5 \"\" \"wavetracer {}\" \"File formats\"\n.SH NAME\nwavetracer.toml \\- configuration of "
-      "wavetracer\n.SH DESCRIPTION\n{}\n",
+      ".TH WAVETRACER.TOML 5 \"\" \"wavetracer {}\" \"File formats\"\n.SH NAME\n"
+      "wavetracer.toml \\- configuration of wavetracer\n.SH DESCRIPTION\n{}\n",
       version, roff(how_to_read));
   for (const Table& table : tables()) {
     out += fmt::format(".SH \"{}\"\n{}\n", roff(header(table)), roff(table.doc));

@@ -275,8 +275,8 @@ Written export_deepmimo(const SavedRun& run, const ExportOptions& options, Warni
   if (const auto responses = response_array(run, options, "deepmimo")) {
     write_channels(folder, run, options, *responses, digits);
     warnings.push_back(
-        "deepmimo: it computes channels itself and loads none; channel_*.npz beside its arrays hold those of "
-        "responses.h5, (receiver, rx antenna, tx antenna, subcarrier, time)");
+        "deepmimo: it computes channels itself and loads none; channel_*.npz beside its arrays hold those "
+        "of responses.h5, (receiver, rx antenna, tx antenna, subcarrier, time)");
   }
   nlohmann::ordered_json params;
   params["version"] = "4.0.0";

@@ -118,8 +118,8 @@ std::string KmlWriter::coordinates(const glm::dvec3& p) const {
   const glm::dvec2 earth = projection_.geographic({p.x, p.y});
   if (!(std::abs(earth.x) <= 180 && std::abs(earth.y) <= 90))
     throw InputError(
-        fmt::format("kml: x = {} m, y = {} m is not on the earth in \"{}\": is that the projection of the "
-                    "scene's coordinates?",
+        fmt::format("kml: x = {} m, y = {} m is not on the earth in \"{}\": is that the projection of "
+                    "the scene's coordinates?",
                     p.x, p.y, place_.projection));
   return fmt::format("{:.9f},{:.9f},{:.4f}", earth.x, earth.y, p.z + place_.elevation_m.value_or(0));
 }
@@ -266,8 +266,8 @@ void KmlWriter::write(Warnings& warnings) {
   file_.commit();
   if (left_out_ > 0)
     warnings.push_back(
-        fmt::format("kml: the {} strongest paths of each frame are written, {} are left out: Google Earth "
-                    "shows no more than some {} lines",
+        fmt::format("kml: the {} strongest paths of each frame are written, {} are left out: "
+                    "Google Earth shows no more than some {} lines",
                     limit_, left_out_, max_paths));
   if (not_drawn_ > 0)
     warnings.push_back(fmt::format("kml: {} paths with points that are not finite are left out", not_drawn_));

@@ -11,10 +11,11 @@ namespace wavetracer {
 namespace {
 
 constexpr const char* conventions =
-    "h(f) = sum over paths of a exp(-j 2 pi f delay_s). a is (path, rx port, tx port). Angles are those of the global "
-    "frame: theta from +z, phi from +x towards +y. tx, rx and instance are rows of transmitters, receivers and "
-    "instances, counted from 1; instance 0 is the static scene. The vertices of path i are rows first_vertex(i) to "
-    "first_vertex(i + 1) - 1, the paths of frame i rows first_path(i) to first_path(i + 1) - 1. interaction: ";
+    "h(f) = sum over paths of a exp(-j 2 pi f delay_s). a is (path, rx port, tx port). "
+    "Angles are those of the global frame: theta from +z, phi from +x towards +y. "
+    "tx, rx and instance are rows of transmitters, receivers and instances, counted from 1; "
+    "instance 0 is the static scene. The vertices of path i are rows first_vertex(i) to first_vertex(i + 1) - 1, "
+    "the paths of frame i rows first_path(i) to first_path(i + 1) - 1. interaction: ";
 
 std::string conventions_text() {
   return conventions + interaction_legend() +

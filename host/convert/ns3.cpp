@@ -25,8 +25,9 @@ void check_files(size_t nodes) {
   const uint64_t files = uint64_t{nodes} * (nodes - 1);
   if (files > most_files)
     throw InputError(
-        fmt::format("ns3: {} nodes would be {} files, one for every two of them and direction, and at most {} are "
-                    "written: make a run of fewer transmitters and receivers, each of which is a node",
+        fmt::format("ns3: {} nodes would be {} files, one for every two of them and direction, "
+                    "and at most {} are written: make a run of fewer transmitters and receivers, each of "
+                    "which is a node",
                     nodes, files, most_files));
 }
 

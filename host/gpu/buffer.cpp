@@ -142,8 +142,8 @@ void Context::fill(Memory& memory, const void* pattern, size_t pattern_bytes, si
   check_bounds(*s.allocations, memory.handle_.get(), memory.bytes_, "filling", offset, bytes);
   if (pattern_bytes > 8 || !std::has_single_bit(pattern_bytes) || offset % pattern_bytes || bytes % pattern_bytes) {
     throw std::logic_error(
-        fmt::format("filling buffer \"{}\": a pattern of {} bytes does not fill {} bytes at {}; it must "
-                    "have 1, 2, 4 or 8 bytes and divide both",
+        fmt::format("filling buffer \"{}\": a pattern of {} bytes does not fill {} bytes at {}; it must have 1, 2, "
+                    "4 or 8 bytes and divide both",
                     s.allocations->name(memory.handle_.get()), pattern_bytes, bytes, offset));
   }
   if (bytes == 0) return;

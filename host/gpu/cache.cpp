@@ -95,8 +95,8 @@ std::string ProgramCache::store(const ProgramKey& key, std::string_view compiled
   std::filesystem::remove(temporary, error);
   const std::string why = write_obstacle(directory_);
   return fmt::format(
-      "compiled kernels cannot be kept in {}{}, so each start compiles them again: set XDG_CACHE_HOME to a folder that "
-      "can be written to, or WAVETRACER_NO_CACHE=1",
+      "compiled kernels cannot be kept in {}{}, so each start compiles them again: set XDG_CACHE_HOME to a folder "
+      "that can be written to, or WAVETRACER_NO_CACHE=1",
       directory_.string(), why.empty() ? "" : " (" + why + ")");
 }
 

@@ -130,8 +130,8 @@ void Context::State::fail(cl_int code, const std::string& action) const {
   std::string message = fmt::format("{}: {} failed: {}", info.name, action, error_name(code));
   if (is_out_of_memory(code)) {
     message += fmt::format(
-        ". The device has {} MiB, {} MiB at most a buffer; this run holds {}. Lower trace.batch_rays, or trace.rays "
-        "where it is not set, or choose a device with more memory",
+        ". The device has {} MiB, {} MiB at most a buffer; this run holds {}. Lower trace.batch_rays, "
+        "or trace.rays where it is not set, or choose a device with more memory",
         info.global_memory >> 20, info.max_buffer >> 20, allocations->summary());
   }
   // NVIDIA returns this for every call after a kernel has crashed.

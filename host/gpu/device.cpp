@@ -125,10 +125,11 @@ size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view te
     if (const std::string problem = pocl_cache_problem(); !problem.empty())
       throw DeviceError("no OpenCL device was found: " + problem);
     throw DeviceError(
-        "no OpenCL device on this machine. Install one: `apt install pocl-opencl-icd` runs on any CPU, and so does, "
-        "without root, `pip install \"wavetracer[pocl]\"` with the command of that package; for an NVIDIA GPU whose "
-        "driver came without its ICD file, put the line `libnvidia-opencl.so.1` into DIR/nvidia.icd and set "
-        "OCL_ICD_VENDORS=DIR");
+        "no OpenCL device on this machine. Install one: `apt install pocl-opencl-icd` runs on any CPU, "
+        "and so does, "
+        "without root, `pip install \"wavetracer[pocl]\"` with the command of that package; "
+        "for an NVIDIA GPU whose driver came without its ICD file, put the line `libnvidia-opencl.so.1` into "
+        "DIR/nvidia.icd and set OCL_ICD_VENDORS=DIR");
   }
   if (!text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) {
     size_t index = devices.size();

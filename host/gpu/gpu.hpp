@@ -72,8 +72,7 @@ class Context;
 struct BufferName {
   BufferName(const char* name_of_it,
              const char* advice_for_it =
-                 "Lower trace.batch_rays, or trace.rays where it is not set, or choose a device "
-                 "with more memory")
+                 "Lower trace.batch_rays, or trace.rays where it is not set, or choose a device with more memory")
       : name(name_of_it), advice(advice_for_it) {}
   const char* name;
   const char* advice;

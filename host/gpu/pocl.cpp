@@ -90,8 +90,8 @@ void give_pocl_a_cache() {
   if (folder.empty()) return;
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);
   chosen_note() = fmt::format(
-      "PoCL, the OpenCL of CPUs, cannot write its cache ({}) and keeps it in {} instead: set POCL_CACHE_DIR to choose "
-      "a folder",
+      "PoCL, the OpenCL of CPUs, cannot write its cache ({}) and keeps it in {} instead: "
+      "set POCL_CACHE_DIR to choose a folder",
       why, folder.string());
 }
 
@@ -101,8 +101,8 @@ std::string pocl_cache_problem() {
   const std::string why = write_obstacle(pocl_cache_folder());
   if (why.empty() || !is_installed()) return {};
   return fmt::format(
-      "PoCL, the OpenCL of CPUs, is installed, but it cannot write its cache ({}) and then offers no device: set "
-      "POCL_CACHE_DIR to a folder that can be written to",
+      "PoCL, the OpenCL of CPUs, is installed, but it cannot write its cache ({}) and then offers no device: "
+      "set POCL_CACHE_DIR to a folder that can be written to",
       why);
 }
 

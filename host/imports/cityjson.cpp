@@ -75,8 +75,8 @@ class CityJsonReader {
       fail("type", "is not \"CityJSON\": give a CityJSON file of one city, not a feature of one");
     const std::string version = text_at(root_, "version");
     if (!version.starts_with("1.0") && !version.starts_with("1.1") && !version.starts_with("2.0"))
-      fail("version", fmt::format("is '{}', but 1.0, 1.1 and 2.0 are read: bring the file up to date with "
-                                  "`cjio OLD upgrade save NEW`",
+      fail("version", fmt::format("is '{}', but 1.0, 1.1 and 2.0 are read: bring the file up to date "
+                                  "with `cjio OLD upgrade save NEW`",
                                   printable(version)));
   }
 

@@ -63,13 +63,13 @@ std::string find_module(const std::string& needed_for) {
     std::error_code error;
     if (!fs::is_regular_file(place, error)) continue;
     if (read_file(place).find(WT_MAPS_MARK) != std::string::npos) return place;
-    fail(needed_for,
-         fmt::format("the module for it, {}, is not that of this version of wavetracer: install or build both "
-                     "together",
-                     place));
+    fail(needed_for, fmt::format("the module for it, {}, is not that of this version of wavetracer: install "
+                                 "or build both together",
+                                 place));
   }
-  fail(needed_for, fmt::format("the module for it, wavetracer_maps.so, is not there ({}): install wavetracer's Debian "
-                               "package, or build it from its source with libgdal-dev (`./dev run`), {}",
+  fail(needed_for, fmt::format("the module for it, wavetracer_maps.so, is not there ({}): "
+                               "install wavetracer's Debian package, or build it from its source with libgdal-dev "
+                               "(`./dev run`), {}",
                                fmt::join(places, ", "), other_formats));
 }
 

@@ -105,10 +105,10 @@ class ModelBuilder {
     model_.warnings.insert(model_.warnings.end(), terrain.warnings.begin(), terrain.warnings.end());
     out_.georeference.elevation_m = 0;
     if (place.above_ellipsoid)
-      model_.warnings.push_back(fmt::format(
-          "{}: its heights are above the ellipsoid, but those of a terrain are mostly above sea level, which "
-          "is tens of metres off",
-          name_));
+      model_.warnings.push_back(
+          fmt::format("{}: its heights are above the ellipsoid, but those of a terrain are mostly above sea level, "
+                      "which is tens of metres off",
+                      name_));
     return terrain;
   }
 

@@ -63,17 +63,17 @@ PlacedModel place_nowhere(CityModel& model, const Extent& extent, const std::str
   });
   if (size.x < a_town_deg && size.y < a_town_deg && highest - lowest > a_storey_m)
     throw InputError(
-        fmt::format("{}: does not name its coordinate system, and its coordinates seem to be degrees: name it, in "
-                    "CityJSON as metadata/referenceSystem, in CityGML as srsName of gml:Envelope",
+        fmt::format("{}: does not name its coordinate system, and its coordinates seem to be degrees: name it, "
+                    "in CityJSON as metadata/referenceSystem, in CityGML as srsName of gml:Envelope",
                     name));
   if (!options.net.empty())
     throw InputError(
         fmt::format("{}: does not name its coordinate system, so it cannot be placed on the network of --net", name));
   if (options.projection.empty())
-    model.warnings.push_back(fmt::format(
-        "{}: does not name its coordinate system: its coordinates are taken as metres, and the scene has no "
-        "georeference; --projection names one",
-        name));
+    model.warnings.push_back(
+        fmt::format("{}: does not name its coordinate system: its coordinates are taken as metres, "
+                    "and the scene has no georeference; --projection names one",
+                    name));
   return {{options.projection, {0, 0}, {}, {}}, {}, false};
 }
 
@@ -87,10 +87,10 @@ PlacedModel place_model(CityModel& model, const std::string& name, const ImportO
   SourceSystem system(model.system, name);
   system.choose_order((extent.lower_m + extent.upper_m) / 2.0, look_up(model));
   if (system.swapped())
-    model.warnings.push_back(fmt::format(
-        "{}: its first two coordinates are taken in the other order than that of '{}', since otherwise the model would "
-        "lie elsewhere or be mirrored",
-        name, printable(model.system)));
+    model.warnings.push_back(
+        fmt::format("{}: its first two coordinates are taken in the other order than that of '{}', "
+                    "since otherwise the model would lie elsewhere or be mirrored",
+                    name, printable(model.system)));
   Extent degrees;
   const double metres_per_height = system.metres_per_height();
   each_corner(model, [&](glm::dvec3& p) {

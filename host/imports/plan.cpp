@@ -282,8 +282,8 @@ Extent extent_to_reach(const Extent& network, const glm::dvec2& offset_m, const 
       const glm::dvec2 p = corner + offset_m;
       if (!(std::max(std::abs(p.x), std::abs(p.y)) <= most_m)) {
         throw InputError(fmt::format(
-            "{}: the {} reaches ({:.0f}, {:.0f}) km in the scene, and the ground must reach as far; at most "
-            "{:.0f} km are allowed: do map and network belong together? Cut both, or use --no-ground",
+            "{}: the {} reaches ({:.0f}, {:.0f}) km in the scene, and the ground must reach as far; "
+            "at most {:.0f} km are allowed: do map and network belong together? Cut both, or use --no-ground",
             name, what, p.x / 1000, p.y / 1000, most_m / 1000));
       }
       out.add(p);

@@ -132,8 +132,8 @@ SourceSystem::SourceSystem(const std::string& text, const std::string& name) : s
   const PJ* const crs = s.own(proj_create(s.context, s.code.c_str()));
   if (!crs && !proj_context_get_database_path(s.context))
     throw RuntimeError(
-        fmt::format("{}: the coordinate system {} is looked up in the database of PROJ, and there is none: install "
-                    "Debian's proj-data, or name the folder of proj.db in PROJ_DATA",
+        fmt::format("{}: the coordinate system {} is looked up in the database of PROJ, and there is none: "
+                    "install Debian's proj-data, or name the folder of proj.db in PROJ_DATA",
                     name, s.code));
   const PJ* const horizontal = crs ? s.horizontal(crs) : nullptr;
   if (!horizontal)
@@ -164,8 +164,8 @@ void SourceSystem::choose_order(const glm::dvec2& middle, double roofs_up) {
   }
   if (!possible[0] && !possible[1])
     throw InputError(
-        fmt::format("{}: the middle of the model, ({}, {}), is not in the area of its coordinate system {}, which is "
-                    "{} to {} degrees east and {} to {} degrees north: is another one meant?",
+        fmt::format("{}: the middle of the model, ({}, {}), is not in the area of its coordinate system {}, "
+                    "which is {} to {} degrees east and {} to {} degrees north: is another one meant?",
                     s.name, middle.x, middle.y, s.code, s.west, s.east, s.south, s.north));
   const bool usual = !s.by_authority && !east_first[0] && east_first[1];
   s.first_is_second = usual;

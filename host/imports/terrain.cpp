@@ -34,8 +34,8 @@ class RasterPart {
     if (std::max(raster_.columns, raster_.rows) > static_cast<size_t>(most_posts_a_side)) {
       module_.close_raster(&raster_);
       throw InputError(
-          fmt::format("{}: has more than {} posts in a row or column of this area: make it coarser with "
-                      "gdalwarp -tr 2 2 -r average",
+          fmt::format("{}: has more than {} posts in a row or column of this area: "
+                      "make it coarser with gdalwarp -tr 2 2 -r average",
                       file_, most_posts_a_side));
     }
   }

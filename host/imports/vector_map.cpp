@@ -113,9 +113,8 @@ void check_fields(const std::string& name, const std::vector<TagField>& fields, 
   }
   if (!heights)
     map.warnings.push_back(
-        fmt::format("{}: no field gives heights, so all buildings are {:g} m high; name one of its fields with "
-                    "--height (metres) or "
-                    "--levels (storeys): {}",
+        fmt::format("{}: no field gives heights, so all buildings are {:g} m high; "
+                    "name one of its fields with --height (metres) or --levels (storeys): {}",
                     name, options.default_height_m, *layers.fields ? layers.fields : "it has none"));
 }
 
@@ -125,18 +124,18 @@ void check_metres(Map& map, const std::string& name, const ImportOptions& option
   each_point(map, [&](const glm::dvec2& p) { small = small && std::abs(p.x) <= 180 && std::abs(p.y) <= 90; });
   if (small)
     throw InputError(
-        fmt::format("{}: does not name its coordinate system, and all coordinates are as small as degrees; if they are "
-                    "degrees, name it: ogr2ogr -a_srs EPSG:4326 named.gpkg {}",
+        fmt::format("{}: does not name its coordinate system, and all coordinates are as small as degrees; "
+                    "if they are degrees, name it: ogr2ogr -a_srs EPSG:4326 named.gpkg {}",
                     name, name));
   if (!options.net.empty())
     throw InputError(
         fmt::format("{}: does not name its coordinate system, so it cannot be placed on the network of --net", name));
   map.georeference.projection = options.projection;
   if (options.projection.empty())
-    map.warnings.push_back(fmt::format(
-        "{}: does not name its coordinate system: its coordinates are taken as metres, and the scene has no "
-        "georeference; --projection names one",
-        name));
+    map.warnings.push_back(
+        fmt::format("{}: does not name its coordinate system: its coordinates are taken as metres, "
+                    "and the scene has no georeference; --projection names one",
+                    name));
 }
 
 }  // namespace

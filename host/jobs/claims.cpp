@@ -70,8 +70,8 @@ bool Claims::take(const std::string& task) {
   }
   if (errno != EEXIST)
     throw RuntimeError(
-        fmt::format("cannot write {}: {}; check the permissions of its folder, and that its file "
-                    "system has hard links, or choose another one with -o",
+        fmt::format("cannot write {}: {}; check the permissions of its folder, "
+                    "and that its file system has hard links, or choose another one with -o",
                     claim.string(), std::strerror(errno)));
   claims_[task] = {attempt, true};  // another process was faster; the next look() tells which
   return false;

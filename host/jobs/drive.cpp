@@ -44,9 +44,7 @@ uint32_t block_count(const Config& config) {
   const auto transmitters = static_cast<uint32_t>(config.transmitters.size());
   if (const std::string why = block_obstacle(config); !why.empty() && transmitters > 1)
     throw ConfigError(
-        fmt::format("this run is one frame, which several processes cannot share: {}; run one process "
-                    "alone",
-                    why));
+        fmt::format("this run is one frame, which several processes cannot share: {}; run one process alone", why));
   return std::clamp(transmitters, 1u, most_blocks);
 }
 

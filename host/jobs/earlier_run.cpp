@@ -41,8 +41,7 @@ void remove_files(const fs::path& folder, const Which& which) {
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
     if (!fs::remove(behind_links(path), error) && error)
       throw RuntimeError(
-          fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
-                      "with -o",
+          fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder with -o",
                       path.string(), error.message()));
   });
 }
@@ -75,8 +74,8 @@ void check_output_names(const fs::path& directory) {
     const fs::file_status status = fs::status(directory / name, none);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
       throw RuntimeError(
-          fmt::format("cannot write {}: it is a device, a pipe or a socket, and results must be plain files; choose "
-                      "another folder with -o",
+          fmt::format("cannot write {}: it is a device, a pipe or a socket, and results must be plain files; "
+                      "choose another folder with -o",
                       (directory / name).string()));
   }
 }

@@ -42,8 +42,8 @@ void check_same_run(const RunIdentity& a, const fs::path& folder_a, const RunIde
   if (a.inputs == b.inputs) return;
   const std::string which = changed_input(inputs_in(folder_a), inputs_in(folder_b));
   throw InputError(
-      fmt::format("{} and {} hold parts of different runs: {}; compute one of them again with the input files "
-                  "of the other, or merge each by itself",
+      fmt::format("{} and {} hold parts of different runs: {}; compute one of them again with the input files of "
+                  "the other, or merge each by itself",
                   folder_a.string(), folder_b.string(),
                   which.empty() ? "one of their input files differs" : which + " in the first"));
 }
@@ -90,8 +90,7 @@ void check_agrees(const Shard& a, const Shard& b, const fs::path& folder) {
                     a.totals.kinds == b.totals.kinds;
   if (!same)
     throw InputError(
-        fmt::format("{}: {} differs from the same part elsewhere ({} paths and {}); leave one of the "
-                    "folders out",
+        fmt::format("{}: {} differs from the same part elsewhere ({} paths and {}); leave one of the folders out",
                     folder.string(), unit_words(b.unit), b.totals.counts.paths, a.totals.counts.paths));
 }
 
@@ -106,8 +105,8 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
     const std::vector<fs::path> manifests = manifests_in(folder);
     if (manifests.empty() && fs::exists(merged_record(directory), none))
       throw InputError(
-          fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, and its parts were removed "
-                      "when that was proved (output.keep_shards = true keeps them)",
+          fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, "
+                      "and its parts were removed when that was proved (output.keep_shards = true keeps them)",
                       directory.string()));
     if (manifests.empty())
       throw InputError(fmt::format("{}: this folder contains no parts of a run, because {} contains no manifest",
@@ -155,8 +154,8 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   });
   if (parts.files.size() != h5_outputs(record.config).size() + 1)
     throw RuntimeError(found.record.string() +
-                       " does not belong to the parts beside it: keys that say which files are written differ, such as "
-                       "output.waypoints or response.bandwidth_hz");
+                       " does not belong to the parts beside it: keys that say which files are written differ, "
+                       "such as output.waypoints or response.bandwidth_hz");
   PendingDirectory folder(directory);
   std::vector<PendingFile> files = merge_outputs(record.config, parts, Parts::foreign, Proof::none, directory,
                                                  [&](const H5Output& output, const fs::path& first, hdf5::File& head) {

@@ -173,8 +173,9 @@ void check_not_in_use(const fs::path& folder, const std::optional<ProcessInfo>& 
     if (me && (process.name == me->name || (process.job == me->job && process.rank != me->rank))) continue;
     if (!alive(process)) continue;
     throw RuntimeError(fmt::format(
-        "{}: process {} on {} writes there since {}; wait until it is done, or choose another folder with -o (a "
-        "process on another host that was killed counts as running until {:.0f} s after its last sign of life)",
+        "{}: process {} on {} writes there since {}; wait until it is done, or choose another folder "
+        "with -o (a process on another host that was killed counts as running until {:.0f} s after its last sign "
+        "of life)",
         folder.string(), process.pid, process.host, process.since, heartbeat_limit_s));
   }
 }

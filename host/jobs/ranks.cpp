@@ -53,8 +53,8 @@ std::optional<Ranks> from(const Launcher& launcher, const Environment& variable)
   const auto rank = number_of(variable, launcher.rank), size = number_of(variable, launcher.size);
   if (!rank || !size || *size == 0 || *rank >= *size || *size > most_ranks)
     throw ConfigError(fmt::format(
-        "{}={}, {}={}: these are not a rank and a number of ranks (up to {}); unset both variables to run one "
-        "process",
+        "{}={}, {}={}: these are not a rank and a number of ranks (up to {}); "
+        "unset both variables to run one process",
         launcher.rank, text_of(variable, launcher.rank), launcher.size, text_of(variable, launcher.size), most_ranks));
   Ranks ranks;
   ranks.rank = *rank;
@@ -71,8 +71,8 @@ std::string pmi_job(const Environment& variable, const Ranks& ranks) {
   if (!named.empty()) return named + first_of(variable, {"SLURM_STEP_ID"});
   if (ranks.local_size == ranks.size) return fmt::format("parent {}", getppid());
   throw ConfigError(
-      "this launcher (PMI_RANK, PMI_SIZE) does not say which launch the ranks belong to; set "
-      "WAVETRACER_JOB to a text that no other run has, the same for all ranks");
+      "this launcher (PMI_RANK, PMI_SIZE) does not say which launch the ranks belong to; "
+      "set WAVETRACER_JOB to a text that no other run has, the same for all ranks");
 }
 
 }  // namespace
@@ -129,8 +129,8 @@ ShardChoice parse_shard(const std::string& text) {
   const auto count = slash == std::string::npos ? std::nullopt : count_in(std::string_view(text).substr(slash + 1));
   if (!index || !count || *count == 0 || *count > most_ranks)
     throw ConfigError(
-        fmt::format("--shard {}: give K/N, that is part K (from 0 to N - 1) of N parts, with N up to {}; parts are "
-                    "counted from 0",
+        fmt::format("--shard {}: give K/N, that is part K (from 0 to N - 1) of N parts, with N up to {}; "
+                    "parts are counted from 0",
                     text, most_ranks));
   if (*index >= *count)
     throw ConfigError(fmt::format("--shard {}: parts are counted from 0, so the last of {} is {}/{}", text, *count,

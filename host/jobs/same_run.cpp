@@ -24,8 +24,8 @@ void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const
   std::string which;
   if (fs::exists(record, none)) which = changed_input(read_run_record(record).summary.inputs, inputs);
   throw InputError(
-      fmt::format("{} since the shards in {} were written; put the input files back as they were, or choose "
-                  "another folder with -o, or remove the shards",
+      fmt::format("{} since the shards in {} were written; put the input files back as they were, "
+                  "or choose another folder with -o, or remove the shards",
                   which.empty() ? "an input file has changed" : which, folder.string()));
 }
 
@@ -49,14 +49,14 @@ void check_same_keys(const RunIdentity& there, const RunIdentity& asked, const f
   if (there.version == asked.version && there.config != asked.config)
     if (const std::string keys = changed_keys(folder, config); !keys.empty())
       throw ConfigError(
-          fmt::format("the shards in {} were written with another configuration: {}; run it as before, or "
-                      "choose another folder with -o, or remove the shards",
+          fmt::format("the shards in {} were written with another configuration: {}; run it as before, "
+                      "or choose another folder with -o, or remove the shards",
                       folder.string(), keys));
   const auto differs = [&](const std::string& what, const auto& was, const auto& is) {
     if (was != is)
       throw ConfigError(
-          fmt::format("the shards in {} were written with {} {}, this run has {}; run it as before, or "
-                      "choose another folder with -o, or remove the shards",
+          fmt::format("the shards in {} were written with {} {}, this run has {}; run it as before, "
+                      "or choose another folder with -o, or remove the shards",
                       folder.string(), what, was, is));
   };
   differs("version", there.version, asked.version);

@@ -193,11 +193,11 @@ class Team {
     for (uint64_t index = 0, shown = 0; index < units_.count() && shown < 5; ++index)
       if (const Unit unit = units_.at(index); !shards_.finished(unit))
         which += (shown++ ? ", " : "") + unit_words(unit);
-    progress_.line(fmt::format(
-        "missing: {}{}; the processes that computed them ended too early. Continue with --resume, or write what is "
-        "computed with `wavetracer merge --partial {}`",
-        which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
-        task_.run.config.output.directory));
+    progress_.line(
+        fmt::format("missing: {}{}; the processes that computed them ended too early. Continue with --resume, "
+                    "or write what is computed with `wavetracer merge --partial {}`",
+                    which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
+                    task_.run.config.output.directory));
     return shared;
   }
 };

@@ -13,8 +13,8 @@ std::atomic<pid_t> first_process{0};
 [[noreturn]] void refuse_fork(const char* function) {
   throw RuntimeError(
       std::string(function) +
-      ": this process was forked from one that has used wavetracer, and the threads of OpenCL are not in "
-      "it: start a process of its own instead of forking (in Python: "
+      ": this process was forked from one that has used wavetracer, and the threads of OpenCL are not in it: "
+      "start a process of its own instead of forking (in Python: "
       "multiprocessing.get_context(\"spawn\")), or use wavetracer only after the fork");
 }
 
@@ -29,8 +29,8 @@ Turn::Turn(const wavetracer_simulation& self, const char* function) : self_(self
   if (self.process != getpid()) refuse_fork(function);
   if (self.user == std::this_thread::get_id())
     throw ConfigError(std::string(function) +
-                      ": this simulation is solving a frame, and what watches the frame cannot do this; do it when the "
-                      "frame is there");
+                      ": this simulation is solving a frame, and what watches the frame cannot do this; "
+                      "do it when the frame is there");
   self.turn.lock();
   self.user = std::this_thread::get_id();
 }

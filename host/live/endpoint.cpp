@@ -77,8 +77,8 @@ Addresses resolve(const std::string& host, const std::string& port) {
   addrinfo* found = nullptr;
   if (const int failed = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); failed != 0)
     throw ConfigError(
-        fmt::format("--listen tcp:{}:{}: {}; give a numeric address and a port from 0 to 65535, such as "
-                    "tcp:127.0.0.1:7710 or tcp:[::1]:7710",
+        fmt::format("--listen tcp:{}:{}: {}; give a numeric address and a port from 0 to 65535, "
+                    "such as tcp:127.0.0.1:7710 or tcp:[::1]:7710",
                     host, port, gai_strerror(failed)));
   return {found, freeaddrinfo};
 }

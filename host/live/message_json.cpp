@@ -99,8 +99,8 @@ class MessageReader : public nlohmann::json_sax<json> {
     const size_t count = ++open_.back().entries;
     const bool vehicles = open_.size() == 2 && open_.back().value->is_array() && key_ == "vehicles";
     if (vehicles && count > max_vehicles_)
-      refuse("no_place", fmt::format("frame: more than {} vehicles, which is the total count of all types: raise the "
-                                     "counts of [[live_vehicle]]",
+      refuse("no_place", fmt::format("frame: more than {} vehicles, which is the total count of all types: "
+                                     "raise the counts of [[live_vehicle]]",
                                      max_vehicles_));
     if (!vehicles && count > max_entries)
       refuse("bad_json",

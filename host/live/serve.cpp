@@ -35,15 +35,15 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
            const std::function<void(const std::string&)>& ready) {
   if (config.live_vehicles.empty())
     throw ConfigError(
-        fmt::format("{}: no [[live_vehicle]]: a server needs to know how many vehicles of which types may "
-                    "come; add one with type and count",
+        fmt::format("{}: no [[live_vehicle]]: a server needs to know how many vehicles of which types may come; "
+                    "add one with type and count",
                     config.file));
   const Endpoint endpoint = parse_endpoint(options.listen);
   const std::string token = options.token_file.empty() ? "" : read_token(options.token_file);
   if (token.empty() && !endpoint.loopback)
     throw ConfigError(
-        fmt::format("--listen {}: other machines can connect to this address: give --token-file, or listen on "
-                    "unix:PATH or tcp:127.0.0.1:PORT",
+        fmt::format("--listen {}: other machines can connect to this address: give --token-file, "
+                    "or listen on unix:PATH or tcp:127.0.0.1:PORT",
                     options.listen));
   std::signal(SIGPIPE, SIG_IGN);
   const Listener listener(endpoint);

@@ -50,8 +50,8 @@ std::string_view ByteStream::next() {
     size_ = count > 0 ? static_cast<size_t>(count) : 0;
     if ((bytes_ += size_) > most_bytes_) {
       throw InputError(
-          fmt::format("{}: unpacks to more than {} times its {} bytes, which is too much for a {}; unpack it and look "
-                      "at its content",
+          fmt::format("{}: unpacks to more than {} times its {} bytes, which is too much for a {}; "
+                      "unpack it and look at its content",
                       file_, most_unpacked, (most_bytes_ - free_bytes) / most_unpacked, what_));
     }
     int error = Z_OK;

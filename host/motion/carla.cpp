@@ -94,10 +94,10 @@ class CarlaReader {
       throw InputError(fmt::format(
           "{}: the text has no positions of vehicles; call show_recorder_file_info with show_all=True", lines_.file()));
     if (unsized_ > 0)
-      tracks_.warn(fmt::format(
-          "{}: {} samples are of actors without a bounding box, which have the size of their class: start the "
-          "recording with additional_data=True",
-          lines_.file(), unsized_));
+      tracks_.warn(
+          fmt::format("{}: {} samples are of actors without a bounding box, which have the size of their class: "
+                      "start the recording with additional_data=True",
+                      lines_.file(), unsized_));
     return tracks_.finish(ReferencePoint::centre);
   }
 

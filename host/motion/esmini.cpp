@@ -123,10 +123,11 @@ class RecordingReader {
     } while (rows_.cells()[0] != "time");
     read_header();
     while (rows_.next()) add_row();
-    tracks_.warn(fmt::format(
-        "{}: a recording of esmini tells no sizes and types: entities are cars of SUMO's size, whose centre is {} m "
-        "ahead of the rear axle; its log (--csv_logger) or an OSI trace (--osi_file) tells them",
-        rows_.file(), axle_m));
+    tracks_.warn(
+        fmt::format("{}: a recording of esmini tells no sizes and types: entities are cars of SUMO's size, "
+                    "whose centre is {} m ahead of the rear axle; its log (--csv_logger) or an OSI trace (--osi_file) "
+                    "tells them",
+                    rows_.file(), axle_m));
     return tracks_.finish(ReferencePoint::centre);
   }
 

@@ -17,8 +17,8 @@ namespace wavetracer {
 namespace {
 
 constexpr std::string_view sumo_columns_advice =
-    "the CSV of SUMO's --fcd-output has timestep_time, vehicle_id, vehicle_x and vehicle_y at least; if "
-    "--fcd-output.attributes was given to sumo, it must name x and y";
+    "the CSV of SUMO's --fcd-output has timestep_time, vehicle_id, vehicle_x and vehicle_y at least; "
+    "if --fcd-output.attributes was given to sumo, it must name x and y";
 
 std::string_view header_of(std::string_view text) {
   const size_t begin = std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size());

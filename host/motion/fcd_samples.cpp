@@ -18,9 +18,9 @@ namespace {
 constexpr double fcd_degree = std::numbers::pi / 180;
 
 constexpr std::string_view geo_advice =
-    "the coordinates are longitude and latitude (--fcd-output.geo), which need a georeference.json beside the scene "
-    "file (docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one); or run sumo without that "
-    "option, so that it writes metres";
+    "the coordinates are longitude and latitude (--fcd-output.geo), which need a georeference.json beside "
+    "the scene file (docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one); "
+    "or run sumo without that option, so that it writes metres";
 
 size_t decimals(std::string_view text) {
   const size_t point = text.find('.');
@@ -132,13 +132,13 @@ void FcdSamples::place_degrees() {
   if (!options_.from_degrees) throw InputError(fmt::format("{}: {}", tracks_.file(), geo_advice));
   if (!degrees_)
     tracks_.warn(
-        fmt::format("{}: x and y are taken as longitude and latitude (--fcd-output.geo): as metres they would hardly "
-                    "move, whatever their speeds are",
+        fmt::format("{}: x and y are taken as longitude and latitude (--fcd-output.geo): "
+                    "as metres they would hardly move, whatever their speeds are",
                     tracks_.file()));
   if (decimals_ < enough)
     tracks_.warn(
-        fmt::format("{}: positions have {} decimals of a degree, and so an error of {:.2g} m: run sumo with "
-                    "--precision.geo 9 where phases or Doppler matter",
+        fmt::format("{}: positions have {} decimals of a degree, and so an error of {:.2g} m: "
+                    "run sumo with --precision.geo 9 where phases or Doppler matter",
                     tracks_.file(), decimals_, 111195 * 0.5 * std::pow(10, -static_cast<double>(decimals_))));
   tracks_.in_degrees(!has_z_);
 }

@@ -27,10 +27,10 @@ FrameClock::FrameClock(double first_time_s, double last_time_s, double step_s)
   const double largest_s = std::max(std::abs(first_time_s), std::abs(last_time_s)),
                rounding_s = time_spacing_s(largest_s);
   if (steps > 0 && !(step_s >= 4 * rounding_s)) {
-    throw ConfigError(fmt::format(
-        "the time step of frames is {:g} s, but times near {} s are only known to {:.2g} s: use a longer time step, or "
-        "subtract the time of the beginning from all times",
-        step_s, time_text(largest_s), rounding_s));
+    throw ConfigError(
+        fmt::format("the time step of frames is {:g} s, but times near {} s are only known to {:.2g} s: "
+                    "use a longer time step, or subtract the time of the beginning from all times",
+                    step_s, time_text(largest_s), rounding_s));
   }
   frame_count_ = static_cast<uint64_t>(std::floor(steps + 1e-9 * std::max(1.0, steps) + rounding_s / step_s)) + 1;
 }

@@ -150,8 +150,8 @@ class OsiReader {
     }
     if (tracks_.tracks().empty())
       throw InputError(
-          fmt::format("{}: {} messages, and no moving object in them: a trace of GroundTruth or SensorView "
-                      "messages is needed",
+          fmt::format("{}: {} messages, and no moving object in them: a trace of GroundTruth "
+                      "or SensorView messages is needed",
                       stream_.file(), messages_));
     if (repeated_ > 0)
       tracks_.warn(

@@ -24,10 +24,10 @@ Trajectories read_trajectories(const std::filesystem::path& path, const Trajecto
   if (is_osi_trace(start)) return read_osi(stream, options);
   const size_t first = start.find_first_not_of(passed_over);
   if (first == start.npos) {
-    throw InputError(fmt::format(
-        "{}: the file is empty; a trajectory file is the FCD output of SUMO, GPX, CSV, an OSI trace, or what "
-        "esmini or CARLA has recorded",
-        stream.file()));
+    throw InputError(
+        fmt::format("{}: the file is empty; a trajectory file is the FCD output of SUMO, GPX, CSV, an OSI trace, "
+                    "or what esmini or CARLA has recorded",
+                    stream.file()));
   }
   if (start[first] == '<') {
     const size_t gpx = start.find("<gpx");  // comments and processing instructions may come first

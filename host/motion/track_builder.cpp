@@ -56,8 +56,8 @@ void TrackBuilder::add(std::string_view id, std::string_view type, const Sample&
   if (found == track_of_.end()) {
     if (has_control_character(id) || has_control_character(type))
       fail_at(file_, line,
-              fmt::format("{}: its id or type contains a control character, such as a line break, which tables and "
-                          "plots cannot show: remove it",
+              fmt::format("{}: its id or type contains a control character, such as a line break, which tables "
+                          "and plots cannot show: remove it",
                           what));
     track_of_.emplace(id, static_cast<uint32_t>(out_.tracks.size()));
     out_.tracks.push_back({std::string(id), type_index(type, line, size_m), {sample}, {}});
@@ -97,8 +97,8 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line, const st
   if (!type) {
     if (!options_.default_type) {
       fail_at(file_, line,
-              fmt::format("the vehicle type '{}' is unknown: add a [[vehicle_type]] with its length_m, width_m and "
-                          "height_m, or give trajectories.default_type",
+              fmt::format("the vehicle type '{}' is unknown: add a [[vehicle_type]] with its length_m, width_m "
+                          "and height_m, or give trajectories.default_type",
                           name));
     }
     type = options_.default_type;
@@ -116,13 +116,13 @@ void TrackBuilder::in_degrees(bool above_ground) {
   above_ground_ = above_ground;
   if (!options_.from_degrees)
     throw InputError(
-        fmt::format("{}: positions are latitude and longitude, which need a georeference.json beside the scene file "
-                    "(docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one)",
+        fmt::format("{}: positions are latitude and longitude, which need a georeference.json beside "
+                    "the scene file (docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one)",
                     file_));
   if (options_.scale != 1 || options_.offset_m != glm::dvec3(0))
     throw ConfigError(
-        fmt::format("{}: positions are latitude and longitude, which the georeference of the scene places: remove "
-                    "trajectories.offset_m and trajectories.scale",
+        fmt::format("{}: positions are latitude and longitude, which the georeference of the scene places: "
+                    "remove trajectories.offset_m and trajectories.scale",
                     file_));
 }
 
@@ -167,10 +167,10 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
                      options_.default_type->height_m));
   }
   if (off_network_ > 0) {
-    warn(fmt::format(
-        "{}: {} samples have x or y = {:.0f}, which SUMO writes for a vehicle off the network: the vehicle is "
-        "absent at these times",
-        file_, off_network_, sumo_invalid));
+    warn(
+        fmt::format("{}: {} samples have x or y = {:.0f}, which SUMO writes for a vehicle off the network: "
+                    "the vehicle is absent at these times",
+                    file_, off_network_, sumo_invalid));
   }
   if (off_ground_ > 0) {
     warn(fmt::format("{}: {} samples are outside of the ground: their vehicles keep the height that they had before",

@@ -102,8 +102,8 @@ void prove_links_csv(std::span<const std::filesystem::path> parts, const std::fi
   const auto refuse_unless = [&file](bool same) {
     if (same) return;
     throw RuntimeError(
-        fmt::format("{}: does not read back as it was written, so nothing was removed; check the disk, and run again "
-                    "with --resume",
+        fmt::format("{}: does not read back as it was written, so nothing was removed; check the disk, "
+                    "and run again with --resume",
                     file.string()));
   };
   const auto check = [&] {

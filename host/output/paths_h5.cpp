@@ -51,10 +51,10 @@ bool fits(const FrameResult& frame, const Run& run) {
 
 void check(const Run& run, const FrameResult& frame) {
   if (!is_rectangular(frame.paths) || !fits(frame, run))
-    throw RuntimeError(fmt::format(
-        "the paths of frame {} have columns of unequal length, or ends or vehicles that the run lacks; this "
-        "is a fault of wavetracer, report it",
-        frame.frame));
+    throw RuntimeError(
+        fmt::format("the paths of frame {} have columns of unequal length, or ends or vehicles that the run lacks; "
+                    "this is a fault of wavetracer, report it",
+                    frame.frame));
 }
 
 // Appends the real or imaginary parts of the coefficients, (path, rx port, tx port), packed from the four slots of
@@ -83,13 +83,14 @@ void append_groups(const Paths& paths, FrameTables& tables) {
   };
   tables.append<uint32_t>("group",
                           {"1",
-                           "numbers of the groups of the path in its link and frame, that with the largest weight "
-                           "first; 4294967295 for none"},
+                           "numbers of the groups of the path in its link and frame, "
+                           "that with the largest weight first; 4294967295 for none"},
                           flat(paths.group.empty() ? own : paths.group), {most_groups});
   tables.append<double>("group_weight",
                         {"1",
-                         "the part of the field that is one with each group; the power of a link is the sum over "
-                         "groups and pairs of ports of |sum over paths of weight a exp(-j 2 pi f delay_s)|^2"},
+                         "the part of the field that is one with each group; "
+                         "the power of a link is the sum over groups and pairs of ports of |sum over paths "
+                         "of weight a exp(-j 2 pi f delay_s)|^2"},
                         flat(paths.group.empty() ? whole : paths.group_weight), {most_groups});
 }
 
@@ -105,8 +106,8 @@ void append_paths(const Paths& paths, FrameTables& tables) {
   column("delay_s", "s", "length of the path divided by the speed of light", paths.delay_s);
   column("gain_db", "dB", "10 log10 of the sum of |a|^2 over all ports", paths.gain_db);
   const std::string a =
-      " part of the passband coefficient a between the antenna ports, without the carrier phase of the delay; shape "
-      "(path, rx port, tx port), port 0 is V (or +45 deg), port 1 is H (or -45 deg)";
+      " part of the passband coefficient a between the antenna ports, without the carrier phase of the delay; "
+      "shape (path, rx port, tx port), port 0 is V (or +45 deg), port 1 is H (or -45 deg)";
   append_coefficients(paths, tables, "a_re", {"1", "real" + a}, [](const auto& z) { return z.real(); });
   append_coefficients(paths, tables, "a_im", {"1", "imaginary" + a}, [](const auto& z) { return z.imag(); });
   column("aod_theta_rad", "rad", "direction in which the path leaves, angle from +z", paths.aod_theta_rad);
@@ -133,8 +134,8 @@ void append_vertices(const Paths& paths, FrameTables& tables) {
   };
   column("interaction", interaction_legend().c_str(), paths.vertex_interaction);
   column("surface",
-         "surface of the scene, or of the model of the instance that was hit; of a diffraction the edge, as "
-         "`wavetracer scene info --edges` numbers them; numbers hold for one file",
+         "surface of the scene, or of the model of the instance that was hit; of a diffraction the edge, "
+         "as `wavetracer scene info --edges` numbers them; numbers hold for one file",
          paths.vertex_surface);
   column("instance", "row of /instances, the vehicle that was hit; 4294967295 for the static scene",
          paths.vertex_instance);
@@ -153,8 +154,8 @@ void write_root(hdf5::File& file, const Run& run) {
        "h(f) = sum over paths of a exp(-j 2 pi f delay_s), f the absolute frequency in Hz; "
        "free space between isotropic antennas gives |a| = wavelength / (4 pi distance)");
   text("convention_polarization",
-       "V is the theta unit vector and H the phi unit vector of the global spherical "
-       "coordinates at each end, turned with the antenna");
+       "V is the theta unit vector and H the phi unit vector of the global spherical coordinates at each end, "
+       "turned with the antenna");
   text("convention_coordinates", "right-handed, z up, metres, those of the scene file after its scale and up axis");
 }
 

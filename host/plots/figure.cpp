@@ -23,8 +23,7 @@ std::string terminal(const Figure& figure, Format format) {
       return fmt::format("svg size {:.0f},{:.0f} font 'sans-serif,13' background 'white'", w, h);
     case Format::png:
       return fmt::format(
-          "pngcairo size {:.0f},{:.0f} fontscale 2 linewidth 2 pointscale 2 font 'sans-serif,10' "
-          "background 'white'",
+          "pngcairo size {:.0f},{:.0f} fontscale 2 linewidth 2 pointscale 2 font 'sans-serif,10' background 'white'",
           2 * w, 2 * h);
     default:
       return fmt::format("pdfcairo size {:.2f}in,{:.2f}in font 'sans-serif,10' background 'white'", w / 96, h / 96);

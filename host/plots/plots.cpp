@@ -66,8 +66,8 @@ class Plotter {
                                     spelling_hint(choice_.grid, grids_)));
     if (run_.path_count() == 0 && choice_.what != std::vector<std::string>{"rays"})
       throw InputError(
-          fmt::format("{}: the run found no path at all, so there is nothing to plot; look at the places of "
-                      "its antennas, and at trace.max_depth",
+          fmt::format("{}: the run found no path at all, so there is nothing to plot; "
+                      "look at the places of its antennas, and at trace.max_depth",
                       run_.file().string()));
   }
 

@@ -33,8 +33,7 @@ LinkTable link_table(const SavedRun& run) {
   const auto without = [&](const std::string& problem) {
     LinkTable none;
     none.warning = fmt::format(
-        "{}: {}; figures of links are those of the paths in paths.h5, and what was missed on "
-        "links is not shown",
+        "{}: {}; figures of links are those of the paths in paths.h5, and what was missed on links is not shown",
         file.string(), problem);
     return none;
   };

@@ -112,10 +112,8 @@ struct SavedRun::State {
     if (file.root_text("format") != "wavetracer paths") throw RuntimeError("its format is not \"wavetracer paths\"");
     version = file.root_text("version");
     if (const double format = file.root_number("format_version"); format != 1)
-      throw RuntimeError(
-          fmt::format("it has version {} of the format, written by wavetracer {}; this program reads "
-                      "version 1",
-                      format, version));
+      throw RuntimeError(fmt::format(
+          "it has version {} of the format, written by wavetracer {}; this program reads version 1", format, version));
     summary = read_summary_json(path.parent_path() / "summary.json");
     config = file.root_text("config");
     frequency_hz = file.root_number("frequency_hz");

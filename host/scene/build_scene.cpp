@@ -94,8 +94,8 @@ dvec3 recentre(Soup& soup, const std::string& file) {
   if (std::max({size.x, size.y, size.z}) < smallest_extent_m) {
     throw InputError(
         fmt::format("{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, less than {:g} m, which is too small, "
-                    "because corners within 1 mm of each other are merged: is scene.scale right? To trace a small "
-                    "model, scale scene, antennas and wavelength up by one factor",
+                    "because corners within 1 mm of each other are merged: is scene.scale right? "
+                    "To trace a small model, scale scene, antennas and wavelength up by one factor",
                     file, size.x, size.y, size.z, smallest_extent_m));
   }
   const dvec3 origin = glm::round(lower + size * 0.5) + dvec3(0);  // adding 0 turns -0 into 0

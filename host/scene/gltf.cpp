@@ -236,8 +236,8 @@ class GltfReader {
       warn(nodes_with_meshes - meshes_seen_, "nodes with meshes are not in the scene, and were left out");
     if (const double spacing = meshes_.largest_coordinate() * 0x1p-23; spacing > 1e-3)
       raw_.warnings.push_back(
-          fmt::format("{}: coordinates of its meshes reach {:.0f}, where float32 keeps only {:.3g}: move the meshes to "
-                      "their origin and their nodes away from it",
+          fmt::format("{}: coordinates of its meshes reach {:.0f}, where float32 keeps only {:.3g}: "
+                      "move the meshes to their origin and their nodes away from it",
                       raw_.file, meshes_.largest_coordinate(), spacing));
     warn(meshes_.not_surfaces(), "meshes of points or lines were left out");
     warn(list_in(document_, "animations").size(), "animations are not played: all nodes stay where the file has them");

@@ -189,8 +189,8 @@ GltfData::Elements GltfData::elements(const json& at, uint64_t count, size_t com
   if (count > 0 &&
       (first > bytes.size() || bytes.size() - first < size || count - 1 > (bytes.size() - first - size) / stride))
     fail(
-        fmt::format("an accessor of {} elements ends behind its bufferViews[{}] of {} bytes: the file is incomplete or "
-                    "damaged",
+        fmt::format("an accessor of {} elements ends behind its bufferViews[{}] of {} bytes: "
+                    "the file is incomplete or damaged",
                     count, at.at("bufferView").dump(), bytes.size()));
   return {count > 0 ? bytes.substr(first) : std::string_view{}, stride, step, type};
 }

@@ -97,8 +97,8 @@ std::optional<ItuLaw> find_itu_law(ItuEdition edition, std::string_view name, do
   ItuLaw out{*nearest, !ranges.empty(), ""};
   if (ranges.size() > 1)
     out.choice = fmt::format(
-        "ITU-R {} has {} laws of \"{}\" at {:g} GHz ({}): that of {} is used, because its range is narrower; a "
-        "[[material]] with a, b, c and d takes another one",
+        "ITU-R {} has {} laws of \"{}\" at {:g} GHz ({}): that of {} is used, because its range is narrower; "
+        "a [[material]] with a, b, c and d takes another one",
         edition.word(), ranges.size(), name, frequency_ghz, fmt::join(ranges, ", "), ranges.front());
   return out;
 }

@@ -104,8 +104,8 @@ class Resolver {
     const bool surface = law || fixed || m.thickness_m || m.scattering_lobe || !m.library.empty();
     if (m.vegetation != "none" && surface)
       fail(
-          "vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: remove those "
-          "keys");
+          "vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: "
+          "remove those keys");
     const bool leaves = m.attenuation_db_m || m.max_attenuation_db || !m.in_leaf;
     if (leaves && (surface || (m.vegetation == "none" && woodland_named(spellings(m.name)[2]) == "none")))
       fail("attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or \"deciduous\"");
@@ -164,8 +164,8 @@ class Resolver {
     if (!law->choice.empty()) notes_.insert(law->choice);
     if (!law->in_range && scene_.extrapolate_materials && !range_is_a_limit(name)) {
       notes_.insert(
-          fmt::format("the material \"{}\" was measured from {}, and is used at {:g} GHz all the same "
-                      "(scene.extrapolate_materials)",
+          fmt::format("the material \"{}\" was measured from {}, and is used at {:g} GHz all "
+                      "the same (scene.extrapolate_materials)",
                       name, range_in_words(law->material), frequency_ghz_));
       law->material.min_ghz = 0;
       law->material.max_ghz = std::numeric_limits<double>::infinity();
@@ -202,10 +202,10 @@ class Resolver {
       if (made_of) material->name = spellings(over->name)[2];
       if (!material) {
         if (!over->a && !over->permittivity) {
-          throw ConfigError(fmt::format(
-              "[[material]] '{}' is not an ITU material, so it needs permittivity (or a, b, c, d), or the library "
-              "material that it is made of",
-              over->name));
+          throw ConfigError(
+              fmt::format("[[material]] '{}' is not an ITU material, so it needs permittivity (or a, b, c, d), "
+                          "or the library material that it is made of",
+                          over->name));
         }
         material = Material{.name = spellings(over->name)[2]};
       }

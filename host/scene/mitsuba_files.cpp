@@ -133,8 +133,8 @@ const MitsubaFiles::Document& MitsubaFiles::load(const std::filesystem::path& pa
 void MitsubaFiles::check_root(const Document& document, pugi::xml_node root) const {
   if (const std::string_view tag = root.name(); tag == "osm" || tag == "additional" || tag == "polygons")
     throw InputError(
-        fmt::format("{}: the root element is <{}>: this is a map; `wavetracer convert {} -o FOLDER` converts it to a "
-                    "scene, FOLDER/city.xml",
+        fmt::format("{}: the root element is <{}>: this is a map; `wavetracer convert {} -o FOLDER` converts it to "
+                    "a scene, FOLDER/city.xml",
                     where(root), root.name(), document.path.string()));
 }
 

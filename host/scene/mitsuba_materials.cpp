@@ -105,8 +105,8 @@ uint32_t MitsubaMaterials::add(pugi::xml_node node, const std::string& fallback)
 void MitsubaMaterials::warn_of_scattering(pugi::xml_node node) {
   if (mitsuba_number(files_, node, "scattering_coefficient", 0, false).value_or(0) > 0) {
     raw_.warnings.push_back(
-        fmt::format("{}: {}: scattering_coefficient is not used, nor its pattern; give [[material]] the keys "
-                    "scattering, scattering_lobe and scattering_cross_polar",
+        fmt::format("{}: {}: scattering_coefficient is not used, nor its pattern; "
+                    "give [[material]] the keys scattering, scattering_lobe and scattering_cross_polar",
                     files_.where(node), MitsubaFiles::describe(node)));
   }
 }

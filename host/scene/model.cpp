@@ -43,8 +43,8 @@ class ModelReader {
     const double float_spacing = largest_ * 0x1p-23;
     if (float_spacing > 1e-3) {
       raw_.warnings.push_back(
-          fmt::format("{}: coordinates reach {:.0f}, where float32 keeps only {:.3g}: move the model to its origin, or "
-                      "use PLY with double coordinates",
+          fmt::format("{}: coordinates reach {:.0f}, where float32 keeps only {:.3g}: "
+                      "move the model to its origin, or use PLY with double coordinates",
                       raw_.file, largest_, float_spacing));
     }
     return std::move(raw_);

@@ -170,8 +170,8 @@ struct Elements {
     }
     if (element.count > 0 && std::ranges::find(harmless, element.name) == harmless.end())
       mesh.warnings.push_back(
-          fmt::format("{}: {} entries of the element '{}' were left out: only vertex, face and "
-                      "tristrips make surfaces",
+          fmt::format("{}: {} entries of the element '{}' were left out: only vertex, "
+                      "face and tristrips make surfaces",
                       file, element.count, element.name));
   }
 };

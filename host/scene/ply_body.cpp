@@ -24,8 +24,8 @@ void PlyBody::begin(const Element& element) {
   const uint64_t left = static_cast<uint64_t>(end_ - next_) + 1;  // the last separator of an ascii file may be absent
   if (least > 0 && element.count > left / least) {
     throw InputError(
-        fmt::format("{}: the header declares {} entries of element '{}', at least {} bytes each, but only {} bytes "
-                    "are left: the file is incomplete or its header is wrong",
+        fmt::format("{}: the header declares {} entries of element '{}', at least {} bytes each, "
+                    "but only {} bytes are left: the file is incomplete or its header is wrong",
                     file_, element.count, element.name, least, left - 1));
   }
 }

@@ -97,8 +97,9 @@ TileTable::TileTable(const Scene& scene, std::span<const Scene> models, std::spa
     double enough_m = tile_m;
     while (std::isfinite(enough_m) && count(enough_m, fair) > static_cast<double>(fair)) enough_m *= 2;
     throw ConfigError(
-        fmt::format("trace.tile_m = {:g} cuts the surfaces that scatter into {:.3g} tiles or more, but at most {} are "
-                    "possible here; use trace.tile_m = {:g} or more. Every tile is one path for each link that sees it",
+        fmt::format("trace.tile_m = {:g} cuts the surfaces that scatter into {:.3g} tiles or more, "
+                    "but at most {} are possible here; use trace.tile_m = {:g} or more. "
+                    "Every tile is one path for each link that sees it",
                     tile_m, found, most, enough_m));
   }
   parts_.push_back(make_tiles(scene, tile_m));

@@ -47,8 +47,8 @@ std::string unit_warning(const Scene& scene) {
            (height(object) > highest_wall_m && object.upright_m2 > most_upright * object.area_m2);
   };
   constexpr const char* what_to_do =
-      "is scene.scale right? It is in metres per unit of the file: 0.001 for a file in millimetres, 0.01 for "
-      "centimetres";
+      "is scene.scale right? It is in metres per unit of the file: 0.001 for a file in millimetres, "
+      "0.01 for centimetres";
   if (const auto found = std::ranges::find_if(objects, too_high); found != objects.end())
     return fmt::format("\"{}\" has walls and is {:.0f} m high: {}",
                        scene.objects[static_cast<size_t>(found - objects.begin())], height(*found), what_to_do);

@@ -34,11 +34,11 @@ NumberTable operations_table(const std::vector<CacheRow>& rows, const std::vecto
 }
 
 constexpr const char* operations_note =
-    "rays are traced in packets, so that no ray has a time of its own and a segment's depth stands for the entry: a "
-    "depth is what a frame that ends there takes more than one that ends before, which for the few segments of deep "
-    "paths is a small difference of large numbers and can come out negative; a row of depth 0 is all of a frame. The "
-    "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
-    "table costs besides is the gathering of missed rays";
+    "rays are traced in packets, so that no ray has a time of its own and a segment's depth stands for the entry: "
+    "a depth is what a frame that ends there takes more than one that ends before, which for the few segments "
+    "of deep paths is a small difference of large numbers and can come out negative; "
+    "a row of depth 0 is all of a frame. The hash is part of both read and write. The thesis' buffer call, "
+    "the address of an entry, has no counterpart; what a table costs besides is the gathering of missed rays";
 
 // Returns, among the rows of a drive and number of rays, the one that saves most and loses at most `lost_power`; null
 // if there is none.
@@ -206,23 +206,22 @@ std::vector<LinePanel> panels_of(const std::vector<CacheRow>& rows, const std::v
 }
 
 std::vector<std::string> study_notes(const CacheMeasurement& measured, uint32_t repeats) {
-  return {
-      measured.frames > 0
-          ? fmt::format("times and errors: averages of equation 6.2 over {} frames after the first, which finds the "
-                        "table empty; the thesis averages 500 cycles",
-                        measured.frames)
-          : fmt::format("times: medians of {} frames with an empty table (cold) and of as many after them (warm); "
-                        "shares and savings are of the warm ones",
-                        repeats),
-      "device time from profiling events, the settings in turns: all stages that discover, from generate_rays and the "
-      "order to interact, with cache_lookup, cache_gather, cache_store and cache_purge",
-      "errors: against the same frame with the same rays and no cache; paths pair by ends and sequence of surfaces. "
-      "Where reception is exact, each path is solved and visible whatever led to it, so those that only the cached "
-      "frame finds are no false ones",
-      fmt::format(
-          "the thesis does not say how far a transmitter moves until its entries are stale; here {:g} m, unless "
-          "the table says otherwise",
-          thesis_position_step_m)};
+  return {measured.frames > 0
+              ? fmt::format("times and errors: averages of equation 6.2 over {} frames after the first, "
+                            "which finds the table empty; the thesis averages 500 cycles",
+                            measured.frames)
+              : fmt::format("times: medians of {} frames with an empty table (cold) and of as many after them (warm); "
+                            "shares and savings are of the warm ones",
+                            repeats),
+          "device time from profiling events, the settings in turns: all stages that discover, from generate_rays "
+          "and the order to interact, with cache_lookup, cache_gather, cache_store and cache_purge",
+          "errors: against the same frame with the same rays and no cache; paths pair by ends "
+          "and sequence of surfaces. "
+          "Where reception is exact, each path is solved and visible whatever led to it, so those "
+          "that only the cached frame finds are no false ones",
+          fmt::format("the thesis does not say how far a transmitter moves until its entries are stale; here {:g} m, "
+                      "unless the table says otherwise",
+                      thesis_position_step_m)};
 }
 
 }  // namespace wavetracer::study

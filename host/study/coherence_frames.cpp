@@ -48,8 +48,8 @@ std::string world_words(const TracedWorld& traced) {
 std::string drive_note(const Drive& drive, const TracedWorld& traced) {
   const glm::dvec3 &from = drive.place_m.front(), &to = drive.place_m.back();
   return fmt::format(
-      "drive: {} frames {:g} s apart, of the transmitter \"{}\" from ({:.5g}, {:.5g}, {:.5g}) m to "
-      "({:.5g}, {:.5g}, {:.5g}) m, in {}",
+      "drive: {} frames {:g} s apart, of the transmitter \"{}\" from ({:.5g}, {:.5g}, {:.5g}) m to ({:.5g}, "
+      "{:.5g}, {:.5g}) m, in {}",
       drive.frames(), drive.time_s(1), drive.name, from.x, from.y, from.z, to.x, to.y, to.z, world_words(traced));
 }
 
@@ -86,8 +86,8 @@ Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<
   }
   if (longest.frames() >= least) return longest;
   throw ConfigError(
-      fmt::format("{}no transmitter is there in {} frames that follow each other ({} of them were looked "
-                  "at): give its vehicle a longer trajectory, or more frames in [time]",
+      fmt::format("{}no transmitter is there in {} frames that follow each other ({} of them were looked at): "
+                  "give its vehicle a longer trajectory, or more frames in [time]",
                   where, least, count));
 }
 
@@ -98,8 +98,8 @@ void check_way(const Drive& drive, const Scene& scene) {
     for (const auto& [a, b, c] : scene.triangles)
       if (crosses(from, to, scene.vertices[a], scene.vertices[b], scene.vertices[c]))
         throw ConfigError(
-            fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; give it another "
-                        "position_m or velocity_m_s (without one it drives along +x)",
+            fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; "
+                        "give it another position_m or velocity_m_s (without one it drives along +x)",
                         drive.name, drive.moved_m(drive.frames() - 1)));
   }
 }
@@ -191,11 +191,12 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   found.words = frame_words(experiment, rows, drive, world_words(traced), traced.device.name);
   found.notes = {
       drive_note(drive, traced),
-      "total is equation 6.4 divided by the root of the number of components (three, less those that are constant); "
-      "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in the "
-      "lists of hits",
-      "both is the share of rays that hit in both frames among those that hit in either; same_surface and "
-      "same_sequence are shares of the rays that hit in both"};
+      "total is equation 6.4 divided by the root of the number of components (three, less those "
+      "that are constant); "
+      "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in "
+      "the lists of hits",
+      "both is the share of rays that hit in both frames among those that hit in either; "
+      "same_surface and same_sequence are shares of the rays that hit in both"};
   return found;
 }
 

@@ -57,8 +57,8 @@ std::string reason(const Rows& rows) {
                                         grouped(claimed_many), grouped(claimed_few));
   if (fixed >= 50)
     return start +
-           "which is what launching and the longest single rays cost this device, however few there are; an order can "
-           "change the rest alone, and its own launches come on top.";
+           "which is what launching and the longest single rays cost this device, however few there are; "
+           "an order can change the rest alone, and its own launches come on top.";
   return start + "so most of the time at the larger count is that of its rays, which an order can change.";
 }
 

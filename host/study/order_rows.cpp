@@ -32,10 +32,11 @@ double average(std::vector<double> values) {
 
 void check_same(const OrderRow& a, const OrderRow& b) {
   if (a.paths == b.paths && a.sequences == b.sequences) return;
-  throw RuntimeError(fmt::format(
-      "{} rays: {} finds {} paths in {} sequences, {} finds {} in {} from the same rays, though no order may "
-      "change what is found: the device or its driver gives wrong results; try another one with --device",
-      grouped(a.rays), label(a.series), a.paths, a.sequences, label(b.series), b.paths, b.sequences));
+  throw RuntimeError(
+      fmt::format("{} rays: {} finds {} paths in {} sequences, {} finds {} in {} from the same rays, "
+                  "though no order may change what is found: the device or its driver gives wrong results; "
+                  "try another one with --device",
+                  grouped(a.rays), label(a.series), a.paths, a.sequences, label(b.series), b.paths, b.sequences));
 }
 
 }  // namespace

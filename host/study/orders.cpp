@@ -49,14 +49,14 @@ std::vector<std::string> notes_of(const OrderFigure& figure, const std::vector<O
                                   const Request& request) {
   const std::string times =
       figure.moves ? fmt::format(
-                         "times: means (equation 6.2) over {} frames that follow the first, {} at {} rays, the "
-                         "series in turns",
+                         "times: means (equation 6.2) over {} frames that follow the first, {} at {} rays, "
+                         "the series in turns",
                          rows.front().frames, rows.back().frames, grouped(rows.back().rays))
                    : fmt::format("times: medians of {} warm frames, the series in turns", request.repeats);
   return {
       times +
-          "; tracing is generate_rays, trace, trace_moving, compact, scan and interact, the sort is order and "
-          "sort, all from profiling events",
+          "; tracing is generate_rays, trace, trace_moving, compact, scan and interact, the sort is order "
+          "and sort, all from profiling events",
       "every frame launches all rays of its transmitters: trace.reuse, trace.diffraction and cache.kind are off" +
           std::string(figure.moves ? "" : "; where vehicles drive, it is the first frame in which something sends")};
 }
@@ -100,8 +100,8 @@ DeviceSummary prepare(OrderRun& run) {
     run.frames = std::min<uint64_t>(run.frames, probe.frame_count() - 1);
   if (run.figure.moves && run.frames == 0)
     throw ConfigError(
-        fmt::format("{}: {} averages over the frames of a drive, and there is one frame alone: give "
-                    "trajectories that last longer, or another [time]",
+        fmt::format("{}: {} averages over the frames of a drive, and there is one frame alone: give trajectories "
+                    "that last longer, or another [time]",
                     run.request.config.file, run.experiment.name));
   run.config = point_config(run.figure, run.request.config, run.frames);
   run.host.say(fmt::format("{}: {} series at {} to {} rays on {}", run.experiment.name, run.figure.series.size(),

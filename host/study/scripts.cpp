@@ -26,8 +26,8 @@ std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index
       plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x, *plot.least_x)
                    : std::to_string(x);
   return fmt::format(
-      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype "
-      "{} pointsize 0.6 title '{}'",
+      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize "
+      "0.6 title '{}'",
       plot.name, place, condition, value, plot.points ? "points" : "linespoints", colours[index % colours.size()],
       index / colours.size() + 1, index < colours.size() ? 7 : 6, quoted(plot.settings[index]));
 }
@@ -72,8 +72,8 @@ std::string panel_text(const DepthPlot& plot, const DepthPanel& panel) {
   std::string text = fmt::format("set title '{}'\nplot ", quoted(panel.title));
   for (uint32_t depth = 1; depth <= plot.max_depth; ++depth)
     text += fmt::format(
-        "{}'{}.csv' using {}:(strcol({}) eq '{}' && column({}) == {} ? column({}) : NaN) with {} linecolor '{}' "
-        "title 'depth {}'",
+        "{}'{}.csv' using {}:(strcol({}) eq '{}' && column({}) == {} ? "
+        "column({}) : NaN) with {} linecolor '{}' title 'depth {}'",
         depth == 1 ? "" : ", \\\n  ", plot.name, column_of(plot.columns, panel.x), column_of(plot.columns, panel.only),
         quoted(panel.equals), column_of(plot.columns, "depth"), depth, column_of(plot.columns, panel.y),
         plot.points ? "points pointtype 7 pointsize 0.2" : "lines linewidth 1.5", colours[(depth - 1) % colours.size()],

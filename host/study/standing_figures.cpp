@@ -160,19 +160,20 @@ const std::vector<Experiment> standing = {
      .doc = "time against 1,000 to 10,000,000 rays, for every order and launch shape",
      .title = "Ray orders and launch shapes",
      .caption = "Time a ray against the number of rays",
-     .paragraph = "The thesis finds H3DH and HZ the fastest of its six orders and no order (WS) the slowest at every "
-                  "number of rays, buffers mapped to two and three dimensions no faster than H3DH (section 6.2.3), "
-                  "and reordering to take 23% less time at 1,000 rays and to give 2.5 times the speed at 49,000 "
-                  "(figure 6.18). Measured on {device}.{reason} Rays born in order need no sort.",
+     .paragraph =
+         "The thesis finds H3DH and HZ the fastest of its six orders and no order (WS) "
+         "the slowest at every number of rays, buffers mapped to two and three dimensions "
+         "no faster than H3DH (section 6.2.3), and reordering to take 23% less time "
+         "at 1,000 rays and to give 2.5 times the speed at 49,000 (figure 6.18). Measured on {device}.{reason} Rays born in order need no sort.",
      .figure = all_orders()},
     {.name = "figure-6.2",
      .doc = "chained cache: what a write and a read of a segment take, by hash",
      .title = "Operations of the chained table",
      .caption = operations_caption,
-     .paragraph = "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against 50 "
-                  "ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next to nothing "
-                  "(section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. What the table adds besides is "
-                  "the gathering of missed rays.",
+     .paragraph = "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against "
+                  "50 ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next "
+                  "to nothing (section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. "
+                  "What the table adds besides is the gathering of missed rays.",
      .figure =
          CacheFigure{
              .study = chained_operations,
@@ -186,10 +187,10 @@ const std::vector<Experiment> standing = {
      .doc = "chained cache: writes and reads against tracing",
      .title = "Operations of the chained table and tracing",
      .caption = operations_caption,
-     .paragraph =
-         "The thesis finds almost no tracing operation to exceed 2 s, and draws writes and reads far below it "
-         "(section 6.3.1, figure 6.3; writes take 120 ms at most in figure 6.2). Measured on {device} at {rays} rays. "
-         "A cache can only save time where a read is cheaper than tracing.",
+     .paragraph = "The thesis finds almost no tracing operation to exceed 2 s, and draws writes "
+                  "and reads far below it (section 6.3.1, figure 6.3; writes take 120 ms at most in figure 6.2). "
+                  "Measured on {device} at {rays} rays. "
+                  "A cache can only save time where a read is cheaper than tracing.",
      .figure =
          CacheFigure{.study = chained_operations, .view = operations(all_chained, true), .claims = bucket_claims()}},
     {.name = "figure-6.4",
@@ -210,9 +211,9 @@ const std::vector<Experiment> standing = {
      .doc = "chained cache against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the chained table",
      .caption = times_caption,
-     .paragraph = "The thesis finds no chained cache of 50,000 entries faster than none, whatever the hash, but "
-                  "between 2,560,000 and 10,240,000 rays (section 6.3.1, figure 6.5). Measured on {device} with a "
-                  "warm table, one of them saves time {saves}.",
+     .paragraph = "The thesis finds no chained cache of 50,000 entries faster than none, whatever the hash, "
+                  "but between 2,560,000 and 10,240,000 rays (section 6.3.1, figure 6.5). "
+                  "Measured on {device} with a warm table, one of them saves time {saves}.",
      .figure = CacheFigure{.study = chained_rays,
                            .view = times_by_rays,
                            .claims = {{"no gain below 2,560,000 and beyond 10,240,000 rays",
@@ -250,16 +251,17 @@ const std::vector<Experiment> standing = {
      .doc = "open cache: writes and reads against tracing",
      .title = "Operations of the open table and tracing",
      .caption = regions_caption,
-     .paragraph = "The thesis finds operations of the open table much faster than tracing, 1 to 2.5 s against some "
-                  "0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
+     .paragraph = "The thesis finds operations of the open table much faster than tracing, "
+                  "1 to 2.5 s against some 0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
      .figure =
          CacheFigure{.study = open_operations, .view = regions(mutexes_and_chained, true), .claims = region_claims()}},
     {.name = "figure-6.8",
      .doc = "open cache with two locks against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the open table",
      .caption = times_caption,
-     .paragraph = "The thesis finds the open table with two locks to save time from some 50,000 rays on, most with "
-                  "the mixed hash, then with the uniform one, then with Morton codes (section 6.3.1, figure 6.8). "
+     .paragraph = "The thesis finds the open table with two locks to save time from some 50,000 rays on, "
+                  "most with the mixed hash, then with the uniform one, then with Morton codes (section 6.3.1, "
+                  "figure 6.8). "
                   "Measured on {device} with a warm table, one of them saves time {saves}.",
      .figure = CacheFigure{.study = open_rays,
                            .view = times_by_rays,
@@ -279,10 +281,10 @@ const std::vector<Experiment> standing = {
      .doc = "open cache with a mutex against none, rays in order",
      .title = "Frames with the open table, rays in order",
      .caption = times_caption,
-     .paragraph = "With a mutex and rays in order (here H3DH; the thesis does not say which), the thesis finds the "
-                  "open table to save time from some "
-                  "16,000 rays on, 2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {device} with a "
-                  "warm table, one of them saves time {saves}.",
+     .paragraph = "With a mutex and rays in order (here H3DH; the thesis does not say which), "
+                  "the thesis finds the open table to save time from some 16,000 rays on, "
+                  "2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {device} with a warm table, "
+                  "one of them saves time {saves}.",
      .figure = CacheFigure{.study = open_rays_ordered,
                            .view = times_by_rays,
                            .claims = {{"a gain beyond 16,000 rays", everywhere(above(16000), saves(mutexes))},

@@ -55,8 +55,8 @@ Config driven(const Config& asked, uint64_t frames) {
   standing.stations.clear();
   if (standing.transmitters.empty())
     throw ConfigError(
-        fmt::format("{}nothing that sends can be driven: give a [[transmitter]] or a [[station]], or vehicles "
-                    "with antennas ([[mount]]) and their trajectories",
+        fmt::format("{}nothing that sends can be driven: give a [[transmitter]] or a [[station]], "
+                    "or vehicles with antennas ([[mount]]) and their trajectories",
                     standing.file.empty() ? "" : standing.file + ": "));
   const RadioEnd& end = standing.transmitters.front();
   Config config = standing;

@@ -129,8 +129,8 @@ json run_facts(const SavedRun& run, const SavedWorld& world, const ViewOptions& 
 void warn_of_losses(const FrameBlocks& blocks, ViewPage& page) {
   if (blocks.shown_paths < blocks.paths)
     page.warnings.push_back(
-        fmt::format("the page holds the {} strongest of {} paths; fewer frames (--frames) or another "
-                    "limit (--max-paths) show the others",
+        fmt::format("the page holds the {} strongest of {} paths; fewer frames (--frames) "
+                    "or another limit (--max-paths) show the others",
                     blocks.shown_paths, blocks.paths));
   if (blocks.shown_links < blocks.links)
     page.warnings.push_back(fmt::format("gains over time are there for the {} strongest of {} links of all frames",

@@ -143,8 +143,8 @@ TEST_CASE("a mechanism is described by what is missing without it") {
   study.rows.back().reference = true;
   const auto words = recommendations(study);
   CHECK(has(words,
-            "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; path gains change by 1.2 dB "
-            "at the median link, 31 dB at the worst; 3 links have no path without it; a frame takes 500 ms with "
-            "it, 100 ms without. Yours is off"));
+            "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; "
+            "path gains change by 1.2 dB at the median link, 31 dB at the worst; 3 links have no path without it; "
+            "a frame takes 500 ms with it, 100 ms without. Yours is off"));
   CHECK(has(words, "Scattering off rough surfaces: not measured, because no material scatters"));
 }

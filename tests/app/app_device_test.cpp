@@ -116,8 +116,8 @@ TEST_CASE("a run warns before it traces, and explains links without a path, on t
   const std::string deep = "receiver \"deep\" is 1.5 m below the ground there, \"ground\"";
   CHECK(warnings({}) == std::vector<std::string>{deep,
                                                  "mast -> deep has no path: its direct line meets \"ground\" "
-                                                 "(concrete) after 9.372 m; trace.transmission = true lets it "
-                                                 "through 1 wall"});
+                                                 "(concrete) after 9.372 m; "
+                                                 "trace.transmission = true lets it through 1 wall"});
   const auto none = warnings({"--set", "links.receivers=[\"deep\"]"});
   REQUIRE(none.size() == 3);
   CHECK(none[1] == "no path was found, of 1 links in 1 frame");

@@ -104,8 +104,8 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   results.totals.missed = {
       .frames = 1, .paths = {6, 3, 2, 9}, .powers = {8e-6, 1e-6, 0, 0.4}, .amplitude = 0.02, .power = 1};
   CHECK(contains(report(),
-                 "\nmissed     about 4 of 5 paths (0 to 23), 5e-06 of the power (0 to 3e-05): a higher number "
-                 "of trace.rays finds more of them\n"));
+                 "\nmissed     about 4 of 5 paths (0 to 23), 5e-06 of the power (0 to 3e-05): "
+                 "a higher number of trace.rays finds more of them\n"));
   results.totals.missed = {.frames = 1, .paths = {0, 0, 0, 9}, .powers = {0, 0, 0, 0.4}, .amplitude = 0.9, .power = 1};
   sample.config.trace.rays = {};
   CHECK(contains(report(), "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.03)\n"));
@@ -121,8 +121,8 @@ TEST_CASE("the report says what frames without rays may lack") {
   CHECK_FALSE(contains(report(), "\nlate "));
   results.totals.late = {.discoveries = 9, .paths = 1200, .power = 2e-6, .all = 1e-2, .largest_share = 0.003};
   CHECK(contains(report(),
-                 "\nlate       1,200 paths with 0.0002 of the power (at most 0.003) were new when rays were launched "
-                 "again, every 0.1 s: frames before that may lack them\n"));
+                 "\nlate       1,200 paths with 0.0002 of the power (at most 0.003) "
+                 "were new when rays were launched again, every 0.1 s: frames before that may lack them\n"));
   results.totals.late = {.discoveries = 9, .all = 1e-2};
   CHECK(contains(report(), "\nlate       no path was new when rays were launched again, every 0.1 s\n"));
 }

@@ -249,7 +249,7 @@ TEST_CASE("mounts take the place of transmitters and receivers by their role") {
   };
   CHECK(with("both") == "no error");
   CHECK(with("transmitter") ==
-        "a.toml:1:1: no [[receiver]]: add one with name and position_m, a [[station]], which sends and "
-        "receives, or a [[mount]] with name and role = \"receiver\" or \"both\" for vehicles");
+        "a.toml:1:1: no [[receiver]]: add one with name and position_m, a [[station]], which sends and receives, "
+        "or a [[mount]] with name and role = \"receiver\" or \"both\" for vehicles");
   check_contains(with("receiver"), "no [[transmitter]]: add one with name and position_m, a [[station]]");
 }

@@ -127,8 +127,8 @@ TEST_CASE("a source with one of its kernels keeps its lines, and what is no kern
       "#define HELP(x) { x\ninline int f(int a) { return a; }  // kernel void no(\n/* kernel void { */\n"
       "__attribute__((reqd_work_group_size(4, 1, 1))) kernel void first(\n    global int* a) {\n#if A\n  if (a) "
       "{\n#endif\n"
-      "#if A\n  }\n#endif\n  a[0] = '1' + f(1);\n}\n\nkernel void second(global int* a) { a[1] = 2; }\nkernel "
-      "__attribute__((vec_type_hint(float4))) void third(global int* a) {\n  printf(\"}\");\n}\n";
+      "#if A\n  }\n#endif\n  a[0] = '1' + f(1);\n}\n\nkernel void second(global int* a) { a[1] = 2; }\n"
+      "kernel __attribute__((vec_type_hint(float4))) void third(global int* a) {\n  printf(\"}\");\n}\n";
   const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
   const std::string first = gpu::with_one_kernel(source, "first"), third = gpu::with_one_kernel(source, "third");
   for (const std::string* one : {&first, &third}) {

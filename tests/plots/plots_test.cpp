@@ -341,8 +341,8 @@ TEST_CASE("what the run does not have is an error that names what it has") {
   choice.grid.clear();
   choice.what = {"gian"};
   check_contains(refused(drive, choice),
-                 "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage, rays; did "
-                 "you mean \"gain\"?");
+                 "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage, rays; "
+                 "did you mean \"gain\"?");
   choice.what = {"coverage"};
   check_contains(refused(drive, choice), "--what coverage: the run has no [[receiver_grid]]");
   choice.what = {"rays"};

@@ -197,11 +197,10 @@ TEST_CASE("an antenna within 0.1 mm of a mirror or of the other antenna: those p
   CHECK(paths.size() == world.geometry.size() - 6);
   for (const double gain_db : paths.gain_db) CHECK(std::isfinite(gain_db));
   const auto name = [](uint32_t end) { return "end" + std::to_string(end); };
-  CHECK(
-      left_out_warning(left_out, name, name) ==
-      "6 paths are left out, because an antenna is at most 0.0001 m away from the surface that reflects there, or from "
-      "the other antenna: \"end0\" -> \"end0\" (2), \"end0\" -> \"end1\" (3), \"end1\" -> \"end1\" (1); move the "
-      "antenna");
+  CHECK(left_out_warning(left_out, name, name) ==
+        "6 paths are left out, because an antenna is at most 0.0001 m away from the surface that reflects there, "
+        "or from the other antenna: \"end0\" -> \"end0\" (2), \"end0\" -> \"end1\" (3), \"end1\" -> \"end1\" (1); "
+        "move the antenna");
 }
 
 TEST_CASE("what cannot be computed is an error") {

@@ -98,8 +98,9 @@ TEST_CASE("laws that overlap: the narrower range, with a warning; each ordered s
   CHECK(warnings("glass", 150).empty());
   REQUIRE(warnings("glass", 300).size() == 1);
   CHECK(warnings("glass", 300)[0] ==
-        "ITU-R P.2040-4 has 2 laws of \"glass\" at 300 GHz (220 to 450 GHz, 100 to 400 GHz): that of 220 to 450 GHz is "
-        "used, because its range is narrower; a [[material]] with a, b, c and d takes another one");
+        "ITU-R P.2040-4 has 2 laws of \"glass\" at 300 GHz (220 to 450 GHz, 100 to 400 GHz): "
+        "that of 220 to 450 GHz is used, because its range is narrower; a [[material]] with a, b, "
+        "c and d takes another one");
   const std::vector<Material>& all = itu_materials("P.2040-4");
   for (size_t i = 0; i < all.size(); ++i)
     for (size_t k = i + 1; k < all.size(); ++k) {
@@ -234,8 +235,8 @@ TEST_CASE("vegetation is refused what only a surface has, and a surface what onl
   bark.library = "wood";
   refuses(bark, no_surface);
   constexpr const char* no_leaves =
-      "[[material]] 'brick': attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or "
-      "\"deciduous\"";
+      "[[material]] 'brick': attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" "
+      "or \"deciduous\"";
   refuses(table("brick", {{&MaterialConfig::attenuation_db_m, 1}}), no_leaves);
   refuses(table("brick", {{&MaterialConfig::max_attenuation_db, 30}}), no_leaves);
   MaterialConfig bare = table("brick");

@@ -55,9 +55,8 @@ TEST_CASE("warnings say what ended the launch, how much is met once, and what to
     return recall_warning(counts_of(once, end), trace, true, {}).value_or("");
   };
   CHECK(text(LaunchEnd::max_rays, 0.25) ==
-        "trace.max_rays = 5000 ended the launch of rays = \"auto\" before it reached trace.recall = 0.999: 25% of the "
-        "sequences "
-        "found were met by only one ray");
+        "trace.max_rays = 5000 ended the launch of rays = \"auto\" before it reached trace.recall = 0.999: "
+        "25% of the sequences found were met by only one ray");
   CHECK(text(LaunchEnd::finest, 0.001).find("less than 1% of the sequences") != std::string::npos);
   CHECK(text(LaunchEnd::nothing_rare, 0.1).find("give trace.rays a number to find more") != std::string::npos);
 }

@@ -144,9 +144,8 @@ TEST_CASE("a parked vehicle of no known type, or of a name that is taken, is an 
 TEST_CASE("what is left out of the file of a vehicle is told, once for all that have it; so is one of kilometres") {
   const TemporaryFolder folder;
   const std::string box =
-      "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 0 0 1\nv 4 0 1\nv 4 2 1\nv 0 2 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 "
-      "7 "
-      "6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";
+      "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 0 0 1\nv 4 0 1\nv 4 2 1\nv 0 2 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\n"
+      "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";
   Config config = ego();
   config.materials.clear();
   config.vehicle_types = {{.name = "passenger", .model = folder.write("car.obj", box).string()}};

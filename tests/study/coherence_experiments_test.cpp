@@ -126,8 +126,9 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
   const std::string text = squeezed(words_text(lag_words(find_experiment("coherence-rays"), rows, "the device")));
   CAPTURE(text);
   CHECK(contains(text,
-                 "| hit points correlate, hilbert | 0.90 | 0.80 |\n| hit points correlate, fibonacci | -0.40 | "
-                 "-0.30 |\n| hit points correlate, random | 0.00 | 0.02 |"));
+                 "| hit points correlate, hilbert | 0.90 | 0.80 |\n"
+                 "| hit points correlate, fibonacci | -0.40 | -0.30 |\n"
+                 "| hit points correlate, random | 0.00 | 0.02 |"));
   CHECK(contains(text, "| lag at which that falls below a half, hilbert | 2 | none measured |"));
   CHECK(contains(text, "first hits correlate most, by 0.93 at lag 2"));
   CHECK(contains(text, "surface, hilbert | 0.95 | 0.70 |"));

@@ -105,8 +105,8 @@ TEST_CASE("a standing transmitter is driven as its velocity says, else at 50 km/
 
 TEST_CASE("of stations the first is driven, all of them listen where they stand, and no other sends") {
   const Config standing = parse_config(blocks + car +
-                                           "[[station]]\nname = \"rsu\"\nposition_m = [0, -50, 6]\n[[station]]\nname = "
-                                           "\"far\"\nposition_m = [0, 90, 6]\n",
+                                           "[[station]]\nname = \"rsu\"\nposition_m = [0, -50, 6]\n[[station]]\n"
+                                           "name = \"far\"\nposition_m = [0, 90, 6]\n",
                                        "a.toml");
   const Config config = driven(standing, 10);
   CHECK_NOTHROW(parse_config(resolved_config(config), "resolved.toml"));
