@@ -35,8 +35,8 @@ std::string decibels(const study::PathError& error) {
 std::string limit_text(const Row* best, const Row& whole) {
   if (!best) return fmt::format("only the reference, {} ({} per frame)", keys(whole), milliseconds(whole));
   return fmt::format(
-      "{} ({} per frame; loses {} of the power and {} of the paths). {}, which is what this is measured against, "
-      "takes {:.3g} times as long",
+      "{} ({} per frame; loses {} of the power and {} of the paths). "
+      "{}, the reference of this comparison, takes {:.3g} times as long",
       keys(*best), milliseconds(*best), share_text(best->error.lost_power), share_text(best->error.lost_share),
       keys(whole), whole.frame_s / best->frame_s);
 }

@@ -57,7 +57,7 @@ void add_devices(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<DevicesOptions>();
   CLI::Option* const check =
       command->add_flag("--check", options->check,
-                        "Check what each device computes, whatever earlier checks have found, and say what is wrong");
+                        "Check the computations of each device, even if it was checked before, and report errors");
   command
       ->add_option("--device", options->device,
                    "Check only this one: its index, or a part of its name or of its platform's name")

@@ -48,7 +48,7 @@ int exit_code_of(int status) {
     return 128 + number;
   }
   std::cerr << "\nwavetracer: a library ended the program (signal " << number
-            << "), most likely for want of memory: " << limit_words(limit_bytes())
+            << "), most likely because it ran out of memory: " << limit_words(limit_bytes())
             << ". Raise the limit, lower trace.batch_rays or trace.rays, or use a smaller scene\n";
   return static_cast<int>(ExitCode::runtime);
 }

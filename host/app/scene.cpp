@@ -24,7 +24,7 @@ void add_info(CLI::App& scene) {
     double scale = 1;
     bool edges = false;
   };
-  CLI::App* command = scene.add_subcommand("info", "Print what a scene file contains");
+  CLI::App* command = scene.add_subcommand("info", "Print the contents of a scene file");
   const auto options = std::make_shared<Options>();
   command->add_option("file", options->file, "Scene file (XML, OBJ, GLB, glTF, PLY)")->required();
   command->add_option("--scale", options->scale, "Metres per file unit, like the key scene.scale")
@@ -51,7 +51,7 @@ void add_materials(CLI::App& scene) {
     std::string edition = ItuEdition{}.text();
   };
   CLI::App* command = scene.add_subcommand(
-      "materials", "List the radio materials that are known by name, with what they are at a frequency");
+      "materials", "List the radio materials that are known by name, with their values at a frequency");
   const auto options = std::make_shared<Options>();
   command->add_option("--frequency", options->frequency_hz, "Frequency in Hz, like the key radio.frequency_hz")
       ->check(CLI::Range(1e6, 1e12))

@@ -37,7 +37,7 @@ Field wavefront_field() {
   return {.name = "wavefront",
           .slot = at(&Config::radio, &RadioConfig::wavefront),
           .doc =
-              "How a wave passes the elements of an [[array]]. "
+              "The wavefront across the elements of an [[array]]. "
               "spherical: each path has its exact length between every two elements, "
               "which also holds in the near field of large arrays. plane: the phase follows from the directions of "
               "the path at the centres of both arrays, as in most channel models."};
@@ -116,7 +116,7 @@ Table response_table() {
               {.name = "subcarriers",
                .slot = r(&ResponseConfig::subcarriers),
                .range = {1, 1048576},
-               .doc = "Their number N. Subcarrier k is k * bandwidth_hz / N away from the carrier, "
+               .doc = "The number N of subcarriers. Subcarrier k is k * bandwidth_hz / N away from the carrier, "
                       "with k from -floor(N / 2) on, as in OFDM."},
               {.name = "times",
                .slot = r(&ResponseConfig::times),
@@ -128,7 +128,7 @@ Table response_table() {
                .slot = r(&ResponseConfig::time_step_s),
                .unit = "s",
                .range = {0, 3600, true},
-               .doc = "Only with more than one time: from one to the next."},
+               .doc = "Only with more than one time: the interval between times."},
           }};
 }
 

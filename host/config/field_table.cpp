@@ -11,7 +11,7 @@ Table trace_table() {
   const auto t = [](auto member) { return at(&Config::trace, member); };
   return {
       .name = "trace",
-      .doc = "How rays discover the surfaces that paths may touch.",
+      .doc = "The search of rays for the surfaces that paths may touch.",
       .fields = {
           {.name = "rays",
            .slot = t(&TraceConfig::rays),

@@ -71,7 +71,7 @@ Table receiver_grid_table() {
                    "Height of the receivers. 1.5 m is the height of a phone, and of an antenna on the roof of a car."},
               {.name = "above",
                .slot = of_grid(&ReceiverGridConfig::above),
-               .doc = "What height_m is measured from. zero: height_m is the z coordinate in the scene file. "
+               .doc = "The reference of height_m. zero: height_m is the z coordinate in the scene file. "
                       "ground: "
                       "the ground at that place, for hilly terrain; where there is none, "
                       "the lowest point of the scene. The ground is what spans at least half of the scene, "

@@ -16,8 +16,9 @@ Table live_table() {
            .slot = l(&LiveConfig::margin_m),
            .unit = "m",
            .range = {0, 1e5},
-           .doc = "How far outside the bounding box of the scene vehicles may be, in x, y and z. Farther outside, "
-                  "float32 arithmetic would make ray tracing less accurate for all."},
+           .doc =
+               "The largest distance of vehicles from the bounding box of the scene, in x, y and z. Farther outside, "
+               "float32 arithmetic would make ray tracing less accurate for all."},
           {.name = "max_clients",
            .slot = l(&LiveConfig::max_clients),
            .range = {1, 1000},

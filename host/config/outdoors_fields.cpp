@@ -8,8 +8,8 @@ Table air_table() {
   const auto a = [](auto member) { return at(&Config::air, member); };
   return {.name = "air",
           .doc =
-              "What the air takes of every path, per metre of its length: the same weather everywhere. "
-              "By default nothing, and nothing is computed. See docs/outdoors.md.",
+              "Attenuation of every path by the air, per metre of its length; the weather is the same everywhere. "
+              "By default there is none, and nothing is computed. See docs/outdoors.md.",
           .fields = {
               {.name = "rain_mm_h",
                .slot = a(&AirConfig::rain_mm_h),
@@ -32,12 +32,12 @@ Table air_table() {
                .slot = a(&AirConfig::temperature_c),
                .unit = "degrees Celsius",
                .range = {-80, 60},
-               .doc = "Of the air and of fog."},
+               .doc = "Temperature of the air and of fog."},
               {.name = "pressure_hpa",
                .slot = a(&AirConfig::pressure_hpa),
                .unit = "hPa",
                .range = {10, 1100},
-               .doc = "Of the air with its water vapour, as a barometer shows it. Only for gases."},
+               .doc = "Pressure of the air with its water vapour, as a barometer shows it. Only for gases."},
               {.name = "humidity_g_m3",
                .slot = a(&AirConfig::humidity_g_m3),
                .unit = "g/m3",
@@ -51,14 +51,14 @@ Table vegetation_table() {
   const auto v = [](auto member) { return at(&Config::vegetation, member); };
   return {.name = "vegetation",
           .doc =
-              "A volume of leaves and twigs, as the crown of a tree or a hedge: waves pass it "
+              "A volume of leaves and twigs, such as the crown of a tree or a hedge: waves pass it "
               "and lose power per metre inside (ITU-R P.833-10). It reflects nothing and stops no ray. "
               "Closed meshes of the scene whose material is vegetation are the same. See docs/outdoors.md.",
           .fields =
               {
                   {.name = "shape",
                    .slot = v(&VegetationConfig::shape),
-                   .doc = "What fills the box of size_m: the box itself, an upright cylinder, or a spheroid."},
+                   .doc = "The shape inside the box of size_m: the box itself, an upright cylinder, or a spheroid."},
                   {.name = "centre_m",
                    .slot = v(&VegetationConfig::centre_m),
                    .unit = "m",
@@ -71,7 +71,7 @@ Table vegetation_table() {
                    .unit = "m",
                    .range = places,
                    .required = true,
-                   .doc = "Along x, y and z, before the turn.",
+                   .doc = "Size along x, y and z, before the rotation by yaw_deg.",
                    .example = "[5.0, 5.0, 7.0]"},
                   {.name = "yaw_deg",
                    .slot = v(&VegetationConfig::yaw_deg),

@@ -38,7 +38,7 @@ Table ends_table(std::string name, std::string doc, std::string example_name, st
                .example = "[48.137, 11.575, 6.0]"},
               {.name = "above",
                .slot = e(&RadioEnd::above),
-               .doc = "What the z of position_m is measured from. zero: it is that of the scene file. "
+               .doc = "The reference of the z of position_m. zero: it is that of the scene file. "
                       "ground: the ground of the scene at that place."},
               antenna_field(e, &RadioEnd::antenna),
               polarization_field(e, &RadioEnd::polarization),
@@ -112,7 +112,7 @@ Table scene_table() {
                       "with their ranges."},
               {.name = "extrapolate_materials",
                .slot = s(&SceneConfig::extrapolate_materials),
-               .doc = "What to do with a material that is not known at the carrier. false: it is an error. "
+               .doc = "The treatment of a material that is not known at the carrier. false: it is an error. "
                       "true: its law of the nearest range is used, with a warning; "
                       "ITU-R P.2040 calls the ranges indicative. "
                       "The three kinds of ground stay an error, because for them the range is a limit."},
@@ -148,7 +148,7 @@ Table material_table() {
                    .example = "\"concrete\""},
                   {.name = "library",
                    .slot = m(&MaterialConfig::library),
-                   .doc = "The material of ITU-R P.2040 that it is made of, under a name of your own: its law "
+                   .doc = "The material of ITU-R P.2040 that it is based on, under a name of your own: its law "
                           "and range hold, except for what the other keys say. Not given: the one of its own name, "
                           "if there is one.",
                    .example = "\"concrete\""},

@@ -11,7 +11,7 @@ Table trajectories_table() {
   return {
       .name = "trajectories",
       .doc =
-          "How vehicles move: from a file, generated, or by [[track]] tables. "
+          "The motion of vehicles: from a file, generated, or by [[track]] tables. "
           "Without any of them there are no vehicles.",
       .fields = {
           {.name = "file",
@@ -38,7 +38,7 @@ Table trajectories_table() {
            .doc = "Factor for the positions in trajectories.file only: SUMO's sizes and speeds are in metres."},
           {.name = "above",
            .slot = t(&TrajectoriesConfig::above),
-           .doc = "What z in trajectories.file is measured from. zero: the zero of the scene file. "
+           .doc = "The reference of z in trajectories.file. zero: the zero of the scene file. "
                   "ground: the ground of the scene, so that vehicles of a flat network drive over hills; "
                   "slopes in the file are then not used."},
           {.name = "persons",
@@ -87,7 +87,7 @@ Table links_table() {
   return {
       .name = "links",
       .doc =
-          "Which links (pairs of a transmitter and a receiver) are computed. Two ends at the same place on a vehicle, "
+          "Selects the links (pairs of a transmitter and a receiver) that are computed. Two ends at the same place on a vehicle, "
           "such as the two roles of one antenna, are never linked, nor is a [[station]] to itself.",
       .fields = {
           {.name = "max_distance_m",
@@ -129,7 +129,7 @@ Table mount_table() {
                    .doc = "Id or type of the vehicles that carry it, with * for any text and ? for any character."},
                   {.name = "role",
                    .slot = m(&MountConfig::role),
-                   .doc = "Whether it sends, receives or does both, as the radios of vehicles do."},
+                   .doc = "The role of the antenna: it sends, receives or does both, as the radios of vehicles do."},
                   {.name = "offset_m",
                    .slot = m(&MountConfig::offset_m),
                    .unit = "m",
@@ -138,7 +138,7 @@ Table mount_table() {
                    .example = "[0.0, 0.0, 1.6]"},
                   {.name = "above",
                    .slot = m(&MountConfig::above),
-                   .doc = "What the third number of offset_m is measured from. zero: the footprint of the vehicle, "
+                   .doc = "The reference of the third number of offset_m. zero: the footprint of the vehicle, "
                           "along its own axes. ground: the ground of the scene below the antenna."},
                   {.name = "node",
                    .slot = m(&MountConfig::node),
@@ -173,7 +173,7 @@ Table vehicle_type_table() {
   };
   return {.name = "vehicle_type",
           .doc =
-              "What a vehicle type of the trajectories looks like; one table per type. "
+              "The body of a vehicle type of the trajectories; one table per type. "
               "Types that are vehicle classes of SUMO need no table.",
           .fields =
               {
@@ -233,7 +233,7 @@ Table parked_table() {
                    .doc = "A [[vehicle_type]], or a vehicle class of SUMO; of places that name none."},
                   {.name = "mounts",
                    .slot = p(&ParkedConfig::mounts),
-                   .doc = "Whether [[mount]] puts antennas on them, too. Normally the radios of parked cars are off."},
+                   .doc = "true: [[mount]] puts antennas on them, too. Normally the radios of parked cars are off."},
               },
           .append = append<&Config::parked>,
           .count = count<&Config::parked>,
@@ -273,7 +273,7 @@ Table track_table() {
                .example = "[[0.0, 48.137, 11.575, 0.0], [5.0, 48.137, 11.576, 0.0]]"},
               {.name = "above",
                .slot = t(&TrackConfig::above),
-               .doc = "What the z of waypoints is measured from. zero: it is that of the scene file. "
+               .doc = "The reference of the z of waypoints. zero: it is that of the scene file. "
                       "ground: the ground of the scene, which the vehicle follows between waypoints, too."},
           },
       .append = append<&Config::tracks>,

@@ -63,7 +63,8 @@ void catch_interrupts(bool acknowledge) {
   if (acknowledge)
     action.sa_handler = [](int) {
       raised = true;
-      constexpr std::string_view text = "\ninterrupted: stopping after the step in progress; once more ends at once\n";
+      constexpr std::string_view text =
+          "\ninterrupted: stopping after the step in progress; a second signal ends at once\n";
       if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // if nobody reads it, that does not matter
     };
   else

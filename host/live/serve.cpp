@@ -16,7 +16,7 @@ namespace {
 // Removes the parts that answers cannot contain, which would be computed in vain.
 Config answered(Config config, const Log& log) {
   const auto drop = [&log](const char* key, const char* file) {
-    log(fmt::format("warning: {} is left out: answers have paths and links, not what {} has", key, file));
+    log(fmt::format("warning: {} is left out: answers have paths and links, but not the contents of {}", key, file));
   };
   if (config.response.bandwidth_hz) drop("response.bandwidth_hz", "responses.h5");
   config.response.bandwidth_hz.reset();

@@ -111,7 +111,7 @@ void start_timer(int seconds) {
 std::string end_words(int status, int seconds) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal == SIGPROF) return fmt::format("reading it takes more than {} s; it may be damaged", seconds);
-  if (signal == SIGKILL) return "the process that reads it was killed, perhaps for want of memory";
+  if (signal == SIGKILL) return "the process that reads it was killed, perhaps because it ran out of memory";
   return "the file is damaged: the HDF5 library fails on it; copy it again, or compute it again";
 }
 

@@ -23,8 +23,9 @@ void warn_changed(const SavedRun& run, std::vector<std::string>& warnings) {
   for (const InputFile& input : run.inputs()) {
     const auto now = hash_of_file(input.file);
     if (now && (now->bytes != input.bytes || now->hash != input.hash))
-      warnings.push_back(fmt::format("{} ({}) has changed since the run; what is made of it is not what the run saw",
-                                     input.file, input.name));
+      warnings.push_back(fmt::format(
+          "{} ({}) has changed since the run: pictures and exports that use it differ from the world of the run",
+          input.file, input.name));
   }
 }
 

@@ -160,11 +160,10 @@ const std::vector<Experiment> standing = {
      .doc = "time against 1,000 to 10,000,000 rays, for every order and launch shape",
      .title = "Ray orders and launch shapes",
      .caption = "Time a ray against the number of rays",
-     .paragraph =
-         "The thesis finds H3DH and HZ the fastest of its six orders and no order (WS) "
-         "the slowest at every number of rays, buffers mapped to two and three dimensions "
-         "no faster than H3DH (section 6.2.3), and reordering to take 23% less time "
-         "at 1,000 rays and to give 2.5 times the speed at 49,000 (figure 6.18). Measured on {device}.{reason} Rays born in order need no sort.",
+     .paragraph = "The thesis finds H3DH and HZ the fastest of its six orders and no order (WS) the slowest at every "
+                  "number of rays, buffers mapped to two and three dimensions no faster than H3DH (section 6.2.3), "
+                  "and reordering to take 23% less time at 1,000 rays and to give 2.5 times the speed at 49,000 "
+                  "(figure 6.18). Measured on {device}.{reason} Rays born in order need no sort.",
      .figure = all_orders()},
     {.name = "figure-6.2",
      .doc = "chained cache: what a write and a read of a segment take, by hash",
