@@ -45,8 +45,8 @@ std::string page_html(const Study& study, const std::string& command_line, const
   text +=
       "</ul>\n<h2>Every setting</h2>\n<p>One axis changes at a time, everything else is as in the configuration. "
       "Losses and errors are against the reference of the axis, which is in bold; rays, auto and reuse share theirs. "
-      "Gains are of links that have paths in both; the errors of spreads are means over these links. On the plot, what "
-      "loses nothing lies on the bottom.</p>\n";
+      "Gains are of links that have paths in both; the errors of spreads are means over these links. "
+      "On the plot, settings that lose nothing lie at the bottom.</p>\n";
   return study::document_html("Speed against error", style, text + svg + table_html(study.rows));
 }
 
